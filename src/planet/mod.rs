@@ -1,0 +1,91 @@
+//! What a planet is: plain data, its description, its file.
+//!
+//! - [`param`]: one description for each parameter and the visitor that reaches them all
+//! - [`layers`], [`parts`], [`table`]: the preset's data (terrain layers; everything else; the biome table)
+//! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
+//! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
+//! - [`file`]: loading and saving, with [`locate`] for line and column and [`migrate`] for old versions
+//! - [`shipped`]: the presets that come with the program
+//! - [`random`]: random planets that are always valid
+
+pub mod diff;
+pub mod file;
+pub mod layers;
+pub(crate) mod locate;
+pub(crate) mod migrate;
+pub mod param;
+pub mod parts;
+pub mod random;
+pub mod shipped;
+pub mod table;
+pub mod validate;
+
+pub use file::{LoadError, Problem, SaveError};
+pub use layers::{Blend, Fbm, Layer, Mask, Ridged, Shape};
+pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
+pub use table::Table;
+
+use param::{Domain, ParamPath, Params, Stage, Unit, log, params};
+use serde::{Deserialize, Serialize};
+
+/// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old version
+/// is migrated when it is read, and keeps its exact heights.
+pub const VERSION: u32 = 1;
+
+/// Most layers a planet may have.
+pub const MAX_LAYERS: usize = 64;
+
+/// Most masks a layer may have.
+pub const MAX_MASKS: usize = 8;
+
+/// Most biomes a palette may have.
+pub const MAX_BIOMES: usize = 64;
+
+params! {
+    /// A whole planet, as saved in a preset.
+    pub struct Planet {
+        /// What the planet is called.
+        name: String = "Unnamed".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 64 }, Stage::Label;
+        /// Start of every pseudo-random sequence of this planet: each layer's own seed is mixed with it.
+        seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field;
+        /// Radius of the reference sphere from which heights are measured.
+        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field;
+    } with {
+        /// The star that lights the planet.
+        star: Star = Star::default();
+        /// Terrain, applied from first to last.
+        layers: Vec<Layer> = Vec::new();
+        /// Temperature and moisture over the globe.
+        climate: Climate = Climate::default();
+        /// What kind of ground lies where.
+        biomes: Biomes = Biomes::default();
+        /// The sea, or None.
+        water: Option<Water> = None;
+        /// The air, or None.
+        atmosphere: Option<Atmosphere> = None;
+        /// The clouds, or None.
+        clouds: Option<Clouds> = None;
+    }
+}
+
+impl Planet {
+    /// Radius of the reference sphere in metres.
+    pub fn radius_m(&self) -> f64 {
+        self.radius_km * 1000.0
+    }
+
+    /// Height of the sea's surface above the reference sphere, if there is a sea.
+    pub fn sea_level_m(&self) -> Option<f64> {
+        self.water.as_ref().map(|water| water.level_m)
+    }
+
+    /// Calls `visit` for each parameter of the planet, in the order of the file.
+    pub fn each(&mut self, visit: &mut param::Visit<'_>) {
+        self.each_param(&mut ParamPath::default(), visit);
+    }
+}
+
+/// The number in front of a preset; see [`VERSION`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Version(pub(crate) u32);

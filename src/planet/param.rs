@@ -1,0 +1,494 @@
+//! One description for each parameter, and the visitor through which everything reaches them.
+//!
+//! A [`Param`] says what a value means, its unit, range, scale and default, and which [`Stage`] of a rebuild
+//! an edit to it makes stale. Sliders, tooltips, validation messages, the comments of a saved file, random
+//! planets and the diff of two planets are all written against [`Params::each_param`]; none of them knows a
+//! parameter by name. The `params!` macro writes the struct, its defaults and its description from one place.
+
+use std::fmt;
+
+/// The first stage of a rebuild that an edit makes stale; later variants are cheaper.
+///
+/// Everything from [`Stage::Field`] to [`Stage::Climate`] is kept in tiles; the rest lives in small textures and
+/// uniforms and rebuilds no vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// Noise values and gradients of one layer: kind, seed, wavelength, octaves, ...
+    Field,
+    /// How layers are combined: amplitude, order, enabled, blend, masks.
+    Height,
+    /// Temperature and moisture.
+    Climate,
+    /// The biome table and its palette: one small texture.
+    Material,
+    /// The cloud coverage map.
+    CloudMap,
+    /// Scattering look-up tables.
+    AirTables,
+    /// Uniforms only: water, star, drift of the clouds.
+    Uniform,
+    /// Nothing that is drawn: names.
+    Label,
+}
+
+impl Stage {
+    /// Whether an edit at this stage rebuilds tiles on the CPU.
+    pub fn touches_tiles(self) -> bool {
+        self <= Stage::Climate
+    }
+}
+
+/// The unit a value is written in, in files and on sliders alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Unit {
+    None,
+    Metres,
+    Kilometres,
+    Degrees,
+    Celsius,
+    CelsiusPerKilometre,
+    PerKilometre,
+    PerMetre,
+    MetresPerSecond,
+    KilometresPerHour,
+}
+
+impl Unit {
+    /// The symbol after a number, empty for plain numbers.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Unit::None => "",
+            Unit::Metres => "m",
+            Unit::Kilometres => "km",
+            Unit::Degrees => "°",
+            Unit::Celsius => "°C",
+            Unit::CelsiusPerKilometre => "°C/km",
+            Unit::PerKilometre => "1/km",
+            Unit::PerMetre => "1/m",
+            Unit::MetresPerSecond => "m/s",
+            Unit::KilometresPerHour => "km/h",
+        }
+    }
+}
+
+/// Which values a parameter may take, and how a slider walks through them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Domain {
+    /// A number from `min` to `max`.
+    Number {
+        /// Smallest value allowed.
+        min: f64,
+        /// Largest value allowed.
+        max: f64,
+        /// Whether equal slider steps are equal ratios.
+        logarithmic: bool,
+    },
+    /// Three numbers, one for each of red, green and blue, each from 0 to `max`.
+    Triple {
+        /// Largest value allowed for each component.
+        max: f64,
+    },
+    /// A whole number from `min` to `max`.
+    Count {
+        /// Smallest value allowed.
+        min: u32,
+        /// Largest value allowed.
+        max: u32,
+    },
+    /// Any 32-bit number: the start of a pseudo-random sequence.
+    Seed,
+    /// On or off.
+    Flag,
+    /// Linear sRGB, each component from 0 to 1.
+    Color,
+    /// One of a few named values.
+    Choice,
+    /// One letter or digit.
+    Letter,
+    /// A line of text of at most this many characters.
+    Text {
+        /// Most characters allowed.
+        max_chars: usize,
+    },
+}
+
+/// A number on a linear slider.
+pub const fn linear(min: f64, max: f64) -> Domain {
+    Domain::Number { min, max, logarithmic: false }
+}
+
+/// A number on a logarithmic slider; `min` may be zero (the slider then starts at a small value).
+pub const fn log(min: f64, max: f64) -> Domain {
+    Domain::Number { min, max, logarithmic: true }
+}
+
+/// A coefficient for each of red, green and blue.
+pub const fn triple(max: f64) -> Domain {
+    Domain::Triple { max }
+}
+
+/// A whole number.
+pub const fn count(min: u32, max: u32) -> Domain {
+    Domain::Count { min, max }
+}
+
+/// What a parameter is. Found by [`Params::each_param`]; never made at run time.
+#[derive(Clone, Copy, Debug)]
+pub struct Param {
+    /// The field's name in the file.
+    pub name: &'static str,
+    /// The name a person reads, in sentence case.
+    pub label: &'static str,
+    /// One or two sentences: what it does.
+    pub doc: &'static str,
+    /// The unit it is written in.
+    pub unit: Unit,
+    /// The values it may take.
+    pub domain: Domain,
+    /// The first stage an edit makes stale.
+    pub stage: Stage,
+}
+
+impl Param {
+    /// The range in words, with the unit: `"0.1 to 200 km"`. Empty for flags, colours, seeds and text.
+    pub fn range_text(&self) -> String {
+        let unit = self.unit.symbol();
+        let gap = if unit.is_empty() || unit == "°" { "" } else { " " };
+        match self.domain {
+            Domain::Number { min, max, .. } => format!("{min} to {max}{gap}{unit}"),
+            Domain::Count { min, max } => format!("{min} to {max}"),
+            Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
+            Domain::Color => "0 to 1 each".to_owned(),
+            Domain::Text { max_chars } => format!("at most {max_chars} characters"),
+            Domain::Letter => "one letter, digit or punctuation mark".to_owned(),
+            Domain::Seed | Domain::Flag | Domain::Choice => String::new(),
+        }
+    }
+}
+
+/// One of a few named values: an enum without fields.
+pub trait Choice {
+    /// The names, in the order of their index, as a person reads them.
+    fn names(&self) -> &'static [&'static str];
+    /// The current one.
+    fn index(&self) -> usize;
+    /// Makes the `index`th one current; an index out of range changes nothing.
+    fn set_index(&mut self, index: usize);
+}
+
+/// A parameter's place in the planet, to read or to write.
+pub enum ValueMut<'a> {
+    /// See [`Domain::Number`].
+    Number(&'a mut f64),
+    /// See [`Domain::Count`] and [`Domain::Seed`].
+    Count(&'a mut u32),
+    /// See [`Domain::Flag`].
+    Flag(&'a mut bool),
+    /// See [`Domain::Color`] and [`Domain::Triple`].
+    Triple(&'a mut [f64; 3]),
+    /// See [`Domain::Text`].
+    Text(&'a mut String),
+    /// See [`Domain::Letter`].
+    Letter(&'a mut char),
+    /// See [`Domain::Choice`].
+    Choice(&'a mut dyn Choice),
+}
+
+/// A parameter's value, taken out of its planet: for diffs, resets and messages.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Value {
+    Number(f64),
+    Count(u32),
+    Flag(bool),
+    Triple([f64; 3]),
+    Text(String),
+    Letter(char),
+    Choice(usize),
+}
+
+impl ValueMut<'_> {
+    /// A copy of the value.
+    pub fn get(&self) -> Value {
+        match self {
+            ValueMut::Number(v) => Value::Number(**v),
+            ValueMut::Count(v) => Value::Count(**v),
+            ValueMut::Flag(v) => Value::Flag(**v),
+            ValueMut::Triple(v) => Value::Triple(**v),
+            ValueMut::Text(v) => Value::Text((*v).clone()),
+            ValueMut::Letter(v) => Value::Letter(**v),
+            ValueMut::Choice(v) => Value::Choice(v.index()),
+        }
+    }
+
+    /// Writes a value of the same type; a value of another type is left alone.
+    pub fn set(&mut self, value: &Value) {
+        match (self, value) {
+            (ValueMut::Number(v), Value::Number(new)) => **v = *new,
+            (ValueMut::Count(v), Value::Count(new)) => **v = *new,
+            (ValueMut::Flag(v), Value::Flag(new)) => **v = *new,
+            (ValueMut::Triple(v), Value::Triple(new)) => **v = *new,
+            (ValueMut::Text(v), Value::Text(new)) => (*v).clone_from(new),
+            (ValueMut::Letter(v), Value::Letter(new)) => **v = *new,
+            (ValueMut::Choice(v), Value::Choice(new)) => v.set_index(*new),
+            _ => debug_assert!(false, "a parameter never changes its type"),
+        }
+    }
+}
+
+impl Value {
+    /// What is wrong with this value for `param` and what would be right, or `None`.
+    pub fn problem(&self, param: &Param) -> Option<String> {
+        let out_of_range = |shown: String| Some(format!("{shown} is out of range; use {}", param.range_text()));
+        match (self, param.domain) {
+            (Value::Number(v), Domain::Number { .. }) if !v.is_finite() => {
+                Some(format!("{v} is not a finite number; use {}", param.range_text()))
+            }
+            (Value::Number(v), Domain::Number { min, max, .. }) if *v < min || *v > max => out_of_range(v.to_string()),
+            (Value::Count(v), Domain::Count { min, max }) if *v < min || *v > max => out_of_range(v.to_string()),
+            (Value::Triple(v), Domain::Color | Domain::Triple { .. }) => {
+                let max = if let Domain::Triple { max } = param.domain { max } else { 1.0 };
+                let bad = v.iter().find(|c| !c.is_finite() || **c < 0.0 || **c > max)?;
+                if bad.is_finite() {
+                    out_of_range(bad.to_string())
+                } else {
+                    Some(format!("{bad} is not a finite number; use {}", param.range_text()))
+                }
+            }
+            (Value::Text(v), Domain::Text { max_chars }) => {
+                if v.chars().count() > max_chars {
+                    Some(format!("{} characters are too many; use {}", v.chars().count(), param.range_text()))
+                } else if v.chars().any(char::is_control) {
+                    Some("control characters are not allowed; use plain text on one line".to_owned())
+                } else {
+                    None
+                }
+            }
+            (Value::Letter(v), Domain::Letter) if !v.is_ascii_graphic() || matches!(v, '"' | '\\') => {
+                Some(format!("{v:?} cannot be a key; use {}", param.range_text()))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Where a parameter stands: `layers[2].shape.octaves`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ParamPath(Vec<Segment>);
+
+/// One step of a [`ParamPath`].
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Segment {
+    /// A field of a struct.
+    Field(&'static str),
+    /// An element of a list.
+    Index(usize),
+}
+
+impl ParamPath {
+    /// The steps from the planet down.
+    pub fn segments(&self) -> &[Segment] {
+        &self.0
+    }
+
+    /// Runs `inside` with one more step on the path.
+    pub fn within<R>(&mut self, segment: Segment, inside: impl FnOnce(&mut Self) -> R) -> R {
+        self.0.push(segment);
+        let result = inside(self);
+        self.0.pop();
+        result
+    }
+
+    /// The path with one more field.
+    pub fn join(&self, field: &'static str) -> Self {
+        let mut path = self.clone();
+        path.0.push(Segment::Field(field));
+        path
+    }
+
+    /// Whether `self` is `prefix` or lies below it.
+    pub fn starts_with(&self, prefix: &ParamPath) -> bool {
+        self.0.starts_with(&prefix.0)
+    }
+}
+
+impl From<Vec<Segment>> for ParamPath {
+    fn from(segments: Vec<Segment>) -> Self {
+        Self(segments)
+    }
+}
+
+impl fmt::Display for ParamPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, segment) in self.0.iter().enumerate() {
+            match segment {
+                Segment::Field(name) if i == 0 => f.write_str(name)?,
+                Segment::Field(name) => write!(f, ".{name}")?,
+                Segment::Index(index) => write!(f, "[{index}]")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What is called for each parameter: where it stands, what it is, its value.
+pub type Visit<'a> = dyn FnMut(&ParamPath, &'static Param, ValueMut<'_>) + 'a;
+
+/// Anything that holds parameters.
+pub trait Params {
+    /// Calls `visit` for each parameter in the order of the file.
+    fn each_param(&mut self, path: &mut ParamPath, visit: &mut Visit<'_>);
+}
+
+impl<T: Params> Params for Option<T> {
+    fn each_param(&mut self, path: &mut ParamPath, visit: &mut Visit<'_>) {
+        if let Some(inner) = self {
+            inner.each_param(path, visit);
+        }
+    }
+}
+
+impl<T: Params> Params for Vec<T> {
+    fn each_param(&mut self, path: &mut ParamPath, visit: &mut Visit<'_>) {
+        for (i, item) in self.iter_mut().enumerate() {
+            path.within(Segment::Index(i), |path| item.each_param(path, visit));
+        }
+    }
+}
+
+/// A type that a single parameter can have.
+pub trait ParamValue {
+    /// The value's place, to read or to write.
+    fn value_mut(&mut self) -> ValueMut<'_>;
+}
+
+macro_rules! param_value {
+    ($($type:ty => $variant:ident),*) => {
+        $(impl ParamValue for $type {
+            fn value_mut(&mut self) -> ValueMut<'_> {
+                ValueMut::$variant(self)
+            }
+        })*
+    };
+}
+param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text);
+
+/// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
+///
+/// Each line is `name: type = default, "Label", unit, domain, stage;`, its doc comment being the tooltip and the comment
+/// in the saved file. `with { .. }` adds fields that hold parameters of their own.
+macro_rules! params {
+    (
+        $(#[$struct_attr:meta])*
+        pub struct $struct:ident {
+            $(
+                $(#[doc = $doc:literal])+
+                $name:ident: $type:ty = $default:expr, $label:literal, $unit:expr, $domain:expr, $stage:expr;
+            )*
+        }
+        $(with {
+            $(
+                $(#[doc = $nested_doc:literal])+
+                $nested:ident: $nested_type:ty = $nested_default:expr;
+            )*
+        })?
+    ) => {
+        $(#[$struct_attr])*
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct $struct {
+            $( $(#[doc = $doc])+ pub $name: $type, )*
+            $($( $(#[doc = $nested_doc])+ pub $nested: $nested_type, )*)?
+        }
+
+        impl Default for $struct {
+            fn default() -> Self {
+                Self {
+                    $( $name: $default, )*
+                    $($( $nested: $nested_default, )*)?
+                }
+            }
+        }
+
+        impl $struct {
+            /// The description of each parameter that stands directly in this struct.
+            pub const PARAMS: &'static [$crate::planet::param::Param] = &[
+                $( $crate::planet::param::Param {
+                    name: stringify!($name),
+                    label: $label,
+                    doc: concat!($($doc),+).trim_ascii_start(),
+                    unit: $unit,
+                    domain: $domain,
+                    stage: $stage,
+                }, )*
+            ];
+        }
+
+        impl $crate::planet::param::Params for $struct {
+            #[allow(unused_assignments, unused_variables, unused_mut, unused_imports)]
+            fn each_param(
+                &mut self,
+                path: &mut $crate::planet::param::ParamPath,
+                visit: &mut $crate::planet::param::Visit<'_>,
+            ) {
+                use $crate::planet::param::{ParamValue, Params, Segment};
+                let mut index = 0;
+                $(
+                    path.within(Segment::Field(stringify!($name)), |path| {
+                        visit(path, &Self::PARAMS[index], ParamValue::value_mut(&mut self.$name));
+                    });
+                    index += 1;
+                )*
+                $($(
+                    path.within(Segment::Field(stringify!($nested)), |path| self.$nested.each_param(path, visit));
+                )*)?
+            }
+        }
+    };
+}
+
+/// Writes an enum without fields that is a [`Choice`], with the names a person reads; its default is the first.
+macro_rules! choice {
+    (
+        $(#[$enum_attr:meta])*
+        pub enum $enum:ident { $( $(#[doc = $doc:literal])+ $variant:ident = $label:literal, )+ }
+    ) => {
+        $(#[$enum_attr])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        pub enum $enum { $( $(#[doc = $doc])+ $variant, )+ }
+
+        impl $enum {
+            /// Every value, in the order it is offered.
+            pub const ALL: &'static [$enum] = &[$( $enum::$variant, )+];
+        }
+
+        impl Default for $enum {
+            fn default() -> Self {
+                Self::ALL[0]
+            }
+        }
+
+        impl $crate::planet::param::Choice for $enum {
+            fn names(&self) -> &'static [&'static str] {
+                &[$( $label, )+]
+            }
+            fn index(&self) -> usize {
+                *self as usize
+            }
+            fn set_index(&mut self, index: usize) {
+                if let Some(value) = Self::ALL.get(index) {
+                    *self = *value;
+                }
+            }
+        }
+
+        impl $crate::planet::param::ParamValue for $enum {
+            fn value_mut(&mut self) -> $crate::planet::param::ValueMut<'_> {
+                $crate::planet::param::ValueMut::Choice(self)
+            }
+        }
+    };
+}
+
+pub(crate) use {choice, params};

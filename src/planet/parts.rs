@@ -1,0 +1,177 @@
+//! The other parts of a preset: climate, biomes, water, atmosphere, clouds, star.
+//!
+//! Colours are linear sRGB. Lengths, angles and rates are in the unit their name says; the parts that use them convert
+//! to SI and radians.
+
+use super::param::{Domain, Stage, Unit, choice, count, linear, log, params, triple};
+
+params! {
+    /// Temperature and moisture over the globe.
+    pub struct Climate {
+        /// Temperature at sea level on the equator.
+        equator_c: f64 = 28.0, "Equator", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        /// Temperature at sea level at the poles.
+        pole_c: f64 = -28.0, "Poles", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        /// How much colder it gets for each kilometre of height.
+        lapse_c_per_km: f64 = 6.5, "Lapse rate", Unit::CelsiusPerKilometre, linear(0.0, 30.0), Stage::Climate;
+        /// Swing of the temperature from place to place.
+        temperature_variation_c: f64 = 5.0, "Temperature variation", Unit::Celsius, linear(0.0, 100.0), Stage::Climate;
+        /// Moisture of a place that nothing else makes wet or dry; 0 is desert, 1 is rain forest.
+        moisture: f64 = 0.5, "Moisture", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        /// Swing of the moisture from place to place.
+        moisture_variation: f64 = 0.6, "Moisture variation", Unit::None, linear(0.0, 2.0), Stage::Climate;
+        /// Strength of the belts: wet at the equator and in the middle latitudes, dry between them and at the poles.
+        belts: f64 = 0.3, "Belts", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        /// How much drier it gets for each kilometre of height.
+        drying_per_km: f64 = 0.06, "Drying with height", Unit::PerKilometre, linear(0.0, 1.0), Stage::Climate;
+        /// Size of the regions between which temperature and moisture vary.
+        wavelength_km: f64 = 3000.0, "Region size", Unit::Kilometres, log(0.1, 100_000.0), Stage::Climate;
+        /// How many octaves the variation has.
+        octaves: u32 = 6, "Octaves", Unit::None, count(1, 16), Stage::Climate;
+        /// Start of the variation's pseudo-random sequence.
+        seed: u32 = 7, "Seed", Unit::None, Domain::Seed, Stage::Climate;
+    }
+}
+
+choice! {
+    /// What the biome table's rows stand for; its columns are always moisture, dry to wet.
+    pub enum TableRows {
+        /// Rows go from hot (first) to cold (last).
+        Temperature = "Temperature",
+        /// Rows go from high (first) to low (last).
+        Elevation = "Elevation",
+    }
+}
+
+params! {
+    /// The look-up table that turns climate into ground: rows of one-letter keys over a palette of named biomes.
+    pub struct Biomes {
+        /// What the rows stand for: temperature (hot first) or elevation (high first). Columns are moisture, dry first.
+        rows: TableRows = TableRows::Temperature, "Rows", Unit::None, Domain::Choice, Stage::Climate;
+        /// Temperature of the last row.
+        coldest_c: f64 = -30.0, "Coldest", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        /// Temperature of the first row.
+        hottest_c: f64 = 30.0, "Hottest", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        /// Height above the sea (or the reference sphere) of the last row, when rows are elevations.
+        lowest_m: f64 = 0.0, "Lowest", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate;
+        /// Height above the sea (or the reference sphere) of the first row, when rows are elevations.
+        highest_m: f64 = 6000.0, "Highest", Unit::Metres, linear(-50_000.0, 100_000.0), Stage::Climate;
+        /// Slope at which bare rock begins to show through the biome.
+        cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        /// Slope from which there is only bare rock.
+        cliff_full_deg: f64 = 42.0, "Only rock", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        /// Colour of bare rock on steep ground.
+        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock", Unit::None, Domain::Color, Stage::Material;
+    } with {
+        /// The biomes that the table's letters stand for.
+        palette: Vec<Biome> = vec![Biome::default()];
+        /// The table: each string is a row, each letter a biome of the palette.
+        table: Table = Table::uniform('a', 16, 12);
+    }
+}
+
+params! {
+    /// One kind of ground.
+    pub struct Biome {
+        /// The letter that stands for this biome in the table; unique in the palette.
+        key: char = 'a', "Key", Unit::None, Domain::Letter, Stage::Material;
+        /// What the biome is called.
+        name: String = "Ground".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
+        /// Colour of the ground (albedo, linear sRGB).
+        color: [f64; 3] = [0.2, 0.18, 0.15], "Colour", Unit::None, Domain::Color, Stage::Material;
+        /// Strength of the mottling: 0 is one even colour.
+        variation: f64 = 0.25, "Variation", Unit::None, linear(0.0, 1.0), Stage::Material;
+        /// How dull the ground is: 0 is a mirror, 1 is chalk.
+        roughness: f64 = 0.9, "Roughness", Unit::None, linear(0.0, 1.0), Stage::Material;
+    }
+}
+
+params! {
+    /// A sea that fills everything below its level.
+    pub struct Water {
+        /// Height of the sea's surface above the reference sphere.
+        level_m: f64 = 0.0, "Level", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate;
+        /// How fast water swallows light on its way down and back; clear sea water swallows red first.
+        absorption_per_m: [f64; 3] = [0.34, 0.0325, 0.00635], "Absorption", Unit::PerMetre, triple(10.0), Stage::Uniform;
+        /// Colour of the light that deep water sends back.
+        color: [f64; 3] = [0.004, 0.028, 0.052], "Deep colour", Unit::None, Domain::Color, Stage::Uniform;
+        /// Wind over the sea: more wind, more waves, a wider glint.
+        wind_m_s: f64 = 7.0, "Wind", Unit::MetresPerSecond, linear(0.0, 40.0), Stage::Uniform;
+        /// Temperature below which the sea is frozen over.
+        freezing_c: f64 = -12.0, "Freezes at", Unit::Celsius, linear(-300.0, 1000.0), Stage::Uniform;
+        /// Colour of the ice on a frozen sea.
+        ice_color: [f64; 3] = [0.72, 0.78, 0.84], "Ice", Unit::None, Domain::Color, Stage::Uniform;
+    }
+}
+
+params! {
+    /// The air: two kinds of scatterers that thin out with height, and one absorbing layer.
+    pub struct Atmosphere {
+        /// Thickness of the air above the reference sphere; above it there is none.
+        height_km: f64 = 100.0, "Height", Unit::Kilometres, log(0.1, 5000.0), Stage::AirTables;
+        /// Scattering by molecules at the reference sphere, for red, green and blue.
+        rayleigh_per_km: [f64; 3] = [0.005802, 0.013558, 0.0331], "Rayleigh scattering", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        /// Height over which molecules thin out by a factor of e.
+        rayleigh_scale_km: f64 = 8.0, "Rayleigh scale height", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        /// Scattering by dust and droplets at the reference sphere.
+        mie_scattering_per_km: [f64; 3] = [0.003996, 0.003996, 0.003996], "Mie scattering", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        /// Absorption by dust and droplets at the reference sphere.
+        mie_absorption_per_km: [f64; 3] = [0.000444, 0.000444, 0.000444], "Mie absorption", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        /// Height over which dust and droplets thin out by a factor of e.
+        mie_scale_km: f64 = 1.2, "Mie scale height", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        /// How much dust and droplets scatter forward: 0 is evenly, near 1 is a tight glow around the star.
+        mie_anisotropy: f64 = 0.8, "Mie anisotropy", Unit::None, linear(-0.95, 0.95), Stage::AirTables;
+        /// Absorption in the middle of the absorbing layer, such as ozone.
+        absorber_per_km: [f64; 3] = [0.00065, 0.001881, 0.000085], "Absorber", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        /// Height of the middle of the absorbing layer.
+        absorber_height_km: f64 = 25.0, "Absorber height", Unit::Kilometres, log(0.0, 1000.0), Stage::AirTables;
+        /// Distance from the middle of the absorbing layer to its edges.
+        absorber_width_km: f64 = 15.0, "Absorber width", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        /// Share of light that the ground is taken to send back into the air.
+        ground_albedo: [f64; 3] = [0.3, 0.3, 0.3], "Ground albedo", Unit::None, Domain::Color, Stage::AirTables;
+    }
+}
+
+params! {
+    /// A layer of clouds.
+    pub struct Clouds {
+        /// Share of the sky they cover.
+        coverage: f64 = 0.5, "Coverage", Unit::None, linear(0.0, 1.0), Stage::CloudMap;
+        /// Size of the weather systems.
+        scale_km: f64 = 2500.0, "Scale", Unit::Kilometres, log(1.0, 50_000.0), Stage::CloudMap;
+        /// How far wind tears and curls the weather systems.
+        curl: f64 = 0.6, "Curl", Unit::None, linear(0.0, 2.0), Stage::CloudMap;
+        /// Start of the clouds' pseudo-random sequence.
+        seed: u32 = 3, "Seed", Unit::None, Domain::Seed, Stage::CloudMap;
+        /// Height of the bottom of the layer above the reference sphere.
+        altitude_km: f64 = 3.0, "Altitude", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
+        /// Height from the bottom of the layer to its top.
+        thickness_km: f64 = 2.0, "Thickness", Unit::Kilometres, log(0.01, 200.0), Stage::Uniform;
+        /// Optical depth from top to bottom where the cover is full: 1 is a veil, 20 hides the star.
+        density: f64 = 12.0, "Density", Unit::None, log(0.01, 200.0), Stage::Uniform;
+        /// Size of the single clouds that one sees from near.
+        puff_km: f64 = 6.0, "Puff size", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
+        /// Colour of the droplets.
+        color: [f64; 3] = [0.98, 0.98, 0.98], "Colour", Unit::None, Domain::Color, Stage::Uniform;
+        /// Speed at which the layer turns around the planet at the equator; negative blows to the west.
+        wind_km_h: f64 = 60.0, "Wind", Unit::KilometresPerHour, linear(-2000.0, 2000.0), Stage::Uniform;
+    }
+}
+
+params! {
+    /// The star that lights the planet: where it stands over the planet at time zero.
+    pub struct Star {
+        /// Latitude over which the star stands overhead.
+        latitude_deg: f64 = 12.0, "Latitude", Unit::Degrees, linear(-90.0, 90.0), Stage::Uniform;
+        /// Longitude over which the star stands overhead.
+        longitude_deg: f64 = 0.0, "Longitude", Unit::Degrees, linear(-180.0, 180.0), Stage::Uniform;
+        /// Colour of its light (linear sRGB).
+        color: [f64; 3] = [1.0, 0.97, 0.93], "Colour", Unit::None, Domain::Color, Stage::Uniform;
+        /// Strength of its light on the planet; 1 is the Sun on the Earth.
+        brightness: f64 = 1.0, "Brightness", Unit::None, log(0.0, 100.0), Stage::Uniform;
+        /// Half the angle under which its disc is seen.
+        radius_deg: f64 = 0.268, "Angular radius", Unit::Degrees, log(0.01, 20.0), Stage::Uniform;
+    }
+}
+
+pub use super::table::Table;

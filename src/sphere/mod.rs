@@ -1,0 +1,16 @@
+//! The globe as six squares: faces, the mapping between a square and the sphere, node addresses, latitude and longitude.
+//!
+//! The planet frame is right-handed, metres, centre at the origin: +Z through the north pole, +X through latitude 0,
+//! longitude 0, +Y through longitude 90° east.
+//!
+//! - [`cube`]: faces and the mapping, with its exact inverse
+//! - [`node`]: addresses of quadtree nodes and their neighbours across all face edges
+//! - [`geo`]: latitude, longitude, local north and east
+
+pub mod cube;
+pub mod geo;
+pub mod node;
+
+pub use cube::Face;
+pub use geo::LatLon;
+pub use node::{Edge, NodeId};
