@@ -1,4 +1,8 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
+pub mod tile;
+
+pub use tile::{Tile, Vertex};
+
 use crate::lod::View;
 use crate::planet::Planet;
 use crate::terrain::Terrain;
@@ -8,10 +12,21 @@ use std::sync::Arc;
 pub struct Surface {
     /// The evaluator the tiles were made with.
     pub terrain: Arc<Terrain>,
+    /// The tiles that are shown, each with its edge mask for [`crate::lod::stitch::triangle_indices`].
+    pub leaves: Vec<Leaf>,
     /// Whether every tile is as fine as the view asks; if not, a finer surface follows.
     pub complete: bool,
     /// What it took.
     pub stats: BuildStats,
+}
+
+/// A tile as it stands among its neighbours.
+#[derive(Clone, Debug)]
+pub struct Leaf {
+    /// The mesh.
+    pub tile: Arc<Tile>,
+    /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
+    pub coarser_edges: u8,
 }
 
 /// What building a surface took.
@@ -49,5 +64,10 @@ impl Builder {
 
 /// Builds the complete surface for a view and waits for it.
 pub fn build_now(_planet: &Arc<Planet>, _view: &View) -> Surface {
-    Surface { terrain: Arc::new(Terrain::new(_planet.clone())), complete: true, stats: BuildStats::default() }
+    Surface {
+        leaves: Vec::new(),
+        terrain: Arc::new(Terrain::new(_planet.clone())),
+        complete: true,
+        stats: BuildStats::default(),
+    }
 }

@@ -1,0 +1,55 @@
+//! A tile: the finished mesh of one node, ready for any renderer.
+
+use crate::sphere::NodeId;
+use glam::DVec3;
+
+/// Quads along a tile's side.
+pub const TILE_QUADS: usize = 32;
+/// Vertices along a tile's side.
+pub const TILE_SIDE: usize = TILE_QUADS + 1;
+/// Vertices of a tile.
+pub const TILE_VERTICES: usize = TILE_SIDE * TILE_SIDE;
+
+/// One vertex, 44 bytes.
+///
+/// The position in the planet frame is `high + low`: each component is an f64 split into two f32. A shader that computes
+/// `(high - eye_high) + (low - eye_low)` gets the position relative to the eye without loss, and the same bits for the
+/// same point in every tile, so that neighbouring tiles meet without a pinhole.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "render", derive(bytemuck::Pod, bytemuck::Zeroable))]
+#[repr(C)]
+pub struct Vertex {
+    /// Greater part of the position, metres.
+    pub position_high_m: [f32; 3],
+    /// Height above the reference sphere, metres.
+    pub height_m: f32,
+    /// Rest of the position, metres.
+    pub position_low_m: [f32; 3],
+    /// Temperature at the surface, °C.
+    pub temperature_c: f32,
+    /// Where in the biome table: moisture (0 dry to 65535 wet) and row (0 = last row, coldest or lowest; 65535 = first).
+    pub climate_unorm: [u16; 2],
+    /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex spacing is faded out of it.
+    pub normal_oct: [i16; 2],
+    /// The same as the parent tile would have it here: blend to it with distance, so that no level change shows.
+    pub parent_normal_oct: [i16; 2],
+}
+
+/// The finished mesh of a node.
+#[derive(Debug)]
+pub struct Tile {
+    /// The node.
+    pub id: NodeId,
+    /// Different for any two tiles ever built: the key under which a renderer keeps its copy.
+    pub serial: u64,
+    /// [`TILE_SIDE`] rows of [`TILE_SIDE`] vertices: `u` (east on the face) runs fastest.
+    pub vertices: Vec<Vertex>,
+    /// Lowest height of a vertex.
+    pub min_height_m: f64,
+    /// Greatest height of a vertex.
+    pub max_height_m: f64,
+    /// Centre of the bounding sphere in the planet frame.
+    pub center_planet_m: DVec3,
+    /// Radius of the bounding sphere.
+    pub bounding_radius_m: f64,
+}
