@@ -286,6 +286,22 @@ pub(crate) fn steps(path: &str) -> Vec<Step<'_>> {
         .collect()
 }
 
+/// A path as it is written in messages; the opposite of [`steps`].
+pub(crate) fn path_text(steps: &[Step<'_>]) -> String {
+    let mut text = String::new();
+    for step in steps {
+        match step {
+            Step::Index(index) => text.push_str(&format!("[{index}]")),
+            Step::Field(name) if text.is_empty() => text.push_str(name),
+            Step::Field(name) => {
+                text.push('.');
+                text.push_str(name);
+            }
+        }
+    }
+    text
+}
+
 /// The place of the value at a path; an empty path is the planet itself.
 pub(crate) fn find(text: &str, path: &str) -> Option<Place> {
     let wanted = steps(path);
