@@ -10,6 +10,8 @@ use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
 
+const TOO_EARLY: &str = "the text ends too early; a closing bracket or a value is missing";
+
 /// How presets are read and written: `shape: Fbm(octaves: 3)` and `water: (level_m: 0.0)` without further brackets.
 pub(crate) fn options() -> ron::Options {
     let extensions = Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::IMPLICIT_SOME;
@@ -61,6 +63,9 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
             let message = wanted(text, &path, offset);
             return Problem { path, ..at(text, offset, message) };
         }
+        Error::ExpectedComma if text.get(stop..).is_none_or(|rest| rest.trim().is_empty()) => {
+            (stop, TOO_EARLY.to_owned())
+        }
         Error::ExpectedComma => (stop, format!("{} is unexpected; put a comma before it", locate::excerpt(text, stop))),
         Error::ExpectedBoolean
         | Error::ExpectedFloat
@@ -92,10 +97,13 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
         Error::ExpectedMapColon => (stop, "a colon is missing; write `field: value`".to_owned()),
         Error::ExpectedStringEnd => (stop, "this text has no closing `\"`; add it".to_owned()),
         Error::UnclosedBlockComment => (stop, "this comment has no closing `*/`; add it".to_owned()),
+        Error::ExpectedIdentifier if text.get(stop..).is_some_and(|rest| rest.starts_with('(')) => {
+            (stop, "this `(` is one too many; write `(field: value, ...)`".to_owned())
+        }
         Error::ExpectedIdentifier => {
             (stop, format!("{} is not a field's name; write `field: value`", locate::excerpt(text, stop)))
         }
-        Error::Eof => (text.len(), "the text ends too early; a closing bracket or a value is missing".to_owned()),
+        Error::Eof => (text.len(), TOO_EARLY.to_owned()),
         Error::TrailingCharacters => {
             (stop, format!("{} stands behind the planet; remove all behind the last `)`", locate::excerpt(text, stop)))
         }

@@ -1,6 +1,8 @@
 //! Loading and saving a preset, and what can go wrong with either.
 
+use super::locate::Place;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
+use std::collections::HashMap;
 use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -104,11 +106,11 @@ impl Planet {
         let planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
         let problems = validate::problems(&planet);
         if problems.is_empty() {
-            Ok(planet)
-        } else {
-            let problems = problems.into_iter().map(|(path, message)| placed(text, path.to_string(), message));
-            Err(invalid(problems.collect()))
+            return Ok(planet);
         }
+        let places = locate::all(text);
+        let problems = problems.into_iter().map(|(path, message)| placed(text, &places, path.to_string(), message));
+        Err(invalid(problems.collect()))
     }
 
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.
@@ -174,10 +176,10 @@ fn start(text: &str) -> usize {
 }
 
 /// A problem of a parameter, at its value or at the nearest part of the text that holds it.
-fn placed(text: &str, path: String, message: String) -> Problem {
+fn placed(text: &str, places: &HashMap<String, Place>, path: String, message: String) -> Problem {
     let mut holder = path.as_str();
     loop {
-        if let Some(place) = locate::find(text, holder) {
+        if let Some(place) = places.get(holder) {
             return Problem { path, ..explain::at(text, place.value, message) };
         }
         match holder.rfind(['.', '[']) {

@@ -5,6 +5,8 @@
 //! a loop with its own stack, so that no depth of nesting can overflow the thread's, and it never fails: in a broken text
 //! it reports what it could see before the break.
 
+use std::collections::HashMap;
+
 /// One step of a path in the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step<'a> {
@@ -315,11 +317,24 @@ pub(crate) fn find(text: &str, path: &str) -> Option<Place> {
     found
 }
 
+/// The place of every value, by its path; what lies deeper than any preset goes is left out.
+pub(crate) fn all(text: &str) -> HashMap<String, Place> {
+    const DEEPEST: usize = 8;
+    let mut places = HashMap::new();
+    walk(text, |path, place| {
+        if path.len() <= DEEPEST {
+            places.entry(path_text(path)).or_insert(place);
+        }
+        true
+    });
+    places
+}
+
 /// Line and column (both from 1, the column in characters) of a byte offset.
 pub(crate) fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    (before.bytes().filter(|&byte| byte == b'\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
 /// The byte offset of a line and column.

@@ -40,7 +40,7 @@ fn biomes_path(field: &'static str) -> ParamPath {
     ParamPath::from(vec![Segment::Field("biomes"), Segment::Field(field)])
 }
 
-fn item(list: ParamPath, index: usize, field: Option<&'static str>) -> ParamPath {
+fn item(list: &ParamPath, index: usize, field: Option<&'static str>) -> ParamPath {
     let mut segments = list.segments().to_vec();
     segments.push(Segment::Index(index));
     segments.extend(field.map(Segment::Field));
@@ -74,7 +74,7 @@ fn names(layers: &[Layer], found: &mut Found) {
 
 fn masks(layers: &[Layer], index: usize, layer: &Layer, found: &mut Found) {
     for (number, mask) in layer.masks.iter().enumerate() {
-        let path = |field| item(layers::layer_path(index).join("masks"), number, Some(field));
+        let path = |field| item(&layers::layer_path(index).join("masks"), number, Some(field));
         let others: Vec<&str> =
             layers.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, l)| l.name.as_str()).collect();
         let choice = match others.as_slice() {
@@ -124,7 +124,7 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
     for (index, biome) in biomes.palette.iter().enumerate() {
         if !keys.insert(biome.key) {
             let message = format!("another biome has the key {:?} too; use a key of its own", biome.key);
-            found.add(item(biomes_path("palette"), index, Some("key")), message);
+            found.add(item(&biomes_path("palette"), index, Some("key")), message);
         }
     }
     table(biomes, &keys, found);
@@ -139,13 +139,13 @@ fn table(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
         return;
     }
     if !sides.contains(&columns) {
-        let path = item(biomes_path("table"), 0, None);
+        let path = item(&biomes_path("table"), 0, None);
         found.add(path, format!("the table has {columns} columns; {range}"));
         return;
     }
     let known: String = biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
     for (index, row) in rows.iter().enumerate() {
-        let path = || item(biomes_path("table"), index, None);
+        let path = || item(&biomes_path("table"), index, None);
         let length = row.chars().count();
         if length != columns {
             let message = format!("this row has {length} letters, the first has {columns}; make all equally long");
