@@ -61,9 +61,10 @@ fn directions(n: u64) -> Vec<DVec3> {
 
 /// FNV-1a over the bits of the heights.
 fn hash(heights_m: &[f64]) -> u64 {
-    heights_m.iter().flat_map(|h| h.to_bits().to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-    })
+    heights_m
+        .iter()
+        .flat_map(|h| h.to_bits().to_le_bytes())
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 #[test]
@@ -72,7 +73,12 @@ fn heights_have_the_same_bits_on_every_instruction_set_and_for_ever() {
     let dirs = directions(5000);
     for simd in Simd::available() {
         let heights = terrain.clone().with_simd(simd).heights_m(&dirs);
-        assert_eq!(hash(&heights), 1_068_116_659_649_060_062, "{}: presets of version 1 keep their exact heights", simd.name());
+        assert_eq!(
+            hash(&heights),
+            1_068_116_659_649_060_062,
+            "{}: presets of version 1 keep their exact heights",
+            simd.name()
+        );
     }
 }
 
@@ -160,8 +166,9 @@ fn neighbouring_tiles_share_their_edges_to_the_bit_and_leave_no_gap() {
                     .collect();
                 let other = if coarser { across.parent().unwrap() } else { across };
                 if let Some(&other) = level_of.get(&other) {
-                    let theirs: Vec<[u32; 6]> =
-                        (0..TILE_SIDE * TILE_SIDE).map(|i| position(&surface, other, i % TILE_SIDE, i / TILE_SIDE)).collect();
+                    let theirs: Vec<[u32; 6]> = (0..TILE_SIDE * TILE_SIDE)
+                        .map(|i| position(&surface, other, i % TILE_SIDE, i / TILE_SIDE))
+                        .collect();
                     assert!(rim.iter().all(|p| theirs.contains(p)), "{id:?} {edge:?}");
                 } else {
                     // Finer over there: that side does the stitching; it must be exactly one level.
@@ -264,7 +271,9 @@ fn edits_rebuild_no_more_than_they_must() {
         settled(&builder).stats
     };
     assert!(ask(&planet).octave_samples > 0);
-    for (which, tiles, octaves) in [(7, false, false), (0, true, false), (8, true, false), (4, true, false), (1, true, true)] {
+    for (which, tiles, octaves) in
+        [(7, false, false), (0, true, false), (8, true, false), (4, true, false), (1, true, true)]
+    {
         edit(&mut planet, which, 0.37);
         let stats = ask(&planet);
         assert_eq!((stats.tiles_built > 0, stats.octave_samples > 0), (tiles, octaves), "edit {which}");

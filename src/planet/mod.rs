@@ -24,7 +24,7 @@ pub(crate) mod text;
 pub mod validate;
 
 pub use file::{LoadError, Problem, SaveError};
-pub use layers::{Blend, Fbm, Layer, Mask, Ridged, Shape};
+pub use layers::{Blend, Craters, Fbm, Layer, Mask, Ridged, Shape};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use table::Table;
 

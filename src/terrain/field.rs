@@ -4,10 +4,11 @@
 //! for shading, each octave faded out as its wavelength nears the spacing of the points ([`Bands`]): a tile shows no relief
 //! that it cannot carry, and next to it what its parent would show.
 
+use super::craters;
 use super::noise::{self, Octave};
 use super::points::Points;
 use super::simd::{Simd, for_each_simd};
-use crate::planet::{Fbm, Layer, Ridged, Shape};
+use crate::planet::{Craters, Fbm, Layer, Ridged, Shape};
 
 /// Points worked on at a time: small enough for all arrays to stay in the first-level cache.
 const CHUNK: usize = 256;
@@ -25,6 +26,14 @@ pub(crate) struct NoiseShape {
 enum Kind {
     Fbm,
     Ridged { feedback: f32 },
+    Craters { density: f32 },
+}
+
+impl Kind {
+    /// Scale and shift from the sum of octaves to -1..1: ridged octaves sum to 0..1.
+    fn stretch(self) -> (f64, f64) {
+        if matches!(self, Kind::Ridged { .. }) { (2.0, -1.0) } else { (1.0, 0.0) }
+    }
 }
 
 /// The spacings (as angles, radians) for which gradients are wanted: a tile's own and its parent's. Zero keeps every octave.
@@ -65,6 +74,11 @@ impl NoiseShape {
                 let kind = Kind::Ridged { feedback: *feedback as f32 };
                 Self::new(seed, radius_km / wavelength_km, *octaves, *gain, *lacunarity, kind)
             }
+            Shape::Craters(Craters { diameter_km, octaves, gain, lacunarity, density }) => {
+                let kind = Kind::Craters { density: *density as f32 };
+                // The widest crater is 0.9 cells across.
+                Self::new(seed, 0.9 * radius_km / diameter_km, *octaves, *gain, *lacunarity, kind)
+            }
         }
     }
 
@@ -102,7 +116,7 @@ impl NoiseShape {
     pub(crate) fn bounds(&self) -> (f64, f64) {
         match self.kind {
             Kind::Fbm => (-noise::BOUND, noise::BOUND),
-            Kind::Ridged { .. } => (-1.0, 1.0),
+            Kind::Ridged { .. } | Kind::Craters { .. } => (-1.0, 1.0),
         }
     }
 
@@ -136,11 +150,11 @@ impl NoiseShape {
                     }
                     Kind::Fbm => fbm_gradient(simd, x, y, z, octave, strength, &mut state),
                     Kind::Ridged { feedback } => ridged_gradient(simd, x, y, z, octave, strength, feedback, &mut state),
+                    Kind::Craters { density } => craters_gradient(simd, x, y, z, octave, strength, density, &mut state),
                 }
             }
             let len = end - start;
-            // Ridged octaves sum to 0..1: stretch to -1..1.
-            let (stretch, shift) = if self.kind == Kind::Fbm { (1.0, 0.0) } else { (2.0, -1.0) };
+            let (stretch, shift) = self.kind.stretch();
             for (out, v) in field.value[start..end].iter_mut().zip(&state.value[..len]) {
                 *out = v * stretch + shift;
             }
@@ -170,9 +184,10 @@ impl NoiseShape {
                 match self.kind {
                     Kind::Fbm => fbm_value(simd, x, y, z, octave, strength, &mut state),
                     Kind::Ridged { feedback } => ridged_value(simd, x, y, z, octave, strength, feedback, &mut state),
+                    Kind::Craters { density } => craters_gradient(simd, x, y, z, octave, strength, density, &mut state),
                 }
             }
-            let (stretch, shift) = if self.kind == Kind::Fbm { (1.0, 0.0) } else { (2.0, -1.0) };
+            let (stretch, shift) = self.kind.stretch();
             for (out, v) in values[start..end].iter_mut().zip(&state.value[..end - start]) {
                 *out = v * stretch + shift;
             }
@@ -316,4 +331,32 @@ fn ridged_gradient_body(
 }
 for_each_simd!(fn ridged_gradient = ridged_gradient_body(
     x: &[f64], y: &[f64], z: &[f64], octave: &Octave, strength: Strength, feedback: f32, state: &mut ChunkState,
+));
+
+#[inline(always)]
+fn craters_gradient_body(
+    x: &[f64],
+    y: &[f64],
+    z: &[f64],
+    octave: &Octave,
+    strength: Strength,
+    density: f32,
+    state: &mut ChunkState,
+) {
+    let n = x.len().min(y.len()).min(z.len()).min(CHUNK);
+    let slope = strength.weight * octave.frequency as f32;
+    let (own, parent) = (slope * strength.own, slope * strength.parent);
+    for i in 0..n {
+        let unskew = (x[i] + y[i] + z[i]) * (1.0 / 6.0);
+        let dir = [(x[i] - unskew) as f32, (y[i] - unskew) as f32, (z[i] - unskew) as f32];
+        let (v, g) = craters::value_gradient([x[i], y[i], z[i]], dir, octave, density);
+        state.value[i] += f64::from(v * strength.weight);
+        for (axis, g) in g.into_iter().enumerate() {
+            state.own[axis][i] += g * own;
+            state.parent[axis][i] += g * parent;
+        }
+    }
+}
+for_each_simd!(fn craters_gradient = craters_gradient_body(
+    x: &[f64], y: &[f64], z: &[f64], octave: &Octave, strength: Strength, density: f32, state: &mut ChunkState,
 ));

@@ -1,6 +1,7 @@
 //! What the surface is: the compiled evaluator that everything asks.
 //!
 //! - [`noise`]: gradient noise at one point of one octave; the arithmetic all else rests on
+//! - [`craters`]: bowls and rims of one size
 //! - [`simd`]: the instruction sets the loops are compiled for
 //! - [`points`], [`field`]: batches of points; a layer's noise and gradient at them
 //! - [`height`]: layers joined by amplitude, blend and masks
@@ -12,6 +13,7 @@
 
 pub mod bench;
 pub(crate) mod climate;
+mod craters;
 pub(crate) mod field;
 pub(crate) mod height;
 pub(crate) mod noise;

@@ -39,16 +39,33 @@ pub(crate) fn skew(p: [f64; 3]) -> [f64; 3] {
 
 /// Cell number and position within the cell, 0 to 1.
 #[inline(always)]
-fn split(q: f64) -> (u32, f32) {
+pub(crate) fn split(q: f64) -> (u32, f32) {
     let rounded = (q - 0.5) + ROUNDER;
     (rounded.to_bits() as u32, (q - (rounded - ROUNDER)) as f32)
+}
+
+/// Large odd numbers that spread cell numbers over the hash's bits.
+const PRIME: [u32; 3] = [0x8DA6_B343, 0xD816_3841, 0xCB1A_B31F];
+
+/// Spreads the bits of a number.
+#[inline(always)]
+pub(crate) fn scramble(bits: u32) -> u32 {
+    let h = bits.wrapping_mul(0x9E37_79B1);
+    (h ^ (h >> 15)).wrapping_mul(0x85EB_CA77)
+}
+
+/// Random bits of a lattice cell.
+#[inline(always)]
+pub(crate) fn cell_hash(cell: [u32; 3], seed: u32) -> u32 {
+    let spread = |axis: usize| cell[axis].wrapping_mul(PRIME[axis]);
+    let h = scramble(spread(0) ^ spread(1) ^ spread(2) ^ seed);
+    h ^ (h >> 16)
 }
 
 /// A corner's gradient, each component an odd whole number from -511 to 511.
 #[inline(always)]
 fn gradient(hash_x: u32, hash_y: u32, hash_z: u32, seed: u32) -> [f32; 3] {
-    let mut h = (hash_x ^ hash_y ^ hash_z ^ seed).wrapping_mul(0x9E37_79B1);
-    h = (h ^ (h >> 15)).wrapping_mul(0x85EB_CA77);
+    let h = scramble(hash_x ^ hash_y ^ hash_z ^ seed);
     let component = |bits: u32| ((bits as i32 >> 22) | 1) as f32;
     [component(h), component(h << 10), component(h << 20)]
 }
@@ -62,7 +79,6 @@ fn falloff(d: [f32; 3]) -> f32 {
 /// The four corners of the simplex around a skewed point: distances, gradients.
 #[inline(always)]
 fn corners(point_skewed: [f64; 3], octave: &Octave) -> ([[f32; 3]; 4], [[f32; 3]; 4]) {
-    const PRIME: [u32; 3] = [0x8DA6_B343, 0xD816_3841, 0xCB1A_B31F];
     let (ix, x) = split(point_skewed[0] * octave.frequency + octave.offset[0]);
     let (iy, y) = split(point_skewed[1] * octave.frequency + octave.offset[1]);
     let (iz, z) = split(point_skewed[2] * octave.frequency + octave.offset[2]);
