@@ -39,7 +39,7 @@ impl EditorApp {
     /// Carries out everything asked for since the last frame.
     pub(super) fn handle_actions(&mut self, ctx: &egui::Context) {
         for action in std::mem::take(&mut self.actions) {
-            let focused = ctx.memory(|memory| memory.focused());
+            let focused = ctx.memory(egui::Memory::focused);
             if let Some(id) = focused
                 && action.needs_typed_value()
                 && ctx.text_edit_focused()
