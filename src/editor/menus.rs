@@ -4,6 +4,7 @@ use super::app::EditorApp;
 use super::command::Command;
 use super::handle::Action;
 use super::viewport::ViewSettings;
+use super::widgets::icon::{Icon, icon_button};
 use crate::lod::Quality;
 use crate::planet::shipped;
 use crate::render::DebugView;
@@ -100,9 +101,8 @@ fn time(ui: &mut egui::Ui, app: &mut EditorApp) {
     ui.add(speed)
         .on_hover_text("Speed of time: 3600 is an hour of the planet for each second")
         .accessible_name("Speed of time");
-    let (icon, name) = if settings.playing { ("⏸", "Pause time") } else { ("▶", "Play time") };
-    let button = egui::Button::new(icon).min_size(egui::vec2(24.0, 20.0));
-    if ui.add(button).on_hover_text(Command::PlayPause.tooltip()).accessible_name(name).clicked() {
+    let (icon, name) = if settings.playing { (Icon::Pause, "Pause time") } else { (Icon::Play, "Play time") };
+    if icon_button(ui, icon, name, Command::PlayPause.tooltip()).clicked() {
         app.send(Command::PlayPause);
     }
 }

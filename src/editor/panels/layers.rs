@@ -1,8 +1,9 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
 use super::{Draft, layer_edit, masks};
+use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
-use crate::editor::widgets::{icon_button, random_seed};
+use crate::editor::widgets::random_seed;
 use crate::planet::layers::layer_path;
 use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Shape};
@@ -47,19 +48,20 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             });
         });
         ui.add_enabled_ui(count > 0 && count < MAX_LAYERS, |ui| {
-            if icon_button(ui, "🗐", "Duplicate layer", "Duplicate the selected layer").clicked() {
+            if icon_button(ui, Icon::Duplicate, "Duplicate layer", "Duplicate the selected layer").clicked() {
                 state.selected = layer_edit::duplicate(draft.planet, index).unwrap_or(index);
                 draft.name_edit("Duplicate layer");
             }
         });
         ui.add_enabled_ui(count > 0, |ui| {
-            if icon_button(ui, "🗑", "Remove layer", "Remove the selected layer, and the masks on it").clicked() {
+            if icon_button(ui, Icon::Remove, "Remove layer", "Remove the selected layer, and the masks on it").clicked()
+            {
                 layer_edit::remove(draft.planet, index);
                 draft.name_edit("Remove layer");
             }
         });
         for (icon, name, by, possible) in
-            [("⏶", "Move layer up", -1, index > 0), ("⏷", "Move layer down", 1, index + 1 < count)]
+            [(Icon::Up, "Move layer up", -1, index > 0), (Icon::Down, "Move layer down", 1, index + 1 < count)]
         {
             ui.add_enabled_ui(possible, |ui| {
                 if icon_button(ui, icon, name, "Layers apply from first to last").clicked() {

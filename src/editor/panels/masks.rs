@@ -1,6 +1,6 @@
 //! The masks of a layer: where it acts, by the noise of other layers.
 
-use crate::editor::widgets::icon_button;
+use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::layers::layer_path;
 use crate::planet::param::{ParamPath, Segment};
@@ -48,7 +48,7 @@ pub fn show(
                     })
                     .response
                     .accessible_name(format!("Layer of {owner}"));
-                if icon_button(ui, "🗑", &format!("Remove {owner}"), "Remove this mask").clicked() {
+                if icon_button(ui, Icon::Remove, &format!("Remove {owner}"), "Remove this mask").clicked() {
                     removed = Some(number);
                 }
             });

@@ -191,7 +191,7 @@ impl Viewport {
     /// the label of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Planet"));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "View of the planet"));
         ui.painter().rect_filled(rect, 0.0, egui::Color32::BLACK);
         if rect.width() < 1.0 || rect.height() < 1.0 {
             return None;

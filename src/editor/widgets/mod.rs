@@ -2,8 +2,10 @@
 //!
 //! - [`param_row`]: one parameter as a row: label, slider, number, reset
 //! - [`params_grid`]: all parameters of a part
+//! - [`icon`]: drawn icons and their buttons
 //! - [`number`]: numbers as text, with units
 
+pub mod icon;
 pub mod number;
 pub mod param_row;
 pub mod params_grid;
@@ -25,11 +27,6 @@ pub fn ink_on(color: egui::Color32) -> egui::Color32 {
 /// A seed nobody chose. The standard library keys its hash maps at random; that is random enough for a landscape.
 pub fn random_seed() -> u64 {
     RandomState::new().hash_one(std::time::SystemTime::now().elapsed().ok())
-}
-
-/// A small button that shows a symbol and is called something.
-pub fn icon_button(ui: &mut egui::Ui, icon: &str, name: &str, tooltip: &str) -> egui::Response {
-    ui.add(egui::Button::new(icon).small()).on_hover_text(tooltip).accessible_name(name)
 }
 
 /// The first thing wrong with the parameter at `path`, if anything is.

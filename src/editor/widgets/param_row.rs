@@ -3,8 +3,9 @@
 //! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of Continents";
 //! the number beside a slider is called "Amplitude of Continents as a number".
 
+use super::icon::{Icon, icon_button};
 use super::number::{format_number, parse_number, suffix};
-use super::{icon_button, random_seed};
+use super::random_seed;
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Value, ValueMut};
 use eframe::egui;
 
@@ -47,7 +48,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 && value.get() != *default
             {
                 let tooltip = format!("Back to {}", value_text(row.param, default, &value));
-                if icon_button(ui, "⟲", &format!("Reset {}", name(row)), &tooltip).clicked() {
+                if icon_button(ui, Icon::Reset, &format!("Reset {}", name(row)), &tooltip).clicked() {
                     value.set(default);
                 }
             }
@@ -143,7 +144,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
         }
         (Domain::Seed, ValueMut::Count(v)) => {
             ui.add(egui::DragValue::new(&mut **v).speed(1.0).update_while_editing(false)).accessible_name(&name);
-            if icon_button(ui, "🎲", &format!("Random {name}"), "A random seed").clicked() {
+            if icon_button(ui, Icon::Dice, &format!("Random {name}"), "A random seed").clicked() {
                 **v = random_seed() as u32;
             }
         }
