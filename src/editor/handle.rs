@@ -2,7 +2,7 @@
 
 use super::app::EditorApp;
 use super::command::Command;
-use super::files::Goal;
+use super::files::{Goal, PromptAnswer};
 use crate::lod::Quality;
 use crate::render::DebugView;
 use eframe::egui;
@@ -17,6 +17,8 @@ pub enum Action {
     OpenPath(PathBuf),
     /// Open a shipped preset.
     OpenShipped(usize),
+    /// Answer the prompt about unsaved work.
+    Answer(PromptAnswer),
     /// Show something else of the surface.
     View(DebugView),
     /// Draw better or faster.
@@ -30,7 +32,7 @@ impl Action {
         match self {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
-            Action::View(_) | Action::Quality(_) => false,
+            Action::Answer(_) | Action::View(_) | Action::Quality(_) => false,
         }
     }
 }
@@ -57,6 +59,7 @@ impl EditorApp {
             Action::Command(command) => self.handle_command(ctx, command),
             Action::OpenPath(path) => self.pursue(ctx, Goal::OpenPath(path)),
             Action::OpenShipped(index) => self.pursue(ctx, Goal::OpenShipped(index)),
+            Action::Answer(answer) => self.answer_prompt(ctx, answer),
             Action::View(view) => self.viewport.settings.debug_view = view,
             Action::Quality(quality) => self.viewport.settings.quality = quality,
         }

@@ -2,6 +2,7 @@
 
 use super::app::EditorApp;
 use super::files::PromptAnswer;
+use super::handle::Action;
 use eframe::egui;
 
 /// Something went wrong; shown until dismissed.
@@ -18,8 +19,7 @@ pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
     if app.files.prompt.is_some()
         && let Some(answer) = unsaved(ctx, &app.document.title())
     {
-        app.answer_prompt(ctx, answer);
-        ctx.request_repaint();
+        app.actions.push(Action::Answer(answer));
     }
     if let Some(message) = app.messages.first()
         && dismissed(ctx, message)
