@@ -17,6 +17,7 @@ use super::viewport::Viewport;
 use crate::planet::{Planet, shipped};
 use eframe::egui;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Where the layout is kept between runs; documents never are.
@@ -137,8 +138,14 @@ impl EditorApp {
         }
     }
 
+    /// Makes an undo step of a changed draft, and starts the clock that stops at its picture.
     fn edit(&mut self, planet: Planet, label: Option<String>) {
+        let shown_before = self.document.valid_planet().clone();
         self.document.edit(planet, label);
+        let shown = self.document.valid_planet();
+        if !Arc::ptr_eq(shown, &shown_before) {
+            self.viewport.edit_clock.edited(shown, self.frame_start);
+        }
     }
 
     fn show_problems(&self, ui: &mut egui::Ui) {
@@ -187,35 +194,32 @@ impl eframe::App for EditorApp {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        let mut planet = (**self.document.planet()).clone();
-        let shown_before = self.document.valid_planet().clone();
+        let ctx = ui.ctx().clone();
         egui::Panel::top("menus").show(ui, |ui| menus::show(ui, self));
         egui::Panel::bottom("status").show(ui, |ui| status::show(ui, self));
-        let mut label = None;
+        // The panels come before the picture, so that it shows an edit in the very frame in which it was made.
         if self.show_panel {
+            let mut planet = (**self.document.planet()).clone();
+            let mut label = None;
             let problems = self.document.problems().to_vec();
-            let panel = egui::Panel::right("parts").default_size(360.0).size_range(300.0..=560.0);
+            let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
                 let mut draft = Draft { planet: &mut planet, label: None, problems: &problems };
                 self.panels.show(ui, &mut draft);
                 label = draft.label;
             });
+            self.edit(planet, label);
         }
         self.show_problems(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {
-            let sun = self.viewport.show(ui, &shown_before, &mut planet);
-            label = label.take().or(sun.map(str::to_owned));
+            let mut planet = (**self.document.planet()).clone();
+            if let Some(label) = self.viewport.show(ui, self.document.valid_planet(), &mut planet) {
+                self.edit(planet, Some(label.to_owned()));
+                ctx.request_repaint();
+            }
         });
-        let ctx = ui.ctx().clone();
         prompts::show(&ctx, self);
-
-        self.edit(planet, label);
         self.settle(&ctx);
-        let shown = self.document.valid_planet();
-        if !std::sync::Arc::ptr_eq(shown, &shown_before) {
-            self.viewport.edit_clock.edited(shown, self.frame_start);
-            ctx.request_repaint();
-        }
         if !self.actions.is_empty() || !self.deferred.is_empty() || self.viewport.edit_clock.wants_frame() {
             ctx.request_repaint();
         }

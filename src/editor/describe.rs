@@ -11,6 +11,11 @@ pub fn change(before: &Planet, after: &Planet) -> String {
     let changes = diff::diff(before, after);
     match changes.as_slice() {
         [only] => match param_at(after, &only.path) {
+            // The owner's own name changes with every letter typed, and would make each of them a step.
+            Some((param, _)) if param.name == "name" && only.path.segments().len() > 1 => {
+                let biome = only.path.segments().first() == Some(&Segment::Field("biomes"));
+                format!("Rename {}", if biome { "biome" } else { "layer" })
+            }
             Some((param, _)) => {
                 let label = lower_first(param.label);
                 match owner(after, &only.path) {
@@ -74,6 +79,9 @@ mod tests {
         assert_eq!(change(&before, &after), "Change amplitude of Continents");
         after.layers[0].bias += 1.0;
         assert_eq!(change(&before, &after), "Change Continents");
+        let mut after = before.clone();
+        after.biomes.palette[0].name.push('x');
+        assert_eq!(change(&before, &after), "Rename biome");
         let mut after = before.clone();
         after.radius_km = 5.0;
         assert_eq!(change(&before, &after), "Change radius");

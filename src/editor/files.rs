@@ -177,6 +177,8 @@ impl EditorApp {
 
     fn replace(&mut self, document: Document) {
         self.document = document;
+        let planet = self.document.valid_planet().clone();
+        self.viewport.reset_view(&planet);
         self.panels.new_document();
     }
 

@@ -44,11 +44,10 @@ fn figures(ui: &mut egui::Ui, app: &EditorApp) {
         None => "idle".to_owned(),
     };
     ui.label(frames).on_hover_text("Pictures a second while something moves; nothing is drawn while all is still");
-    let edit = match viewport.edit_clock.last() {
-        Some(duration) => format!("edit {:.0} ms", duration.as_secs_f64() * 1000.0),
-        None => "edit –".to_owned(),
-    };
-    ui.label(edit).on_hover_text("From the last edit to its complete picture");
+    if let Some(duration) = viewport.edit_clock.last() {
+        ui.label(format!("edit {:.1} ms", duration.as_secs_f64() * 1000.0))
+            .on_hover_text("From the last edit to its complete picture");
+    }
     if let Some(surface) = viewport.surface() {
         let stats = surface.stats;
         let drawn = viewport.stats();

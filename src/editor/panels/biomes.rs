@@ -95,7 +95,7 @@ fn palette(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
                 let key = egui::RichText::new(format!(" {} ", biome.key)).monospace();
                 ui.label(key.background_color(fill).color(ink_on(fill)));
                 let chosen = state.selected == index;
-                let button = egui::Button::selectable(chosen, biome.name.as_str()).truncate();
+                let button = egui::Button::selectable(chosen, (biome.name.as_str(), egui::Atom::grow())).truncate();
                 let response = ui.add(button.min_size(egui::vec2(ui.available_width(), 20.0)));
                 if response.accessible_name(format!("Biome {}", biome.name)).clicked() {
                     state.selected = index;

@@ -86,7 +86,7 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             let name = if layer.enabled { name } else { name.weak() };
             let chosen = state.selected == index;
             let width = ui.available_width();
-            let atoms = (egui::Atom::from(name).atom_grow(true).atom_shrink(true), details);
+            let atoms = (egui::Atom::from(name).atom_shrink(true), egui::Atom::grow(), details);
             let button = egui::Button::selectable(chosen, atoms);
             let response = ui.add(button.truncate().min_size(egui::vec2(width, 20.0)));
             if response.accessible_name(format!("Layer {}", layer.name)).clicked() {

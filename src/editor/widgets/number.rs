@@ -4,12 +4,17 @@ use crate::planet::param::Unit;
 
 /// A number with about five significant digits and no trailing zeros.
 pub fn format_number(value: f64) -> String {
+    format_digits(value, 5)
+}
+
+/// A number with about this many significant digits and no trailing zeros.
+pub fn format_digits(value: f64, digits: i32) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 {
         return "0".to_owned();
     }
     let digits_before_point = magnitude.log10().floor() as i32 + 1;
-    let decimals = (5 - digits_before_point).clamp(0, 9) as usize;
+    let decimals = (digits - digits_before_point).clamp(0, 9) as usize;
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text.is_empty() || text == "-0" || text == "0" { format!("{value:e}") } else { text.to_owned() }

@@ -4,7 +4,7 @@
 //! the number beside a slider is called "Amplitude of Continents as a number".
 
 use super::icon::{Icon, icon_button};
-use super::number::{format_number, parse_number, suffix};
+use super::number::{format_digits, parse_number, suffix};
 use super::random_seed;
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Value, ValueMut};
 use eframe::egui;
@@ -25,6 +25,9 @@ pub struct Row<'a> {
 
 const RESET_WIDTH: f32 = 20.0;
 const NUMBER_WIDTH: f32 = 86.0;
+/// Significant digits shown in a number field, and in each of three beside each other.
+const NUMBER_DIGITS: i32 = 5;
+const TRIPLE_DIGITS: i32 = 4;
 
 /// Shows the row; whether the value was changed.
 pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> bool {
@@ -127,7 +130,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
     let name = name(row);
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
-            let slider = egui::Slider::from_get_set(min..=max, get_set(v)).logarithmic(logarithmic);
+            let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
             // A range that begins at zero needs a smallest step; a millionth of the range is finer than anyone can see.
             add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-6));
             number_field(ui, &name, row.param, v, min, max, logarithmic);
@@ -183,13 +186,13 @@ fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) {
 fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, min: f64, max: f64, logarithmic: bool) {
     let speed = if logarithmic { (value.abs() * 0.01).max(max.abs() * 1e-7) } else { (max - min) * 0.002 };
     let unit = param.unit;
-    let number = egui::DragValue::from_get_set(get_set(value))
+    let number = egui::DragValue::from_get_set(get_set(value, NUMBER_DIGITS))
         .range(min..=max)
         .clamp_existing_to_range(false)
         .speed(speed)
         .max_decimals(9)
         .suffix(suffix(unit))
-        .custom_formatter(|v, _| format_number(v))
+        .custom_formatter(|v, _| format_digits(v, NUMBER_DIGITS))
         .custom_parser(move |text| parse_number(text, unit))
         .update_while_editing(false);
     ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number).accessible_name(format!("{name} as a number"));
@@ -197,11 +200,11 @@ fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, m
 
 /// Reads and writes a number. Writing what would look the same is no edit: a field that was only visited must not round a
 /// loaded value to the digits it shows.
-fn get_set(value: &mut f64) -> impl FnMut(Option<f64>) -> f64 + '_ {
-    |new| {
+fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ {
+    move |new| {
         if let Some(new) = new
             && new.is_finite()
-            && format_number(new) != format_number(*value)
+            && format_digits(new, digits) != format_digits(*value, digits)
         {
             *value = new;
         }
@@ -216,12 +219,12 @@ fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], ma
     ui.spacing_mut().item_spacing.x = 4.0;
     for (component, channel) in value.iter_mut().zip(["R", "G", "B"]) {
         let speed = (component.abs() * 0.01).max(max * 1e-6);
-        let number = egui::DragValue::from_get_set(get_set(component))
+        let number = egui::DragValue::from_get_set(get_set(component, TRIPLE_DIGITS))
             .range(0.0..=max)
             .clamp_existing_to_range(false)
             .speed(speed)
             .max_decimals(9)
-            .custom_formatter(|v, _| format_number(v))
+            .custom_formatter(|v, _| format_digits(v, TRIPLE_DIGITS))
             .custom_parser(move |text| parse_number(text, unit))
             .update_while_editing(false);
         ui.add_sized([width, height], number)
