@@ -293,3 +293,36 @@ fn an_idle_editor_draws_nothing() {
         assert_eq!(harness.state().viewport().pictures(), pictures + 1);
     }
 }
+
+#[test]
+fn unsaved_work_outlives_a_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = || {
+        let mut harness = Harness::builder()
+            .with_size([1024.0, 640.0])
+            .with_step_dt(1.0 / 60.0)
+            .wgpu()
+            .build_eframe(|cc| EditorApp::new(cc, None).with_recovery(folder.path()));
+        harness.run_steps(4);
+        harness
+    };
+    let mut harness = start();
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+    for _ in 0..200 {
+        harness.step();
+        if folder.path().join("recovery-0.ron").exists() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    // Dropped without the orderly end that eframe announces: a crash.
+    drop(harness);
+
+    let mut harness = start();
+    assert_ne!(planet(&harness), edited);
+    click(&mut harness, "Recover");
+    assert_eq!(planet(&harness), edited);
+    assert!(harness.state().document().is_dirty());
+}

@@ -12,11 +12,12 @@ use super::look;
 use super::menus;
 use super::panels::{Draft, PanelState};
 use super::prompts::{self, Message};
+use super::recovery::{Orphan, Recovery};
 use super::status;
 use super::viewport::Viewport;
 use crate::planet::{Planet, shipped};
 use eframe::egui;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -36,6 +37,9 @@ pub struct EditorApp {
     pub(super) actions: Vec<Action>,
     /// Commands that wait until a half-typed value has been taken over.
     pub(super) deferred: Vec<Action>,
+    /// What crashed editors left behind and nobody has decided about.
+    pub(super) orphans: Vec<Orphan>,
+    pub(super) recovery: Option<Recovery>,
     title: String,
     adapter: String,
     frame_start: Instant,
@@ -62,6 +66,8 @@ impl EditorApp {
             show_controls: false,
             actions: Vec::new(),
             deferred: Vec::new(),
+            orphans: Vec::new(),
+            recovery: None,
             title: String::new(),
             adapter,
             frame_start: Instant::now(),
@@ -75,6 +81,18 @@ impl EditorApp {
     /// Replaces the desktop's file dialogs: tests answer for themselves.
     pub fn with_dialogs(mut self, dialogs: Box<dyn FileDialogs>) -> Self {
         self.files = FileFlow::new(dialogs);
+        self
+    }
+
+    /// Keeps unsaved work in `folder` against a crash, and offers what a crash left there.
+    pub fn with_recovery(mut self, folder: &Path) -> Self {
+        match Recovery::open(folder) {
+            Ok((recovery, orphans)) => {
+                self.recovery = Some(recovery);
+                self.orphans = orphans;
+            }
+            Err(error) => log::warn!("unsaved work is not kept for recovery: {}: {error}", folder.display()),
+        }
         self
     }
 
@@ -220,12 +238,21 @@ impl eframe::App for EditorApp {
         });
         prompts::show(&ctx, self);
         self.settle(&ctx);
+        if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
+            ctx.request_repaint_after(wait);
+        }
         if !self.actions.is_empty() || !self.deferred.is_empty() || self.viewport.edit_clock.wants_frame() {
             ctx.request_repaint();
         }
         if self.viewport.frame_meter.interval_secs().is_some() {
             // One more frame after the last movement, to say that all is still.
             ctx.request_repaint_after_secs(0.5);
+        }
+    }
+
+    fn on_exit(&mut self) {
+        if let Some(recovery) = &mut self.recovery {
+            recovery.close();
         }
     }
 

@@ -4,6 +4,7 @@ use super::app::{EditorApp, default_planet};
 use super::dialogs::{DialogRequest, FileDialogs};
 use super::document::Document;
 use super::prompts::Message;
+use super::recovery;
 use super::widgets::random_seed;
 use crate::planet::{LoadError, Planet, random, shipped};
 use eframe::egui;
@@ -100,6 +101,21 @@ impl EditorApp {
         match Planet::load(path) {
             Ok(planet) => self.replace(Document::new(planet, Some(path.to_owned()))),
             Err(error) => self.messages.push(load_failed(path, &error)),
+        }
+    }
+
+    /// Takes over the first thing a crash left behind, or throws it away.
+    pub(super) fn recover(&mut self, keep: bool) {
+        if !self.orphans.is_empty() {
+            let orphan = self.orphans.remove(0);
+            match &self.recovery {
+                // Kept until this editor's own file takes its place: a second crash loses nothing.
+                Some(recovery) if keep => recovery.adopt(&orphan.file),
+                _ => recovery::remove(&orphan.file),
+            }
+            if keep {
+                self.replace(Document::unsaved(orphan.planet));
+            }
         }
     }
 

@@ -19,6 +19,8 @@ pub enum Action {
     OpenShipped(usize),
     /// Answer the prompt about unsaved work.
     Answer(PromptAnswer),
+    /// Take work over that a crash left behind, or throw it away.
+    Recover(bool),
     /// Show something else of the surface.
     View(DebugView),
     /// Draw better or faster.
@@ -32,7 +34,7 @@ impl Action {
         match self {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
-            Action::Answer(_) | Action::View(_) | Action::Quality(_) => false,
+            Action::Answer(_) | Action::Recover(_) | Action::View(_) | Action::Quality(_) => false,
         }
     }
 }
@@ -60,6 +62,7 @@ impl EditorApp {
             Action::OpenPath(path) => self.pursue(ctx, Goal::OpenPath(path)),
             Action::OpenShipped(index) => self.pursue(ctx, Goal::OpenShipped(index)),
             Action::Answer(answer) => self.answer_prompt(ctx, answer),
+            Action::Recover(keep) => self.recover(keep),
             Action::View(view) => self.viewport.settings.debug_view = view,
             Action::Quality(quality) => self.viewport.settings.quality = quality,
         }

@@ -3,7 +3,7 @@
 //! - [`app`]: the eframe application: what happens in a frame, in which order
 //! - [`command`], [`handle`]: everything a person can tell the editor to do, and the one place that does it
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
-//! - [`files`], [`dialogs`], [`prompts`]: opening and saving without losing work
+//! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
 //! - [`menus`], [`status`], [`look`]: the rest of the window
@@ -20,6 +20,7 @@ pub mod look;
 pub mod menus;
 pub mod panels;
 pub mod prompts;
+pub mod recovery;
 pub mod status;
 pub mod viewport;
 pub mod widgets;
@@ -31,12 +32,15 @@ use eframe::{egui, egui_wgpu};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// What the desktop and the layout's folder know the editor by.
+const APP_ID: &str = "tellus";
+
 /// Opens the editor's window, with a preset if one is given, and stays until it is closed.
 pub fn run(path: Option<PathBuf>) -> Result<(), String> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Tellus")
-            .with_app_id("tellus")
+            .with_app_id(APP_ID)
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([800.0, 500.0])
             .with_drag_and_drop(true),
@@ -44,8 +48,14 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
         wgpu_options: wgpu_configuration(),
         ..Default::default()
     };
-    eframe::run_native("tellus", options, Box::new(|cc| Ok(Box::new(EditorApp::new(cc, path)))))
-        .map_err(|error| explain(&error))
+    let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+        let app = EditorApp::new(cc, path);
+        Ok(Box::new(match eframe::storage_dir(APP_ID) {
+            Some(folder) => app.with_recovery(&folder),
+            None => app,
+        }))
+    };
+    eframe::run_native(APP_ID, options, Box::new(create)).map_err(|error| explain(&error))
 }
 
 /// eframe's device, with the limits the renderer asks for.

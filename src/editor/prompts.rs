@@ -21,6 +21,12 @@ pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
     {
         app.actions.push(Action::Answer(answer));
     }
+    if let Some(orphan) = app.orphans.first()
+        && !app.document.is_dirty()
+        && let Some(keep) = recover(ctx, &orphan.planet.name)
+    {
+        app.actions.push(Action::Recover(keep));
+    }
     if let Some(message) = app.messages.first()
         && dismissed(ctx, message)
     {
@@ -53,6 +59,28 @@ fn unsaved(ctx: &egui::Context, title: &str) -> Option<PromptAnswer> {
         .inner
     });
     if modal.inner.is_none() && modal.should_close() { Some(PromptAnswer::Cancel) } else { modal.inner }
+}
+
+fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {
+    // No way out but an answer: a click beside it must not throw work away.
+    let modal = egui::Modal::new(egui::Id::unique("recover work")).show(ctx, |ui| {
+        ui.set_width(360.0);
+        ui.heading("Recover unsaved work?");
+        ui.add_space(4.0);
+        ui.label(format!("{name} was being edited when the editor stopped without saving it."));
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            if ui.button("Recover").clicked() {
+                Some(true)
+            } else if ui.button("Throw away").clicked() {
+                Some(false)
+            } else {
+                None
+            }
+        })
+        .inner
+    });
+    modal.inner
 }
 
 fn dismissed(ctx: &egui::Context, message: &Message) -> bool {
