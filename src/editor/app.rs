@@ -1,0 +1,262 @@
+//! The eframe application: its state, and the order of things in a frame.
+//!
+//! `logic` takes in what came from outside (shortcuts, dropped files, dialogs, the close button) and carries out commands;
+//! `ui` shows everything, lets the panels change a draft of the planet, and turns a changed draft into an undo step.
+
+use super::command::Command;
+use super::dialogs::{FileDialogs, NativeDialogs};
+use super::document::Document;
+use super::files::FileFlow;
+use super::handle::Action;
+use super::look;
+use super::menus;
+use super::panels::{Draft, PanelState};
+use super::prompts::{self, Message};
+use super::recovery::{Orphan, Recovery};
+use super::status;
+use super::viewport::Viewport;
+use crate::planet::{Planet, shipped};
+use eframe::egui;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Where the layout is kept between runs; documents never are.
+const LAYOUT_KEY: &str = "tellus_layout";
+
+/// The editor.
+pub struct EditorApp {
+    pub(super) document: Document,
+    pub(super) viewport: Viewport,
+    pub(super) panels: PanelState,
+    pub(super) files: FileFlow,
+    pub(super) messages: Vec<Message>,
+    pub(super) show_panel: bool,
+    pub(super) show_controls: bool,
+    /// What the user asked for in this frame.
+    pub(super) actions: Vec<Action>,
+    /// Commands that wait until a half-typed value has been taken over.
+    pub(super) deferred: Vec<Action>,
+    /// What crashed editors left behind and nobody has decided about.
+    pub(super) orphans: Vec<Orphan>,
+    pub(super) recovery: Option<Recovery>,
+    title: String,
+    adapter: String,
+    frame_start: Instant,
+}
+
+impl EditorApp {
+    /// The application, with a preset if one is given. One that cannot be loaded is reported in the window.
+    pub fn new(cc: &eframe::CreationContext<'_>, path: Option<PathBuf>) -> Self {
+        look::set_up(&cc.egui_ctx);
+        let panel_hidden = cc.storage.and_then(|storage| storage.get_string(LAYOUT_KEY)).as_deref() == Some("hidden");
+        let document = Document::new(default_planet(), None);
+        let viewport = Viewport::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), document.planet());
+        let adapter = cc.wgpu_render_state.as_ref().map_or_else(String::new, |state| {
+            let info = state.adapter.get_info();
+            format!("{} ({:?}, {:?})", info.name, info.device_type, info.backend)
+        });
+        let mut app = Self {
+            document,
+            viewport,
+            panels: PanelState::default(),
+            files: FileFlow::new(Box::new(NativeDialogs::default())),
+            messages: Vec::new(),
+            show_panel: !panel_hidden,
+            show_controls: false,
+            actions: Vec::new(),
+            deferred: Vec::new(),
+            orphans: Vec::new(),
+            recovery: None,
+            title: String::new(),
+            adapter,
+            frame_start: Instant::now(),
+        };
+        if let Some(path) = path {
+            app.load(&path);
+        }
+        app
+    }
+
+    /// Replaces the desktop's file dialogs: tests answer for themselves.
+    pub fn with_dialogs(mut self, dialogs: Box<dyn FileDialogs>) -> Self {
+        self.files = FileFlow::new(dialogs);
+        self
+    }
+
+    /// Keeps unsaved work in `folder` against a crash, and offers what a crash left there.
+    pub fn with_recovery(mut self, folder: &Path) -> Self {
+        match Recovery::open(folder) {
+            Ok((recovery, orphans)) => {
+                self.recovery = Some(recovery);
+                self.orphans = orphans;
+            }
+            Err(error) => log::warn!("unsaved work is not kept for recovery: {}: {error}", folder.display()),
+        }
+        self
+    }
+
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The viewport.
+    pub fn viewport(&self) -> &Viewport {
+        &self.viewport
+    }
+
+    /// The viewport, to change how things are looked at.
+    pub fn viewport_mut(&mut self) -> &mut Viewport {
+        &mut self.viewport
+    }
+
+    /// Asks for a command, as a menu would.
+    pub fn send(&mut self, command: Command) {
+        self.actions.push(Action::Command(command));
+    }
+
+    /// The name of the graphics adapter.
+    pub fn adapter(&self) -> &str {
+        &self.adapter
+    }
+
+    fn take_shortcuts(&mut self, ctx: &egui::Context) {
+        if self.files.is_asking() {
+            return;
+        }
+        let typing = ctx.text_edit_focused();
+        for (shortcut, command) in Command::all_shortcuts() {
+            if !(typing && command.yields_to_text()) && ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
+                self.send(command);
+            }
+        }
+    }
+
+    fn take_dropped_files(&mut self, ctx: &egui::Context) {
+        let dropped = ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        if let Some(path) = dropped {
+            self.actions.push(Action::OpenPath(path));
+        }
+    }
+
+    fn update_title(&mut self, ctx: &egui::Context) {
+        let title = format!("{} – Tellus", self.document.title());
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    /// Ends the gesture under way when nobody drags, types or holds a key.
+    fn settle(&mut self, ctx: &egui::Context) {
+        let busy = ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty()) || ctx.text_edit_focused();
+        if !busy {
+            self.document.settle();
+        }
+    }
+
+    /// Makes an undo step of a changed draft, and starts the clock that stops at its picture.
+    fn edit(&mut self, planet: Planet, label: Option<String>) {
+        let shown_before = self.document.valid_planet().clone();
+        self.document.edit(planet, label);
+        let shown = self.document.valid_planet();
+        if !Arc::ptr_eq(shown, &shown_before) {
+            self.viewport.edit_clock.edited(shown, self.frame_start);
+        }
+    }
+
+    fn show_problems(&self, ui: &mut egui::Ui) {
+        let problems = self.document.problems();
+        if problems.is_empty() && self.viewport.error().is_none() {
+            return;
+        }
+        egui::Panel::top("problems").resizable(false).show(ui, |ui| {
+            let color = ui.visuals().error_fg_color;
+            if let Some(error) = self.viewport.error() {
+                ui.colored_label(color, error);
+            }
+            if !problems.is_empty() {
+                ui.strong("The picture shows the last planet without problems.");
+            }
+            for (path, message) in problems.iter().take(4) {
+                ui.colored_label(color, format!("{path}: {message}"));
+            }
+            if problems.len() > 4 {
+                ui.weak(format!("… and {} more", problems.len() - 4));
+            }
+        });
+    }
+}
+
+/// The first shipped preset, or the plain defaults.
+pub(super) fn default_planet() -> Planet {
+    let first = shipped::ALL.first();
+    first.and_then(|preset| Planet::from_text(preset.file, preset.text).ok()).unwrap_or_default()
+}
+
+impl eframe::App for EditorApp {
+    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        self.frame_start = Instant::now();
+        if let Some(state) = frame.wgpu_render_state() {
+            let waker = ctx.clone();
+            self.viewport.edit_clock.frame_began(&state.device, move || waker.request_repaint());
+        }
+        self.actions.append(&mut self.deferred);
+        self.take_shortcuts(ctx);
+        self.take_dropped_files(ctx);
+        self.poll_dialogs(ctx);
+        self.handle_actions(ctx);
+        self.handle_close_request(ctx);
+        self.update_title(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        egui::Panel::top("menus").show(ui, |ui| menus::show(ui, self));
+        egui::Panel::bottom("status").show(ui, |ui| status::show(ui, self));
+        // The panels come before the picture, so that it shows an edit in the very frame in which it was made.
+        if self.show_panel {
+            let mut planet = (**self.document.planet()).clone();
+            let mut label = None;
+            let problems = self.document.problems().to_vec();
+            let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
+            panel.show(ui, |ui| {
+                let mut draft = Draft { planet: &mut planet, label: None, problems: &problems };
+                self.panels.show(ui, &mut draft);
+                label = draft.label;
+            });
+            self.edit(planet, label);
+        }
+        self.show_problems(ui);
+        egui::CentralPanel::no_frame().show(ui, |ui| {
+            let mut planet = (**self.document.planet()).clone();
+            if let Some(label) = self.viewport.show(ui, self.document.valid_planet(), &mut planet) {
+                self.edit(planet, Some(label.to_owned()));
+                ctx.request_repaint();
+            }
+        });
+        prompts::show(&ctx, self);
+        self.settle(&ctx);
+        if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
+            ctx.request_repaint_after(wait);
+        }
+        if !self.actions.is_empty() || !self.deferred.is_empty() || self.viewport.edit_clock.wants_frame() {
+            ctx.request_repaint();
+        }
+        if self.viewport.frame_meter.interval_secs().is_some() {
+            // One more frame after the last movement, to say that all is still.
+            ctx.request_repaint_after_secs(0.5);
+        }
+    }
+
+    fn on_exit(&mut self) {
+        if let Some(recovery) = &mut self.recovery {
+            recovery.close();
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        storage.set_string(LAYOUT_KEY, if self.show_panel { "shown" } else { "hidden" }.to_owned());
+    }
+}

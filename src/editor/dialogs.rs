@@ -1,0 +1,102 @@
+//! File dialogs that never block the window, behind a trait so that tests answer them.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, channel};
+
+/// What a dialog asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DialogRequest {
+    /// A preset to open.
+    Open {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+    },
+    /// A file to save to.
+    SaveAs {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// File name to offer.
+        file_name: String,
+    },
+}
+
+/// Called from any thread when an answer has come.
+pub type Wake = Box<dyn Fn() + Send + 'static>;
+
+/// Asks for files. The answer comes later, through [`FileDialogs::poll`].
+pub trait FileDialogs {
+    /// Opens a dialog. Called on the main thread.
+    fn start(&mut self, request: DialogRequest, wake: Wake);
+    /// The answer, once: the file, or None when the person cancelled.
+    fn poll(&mut self) -> Option<Option<PathBuf>>;
+}
+
+/// The dialogs of the desktop.
+#[derive(Default)]
+pub struct NativeDialogs {
+    answer: Option<Receiver<Option<PathBuf>>>,
+}
+
+impl FileDialogs for NativeDialogs {
+    fn start(&mut self, request: DialogRequest, wake: Wake) {
+        let dialog = rfd::AsyncFileDialog::new().add_filter("Planet presets", &["ron"]);
+        let with_folder = |dialog: rfd::AsyncFileDialog, folder: Option<PathBuf>| match folder {
+            Some(folder) => dialog.set_directory(folder),
+            None => dialog,
+        };
+        // Desktops want dialogs made on the main thread; the waiting is done elsewhere.
+        let future: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match request {
+            DialogRequest::Open { folder } => {
+                Box::pin(with_folder(dialog, folder).set_title("Open planet").pick_file())
+            }
+            DialogRequest::SaveAs { folder, file_name } => {
+                Box::pin(with_folder(dialog, folder).set_title("Save planet").set_file_name(file_name).save_file())
+            }
+        };
+        let (sender, receiver) = channel();
+        self.answer = Some(receiver);
+        std::thread::spawn(move || {
+            let file = pollster::block_on(future).map(|handle| handle.path().to_owned());
+            // The receiver is gone when the editor closed meanwhile.
+            let _ = sender.send(file);
+            wake();
+        });
+    }
+
+    fn poll(&mut self) -> Option<Option<PathBuf>> {
+        let answer = match self.answer.as_ref()?.try_recv() {
+            Ok(answer) => answer,
+            Err(std::sync::mpsc::TryRecvError::Empty) => return None,
+            // The waiting thread died: the same as a cancelled dialog.
+            Err(std::sync::mpsc::TryRecvError::Disconnected) => None,
+        };
+        self.answer = None;
+        Some(answer)
+    }
+}
+
+/// Answers prepared in advance, for tests.
+#[derive(Default)]
+pub struct ScriptedDialogs {
+    answers: VecDeque<Option<PathBuf>>,
+    pending: Option<Option<PathBuf>>,
+}
+
+impl ScriptedDialogs {
+    /// Gives these answers one after the other; when they run out, every dialog is cancelled.
+    pub fn new(answers: impl IntoIterator<Item = Option<PathBuf>>) -> Self {
+        Self { answers: answers.into_iter().collect(), pending: None }
+    }
+}
+
+impl FileDialogs for ScriptedDialogs {
+    fn start(&mut self, _request: DialogRequest, wake: Wake) {
+        self.pending = Some(self.answers.pop_front().flatten());
+        wake();
+    }
+
+    fn poll(&mut self) -> Option<Option<PathBuf>> {
+        self.pending.take()
+    }
+}

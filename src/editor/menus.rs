@@ -1,0 +1,119 @@
+//! The menu bar. Menus only send commands.
+
+use super::app::EditorApp;
+use super::command::Command;
+use super::handle::Action;
+use super::viewport::ViewSettings;
+use super::widgets::icon::{Icon, icon_button};
+use crate::lod::Quality;
+use crate::planet::shipped;
+use crate::render::DebugView;
+use eframe::egui;
+
+/// Shows the bar: menus to the left, time and the document's name to the right.
+pub fn show(ui: &mut egui::Ui, app: &mut EditorApp) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| {
+            for command in [Command::New, Command::Open] {
+                entry(ui, app, command, true, None);
+            }
+            ui.separator();
+            let savable = app.document.is_dirty() || app.document.path().is_none();
+            entry(ui, app, Command::Save, savable, None);
+            entry(ui, app, Command::SaveAs, true, None);
+            ui.separator();
+            entry(ui, app, Command::Quit, true, None);
+        });
+        ui.menu_button("Edit", |ui| {
+            let (undo, redo) = (app.document.history().undo_label(), app.document.history().redo_label());
+            let undo = undo.map(|label| format!("Undo: {}", lower_first(label)));
+            let redo = redo.map(|label| format!("Redo: {}", lower_first(label)));
+            entry(ui, app, Command::Undo, undo.is_some(), undo);
+            entry(ui, app, Command::Redo, redo.is_some(), redo);
+        });
+        ui.menu_button("View", |ui| view(ui, app));
+        ui.menu_button("Planets", |ui| {
+            for (index, preset) in shipped::ALL.iter().enumerate() {
+                if ui.button(readable(preset.file)).clicked() {
+                    app.actions.push(Action::OpenShipped(index));
+                    ui.close();
+                }
+            }
+            ui.separator();
+            entry(ui, app, Command::RandomPlanet, true, None);
+        });
+        ui.menu_button("Help", |ui| entry(ui, app, Command::Controls, true, None));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            time(ui, app);
+            ui.separator();
+            ui.add(egui::Label::new(egui::RichText::new(app.document.title()).weak()).truncate());
+        });
+    });
+}
+
+fn entry(ui: &mut egui::Ui, app: &mut EditorApp, command: Command, enabled: bool, label: Option<String>) {
+    let label = label.unwrap_or_else(|| command.label().to_owned());
+    let mut button = egui::Button::new(label);
+    if let Some(shortcut) = command.shortcuts().first() {
+        button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+    }
+    if ui.add_enabled(enabled, button).on_hover_text(command.tooltip()).clicked() {
+        app.send(command);
+        ui.close();
+    }
+}
+
+fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
+    let settings: ViewSettings = app.viewport.settings;
+    for view in DebugView::ALL {
+        if ui.radio(settings.debug_view == view, view.label()).clicked() {
+            app.actions.push(Action::View(view));
+            ui.close();
+        }
+    }
+    ui.separator();
+    ui.menu_button(format!("Quality: {}", settings.quality.label().to_lowercase()), |ui| {
+        for quality in Quality::ALL {
+            if ui.radio(settings.quality == quality, quality.label()).clicked() {
+                app.actions.push(Action::Quality(quality));
+                ui.close();
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("Exposure");
+        let slider = egui::Slider::new(&mut app.viewport.settings.exposure_ev, -8.0..=8.0).suffix(" EV");
+        ui.add(slider)
+            .labelled_by(label.id)
+            .on_hover_text("Brightness of the picture in stops; not part of the planet");
+    });
+    ui.separator();
+    entry(ui, app, Command::ResetView, true, None);
+    for command in [Command::TogglePanel, Command::ToggleFullscreen, Command::ToggleTheme] {
+        entry(ui, app, command, true, None);
+    }
+}
+
+/// Right to left: speed, then the button.
+fn time(ui: &mut egui::Ui, app: &mut EditorApp) {
+    let settings = &mut app.viewport.settings;
+    let speed = egui::DragValue::new(&mut settings.time_speed).range(-86_400.0..=86_400.0).speed(20.0).suffix("×");
+    ui.add(speed)
+        .on_hover_text("Speed of time: 3600 is an hour of the planet for each second")
+        .accessible_name("Speed of time");
+    let (icon, name) = if settings.playing { (Icon::Pause, "Pause time") } else { (Icon::Play, "Play time") };
+    if icon_button(ui, icon, name, Command::PlayPause.tooltip()).clicked() {
+        app.send(Command::PlayPause);
+    }
+}
+
+fn readable(file: &str) -> String {
+    let stem = file.trim_end_matches(".ron").replace(['-', '_'], " ");
+    let mut chars = stem.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+}
+
+fn lower_first(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
+}

@@ -1,0 +1,129 @@
+//! What is done to the palette and the biome table as a whole. Every key in the table stays one of the palette.
+
+use crate::planet::{Biome, Biomes, MAX_BIOMES, Table, TableRows};
+
+/// Adds a biome with a key nobody uses; gives its place, or None when there are too many.
+pub fn add(biomes: &mut Biomes) -> Option<usize> {
+    if biomes.palette.len() >= MAX_BIOMES {
+        return None;
+    }
+    let key =
+        ('a'..='z').chain('A'..='Z').chain('0'..='9').chain("+-*/#@%&=?".chars()).find(|&key| is_free(biomes, key))?;
+    let like = biomes.palette.last().cloned().unwrap_or_default();
+    biomes.palette.push(Biome { key, name: format!("Biome {key}"), ..like });
+    Some(biomes.palette.len() - 1)
+}
+
+/// Removes a biome; its cells become those of `replacement`. The last one stays.
+pub fn remove(biomes: &mut Biomes, index: usize, replacement: usize) -> bool {
+    let (Some(old), Some(new)) = (biomes.palette.get(index), biomes.palette.get(replacement)) else { return false };
+    if index == replacement {
+        return false;
+    }
+    let (old, new) = (old.key, new.key);
+    biomes.table.replace_key(old, new);
+    biomes.palette.remove(index);
+    true
+}
+
+/// Gives a biome another key, in the table too. A key that is taken or no printable character changes nothing.
+pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> bool {
+    if !key.is_ascii_graphic() || matches!(key, '"' | '\\') || !is_free(biomes, key) {
+        return false;
+    }
+    let Some(biome) = biomes.palette.get_mut(index) else { return false };
+    let old = std::mem::replace(&mut biome.key, key);
+    biomes.table.replace_key(old, key);
+    true
+}
+
+/// The table in another size: each cell takes the biome that was at its climate.
+pub fn resized(table: &Table, columns: usize, rows: usize) -> Table {
+    let columns = columns.clamp(Table::MIN_SIDE, Table::MAX_SIDE);
+    let rows = rows.clamp(Table::MIN_SIDE, Table::MAX_SIDE);
+    let (old_columns, old_rows) = (table.columns(), table.rows().len());
+    let mut new = Table::uniform(table.key(0, 0).unwrap_or('a'), columns, rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            // The middle of the new cell, in the old table.
+            let from_column = (2 * column + 1) * old_columns / (2 * columns);
+            let from_row = (2 * row + 1) * old_rows / (2 * rows);
+            if let Some(key) = table.key(from_column, from_row) {
+                new.set_key(column, row, key);
+            }
+        }
+    }
+    new
+}
+
+/// The climate of a cell in words: moisture, and temperature or elevation.
+pub fn cell_range(biomes: &Biomes, column: usize, row: usize) -> String {
+    let (columns, rows) = (biomes.table.columns().max(1) as f64, biomes.table.rows().len().max(1) as f64);
+    let (first, last, unit) = match biomes.rows {
+        TableRows::Temperature => (biomes.hottest_c, biomes.coldest_c, "°C"),
+        TableRows::Elevation => (biomes.highest_m, biomes.lowest_m, "m"),
+    };
+    let edge = |row: f64| first + (last - first) * row / rows;
+    format!(
+        "moisture {:.2} to {:.2}, {:.1} to {:.1} {unit}",
+        column as f64 / columns,
+        (column + 1) as f64 / columns,
+        edge(row as f64 + 1.0),
+        edge(row as f64),
+    )
+}
+
+/// The place of a key in the palette.
+pub fn index_of(biomes: &Biomes, key: char) -> Option<usize> {
+    biomes.palette.iter().position(|biome| biome.key == key)
+}
+
+fn is_free(biomes: &Biomes, key: char) -> bool {
+    index_of(biomes, key).is_none() && !biomes.table.rows().iter().any(|row| row.contains(key))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn biomes() -> Biomes {
+        let biome = |key| Biome { key, ..Biome::default() };
+        let mut table = Table::uniform('a', 4, 2);
+        table.set_key(3, 0, 'b');
+        Biomes { palette: vec![biome('a'), biome('b')], table, ..Biomes::default() }
+    }
+
+    #[test]
+    fn removing_replaces_and_rekeying_follows() {
+        let mut biomes = biomes();
+        assert!(!rekey(&mut biomes, 1, 'a') && !rekey(&mut biomes, 1, '"'));
+        assert!(rekey(&mut biomes, 1, 'z'));
+        assert_eq!(biomes.table.key(3, 0), Some('z'));
+        assert!(!remove(&mut biomes, 1, 1));
+        assert!(remove(&mut biomes, 1, 0));
+        assert_eq!(biomes.table.key(3, 0), Some('a'));
+        assert_eq!(biomes.palette.len(), 1);
+    }
+
+    #[test]
+    fn a_new_biome_has_a_free_key_and_there_is_an_end() {
+        let mut biomes = biomes();
+        assert_eq!(add(&mut biomes), Some(2));
+        assert_eq!(biomes.palette[2].key, 'c');
+        while add(&mut biomes).is_some() {}
+        assert_eq!(biomes.palette.len(), MAX_BIOMES);
+    }
+
+    #[test]
+    fn resizing_keeps_the_climate_of_each_biome() {
+        let table = resized(&biomes().table, 8, 4);
+        assert_eq!(table.rows(), ["aaaaaabb", "aaaaaabb", "aaaaaaaa", "aaaaaaaa"]);
+        assert_eq!(resized(&table, 4, 2), biomes().table);
+        assert_eq!(resized(&table, 0, 999).rows().len(), Table::MAX_SIDE);
+    }
+
+    #[test]
+    fn a_cell_tells_its_climate() {
+        assert_eq!(cell_range(&biomes(), 3, 0), "moisture 0.75 to 1.00, 0.0 to 30.0 °C");
+    }
+}

@@ -1,0 +1,118 @@
+//! What is done to the list of layers as a whole. Names stay unique, and masks follow the layers they refer to.
+
+use crate::planet::param::Choice;
+use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
+
+/// Adds a layer of a kind (an index into [`Shape::NAMES`]) behind `after`; gives its place, or None when there are too many.
+pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
+    let mut shape = Shape::default();
+    shape.set_index(kind);
+    let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));
+    insert(planet, Layer { name, seed, shape, ..Layer::default() }, after)
+}
+
+/// Adds a copy behind the layer; gives its place.
+pub fn duplicate(planet: &mut Planet, index: usize) -> Option<usize> {
+    let mut layer = planet.layers.get(index)?.clone();
+    layer.name = unique_name(planet, &layer.name);
+    insert(planet, layer, Some(index))
+}
+
+/// Removes a layer, and every mask that refers to it.
+pub fn remove(planet: &mut Planet, index: usize) {
+    if index < planet.layers.len() {
+        let removed = planet.layers.remove(index);
+        for layer in &mut planet.layers {
+            layer.masks.retain(|mask| mask.layer != removed.name);
+        }
+    }
+}
+
+/// Renames a layer, and lets masks follow. A name that is empty or taken changes nothing.
+pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
+    let taken = planet.layers.iter().enumerate().any(|(i, layer)| i != index && layer.name == name);
+    let Some(layer) = planet.layers.get_mut(index) else { return false };
+    if taken || name.trim().is_empty() || layer.name == name {
+        return false;
+    }
+    let old = std::mem::replace(&mut layer.name, name.to_owned());
+    for mask in planet.layers.iter_mut().flat_map(|layer| &mut layer.masks) {
+        if mask.layer == old {
+            name.clone_into(&mut mask.layer);
+        }
+    }
+    true
+}
+
+/// Moves a layer up (`-1`) or down (`1`); gives its new place.
+pub fn shift(planet: &mut Planet, index: usize, by: isize) -> usize {
+    match index.checked_add_signed(by) {
+        Some(to) if to < planet.layers.len() && index < planet.layers.len() => {
+            let layer = planet.layers.remove(index);
+            planet.layers.insert(to, layer);
+            to
+        }
+        _ => index,
+    }
+}
+
+fn insert(planet: &mut Planet, layer: Layer, after: Option<usize>) -> Option<usize> {
+    if planet.layers.len() >= MAX_LAYERS {
+        return None;
+    }
+    let at = after.map_or(planet.layers.len(), |i| (i + 1).min(planet.layers.len()));
+    planet.layers.insert(at, layer);
+    Some(at)
+}
+
+/// The name, or the name with the first number that makes it unique.
+fn unique_name(planet: &Planet, name: &str) -> String {
+    let free = |name: &String| planet.layers.iter().all(|layer| layer.name != *name);
+    let stem: String = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end().chars().take(40).collect();
+    std::iter::once(name.to_owned()).chain((2..).map(|n| format!("{stem} {n}"))).find(free).unwrap_or(stem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::Mask;
+
+    fn planet() -> Planet {
+        let layer = |name: &str| Layer { name: name.to_owned(), ..Layer::default() };
+        let mut planet = Planet { layers: vec![layer("A"), layer("B"), layer("C")], ..Planet::default() };
+        planet.layers[2].masks.push(Mask { layer: "A".to_owned(), ..Mask::default() });
+        planet
+    }
+
+    #[test]
+    fn masks_follow_a_rename_and_go_with_their_layer() {
+        let mut planet = planet();
+        assert!(rename(&mut planet, 0, "Land"));
+        assert_eq!(planet.layers[2].masks[0].layer, "Land");
+        assert!(!rename(&mut planet, 0, "B") && !rename(&mut planet, 0, " "));
+        remove(&mut planet, 0);
+        assert!(planet.layers[1].masks.is_empty());
+    }
+
+    #[test]
+    fn names_stay_unique() {
+        let mut planet = planet();
+        assert_eq!(duplicate(&mut planet, 0), Some(1));
+        assert_eq!(duplicate(&mut planet, 1), Some(2));
+        let names: Vec<_> = planet.layers.iter().map(|layer| layer.name.as_str()).collect();
+        assert_eq!(names, ["A", "A 2", "A 3", "B", "C"]);
+        assert_eq!(add(&mut planet, 1, None, 9), Some(5));
+        assert_eq!(planet.layers[5].shape.index(), 1);
+        while add(&mut planet, 0, None, 1).is_some() {}
+        assert_eq!(planet.layers.len(), MAX_LAYERS);
+    }
+
+    #[test]
+    fn layers_move_within_the_list() {
+        let mut planet = planet();
+        assert_eq!(shift(&mut planet, 0, -1), 0);
+        assert_eq!(shift(&mut planet, 0, 1), 1);
+        assert_eq!(planet.layers[1].name, "A");
+        assert_eq!(shift(&mut planet, 2, 1), 2);
+    }
+}

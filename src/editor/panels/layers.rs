@@ -1,0 +1,138 @@
+//! The terrain tab: the list of layers, and the parameters of the selected one.
+
+use super::{Draft, layer_edit, masks};
+use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::params_grid::{Grid, params_grid};
+use crate::editor::widgets::random_seed;
+use crate::planet::layers::layer_path;
+use crate::planet::param::Choice;
+use crate::planet::{Layer, MAX_LAYERS, Shape};
+use eframe::egui::{self, AtomExt};
+
+/// Live state of the tab.
+#[derive(Default)]
+pub struct LayersState {
+    /// Index of the selected layer.
+    pub selected: usize,
+    /// A name being typed: it is taken over when the field is left, so that masks never meet half a name.
+    typed_name: Option<(usize, String)>,
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
+    state.selected = state.selected.min(draft.planet.layers.len().saturating_sub(1));
+    toolbar(ui, state, draft);
+    list(ui, state, draft);
+    ui.separator();
+    if state.selected < draft.planet.layers.len() {
+        selected(ui, state, draft);
+    } else {
+        ui.weak("There are no layers yet: the planet is a smooth ball. Add one above.");
+    }
+}
+
+fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
+    ui.horizontal(|ui| {
+        let (index, count) = (state.selected, draft.planet.layers.len());
+        ui.add_enabled_ui(count < MAX_LAYERS, |ui| {
+            ui.menu_button("Add layer", |ui| {
+                for (kind, name) in Shape::NAMES.iter().enumerate() {
+                    if ui.button(*name).clicked() {
+                        let after = (count > 0).then_some(index);
+                        let seed = random_seed() as u32;
+                        state.selected = layer_edit::add(draft.planet, kind, after, seed).unwrap_or(index);
+                        draft.name_edit("Add layer");
+                        ui.close();
+                    }
+                }
+            });
+        });
+        ui.add_enabled_ui(count > 0 && count < MAX_LAYERS, |ui| {
+            if icon_button(ui, Icon::Duplicate, "Duplicate layer", "Duplicate the selected layer").clicked() {
+                state.selected = layer_edit::duplicate(draft.planet, index).unwrap_or(index);
+                draft.name_edit("Duplicate layer");
+            }
+        });
+        ui.add_enabled_ui(count > 0, |ui| {
+            if icon_button(ui, Icon::Remove, "Remove layer", "Remove the selected layer, and the masks on it").clicked()
+            {
+                layer_edit::remove(draft.planet, index);
+                draft.name_edit("Remove layer");
+            }
+        });
+        for (icon, name, by, possible) in
+            [(Icon::Up, "Move layer up", -1, index > 0), (Icon::Down, "Move layer down", 1, index + 1 < count)]
+        {
+            ui.add_enabled_ui(possible, |ui| {
+                if icon_button(ui, icon, name, "Layers apply from first to last").clicked() {
+                    state.selected = layer_edit::shift(draft.planet, index, by);
+                    draft.name_edit(name);
+                }
+            });
+        }
+    });
+}
+
+fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
+    for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
+        ui.horizontal(|ui| {
+            ui.add(egui::Checkbox::without_text(&mut layer.enabled))
+                .on_hover_text("Whether the layer takes part; switched off it can still serve as a mask")
+                .accessible_name(format!("Enabled of {}", layer.name));
+            let kind = layer.shape.names().get(layer.shape.index()).copied().unwrap_or_default();
+            let blend = layer.blend.names().get(layer.blend.index()).copied().unwrap_or_default();
+            let details = egui::RichText::new(format!("{blend} · {kind}")).weak().small();
+            let name = egui::RichText::new(&layer.name);
+            let name = if layer.enabled { name } else { name.weak() };
+            let chosen = state.selected == index;
+            let width = ui.available_width();
+            let atoms = (egui::Atom::from(name).atom_shrink(true), egui::Atom::grow(), details);
+            let button = egui::Button::selectable(chosen, atoms);
+            let response = ui.add(button.truncate().min_size(egui::vec2(width, 20.0)));
+            if response.accessible_name(format!("Layer {}", layer.name)).clicked() {
+                state.selected = index;
+            }
+        });
+    }
+}
+
+fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
+    let index = state.selected;
+    name_field(ui, state, draft);
+    let problems = draft.problems;
+    let names: Vec<String> = draft.planet.layers.iter().map(|layer| layer.name.clone()).collect();
+    let Some(layer) = draft.planet.layers.get_mut(index) else { return };
+    let name = layer.name.clone();
+    let grid = Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems };
+    let mut default = Layer::default();
+    default.shape.set_index(layer.shape.index());
+    params_grid(ui, &grid, layer, &mut default);
+    ui.add_space(6.0);
+    if let Some(label) = masks::show(ui, index, layer, &names, problems) {
+        draft.name_edit(label);
+    }
+}
+
+fn name_field(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
+    let index = state.selected;
+    let Some(current) = draft.planet.layers.get(index).map(|layer| layer.name.clone()) else { return };
+    let mut name = match state.typed_name.take() {
+        Some((typed_for, name)) if typed_for == index => name,
+        _ => current.clone(),
+    };
+    let others = draft.planet.layers.iter().enumerate().filter(|(i, _)| *i != index);
+    let taken = others.into_iter().any(|(_, other)| other.name == name);
+    ui.horizontal(|ui| {
+        let label = ui.label("Name");
+        let edit = egui::TextEdit::singleline(&mut name).char_limit(48).desired_width(ui.available_width());
+        let response = ui.add(edit).labelled_by(label.id).accessible_name(format!("Name of {current}"));
+        if response.has_focus() {
+            state.typed_name = Some((index, name.clone()));
+        } else if response.lost_focus() && layer_edit::rename(draft.planet, index, &name) {
+            draft.name_edit("Rename layer");
+        }
+    });
+    if taken {
+        ui.colored_label(ui.visuals().error_fg_color, "Another layer has this name; masks need it to be unique.");
+    }
+}

@@ -1,0 +1,131 @@
+//! Unsaved work outlives a crash: it is written beside the layout every few seconds, and offered at the next start.
+//!
+//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`; a file whose lock nobody holds was left
+//! behind. The documents' own files are never touched.
+
+use super::document::Document;
+use crate::planet::Planet;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// Least time between two writes.
+const INTERVAL: Duration = Duration::from_secs(2);
+
+/// The recovery file of this editor.
+pub struct Recovery {
+    file: PathBuf,
+    /// Held as long as this editor runs; the system lets go when it crashes.
+    _lock: File,
+    lock_path: PathBuf,
+    written: Option<Arc<Planet>>,
+    last_write: Option<Instant>,
+    writing: Option<JoinHandle<()>>,
+}
+
+/// Work that an editor left behind.
+#[derive(Clone, Debug)]
+pub struct Orphan {
+    /// Its file.
+    pub file: PathBuf,
+    /// What was being edited.
+    pub planet: Planet,
+}
+
+impl Recovery {
+    /// Takes a file of its own in `folder`, and finds what crashed editors left there.
+    pub fn open(folder: &Path) -> io::Result<(Self, Vec<Orphan>)> {
+        fs::create_dir_all(folder)?;
+        let mut orphans = Vec::new();
+        let mut own = None;
+        // As many editors at once as anybody has; a number whose lock is held belongs to another.
+        for number in 0..64 {
+            let file = folder.join(format!("recovery-{number}.ron"));
+            if !file.exists() && own.is_some() {
+                continue;
+            }
+            let lock_path = file.with_extension("lock");
+            let lock = File::options().create(true).truncate(false).write(true).open(&lock_path)?;
+            if lock.try_lock().is_err() {
+                continue;
+            }
+            if file.exists() {
+                // One that cannot be read stays where it is: somebody may still save it by hand.
+                if let Ok(planet) = Planet::load(&file) {
+                    orphans.push(Orphan { file, planet });
+                }
+            } else {
+                own = Some((file, lock, lock_path));
+            }
+        }
+        let (file, lock, lock_path) =
+            own.ok_or_else(|| io::Error::other("too many recovery files, remove old ones"))?;
+        let recovery = Self { file, _lock: lock, lock_path, written: None, last_write: None, writing: None };
+        Ok((recovery, orphans))
+    }
+
+    /// Writes unsaved work if it is time, on another thread; removes the file when there is none. Gives when to call again.
+    pub fn tick(&mut self, document: &Document) -> Option<Duration> {
+        if self.writing.as_ref().is_some_and(|thread| !thread.is_finished()) {
+            return Some(INTERVAL / 10);
+        }
+        self.writing = None;
+        if !document.is_dirty() {
+            self.forget();
+            return None;
+        }
+        let planet = document.valid_planet();
+        if self.written.as_ref().is_some_and(|written| Arc::ptr_eq(written, planet)) {
+            return None;
+        }
+        let wait = self.last_write.and_then(|last| INTERVAL.checked_sub(last.elapsed()));
+        if wait.is_some() {
+            return wait;
+        }
+        self.last_write = Some(Instant::now());
+        self.written = Some(planet.clone());
+        let (planet, file) = (planet.clone(), self.file.clone());
+        self.writing = Some(std::thread::spawn(move || {
+            if let Err(error) = planet.save(&file) {
+                log::warn!("unsaved work could not be kept for recovery: {error}");
+            }
+        }));
+        None
+    }
+
+    /// Makes what was left behind this editor's own.
+    pub fn adopt(&self, orphan: &Path) {
+        if let Err(error) = fs::rename(orphan, &self.file) {
+            log::warn!("{}: {error}", orphan.display());
+        }
+    }
+
+    /// Removes the file: there is nothing to recover.
+    pub fn forget(&mut self) {
+        if let Some(thread) = self.writing.take() {
+            // A panic in the thread leaves at most a file too many.
+            let _ = thread.join();
+        }
+        if self.written.take().is_some() {
+            remove(&self.file);
+        }
+    }
+
+    /// The editor ends as it should.
+    pub fn close(&mut self) {
+        self.forget();
+        remove(&self.lock_path);
+    }
+}
+
+/// Removes a recovery file that is no longer needed.
+pub fn remove(file: &Path) {
+    if let Err(error) = fs::remove_file(file)
+        && error.kind() != io::ErrorKind::NotFound
+    {
+        log::warn!("{}: {error}", file.display());
+    }
+}

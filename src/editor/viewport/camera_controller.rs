@@ -1,0 +1,447 @@
+//! Where one looks from, and how the pointer and the keys move it. Pure mathematics in the planet frame; no egui.
+//!
+//! The eye stands over a place at a distance from the planet's centre. Its pitch follows the height above the ground
+//! (straight down from space, towards the horizon below some kilometres) until somebody tilts the view by hand.
+//! Angles are radians, lengths metres.
+
+use crate::lod::Camera;
+use crate::sphere::{LatLon, geo};
+use glam::{DQuat, DVec3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Nearest one comes to the ground or the sea.
+pub const MIN_ALTITUDE_M: f64 = 2.0;
+/// Farthest one goes, in planet radii from the centre.
+const MAX_RADII: f64 = 20.0;
+/// Where one starts, in planet radii from the centre.
+const START_RADII: f64 = 3.2;
+/// Duration of a flight.
+const FLIGHT_SECS: f64 = 1.2;
+/// How far the view can be tilted up from the horizon.
+const MAX_PITCH_RAD: f64 = 0.9;
+/// Pitch on the ground.
+const GROUND_PITCH_RAD: f64 = -0.12;
+/// Latitude up to which dragging keeps the heading; nearer to the poles it turns with the globe.
+const KEEP_HEADING_LAT_RAD: f64 = 75.0 * PI / 180.0;
+
+/// The ground as the camera needs to know it.
+pub trait Ground {
+    /// Radius of the reference sphere.
+    fn radius_m(&self) -> f64;
+    /// Distance from the centre to the ground or the sea, whichever is higher.
+    fn surface_radius_m(&self, dir_planet: DVec3) -> f64;
+    /// Distance along a ray to the ground or the sea.
+    fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64>;
+}
+
+/// A flight under way.
+#[derive(Clone, Copy, Debug)]
+struct Flight {
+    from: DVec3,
+    to: DVec3,
+    from_altitude_m: f64,
+    to_altitude_m: f64,
+    elapsed_secs: f64,
+}
+
+/// The ground held by the pointer: its direction, and how far from the centre it is.
+#[derive(Clone, Copy, Debug)]
+struct Grab {
+    dir: DVec3,
+    radius_m: f64,
+    keep_heading: bool,
+}
+
+/// The camera and its state of motion.
+#[derive(Clone, Debug)]
+pub struct CameraController {
+    place: LatLon,
+    /// From the planet's centre.
+    radius_m: f64,
+    heading_rad: f64,
+    /// Chosen by hand, or None: follows the altitude.
+    pitch_rad: Option<f64>,
+    grab: Option<Grab>,
+    flight: Option<Flight>,
+    fov_y_rad: f64,
+}
+
+impl CameraController {
+    /// Looks at a whole planet from over the given place.
+    pub fn new(planet_radius_m: f64, over: LatLon) -> Self {
+        Self {
+            place: over,
+            radius_m: planet_radius_m * START_RADII,
+            heading_rad: 0.0,
+            pitch_rad: None,
+            grab: None,
+            flight: None,
+            fov_y_rad: Camera::DEFAULT_FOV_Y_RAD,
+        }
+    }
+
+    /// The place under the eye.
+    pub fn place(&self) -> LatLon {
+        self.place
+    }
+
+    /// Height of the eye above the ground or the sea.
+    pub fn altitude_m(&self, ground: &dyn Ground) -> f64 {
+        self.radius_m - ground.surface_radius_m(self.place.direction())
+    }
+
+    /// Keeps the view of a planet whose radius has changed.
+    pub fn rescale(&mut self, from_radius_m: f64, to_radius_m: f64) {
+        self.radius_m *= to_radius_m / from_radius_m;
+        self.flight = None;
+    }
+
+    /// The camera to draw with.
+    pub fn camera(&self, ground: &dyn Ground) -> Camera {
+        let pitch = self.pitch(ground);
+        Camera::over(self.place, self.radius_m, self.heading_rad, pitch, self.fov_y_rad)
+    }
+
+    /// Angle above the horizon at which one looks.
+    pub fn pitch(&self, ground: &dyn Ground) -> f64 {
+        let radius_m = ground.radius_m();
+        let altitude_m = self.altitude_m(ground).max(MIN_ALTITUDE_M);
+        let auto = auto_pitch(altitude_m, radius_m);
+        match self.pitch_rad {
+            // In far space the planet must not leave the picture.
+            Some(pitch) => lerp(pitch, -FRAC_PI_2, smoothstep(2.0 * radius_m, 8.0 * radius_m, altitude_m)),
+            None => auto,
+        }
+    }
+
+    /// Keeps the eye above the ground and within reach. Call it whenever the ground may have changed.
+    pub fn keep_above(&mut self, ground: &dyn Ground) {
+        let lowest_m = ground.surface_radius_m(self.place.direction()) + MIN_ALTITUDE_M;
+        let highest_m = (ground.radius_m() * MAX_RADII).max(lowest_m);
+        self.radius_m = if self.radius_m.is_finite() { self.radius_m.clamp(lowest_m, highest_m) } else { highest_m };
+    }
+
+    /// Takes hold of the ground under the pointer (`x`, `y` from -1 to 1, right and up).
+    pub fn grab(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
+        self.flight = None;
+        let camera = self.camera(ground);
+        let (dir, radius_m) = self.point_under(&camera, x, y, aspect, ground, None);
+        let keep_heading = self.place.lat_rad.abs() < KEEP_HEADING_LAT_RAD;
+        self.grab = Some(Grab { dir, radius_m, keep_heading });
+    }
+
+    /// Turns the planet so that the ground held stays under the pointer.
+    pub fn drag(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
+        if let Some(grab) = self.grab {
+            self.bring_under(grab, x, y, aspect, ground);
+            self.keep_above(ground);
+        }
+    }
+
+    /// Lets go.
+    pub fn release(&mut self) {
+        self.grab = None;
+    }
+
+    /// Goes nearer (`steps` > 0) or farther; a step is a factor of e in altitude. Keeps what is under the pointer there.
+    pub fn zoom(&mut self, steps: f64, pointer: Option<(f64, f64)>, aspect: f64, ground: &dyn Ground) {
+        self.flight = None;
+        let camera = self.camera(ground);
+        let anchor = pointer.and_then(|(x, y)| {
+            let dir = camera.ray_dir_planet(x, y, aspect);
+            let distance_m = ground.raycast(camera.position_planet_m, dir)?;
+            let hit = camera.position_planet_m + dir * distance_m;
+            // A point at the horizon would fling the view far away.
+            (distance_m < 8.0 * self.altitude_m(ground).max(MIN_ALTITUDE_M)).then_some((hit, x, y))
+        });
+        let surface_m = ground.surface_radius_m(self.place.direction());
+        let altitude_m = (self.radius_m - surface_m).max(MIN_ALTITUDE_M);
+        self.radius_m = surface_m + altitude_m * libm::exp(-steps);
+        self.keep_above(ground);
+        if let Some((hit, x, y)) = anchor {
+            let keep_heading = self.place.lat_rad.abs() < KEEP_HEADING_LAT_RAD;
+            let grab = Grab { dir: hit.normalize(), radius_m: hit.length(), keep_heading };
+            self.bring_under(grab, x, y, aspect, ground);
+            self.keep_above(ground);
+        }
+    }
+
+    /// Turns the head: `right_rad` to the right, `up_rad` up.
+    pub fn tilt(&mut self, right_rad: f64, up_rad: f64, ground: &dyn Ground) {
+        self.flight = None;
+        self.heading_rad = (self.heading_rad + right_rad).rem_euclid(2.0 * PI);
+        if up_rad != 0.0 {
+            self.pitch_rad = Some((self.pitch(ground) + up_rad).clamp(-FRAC_PI_2, MAX_PITCH_RAD));
+        }
+    }
+
+    /// Moves over the ground, in shares of the altitude: `right` and `ahead`, as seen.
+    pub fn travel(&mut self, right: f64, ahead: f64, ground: &dyn Ground) {
+        self.flight = None;
+        let altitude_m = self.altitude_m(ground).max(MIN_ALTITUDE_M);
+        let up = self.place.direction();
+        let (east, north) = geo::east_north(up);
+        let (sin_h, cos_h) = libm::sincos(self.heading_rad);
+        let ahead_dir = north * cos_h + east * sin_h;
+        let right_dir = east * cos_h - north * sin_h;
+        let step = (right_dir * right + ahead_dir * ahead) * (altitude_m / self.radius_m).min(0.6);
+        let length = step.length();
+        if length > 0.0 {
+            let turned = DQuat::from_axis_angle(up.cross(step / length), length);
+            self.turn(turned, false);
+            self.keep_above(ground);
+        }
+    }
+
+    /// Starts a flight to the place under the pointer, to a quarter of the altitude.
+    pub fn fly_to(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
+        let camera = self.camera(ground);
+        let dir = camera.ray_dir_planet(x, y, aspect);
+        if let Some(distance_m) = ground.raycast(camera.position_planet_m, dir) {
+            let to = (camera.position_planet_m + dir * distance_m).normalize();
+            let altitude_m = self.altitude_m(ground).max(MIN_ALTITUDE_M);
+            self.grab = None;
+            self.flight = Some(Flight {
+                from: self.place.direction(),
+                to,
+                from_altitude_m: altitude_m,
+                to_altitude_m: (altitude_m * 0.25).max(MIN_ALTITUDE_M),
+                elapsed_secs: 0.0,
+            });
+        }
+    }
+
+    /// Whether a flight is under way, so that another frame is due.
+    pub fn is_flying(&self) -> bool {
+        self.flight.is_some()
+    }
+
+    /// Goes on with a flight.
+    pub fn advance(&mut self, duration_secs: f64, ground: &dyn Ground) {
+        if let Some(mut flight) = self.flight {
+            flight.elapsed_secs += duration_secs;
+            let t = smoothstep(0.0, FLIGHT_SECS, flight.elapsed_secs);
+            let arc = DQuat::from_rotation_arc(flight.from, flight.to);
+            let dir = DQuat::IDENTITY.slerp(arc, t) * flight.from;
+            self.place = LatLon::from_direction(dir);
+            let altitude_m = flight.from_altitude_m * libm::pow(flight.to_altitude_m / flight.from_altitude_m, t);
+            self.radius_m = ground.surface_radius_m(dir) + altitude_m;
+            self.flight = (flight.elapsed_secs < FLIGHT_SECS).then_some(flight);
+            self.keep_above(ground);
+        }
+    }
+
+    /// The direction of the ground under the pointer; off the globe, of the point of the globe nearest to the ray.
+    fn point_under(
+        &self,
+        camera: &Camera,
+        x: f64,
+        y: f64,
+        aspect: f64,
+        ground: &dyn Ground,
+        sphere_m: Option<f64>,
+    ) -> (DVec3, f64) {
+        let ray = camera.ray_dir_planet(x, y, aspect);
+        let eye = camera.position_planet_m;
+        if sphere_m.is_none()
+            && let Some(distance_m) = ground.raycast(eye, ray)
+        {
+            let hit = eye + ray * distance_m;
+            return (hit.normalize(), hit.length());
+        }
+        let radius_m = sphere_m.unwrap_or_else(|| ground.radius_m()).min(eye.length() - 0.5 * MIN_ALTITUDE_M);
+        (sphere_point(eye, ray, radius_m), radius_m)
+    }
+
+    /// Moves the eye so that a point of the globe comes under the pointer.
+    fn bring_under(&mut self, grab: Grab, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
+        // Pitch is held: it must not change under the pointer because the ground below rises or falls.
+        let pitch = self.pitch(ground);
+        // With the heading held the turn is found by repetition; it converges fast away from the poles.
+        let rounds = if grab.keep_heading { 12 } else { 1 };
+        let limit_rad = (20.0 * self.altitude_m(ground).max(MIN_ALTITUDE_M) / self.radius_m).min(0.5);
+        for _ in 0..rounds {
+            let camera = Camera::over(self.place, self.radius_m, self.heading_rad, pitch, self.fov_y_rad);
+            let (under, _) = self.point_under(&camera, x, y, aspect, ground, Some(grab.radius_m));
+            let arc = DQuat::from_rotation_arc(under, grab.dir);
+            let (axis, angle) = arc.to_axis_angle();
+            if angle.abs() < 1e-14 {
+                break;
+            }
+            self.turn(DQuat::from_axis_angle(axis, angle.min(limit_rad)), grab.keep_heading);
+        }
+    }
+
+    /// Turns the eye about the planet's centre.
+    fn turn(&mut self, rotation: DQuat, keep_heading: bool) {
+        let up = self.place.direction();
+        let (east, north) = geo::east_north(up);
+        let (sin_h, cos_h) = libm::sincos(self.heading_rad);
+        let ahead = rotation * (north * cos_h + east * sin_h);
+        let dir = (rotation * up).normalize();
+        self.place = LatLon::from_direction(dir);
+        if keep_heading {
+            self.place.lat_rad = self.place.lat_rad.clamp(-1.55, 1.55);
+        } else {
+            let (east, north) = geo::east_north(dir);
+            self.heading_rad = libm::atan2(ahead.dot(east), ahead.dot(north)).rem_euclid(2.0 * PI);
+        }
+    }
+}
+
+/// Where the star stands after a drag by `right` and `up` (shares of the picture's height), as seen by the camera: light
+/// and shadow follow the pointer.
+pub fn turn_sun(sun_dir_planet: DVec3, camera: &Camera, right: f64, up: f64) -> LatLon {
+    let view_right = camera.planet_from_view * DVec3::X;
+    let view_up = camera.planet_from_view * DVec3::Y;
+    let turn = DQuat::from_axis_angle(view_up, right * PI) * DQuat::from_axis_angle(view_right, -up * PI);
+    LatLon::from_direction(turn * sun_dir_planet)
+}
+
+/// Straight down from space, towards the horizon near the ground; the two heights scale with the planet.
+fn auto_pitch(altitude_m: f64, planet_radius_m: f64) -> f64 {
+    let scale = planet_radius_m / 6_371_000.0;
+    let (low_m, high_m) = (5_000.0 * scale, 400_000.0 * scale);
+    let share = smoothstep(libm::log(low_m), libm::log(high_m), libm::log(altitude_m));
+    lerp(GROUND_PITCH_RAD, -FRAC_PI_2, share)
+}
+
+/// Where a ray first meets a sphere about the origin; when it misses, the sphere's point nearest to it. As a direction.
+fn sphere_point(eye: DVec3, ray: DVec3, radius_m: f64) -> DVec3 {
+    let along = -eye.dot(ray);
+    let nearest = eye + ray * along.max(0.0);
+    let half_chord_sq = radius_m * radius_m - (eye + ray * along).length_squared();
+    if along > 0.0 && half_chord_sq > 0.0 {
+        (eye + ray * (along - half_chord_sq.sqrt())).normalize()
+    } else {
+        nearest.try_normalize().unwrap_or(DVec3::X)
+    }
+}
+
+fn lerp(a: f64, b: f64, t: f64) -> f64 {
+    a + (b - a) * t
+}
+
+fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Ball(f64);
+
+    impl Ground for Ball {
+        fn radius_m(&self) -> f64 {
+            self.0
+        }
+        fn surface_radius_m(&self, _dir: DVec3) -> f64 {
+            self.0
+        }
+        fn raycast(&self, origin: DVec3, dir: DVec3) -> Option<f64> {
+            let along = -origin.dot(dir);
+            let half_chord_sq = self.0 * self.0 - (origin + dir * along).length_squared();
+            (along > 0.0 && half_chord_sq >= 0.0).then(|| along - half_chord_sq.sqrt())
+        }
+    }
+
+    const EARTH: Ball = Ball(6_371_000.0);
+
+    fn under(controller: &CameraController, x: f64, y: f64) -> DVec3 {
+        let camera = controller.camera(&EARTH);
+        let ray = camera.ray_dir_planet(x, y, 1.5);
+        let distance = EARTH.raycast(camera.position_planet_m, ray).unwrap_or(f64::NAN);
+        (camera.position_planet_m + ray * distance).normalize()
+    }
+
+    #[test]
+    fn grabbed_ground_stays_under_the_pointer() {
+        for (lat, steps) in [(0.0, 0.0), (40.0, 2.0), (-60.0, 4.0), (80.0, 1.0), (88.0, 3.0), (20.0, 9.0)] {
+            let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(lat, 30.0));
+            controller.zoom(steps, None, 1.5, &EARTH);
+            controller.grab(0.1, -0.2, 1.5, &EARTH);
+            let held = under(&controller, 0.1, -0.2);
+            for (x, y) in [(0.12, -0.22), (0.2, -0.1), (0.15, -0.25)] {
+                controller.drag(x, y, 1.5, &EARTH);
+            }
+            let camera = controller.camera(&EARTH);
+            let miss = (under(&controller, 0.15, -0.25) - held).length() * EARTH.0;
+            let distance = (camera.position_planet_m - held * EARTH.0).length();
+            assert!(miss < 1e-3 * distance, "latitude {lat}, zoom {steps}: {miss} m off at {distance} m");
+        }
+    }
+
+    #[test]
+    fn zoom_is_exponential_and_stays_in_bounds() {
+        let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(10.0, 20.0));
+        let before = controller.altitude_m(&EARTH);
+        controller.zoom(1.0, None, 1.5, &EARTH);
+        assert!((controller.altitude_m(&EARTH) * std::f64::consts::E / before - 1.0).abs() < 1e-9);
+        controller.zoom(100.0, None, 1.5, &EARTH);
+        assert!((controller.altitude_m(&EARTH) - MIN_ALTITUDE_M).abs() < 1e-6);
+        controller.zoom(-100.0, None, 1.5, &EARTH);
+        assert!((controller.altitude_m(&EARTH) + EARTH.0 - MAX_RADII * EARTH.0).abs() < 1.0);
+    }
+
+    #[test]
+    fn zoom_keeps_what_is_under_the_pointer() {
+        let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(10.0, 20.0));
+        let held = under(&controller, 0.2, 0.15);
+        for _ in 0..20 {
+            controller.zoom(0.1, Some((0.2, 0.15)), 1.5, &EARTH);
+        }
+        let miss = (under(&controller, 0.2, 0.15) - held).length() * EARTH.0;
+        assert!(miss < 1e-3 * controller.altitude_m(&EARTH), "{miss} m off");
+    }
+
+    #[test]
+    fn the_eye_never_goes_under_rising_ground() {
+        let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(0.0, 0.0));
+        controller.zoom(100.0, None, 1.5, &EARTH);
+        let risen = Ball(EARTH.0 + 8_000.0);
+        controller.keep_above(&risen);
+        assert!(controller.altitude_m(&risen) >= MIN_ALTITUDE_M - 1e-6);
+    }
+
+    #[test]
+    fn pitch_follows_the_altitude_until_tilted() {
+        let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(0.0, 0.0));
+        assert_eq!(controller.pitch(&EARTH), -FRAC_PI_2);
+        controller.zoom(100.0, None, 1.5, &EARTH);
+        assert_eq!(controller.pitch(&EARTH), GROUND_PITCH_RAD);
+        controller.tilt(0.0, 0.3, &EARTH);
+        assert!((controller.pitch(&EARTH) - (GROUND_PITCH_RAD + 0.3)).abs() < 1e-12);
+        controller.tilt(0.0, 10.0, &EARTH);
+        assert_eq!(controller.pitch(&EARTH), MAX_PITCH_RAD);
+        controller.zoom(-100.0, None, 1.5, &EARTH);
+        assert_eq!(controller.pitch(&EARTH), -FRAC_PI_2, "from far space the planet is always in the picture");
+    }
+
+    #[test]
+    fn a_flight_arrives() {
+        let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(0.0, 0.0));
+        let goal = under(&controller, 0.2, 0.2);
+        let altitude = controller.altitude_m(&EARTH);
+        controller.fly_to(0.2, 0.2, 1.5, &EARTH);
+        for _ in 0..200 {
+            controller.advance(0.01, &EARTH);
+        }
+        assert!(!controller.is_flying());
+        assert!((controller.place().direction() - goal).length() < 1e-9);
+        assert!((controller.altitude_m(&EARTH) / altitude - 0.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn travel_goes_ahead_and_light_follows_the_pointer() {
+        let mut controller = CameraController::new(EARTH.0, LatLon::from_degrees(0.0, 0.0));
+        controller.travel(0.0, 0.1, &EARTH);
+        assert!(controller.place().lat_rad > 0.0 && controller.place().lon_rad.abs() < 1e-9);
+        let camera = CameraController::new(EARTH.0, LatLon::from_degrees(0.0, 0.0)).camera(&EARTH);
+        let east = turn_sun(DVec3::X, &camera, 0.1, 0.0);
+        assert!((east.lon_rad - 0.1 * PI).abs() < 1e-9 && east.lat_rad.abs() < 1e-9);
+        let north = turn_sun(DVec3::X, &camera, 0.0, 0.1);
+        assert!((north.lat_rad - 0.1 * PI).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,125 @@
+//! How long things take, measured truthfully: from an edit to its picture, and from frame to frame.
+
+use crate::build::Surface;
+use crate::planet::param::Stage;
+use crate::planet::{Planet, diff};
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// Edits whose pictures may be outstanding at once; older ones are given up.
+const MAX_PENDING: usize = 64;
+
+struct Edit {
+    planet: Arc<Planet>,
+    at: Instant,
+}
+
+/// Measures from the start of the frame in which an edit was made until the GPU has finished the first frame that shows the
+/// complete surface of that edit.
+#[derive(Default)]
+pub struct EditClock {
+    pending: VecDeque<Edit>,
+    /// Drawn in this frame, not yet presented.
+    drawn: Option<Instant>,
+    finished: Option<Receiver<Duration>>,
+    last: Option<Duration>,
+}
+
+impl EditClock {
+    /// An edit made in the frame that began at `frame_start` leads to `planet`.
+    pub fn edited(&mut self, planet: &Arc<Planet>, frame_start: Instant) {
+        if self.pending.back().is_some_and(|edit| Arc::ptr_eq(&edit.planet, planet)) {
+            return;
+        }
+        self.pending.push_back(Edit { planet: planet.clone(), at: frame_start });
+        if self.pending.len() > MAX_PENDING {
+            self.pending.pop_front();
+        }
+    }
+
+    /// A frame has been drawn.
+    pub fn drawn(&mut self, surface: &Surface, planet: &Arc<Planet>) {
+        if !surface.complete {
+            return;
+        }
+        let shown = self.pending.iter().rposition(|edit| {
+            Arc::ptr_eq(surface.terrain.planet(), &edit.planet)
+                || (Arc::ptr_eq(planet, &edit.planet) && same_tiles(surface.terrain.planet(), planet))
+        });
+        if let Some(index) = shown {
+            self.drawn = Some(self.pending[index].at);
+            self.pending.drain(..=index);
+        }
+    }
+
+    /// A new frame begins, so the one before has been handed to the screen: waits on another thread until the GPU is done
+    /// with it, then calls `wake`.
+    pub fn frame_began(&mut self, device: &wgpu::Device, wake: impl FnOnce() + Send + 'static) {
+        if let Some(receiver) = &self.finished {
+            match receiver.try_recv() {
+                Ok(duration) => {
+                    self.last = Some(duration);
+                    self.finished = None;
+                }
+                Err(std::sync::mpsc::TryRecvError::Empty) => return,
+                Err(std::sync::mpsc::TryRecvError::Disconnected) => self.finished = None,
+            }
+        }
+        if let Some(edited_at) = self.drawn.take() {
+            let (sender, receiver) = channel();
+            self.finished = Some(receiver);
+            let device = device.clone();
+            std::thread::spawn(move || {
+                if device.poll(wgpu::PollType::wait_indefinitely()).is_ok() {
+                    // The receiver is gone when the editor closed meanwhile.
+                    let _ = sender.send(edited_at.elapsed());
+                }
+                wake();
+            });
+        }
+    }
+
+    /// Whether a picture was drawn whose presentation is to be measured, so that another frame is due.
+    pub fn wants_frame(&self) -> bool {
+        self.drawn.is_some()
+    }
+
+    /// The newest measurement.
+    pub fn last(&self) -> Option<Duration> {
+        self.last
+    }
+}
+
+fn same_tiles(before: &Planet, after: &Planet) -> bool {
+    !diff::first_stale_stage(before, after).is_some_and(Stage::touches_tiles)
+}
+
+/// The time from frame to frame while frames follow each other.
+#[derive(Default)]
+pub struct FrameMeter {
+    last: Option<Instant>,
+    interval_secs: Option<f64>,
+}
+
+impl FrameMeter {
+    /// Frames farther apart than this are not a movement.
+    const IDLE_SECS: f64 = 0.4;
+
+    /// A frame has been drawn.
+    pub fn drawn(&mut self) {
+        let now = Instant::now();
+        let interval_secs = self.last.map(|last| (now - last).as_secs_f64());
+        self.interval_secs = match (interval_secs.filter(|secs| *secs < Self::IDLE_SECS), self.interval_secs) {
+            (Some(new), Some(old)) => Some(old + (new - old) * 0.2),
+            (new, _) => new,
+        };
+        self.last = Some(now);
+    }
+
+    /// Seconds from frame to frame, while something moves.
+    pub fn interval_secs(&self) -> Option<f64> {
+        self.interval_secs.filter(|_| self.last.is_some_and(|last| last.elapsed().as_secs_f64() < Self::IDLE_SECS))
+    }
+}

@@ -1,0 +1,50 @@
+//! The ground under the camera: the evaluator of the surface on screen, or a bare ball until there is one.
+
+use super::camera_controller::Ground;
+use crate::planet::Planet;
+use crate::terrain::Terrain;
+use glam::DVec3;
+
+/// The ground of a planet, with its terrain as soon as there is one.
+pub struct PlanetGround<'a> {
+    planet: &'a Planet,
+    terrain: Option<&'a Terrain>,
+}
+
+impl<'a> PlanetGround<'a> {
+    /// The terrain's own planet wins over `planet`, which may be newer than what is on screen.
+    pub fn new(planet: &'a Planet, terrain: Option<&'a Terrain>) -> Self {
+        Self { planet: terrain.map_or(planet, |terrain| terrain.planet()), terrain }
+    }
+
+    fn sea_or_zero_m(&self) -> f64 {
+        self.planet.sea_level_m().unwrap_or(0.0)
+    }
+}
+
+impl Ground for PlanetGround<'_> {
+    fn radius_m(&self) -> f64 {
+        self.planet.radius_m()
+    }
+
+    fn surface_radius_m(&self, dir_planet: DVec3) -> f64 {
+        let height_m = match self.terrain {
+            Some(terrain) => {
+                let ground_m = terrain.height_m(dir_planet);
+                self.planet.sea_level_m().map_or(ground_m, |sea_m| ground_m.max(sea_m))
+            }
+            None => self.sea_or_zero_m(),
+        };
+        self.planet.radius_m() + height_m
+    }
+
+    fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64> {
+        if let Some(terrain) = self.terrain {
+            return terrain.raycast(origin_planet_m, dir_planet);
+        }
+        let radius_m = self.planet.radius_m() + self.sea_or_zero_m();
+        let along = -origin_planet_m.dot(dir_planet);
+        let half_chord_sq = radius_m * radius_m - (origin_planet_m + dir_planet * along).length_squared();
+        (along > 0.0 && half_chord_sq >= 0.0).then(|| along - half_chord_sq.sqrt())
+    }
+}

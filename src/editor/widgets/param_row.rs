@@ -1,0 +1,263 @@
+//! One parameter as a row: label, the control its domain asks for, and a reset button when it differs from the default.
+//!
+//! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of Continents";
+//! the number beside a slider is called "Amplitude of Continents as a number".
+
+use super::icon::{Icon, icon_button};
+use super::number::{format_digits, parse_number, suffix};
+use super::random_seed;
+use crate::planet::param::{Choice, Domain, Param, ParamPath, Value, ValueMut};
+use eframe::egui;
+
+/// What a row has to know beside the parameter.
+pub struct Row<'a> {
+    /// What the parameter is.
+    pub param: &'static Param,
+    /// Where it stands in the file.
+    pub path: &'a ParamPath,
+    /// Whose it is: "Continents", "climate".
+    pub owner: &'a str,
+    /// Its default, if it has one.
+    pub default: Option<&'a Value>,
+    /// What is wrong with its value.
+    pub problem: Option<&'a str>,
+}
+
+const RESET_WIDTH: f32 = 20.0;
+const NUMBER_WIDTH: f32 = 86.0;
+/// Significant digits shown in a number field, and in each of three beside each other.
+const NUMBER_DIGITS: i32 = 5;
+const TRIPLE_DIGITS: i32 = 4;
+
+/// Shows the row; whether the value was changed.
+pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> bool {
+    let before = value.get();
+    ui.push_id(row.path.to_string(), |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            let total = ui.available_width();
+            let label_width = (total * 0.34).clamp(84.0, 150.0);
+            label(ui, row, &mut value, label_width);
+            let control_width = (total - label_width - RESET_WIDTH - 14.0).max(60.0);
+            ui.allocate_ui_with_layout(
+                egui::vec2(control_width, ui.spacing().interact_size.y),
+                egui::Layout::left_to_right(egui::Align::Center),
+                |ui| {
+                    ui.set_min_width(control_width);
+                    control(ui, row, &mut value);
+                },
+            );
+            if let Some(default) = row.default
+                && value.get() != *default
+            {
+                let tooltip = format!("Back to {}", value_text(row.param, default, &value));
+                if icon_button(ui, Icon::Reset, &format!("Reset {}", name(row)), &tooltip).clicked() {
+                    value.set(default);
+                }
+            }
+        });
+        if let Some(problem) = row.problem {
+            ui.colored_label(ui.visuals().error_fg_color, problem);
+        }
+    });
+    value.get() != before
+}
+
+fn name(row: &Row<'_>) -> String {
+    format!("{} of {}", row.param.label, row.owner)
+}
+
+/// The parameter's name; its tooltip explains it and its context menu copies and resets.
+fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32) {
+    let color = if row.problem.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+    let text = egui::RichText::new(row.param.label).color(color);
+    let height = ui.spacing().interact_size.y;
+    let response = ui
+        .allocate_ui_with_layout(egui::vec2(width, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.set_min_width(width);
+            ui.add(egui::Label::new(text).truncate().sense(egui::Sense::click()))
+        })
+        .inner;
+    let response = response.on_hover_ui(|ui| tooltip(ui, row, value));
+    response.context_menu(|ui| {
+        if ui.button("Copy value").clicked() {
+            ui.ctx().copy_text(value_text(row.param, &value.get(), value));
+            ui.close();
+        }
+        if ui.button("Copy path").clicked() {
+            ui.ctx().copy_text(row.path.to_string());
+            ui.close();
+        }
+        if let Some(default) = row.default
+            && ui.button("Reset").clicked()
+        {
+            value.set(default);
+            ui.close();
+        }
+    });
+}
+
+fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
+    ui.set_max_width(320.0);
+    ui.label(row.param.doc);
+    let range = row.param.range_text();
+    if !range.is_empty() {
+        ui.weak(format!("Range: {range}"));
+    }
+    if let Some(default) = row.default {
+        ui.weak(format!("Default: {}", value_text(row.param, default, value)));
+    }
+    ui.weak(egui::RichText::new(row.path.to_string()).monospace());
+}
+
+fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
+    let unit = suffix(param.unit);
+    match value {
+        Value::Number(v) => format!("{v}{unit}"),
+        Value::Count(v) => format!("{v}{unit}"),
+        Value::Flag(v) => if *v { "on" } else { "off" }.to_owned(),
+        Value::Triple([r, g, b]) => format!("({r}, {g}, {b}){unit}"),
+        Value::Text(v) => v.clone(),
+        Value::Letter(v) => v.to_string(),
+        Value::Choice(index) => match place {
+            ValueMut::Choice(choice) => choice.names().get(*index).copied().unwrap_or_default().to_owned(),
+            _ => index.to_string(),
+        },
+    }
+}
+
+fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
+    let name = name(row);
+    match (row.param.domain, value) {
+        (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
+            let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
+            // A range that begins at zero needs a smallest step; a millionth of the range is finer than anyone can see.
+            add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-6));
+            number_field(ui, &name, row.param, v, min, max, logarithmic);
+        }
+        (Domain::Count { min, max }, ValueMut::Count(v)) => {
+            add_slider(ui, &name, egui::Slider::new(&mut **v, min..=max));
+            let number = egui::DragValue::new(&mut **v)
+                .range(min..=max)
+                .clamp_existing_to_range(false)
+                .speed(0.1)
+                .update_while_editing(false);
+            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
+                .accessible_name(format!("{name} as a number"));
+        }
+        (Domain::Seed, ValueMut::Count(v)) => {
+            ui.add(egui::DragValue::new(&mut **v).speed(1.0).update_while_editing(false)).accessible_name(&name);
+            if icon_button(ui, Icon::Dice, &format!("Random {name}"), "A random seed").clicked() {
+                **v = random_seed() as u32;
+            }
+        }
+        (Domain::Color, ValueMut::Triple(v)) => color_button(ui, &name, v),
+        (Domain::Triple { max }, ValueMut::Triple(v)) => triple(ui, &name, row.param, v, max),
+        (_, ValueMut::Flag(v)) => {
+            ui.add(egui::Checkbox::without_text(v)).accessible_name(&name);
+        }
+        (_, ValueMut::Choice(choice)) => choice_box(ui, &name, *choice),
+        (Domain::Letter, ValueMut::Letter(letter)) => {
+            let mut text = letter.to_string();
+            let edit = egui::TextEdit::singleline(&mut text).desired_width(24.0);
+            if ui.add(edit).accessible_name(&name).changed()
+                && let Some(typed) = text.chars().find(|c| c != *letter).or_else(|| text.chars().next())
+            {
+                **letter = typed;
+            }
+        }
+        (domain, ValueMut::Text(text)) => {
+            let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
+            let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
+            ui.add(edit).accessible_name(&name);
+        }
+        _ => {
+            ui.weak("cannot be edited here");
+        }
+    }
+}
+
+/// A slider that leaves room for the number beside it.
+fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) {
+    ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH - 8.0).max(32.0);
+    ui.add(slider.show_value(false).clamping(egui::SliderClamping::Edits)).accessible_name(name);
+}
+
+fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, min: f64, max: f64, logarithmic: bool) {
+    let speed = if logarithmic { (value.abs() * 0.01).max(max.abs() * 1e-7) } else { (max - min) * 0.002 };
+    let unit = param.unit;
+    let number = egui::DragValue::from_get_set(get_set(value, NUMBER_DIGITS))
+        .range(min..=max)
+        .clamp_existing_to_range(false)
+        .speed(speed)
+        .max_decimals(9)
+        .suffix(suffix(unit))
+        .custom_formatter(|v, _| format_digits(v, NUMBER_DIGITS))
+        .custom_parser(move |text| parse_number(text, unit))
+        .update_while_editing(false);
+    ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number).accessible_name(format!("{name} as a number"));
+}
+
+/// Reads and writes a number. Writing what would look the same is no edit: a field that was only visited must not round a
+/// loaded value to the digits it shows.
+fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ {
+    move |new| {
+        if let Some(new) = new
+            && new.is_finite()
+            && format_digits(new, digits) != format_digits(*value, digits)
+        {
+            *value = new;
+        }
+        *value
+    }
+}
+
+fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], max: f64) {
+    let unit = param.unit;
+    let width = ((ui.available_width() - 12.0) / 3.0).max(36.0);
+    let height = ui.spacing().interact_size.y;
+    ui.spacing_mut().item_spacing.x = 4.0;
+    for (component, channel) in value.iter_mut().zip(["R", "G", "B"]) {
+        let speed = (component.abs() * 0.01).max(max * 1e-6);
+        let number = egui::DragValue::from_get_set(get_set(component, TRIPLE_DIGITS))
+            .range(0.0..=max)
+            .clamp_existing_to_range(false)
+            .speed(speed)
+            .max_decimals(9)
+            .custom_formatter(|v, _| format_digits(v, TRIPLE_DIGITS))
+            .custom_parser(move |text| parse_number(text, unit))
+            .update_while_editing(false);
+        ui.add_sized([width, height], number)
+            .on_hover_text(format!("{channel}, in {}", if unit.symbol().is_empty() { "parts" } else { unit.symbol() }))
+            .accessible_name(format!("{channel} of {name}"));
+    }
+}
+
+/// A button that shows a linear colour and opens a picker.
+pub fn color_button(ui: &mut egui::Ui, name: &str, value: &mut [f64; 3]) {
+    let mut rgb = value.map(|component| component as f32);
+    let response = ui.color_edit_button_rgb(&mut rgb).accessible_name(name);
+    if response.changed() {
+        // Four decimals are finer than any screen, and read better in the file.
+        *value = rgb.map(|component| (f64::from(component.clamp(0.0, 1.0)) * 1e4).round() / 1e4);
+    }
+}
+
+fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
+    let names = choice.names();
+    let current = choice.index();
+    let mut chosen = current;
+    egui::ComboBox::from_id_salt("choice")
+        .selected_text(names.get(current).copied().unwrap_or_default())
+        .width(ui.available_width().min(160.0))
+        .show_ui(ui, |ui| {
+            for (index, text) in names.iter().enumerate() {
+                ui.selectable_value(&mut chosen, index, *text);
+            }
+        })
+        .response
+        .accessible_name(name);
+    if chosen != current {
+        choice.set_index(chosen);
+    }
+}

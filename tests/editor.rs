@@ -1,0 +1,328 @@
+//! Drives the real editor without a window: the application, its panels, its files.
+#![cfg(feature = "editor")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use eframe::egui;
+use eframe::egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::PathBuf;
+use tellus::editor::EditorApp;
+use tellus::editor::command::Command;
+use tellus::editor::dialogs::ScriptedDialogs;
+use tellus::planet::Planet;
+
+type Editor = Harness<'static, EditorApp>;
+
+/// An editor in the smallest window that must hold everything; file dialogs give these answers.
+fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
+    let mut harness = Harness::builder()
+        .with_size([1024.0, 640.0])
+        .with_step_dt(1.0 / 60.0)
+        .wgpu()
+        .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
+    harness.run_steps(4);
+    harness
+}
+
+fn planet(harness: &Editor) -> Planet {
+    (**harness.state().document().planet()).clone()
+}
+
+fn undo_label(harness: &Editor) -> String {
+    harness.state().document().history().undo_label().unwrap_or_default().to_owned()
+}
+
+fn undo_len(harness: &Editor) -> usize {
+    harness.state().document().history().undo_len()
+}
+
+fn click(harness: &mut Editor, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}
+
+fn slide(harness: &mut Editor, label: &str, value: f64) {
+    harness.get_by_role_and_label(Role::Slider, label).set_value_accesskit(value);
+    harness.run_steps(3);
+}
+
+fn send(harness: &mut Editor, command: Command) {
+    harness.state_mut().send(command);
+    harness.run_steps(4);
+}
+
+fn press(harness: &mut Editor, modifiers: egui::Modifiers, key: egui::Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(3);
+}
+
+#[test]
+fn a_slider_edits_and_undo_and_redo_go_back_and_forth() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 1234.0);
+    assert_eq!(planet(&harness).radius_km, 1234.0);
+    assert!(harness.state().document().is_dirty());
+    assert!(harness.query_by_label_contains("•").is_some(), "the dirty mark is on screen");
+    assert_eq!(undo_label(&harness), "Change radius");
+
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(planet(&harness), before);
+    assert!(!harness.state().document().is_dirty());
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    assert_eq!(planet(&harness).radius_km, 1234.0);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Y);
+    assert_eq!(planet(&harness).radius_km, 1234.0);
+}
+
+#[test]
+fn a_drag_of_a_slider_is_one_step_and_reset_goes_back_to_the_default() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_role_and_label(Role::Slider, "Radius of planet").rect();
+    harness.drag_at(rect.center());
+    for step in 1..8 {
+        harness.hover_at(rect.center() + egui::vec2(4.0 * step as f32, 0.0));
+    }
+    harness.drop_at(rect.center() + egui::vec2(28.0, 0.0));
+    harness.run_steps(3);
+    assert_ne!(planet(&harness).radius_km, Planet::default().radius_km);
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, "Reset Radius of planet");
+    assert_eq!(planet(&harness).radius_km, Planet::default().radius_km);
+}
+
+#[test]
+fn layers_are_added_edited_and_masked() {
+    let mut harness = editor(vec![]);
+    let count = planet(&harness).layers.len();
+    click(&mut harness, "Terrain");
+    click(&mut harness, "Add layer");
+    click(&mut harness, "Ridged");
+    assert_eq!(planet(&harness).layers.len(), count + 1);
+    assert_eq!(undo_label(&harness), "Add layer");
+    click(&mut harness, "Duplicate layer");
+    let names: Vec<String> = planet(&harness).layers.iter().map(|layer| layer.name.clone()).collect();
+    let selected = names.iter().position(|name| name.ends_with(" 2")).unwrap();
+    slide(&mut harness, &format!("Amplitude of {}", names[selected]), 4321.0);
+    assert_eq!(planet(&harness).layers[selected].amplitude_m, 4321.0);
+    assert_eq!(undo_label(&harness), format!("Change amplitude of {}", names[selected]));
+    harness.get_by_label("Add mask").scroll_to_me();
+    harness.run_steps(30);
+    click(&mut harness, "Add mask");
+    assert_eq!(planet(&harness).layers[selected].masks.len(), 1);
+    harness.get_by_label("Remove layer").scroll_to_me();
+    harness.run_steps(30);
+    click(&mut harness, "Remove layer");
+    assert_eq!(planet(&harness).layers.len(), count + 1);
+}
+
+#[test]
+fn a_stroke_on_the_biome_table_paints_cells_in_one_step() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Biomes");
+    click(&mut harness, "Add biome");
+    let biomes = planet(&harness).biomes;
+    let key = biomes.palette.last().unwrap().key;
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label("Biome table").rect();
+    let cell = rect.size() / egui::vec2(biomes.table.columns() as f32, biomes.table.rows().len() as f32);
+    let first = rect.min + cell * 0.5;
+    harness.drag_at(first);
+    harness.hover_at(first + egui::vec2(cell.x, 0.0));
+    harness.hover_at(first + egui::vec2(3.0 * cell.x, 0.0));
+    harness.drop_at(first + egui::vec2(3.0 * cell.x, 0.0));
+    harness.run_steps(3);
+    let table = planet(&harness).biomes.table;
+    for column in 0..4 {
+        assert_eq!(table.key(column, 0), Some(key), "column {column}");
+    }
+    assert_eq!(table.key(4, 0), biomes.table.key(4, 0));
+    assert_eq!(undo_len(&harness), steps + 1);
+    assert_eq!(undo_label(&harness), "Paint biomes");
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness).biomes, biomes);
+}
+
+#[test]
+fn clouds_turned_off_and_on_are_the_same_clouds() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Clouds");
+    if planet(&harness).clouds.is_none() {
+        click(&mut harness, "This planet has clouds");
+    }
+    slide(&mut harness, "Coverage of clouds", 0.25);
+    let clouds = planet(&harness).clouds;
+    assert_eq!(clouds.as_ref().unwrap().coverage, 0.25);
+    click(&mut harness, "This planet has clouds");
+    assert_eq!(planet(&harness).clouds, None);
+    assert_eq!(undo_label(&harness), "Turn clouds off");
+    click(&mut harness, "This planet has clouds");
+    assert_eq!(planet(&harness).clouds, clouds);
+}
+
+#[test]
+fn a_drag_with_shift_turns_the_star_in_one_step() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness).star;
+    let center = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect().center();
+    let button = |pressed, pos| egui::Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: egui::Modifiers::SHIFT,
+    };
+    harness.hover_at(center);
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::SHIFT));
+    harness.event(button(true, center));
+    for step in 1..6 {
+        harness.hover_at(center + egui::vec2(20.0 * step as f32, 0.0));
+    }
+    harness.event(button(false, center + egui::vec2(100.0, 0.0)));
+    harness.run_steps(3);
+    assert_ne!(planet(&harness).star.longitude_deg, before.longitude_deg);
+    assert_eq!(undo_label(&harness), "Turn the sun");
+    assert_eq!(undo_len(&harness), 1);
+}
+
+#[test]
+fn saved_as_and_opened_again_it_is_the_same_planet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let mut harness = editor(vec![Some(path.clone()), Some(path.clone())]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::S);
+    assert!(path.exists());
+    assert!(!harness.state().document().is_dirty());
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+    send(&mut harness, Command::New);
+    assert_ne!(planet(&harness), edited);
+    send(&mut harness, Command::Open);
+    assert_eq!(planet(&harness), edited);
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+}
+
+#[test]
+fn unsaved_work_is_never_dropped_without_asking() {
+    let mut harness = editor(vec![None]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+
+    send(&mut harness, Command::New);
+    assert_eq!(planet(&harness), edited, "nothing happens before the answer");
+    click(&mut harness, "Cancel");
+    assert_eq!(planet(&harness), edited);
+
+    send(&mut harness, Command::New);
+    click(&mut harness, "Save changes");
+    assert_eq!(planet(&harness), edited, "the file dialog was cancelled");
+
+    send(&mut harness, Command::New);
+    click(&mut harness, "Discard changes");
+    assert_ne!(planet(&harness), edited);
+    assert!(!harness.state().document().is_dirty());
+}
+
+#[test]
+fn closing_the_window_with_unsaved_work_asks() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let root = harness.ctx.viewport_id();
+    harness.input_mut().viewports.entry(root).or_default().events.push(egui::ViewportEvent::Close);
+    harness.step();
+    let commands = harness.output().viewport_output[&root].commands.clone();
+    assert!(commands.contains(&egui::ViewportCommand::CancelClose), "{commands:?}");
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Save your changes?").is_some());
+}
+
+#[test]
+fn a_file_that_cannot_be_opened_is_explained_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("broken.ron");
+    std::fs::write(&path, "(version: 1, radius_km: \"large\")").unwrap();
+    let mut harness = editor(vec![Some(path)]);
+    let before = planet(&harness);
+    send(&mut harness, Command::Open);
+    assert!(harness.query_by_label("The planet could not be opened").is_some());
+    assert!(harness.query_by_label_contains("radius_km").is_some());
+    click(&mut harness, "Dismiss");
+    assert_eq!(planet(&harness), before);
+}
+
+#[test]
+fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
+    let mut harness = editor(vec![]);
+    for tab in ["Planet", "Terrain", "Climate", "Biomes", "Water", "Air", "Clouds", "Star"] {
+        harness.get_by_role_and_label(Role::Button, tab).click();
+        harness.run_steps(3);
+        harness.check_accessibility();
+        for node in harness.query_all_by_role(Role::Slider) {
+            let rect = node.rect();
+            assert!(rect.left() >= 0.0 && rect.right() <= 1024.0, "{tab}: {rect:?}");
+        }
+    }
+}
+
+#[test]
+fn an_idle_editor_draws_nothing() {
+    let mut harness = editor(vec![]);
+    for _ in 0..600 {
+        harness.step();
+        let viewport = harness.state().viewport();
+        if viewport.surface().is_none_or(|surface| surface.complete) && !viewport.is_busy() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    harness.run_steps(5);
+    let pictures = harness.state().viewport().pictures();
+    harness.run_steps(20);
+    assert_eq!(harness.state().viewport().pictures(), pictures);
+    harness.state_mut().viewport_mut().settings.exposure_ev = 1.0;
+    harness.run_steps(3);
+    if harness.state().viewport().surface().is_some() {
+        assert_eq!(harness.state().viewport().pictures(), pictures + 1);
+    }
+}
+
+#[test]
+fn unsaved_work_outlives_a_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = || {
+        let mut harness = Harness::builder()
+            .with_size([1024.0, 640.0])
+            .with_step_dt(1.0 / 60.0)
+            .wgpu()
+            .build_eframe(|cc| EditorApp::new(cc, None).with_recovery(folder.path()));
+        harness.run_steps(4);
+        harness
+    };
+    let mut harness = start();
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+    for _ in 0..200 {
+        harness.step();
+        if folder.path().join("recovery-0.ron").exists() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    // Dropped without the orderly end that eframe announces: a crash.
+    drop(harness);
+
+    let mut harness = start();
+    assert_ne!(planet(&harness), edited);
+    click(&mut harness, "Recover");
+    assert_eq!(planet(&harness), edited);
+    assert!(harness.state().document().is_dirty());
+}
