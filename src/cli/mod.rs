@@ -1,8 +1,8 @@
 //! The command line: one file for each subcommand.
 //!
-//! - [`args`]: how sizes, angles and places are written
-//! - [`render`], [`check`], [`sample`], [`new`], [`bench`]: the subcommands
-//! - [`view`]: where the camera stands unless told; [`headless`]: a GPU without a window
+//! - `args`: how sizes, angles and places are written
+//! - `render`, `check`, `sample`, `new`, `bench`: the subcommands
+//! - `view`: where the camera stands unless told; `headless`: a GPU without a window
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
 

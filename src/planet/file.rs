@@ -1,6 +1,7 @@
 //! Loading and saving a preset, and what can go wrong with either.
 
 use super::locate::Place;
+use super::param::ParamPath;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
 use std::collections::HashMap;
 use std::fmt;
@@ -109,8 +110,10 @@ impl Planet {
             return Ok(planet);
         }
         let places = locate::all(text);
-        let problems = problems.into_iter().map(|(path, message)| placed(text, &places, path.to_string(), message));
-        Err(invalid(problems.collect()))
+        let placed = |(path, message): (ParamPath, String)| placed(text, &places, path.to_string(), message);
+        let mut problems: Vec<Problem> = problems.into_iter().map(placed).collect();
+        problems.sort_by_key(|problem| (problem.line, problem.column));
+        Err(invalid(problems))
     }
 
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.

@@ -4,8 +4,8 @@
 //! - [`layers`], [`parts`], [`table`]: the preset's data (terrain layers; everything else; the biome table)
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
-//! - [`file`]: loading and saving; [`text`] writes a preset, [`explain`] reads one and words what is wrong with it,
-//!   [`locate`] knows lines and columns, [`migrate`] old versions
+//! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
+//!   `locate` knows lines and columns, `migrate` old versions
 //! - [`shipped`]: the presets that come with the program
 //! - [`random`]: random planets that are always valid
 

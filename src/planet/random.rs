@@ -1,14 +1,17 @@
 //! Random planets: always valid, plausible, and the same for the same seed on every machine.
 //!
+//! - `dice`: the pseudo-random numbers
+//! - `grounds`: biomes that follow from a climate
+//!
 //! [`random`] makes a planet from nothing: a few layers that build on each other, a climate, and biomes that follow from
 //! it. [`vary`] moves the numbers of a planet that there is. Neither knows more of a parameter than its description,
 //! where that is enough.
 
-use super::param::{Domain, Param, Value};
-use super::{
-    Atmosphere, Biome, Biomes, Blend, Climate, Clouds, Fbm, Layer, Mask, Planet, Ridged, Shape, Star, Table, Water,
-    validate,
-};
+mod dice;
+mod grounds;
+
+use super::{Atmosphere, Blend, Climate, Clouds, Fbm, Layer, Mask, Planet, Ridged, Shape, Star, Water, validate};
+use dice::{Dice, three_digits};
 
 /// A random planet that is always valid; the same seed gives the same planet.
 pub fn random(seed: u64) -> Planet {
@@ -43,7 +46,7 @@ pub fn random(seed: u64) -> Planet {
             ..Star::default()
         },
         layers,
-        biomes: biomes(kind, &climate, &mut dice),
+        biomes: grounds::biomes(kind, &climate, &mut dice),
         climate,
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
@@ -219,196 +222,6 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
         mie_scattering_per_km: scaled(earth.mie_scattering_per_km, dust),
         mie_absorption_per_km: scaled(earth.mie_absorption_per_km, dust),
         ..earth
-    }
-}
-
-/// A biome with the climate in which it lies: it is found where it is colder than this and at least so moist.
-struct Ground {
-    key: char,
-    name: &'static str,
-    color: [f64; 3],
-    below_c: f64,
-    from_moisture: f64,
-}
-
-const fn ground(key: char, name: &'static str, color: [f64; 3], below_c: f64, from_moisture: f64) -> Ground {
-    Ground { key, name, color, below_c, from_moisture }
-}
-
-/// For worlds with weather. The coldest that fits wins; among those, the wettest.
-const LIVING: &[Ground] = &[
-    ground('i', "Ice", [0.78, 0.82, 0.87], -14.0, 0.0),
-    ground('s', "Snow", [0.70, 0.73, 0.76], -6.0, 0.0),
-    ground('t', "Tundra", [0.19, 0.18, 0.12], 1.0, 0.0),
-    ground('c', "Cold steppe", [0.21, 0.19, 0.11], 8.0, 0.0),
-    ground('k', "Taiga", [0.055, 0.09, 0.045], 8.0, 0.35),
-    ground('g', "Grassland", [0.15, 0.18, 0.065], 20.0, 0.25),
-    ground('x', "Dry scrub", [0.27, 0.22, 0.12], 20.0, 0.0),
-    ground('f', "Forest", [0.045, 0.085, 0.03], 20.0, 0.5),
-    ground('d', "Desert", [0.45, 0.32, 0.17], 500.0, 0.0),
-    ground('a', "Savanna", [0.24, 0.2, 0.075], 500.0, 0.3),
-    ground('w', "Woodland", [0.09, 0.12, 0.04], 500.0, 0.5),
-    ground('j', "Rain forest", [0.025, 0.065, 0.018], 500.0, 0.72),
-];
-
-/// For worlds without life.
-const BARREN: &[Ground] = &[
-    ground('i', "Frost", [0.62, 0.64, 0.66], -60.0, 0.3),
-    ground('p', "Pale dust", [0.33, 0.31, 0.28], -10.0, 0.0),
-    ground('r', "Regolith", [0.20, 0.18, 0.165], 60.0, 0.0),
-    ground('m', "Dark plain", [0.085, 0.08, 0.078], 60.0, 0.5),
-    ground('o', "Ochre", [0.38, 0.23, 0.12], 500.0, 0.0),
-    ground('b', "Baked rock", [0.16, 0.09, 0.06], 500.0, 0.5),
-];
-
-/// A palette and a table that follow from the climate.
-fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
-    const COLUMNS: usize = 16;
-    const ROWS: usize = 12;
-    let choices = if matches!(kind, Kind::Temperate | Kind::Cold) { LIVING } else { BARREN };
-    let (coldest_c, hottest_c) = ((climate.pole_c - 12.0).round(), (climate.equator_c + 4.0).round());
-    // Barren grounds are named after their place in the range of the world, not after a thermometer.
-    let (offset, stretch) = if choices.len() == LIVING.len() { (0.0, 1.0) } else { (hottest_c - 70.0, 0.6) };
-    let shift = dice.between(-3.0, 3.0);
-    let mut table = Table::uniform('?', COLUMNS, ROWS);
-    let mut used = Vec::new();
-    for row in 0..ROWS {
-        let share = row as f64 / (ROWS - 1) as f64;
-        let temperature = hottest_c + (coldest_c - hottest_c) * share + shift;
-        for column in 0..COLUMNS {
-            let moisture = (column as f64 + 0.5) / COLUMNS as f64;
-            let fits = |g: &&Ground| {
-                moisture >= g.from_moisture
-                    && temperature < offset + g.below_c * if offset == 0.0 { 1.0 } else { stretch }
-            };
-            let coldest = choices.iter().filter(fits).map(|g| g.below_c).fold(f64::MAX, f64::min);
-            let best = choices
-                .iter()
-                .filter(fits)
-                .filter(|g| g.below_c == coldest)
-                .max_by(|a, b| a.from_moisture.total_cmp(&b.from_moisture))
-                .or(choices.last());
-            if let Some(best) = best {
-                table.set_key(column, row, best.key);
-                if !used.contains(&best.key) {
-                    used.push(best.key);
-                }
-            }
-        }
-    }
-    let palette = choices
-        .iter()
-        .filter(|g| used.contains(&g.key))
-        .map(|g| Biome {
-            key: g.key,
-            name: g.name.to_owned(),
-            color: g.color.map(|c| three_digits((c * dice.between(0.88, 1.12)).min(1.0))),
-            variation: dice.rounded(0.15, 0.4),
-            roughness: if matches!(g.key, 'i' | 's') { 0.6 } else { 0.9 },
-        })
-        .collect();
-    Biomes { coldest_c, hottest_c, palette, table, ..Biomes::default() }
-}
-
-/// Rounded to three significant digits: a file should be pleasant to read.
-fn three_digits(value: f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let scale = libm::pow(10.0, 2.0 - libm::floor(libm::log10(value.abs())));
-    (value * scale).round() / scale
-}
-
-/// SplitMix64 (Steele, Lea, Flood 2014): tiny, and the same everywhere.
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// From 0 to below 1.
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// In steps that read well: tenths of small numbers, hundredths of smaller ones.
-    fn rounded(&mut self, low: f64, high: f64) -> f64 {
-        let step = if high - low > 5.0 { 1.0 } else { 100.0 };
-        ((self.between(low, high) * step).round() / step).clamp(low, high)
-    }
-
-    fn rounded_log(&mut self, low: f64, high: f64) -> f64 {
-        three_digits(libm::exp(self.between(libm::log(low), libm::log(high)))).clamp(low, high)
-    }
-
-    fn color(&mut self, low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
-        let mut color = low;
-        for (component, high) in color.iter_mut().zip(high) {
-            *component = three_digits(self.between(*component, high)).clamp(*component, high);
-        }
-        color
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.unit() < share
-    }
-
-    fn seed(&mut self) -> u32 {
-        // Four digits are enough to differ and can be read out.
-        (self.next() % 10_000) as u32
-    }
-
-    fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
-        &from[(self.next() % from.len() as u64) as usize]
-    }
-
-    fn name(&mut self) -> String {
-        const STARTS: &[&str] =
-            &["Ar", "Bel", "Cal", "Dor", "El", "Fen", "Ish", "Kor", "Mir", "Nov", "Or", "Tal", "Ver"];
-        const MIDDLES: &[&str] = &["a", "e", "i", "o", "u", "ae", "ia", "and", "ess", "ili", "or"];
-        const ENDS: &[&str] = &["dia", "ra", "th", "lon", "mir", "nis", "ria", "s", "ta", "vos", "x"];
-        [STARTS, MIDDLES, ENDS].map(|part| *self.pick(part)).concat()
-    }
-
-    /// A value moved by up to `strength` of its range, or `None` where there is nothing to move.
-    fn moved(&mut self, param: &Param, value: &Value, strength: f64) -> Option<Value> {
-        if strength == 0.0 {
-            return None;
-        }
-        let by = self.between(-strength, strength);
-        let along = |value: f64, min: f64, max: f64| (value + by * (max - min)).clamp(min, max);
-        match (value, param.domain) {
-            (Value::Number(v), Domain::Number { min, max, logarithmic: false }) => {
-                Some(Value::Number(three_digits(along(*v, min, max)).clamp(min, max)))
-            }
-            // Equal steps are equal ratios. Zero is a choice, not a size, and stays.
-            (Value::Number(v), Domain::Number { min, max, logarithmic: true }) if *v > 0.0 => {
-                let floor = if min > 0.0 { min } else { max * 1e-6 };
-                let moved = libm::exp(along(libm::log(v.max(floor)), libm::log(floor), libm::log(max)));
-                Some(Value::Number(three_digits(moved).clamp(min, max)))
-            }
-            (Value::Count(v), Domain::Count { min, max }) => {
-                let moved = along(f64::from(*v), f64::from(min), f64::from(max)).round();
-                Some(Value::Count((moved as u32).clamp(min, max)))
-            }
-            (Value::Count(_), Domain::Seed) => Some(Value::Count(self.seed())),
-            (Value::Triple(v), Domain::Color | Domain::Triple { .. }) => {
-                let max = if let Domain::Triple { max } = param.domain { max } else { 1.0 };
-                // By ratio: coefficients differ by powers of ten, and grey stays nearly grey.
-                let moved = v.map(|c| three_digits(c * (1.0 + self.between(-strength, strength))).clamp(0.0, max));
-                Some(Value::Triple(moved))
-            }
-            _ => None,
-        }
     }
 }
 

@@ -19,7 +19,13 @@ impl Shipped {
 }
 
 /// All of them, the default planet first.
-pub const ALL: &[Shipped] = &[Shipped { file: "aurel.ron", text: include_str!("../../planets/aurel.ron") }];
+pub const ALL: &[Shipped] = &[
+    Shipped { file: "aurel.ron", text: include_str!("../../planets/aurel.ron") },
+    Shipped { file: "maren.ron", text: include_str!("../../planets/maren.ron") },
+    Shipped { file: "cinnabar.ron", text: include_str!("../../planets/cinnabar.ron") },
+    Shipped { file: "hoarfrost.ron", text: include_str!("../../planets/hoarfrost.ron") },
+    Shipped { file: "pallor.ron", text: include_str!("../../planets/pallor.ron") },
+];
 
 /// The planet that is there at the start: the first of [`ALL`].
 pub fn default_planet() -> Planet {

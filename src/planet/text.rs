@@ -14,6 +14,9 @@ use std::fmt::Write as _;
 /// Longest line of a comment, without its indentation.
 const COMMENT_CHARS: usize = 100;
 
+/// A space at which no line is broken.
+const GLUE: &str = "\u{1}";
+
 /// Writes a planet.
 pub(crate) fn write(planet: &Planet) -> String {
     // Raw strings rather than escapes: a name stays readable.
@@ -78,22 +81,23 @@ fn comment(param: &Param, value: &ValueMut<'_>) -> String {
         _ => param.range_text(),
     };
     if !range.is_empty() {
-        let _ = write!(text, " ({range})");
+        // The range stays on one line.
+        let _ = write!(text, " ({})", range.replace(' ', GLUE));
     }
     text
 }
 
 fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
+    for word in text.split(' ').filter(|word| !word.is_empty()).map(|word| word.replace(GLUE, " ")) {
         if let Some(line) = lines.last_mut() {
             if line.is_empty() {
-                line.push_str(word);
+                line.push_str(&word);
             } else if line.chars().count() + 1 + word.chars().count() <= COMMENT_CHARS {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             } else {
-                lines.push(word.to_owned());
+                lines.push(word);
             }
         }
     }

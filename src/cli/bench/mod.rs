@@ -10,6 +10,7 @@ use super::{Failure, headless, print, view};
 use crate::build::build_now;
 use crate::lod::{Quality, View};
 use crate::planet::{Planet, shipped};
+use crate::terrain::simd::Simd;
 use serde_json::{Value, json};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -46,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .collect::<Result<_, _>>()?;
     let Some((_, default)) = planets.first() else { return Err("no preset is shipped".to_owned().into()) };
     let report = json!({
-        "simd": simd(),
+        "simd": Simd::detect().name(),
         "threads": rayon::current_num_threads(),
         "adapter": headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name),
         "noise": noise::measure(),
@@ -55,28 +56,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         "memory_mb": peak_memory_mb(),
     });
     print(&if args.json { format!("{report:#}") } else { as_text(&report) })
-}
-
-/// The widest instructions that this machine has.
-fn simd() -> &'static str {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx512f") {
-            "avx512"
-        } else if is_x86_feature_detected!("avx2") {
-            "avx2"
-        } else {
-            "sse2"
-        }
-    }
-    #[cfg(target_arch = "aarch64")]
-    {
-        "neon"
-    }
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    {
-        "scalar"
-    }
 }
 
 /// The whole surface of the opening view, from nothing.
@@ -88,8 +67,7 @@ fn rebuild(file: &str, planet: &Arc<Planet>) -> Value {
         "preset": file,
         "nodes": stats.tiles,
         "vertices": stats.vertices,
-        // Filled in when the builder counts them.
-        "octave_samples": Value::Null,
+        "octave_samples": stats.octave_samples,
         "full_ms": median(&times),
         "full_ms_p95": p95(&times),
     })

@@ -2,6 +2,8 @@
 
 use super::{median, repeat};
 use crate::sphere::LatLon;
+use crate::terrain::bench::NoiseBench;
+use crate::terrain::simd::Simd;
 use fastnoise_lite::{FastNoiseLite, FractalType, NoiseType};
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -29,10 +31,17 @@ pub(super) fn measure() -> Value {
     })
 }
 
-/// Million points a second of this crate's noise: value alone, and value with gradient. `None` until the terrain offers
-/// its kernels for measuring.
-fn own_mpts(_points: &[DVec3]) -> (Option<f64>, Option<f64>) {
-    (None, None)
+/// Million points a second of this crate's noise: value alone, and value with gradient.
+fn own_mpts(points: &[DVec3]) -> (Option<f64>, Option<f64>) {
+    let simd = Simd::detect();
+    let noise = NoiseBench::new(points.to_vec());
+    let values = repeat(|| {
+        black_box(noise.values(simd));
+    });
+    let gradients = repeat(|| {
+        black_box(noise.gradients(simd));
+    });
+    (mpts(&values), mpts(&gradients))
 }
 
 fn fastnoise_lite_mpts(points: &[DVec3]) -> Option<f64> {

@@ -1,0 +1,105 @@
+//! Pseudo-random numbers, the same on every machine, in forms that read well in a file.
+
+use crate::planet::param::{Domain, Param, Value};
+
+/// Rounded to three significant digits: a file should be pleasant to read.
+pub(super) fn three_digits(value: f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let scale = libm::pow(10.0, 2.0 - libm::floor(libm::log10(value.abs())));
+    (value * scale).round() / scale
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): tiny, and the same everywhere.
+pub(super) struct Dice(pub(super) u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// From 0 to below 1.
+    pub(super) fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// In steps that read well: tenths of small numbers, hundredths of smaller ones.
+    pub(super) fn rounded(&mut self, low: f64, high: f64) -> f64 {
+        let step = if high - low > 5.0 { 1.0 } else { 100.0 };
+        ((self.between(low, high) * step).round() / step).clamp(low, high)
+    }
+
+    pub(super) fn rounded_log(&mut self, low: f64, high: f64) -> f64 {
+        three_digits(libm::exp(self.between(libm::log(low), libm::log(high)))).clamp(low, high)
+    }
+
+    pub(super) fn color(&mut self, low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
+        let mut color = low;
+        for (component, high) in color.iter_mut().zip(high) {
+            *component = three_digits(self.between(*component, high)).clamp(*component, high);
+        }
+        color
+    }
+
+    pub(super) fn chance(&mut self, share: f64) -> bool {
+        self.unit() < share
+    }
+
+    pub(super) fn seed(&mut self) -> u32 {
+        // Four digits are enough to differ and can be read out.
+        (self.next() % 10_000) as u32
+    }
+
+    pub(super) fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
+        &from[(self.next() % from.len() as u64) as usize]
+    }
+
+    pub(super) fn name(&mut self) -> String {
+        const STARTS: &[&str] =
+            &["Ar", "Bel", "Cal", "Dor", "El", "Fen", "Ish", "Kor", "Mir", "Nov", "Or", "Tal", "Ver"];
+        const MIDDLES: &[&str] = &["a", "e", "i", "o", "u", "ae", "ia", "and", "ess", "ili", "or"];
+        const ENDS: &[&str] = &["dia", "ra", "th", "lon", "mir", "nis", "ria", "s", "ta", "vos", "x"];
+        [STARTS, MIDDLES, ENDS].map(|part| *self.pick(part)).concat()
+    }
+
+    /// A value moved by up to `strength` of its range, or `None` where there is nothing to move.
+    pub(super) fn moved(&mut self, param: &Param, value: &Value, strength: f64) -> Option<Value> {
+        if strength == 0.0 {
+            return None;
+        }
+        let by = self.between(-strength, strength);
+        let along = |value: f64, min: f64, max: f64| (value + by * (max - min)).clamp(min, max);
+        match (value, param.domain) {
+            (Value::Number(v), Domain::Number { min, max, logarithmic: false }) => {
+                Some(Value::Number(three_digits(along(*v, min, max)).clamp(min, max)))
+            }
+            // Equal steps are equal ratios. Zero is a choice, not a size, and stays.
+            (Value::Number(v), Domain::Number { min, max, logarithmic: true }) if *v > 0.0 => {
+                let floor = if min > 0.0 { min } else { max * 1e-6 };
+                let moved = libm::exp(along(libm::log(v.max(floor)), libm::log(floor), libm::log(max)));
+                Some(Value::Number(three_digits(moved).clamp(min, max)))
+            }
+            (Value::Count(v), Domain::Count { min, max }) => {
+                let moved = along(f64::from(*v), f64::from(min), f64::from(max)).round();
+                Some(Value::Count((moved as u32).clamp(min, max)))
+            }
+            (Value::Count(_), Domain::Seed) => Some(Value::Count(self.seed())),
+            (Value::Triple(v), Domain::Color | Domain::Triple { .. }) => {
+                let max = if let Domain::Triple { max } = param.domain { max } else { 1.0 };
+                // By ratio: coefficients differ by powers of ten, and grey stays nearly grey.
+                let moved = v.map(|c| three_digits(c * (1.0 + self.between(-strength, strength))).clamp(0.0, max));
+                Some(Value::Triple(moved))
+            }
+            _ => None,
+        }
+    }
+}
