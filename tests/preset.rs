@@ -84,7 +84,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         ),
         (
             "(version: 1, layers: [(shape: fbm())])",
-            "f.ron:1:31: layers[0].shape: there is no value `fbm` here; did you mean `Fbm`? use `Fbm`, `Ridged`",
+            "f.ron:1:31: layers[0].shape: there is no value `fbm` here; did you mean `Fbm`? use `Fbm`, `Ridged`, `Craters`",
         ),
         (
             "(version: 1, layers: [(blend: Plus)])",
@@ -106,7 +106,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         ),
         (
             "(version: 1, layers: [(shape: Fbm)])",
-            "f.ron:1:31: layers[0].shape: `Fbm` is not what belongs here; use one of `Fbm(...)`, `Ridged(...)`",
+            "f.ron:1:31: layers[0].shape: `Fbm` is not what belongs here; use one of `Fbm(...)`, `Ridged(...)`, `Craters(...)`",
         ),
         (
             "(version: 1, layers: [(enabled: yes)])",
@@ -295,7 +295,7 @@ fn the_saved_text_is_made_to_be_read() {
 fn the_values_that_comments_name_can_be_written() {
     for (field, names) in [
         ("layers: [(blend: {})]", "Add, Subtract, Multiply, Max, Min, Replace"),
-        ("layers: [(shape: {}())]", "Fbm, Ridged"),
+        ("layers: [(shape: {}())]", "Fbm, Ridged, Craters"),
         ("biomes: (rows: {})", "Temperature, Elevation"),
     ] {
         for name in names.split(", ") {

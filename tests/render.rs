@@ -1,5 +1,7 @@
 //! The renderer on a real (software) adapter.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
 mod support;
 
 use std::sync::Arc;
