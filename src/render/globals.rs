@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Waves that are summed up for the sea near the eye.
 const WAVES: usize = 16;
 /// Octaves of the mottling, coarse to fine.
-const MOTTLE_PERIODS_M: [f64; 6] = [400_000.0, 40_000.0, 4000.0, 400.0, 40.0, 4.0];
+const MOTTLE_PERIODS_M: [f64; 7] = [196_608.0, 24_576.0, 3072.0, 384.0, 48.0, 6.0, 0.75];
 
 /// See `shaders/globals.wgsl` for what each field holds.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -39,9 +39,10 @@ struct Globals {
     cloud_color: [f32; 4],
     clouds: [f32; 4],
     cloud_eye: [f32; 4],
+    cloud_eye_wide: [f32; 4],
     cloud_turn: [f32; 4],
     cloud_seed: [u32; 4],
-    mottle: [[f32; 4]; 6],
+    mottle: [[f32; 4]; 7],
     cliff_color: [f32; 4],
     misc: [f32; 4],
     modes: [u32; 4],
@@ -249,6 +250,7 @@ fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup
     g.cloud_color = rgbw(clouds.color, clouds.density);
     g.clouds = [bottom as f32, top as f32, clouds.coverage as f32, period_km as f32];
     g.cloud_eye = vec4(wrapped(turned / period_km), if thin { 3.0 } else { steps });
+    g.cloud_eye_wide = vec4(wrapped(DVec3::new(turned.y, turned.z, turned.x) / (period_km * 7.0)), 0.0);
     g.cloud_turn = [c as f32, s as f32, (planet.radius_km / clouds.scale_km) as f32, clouds.curl as f32];
     g.cloud_seed = [clouds.seed ^ planet.seed.rotate_left(16), setup.weather_side_px, 0, 0];
 }

@@ -29,8 +29,7 @@ pub fn height_m(dir: DVec3) -> f64 {
 fn octahedral(n: DVec3) -> [i16; 2] {
     let n = n / (n.x.abs() + n.y.abs() + n.z.abs());
     let sign = |x: f64| if x >= 0.0 { 1.0 } else { -1.0 };
-    let (x, y) =
-        if n.z >= 0.0 { (n.x, n.y) } else { ((1.0 - n.y.abs()) * sign(n.x), (1.0 - n.x.abs()) * sign(n.y)) };
+    let (x, y) = if n.z >= 0.0 { (n.x, n.y) } else { ((1.0 - n.y.abs()) * sign(n.x), (1.0 - n.x.abs()) * sign(n.y)) };
     [x, y].map(|c| (c * 32767.0).round() as i16)
 }
 
@@ -50,14 +49,12 @@ pub fn tile(id: NodeId, planet: &Planet, height_m: &dyn Fn(DVec3) -> f64) -> Til
             let (u, v) = (x as f64 * step, y as f64 * step);
             let (dir, height, position) = at(u, v);
             let e = step * 0.7;
-            let normal =
-                (at(u + e, v).2 - at(u - e, v).2).cross(at(u, v + e).2 - at(u, v - e).2).normalize();
+            let normal = (at(u + e, v).2 - at(u - e, v).2).cross(at(u, v + e).2 - at(u, v - e).2).normalize();
             let temperature = planet.climate.equator_c
                 + (planet.climate.pole_c - planet.climate.equator_c) * dir.z * dir.z
                 - planet.climate.lapse_c_per_km * height.max(0.0) * 1e-3;
             let moisture = 0.5 + 0.4 * (dir.x * 5.0).sin() * (dir.y * 4.0 + 1.0).cos();
-            let row = (temperature - planet.biomes.coldest_c)
-                / (planet.biomes.hottest_c - planet.biomes.coldest_c);
+            let row = (temperature - planet.biomes.coldest_c) / (planet.biomes.hottest_c - planet.biomes.coldest_c);
             let high = position.to_array().map(|c| c as f32);
             let low = std::array::from_fn(|i| (position[i] - f64::from(high[i])) as f32);
             vertices.push(Vertex {
@@ -116,12 +113,7 @@ pub fn surface(planet: &Arc<Planet>, eye: DVec3, finest: u8, height_m: &dyn Fn(D
             Leaf { tile: Arc::new(tile(id, planet, height_m)), coarser_edges }
         })
         .collect();
-    Surface {
-        terrain: Arc::new(Terrain::new(planet.clone())),
-        leaves,
-        complete: true,
-        stats: BuildStats::default(),
-    }
+    Surface { terrain: Arc::new(Terrain::new(planet.clone())), leaves, complete: true, stats: BuildStats::default() }
 }
 
 /// A planet like the Earth, with everything on.
@@ -139,8 +131,7 @@ pub fn earth() -> Planet {
         ('t', [0.20, 0.18, 0.14]),
         ('w', [0.78, 0.8, 0.84]),
     ];
-    planet.biomes.palette =
-        kinds.map(|(key, color)| Biome { key, color, variation: 0.3, ..Biome::default() }).to_vec();
+    planet.biomes.palette = kinds.map(|(key, color)| Biome { key, color, variation: 0.3, ..Biome::default() }).to_vec();
     planet.biomes.table = Table::uniform('f', 8, 8);
     let rows = ["ssggffff", "ssggffff", "ssggffff", "sggfffff", "sggfffff", "ttgggfff", "tttttttt", "wwwwwwww"];
     for (row, text) in rows.iter().enumerate() {
