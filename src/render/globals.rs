@@ -215,9 +215,9 @@ fn set_water(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, altitude_m: f6
     let over_sea_km = (altitude_m - water.level_m) * 1e-3;
     g.water = [(water.level_m * 1e-3) as f32, over_sea_km as f32, equator, pole];
     for (i, slot) in g.waves.iter_mut().enumerate() {
-        // Directions spread over the sphere by the golden angle, lengths from 40 m down to 0.5 m.
+        // Directions spread over the sphere by the golden angle, lengths from 30 m down to 0.2 m.
         let x = (i as f64 + 0.5) / WAVES as f64;
-        let length_m = 40.0 * (0.5_f64 / 40.0).powf(x);
+        let length_m = 30.0 * (0.2_f64 / 30.0).powf(x);
         let z = 1.0 - 2.0 * ((i * 7 % WAVES) as f64 + 0.5) / WAVES as f64;
         let angle = i as f64 * 2.399_963;
         let flat = (1.0 - z * z).sqrt();
