@@ -21,6 +21,39 @@ fn sun_disc(dir: vec3f) -> vec3f {
     return globals.sun_irradiance.rgb * (globals.sun_irradiance.w * edge) * limb;
 }
 
+// What the star's light does within the eye or lens: a glow around the disc, as far as the disc is not hidden.
+fn glare(dir: vec3f) -> vec3f {
+    let sun = globals.sun_dir.xyz;
+    let off = length(dir - sun);
+    let shape = 0.5 * pow(1.0 + off * off * 8000.0, -1.5) + 0.06 * pow(1.0 + off * off * 250.0, -1.5);
+    if shape < 0.0005 { return vec3f(0.0); }
+    // Where the star stands in the picture; nothing if it is not in it.
+    let right = globals.ray_right.xyz;
+    let top = globals.ray_up.xyz;
+    let depth = dot(sun, globals.ray_forward.xyz);
+    if depth <= 0.0 { return vec3f(0.0); }
+    let ndc = vec2f(dot(sun, right) / dot(right, right), dot(sun, top) / dot(top, top)) / depth;
+    let size = vec2f(globals.ray_right.w, globals.ray_up.w);
+    let center = (ndc * vec2f(0.5, -0.5) + 0.5) * size;
+    let reach = globals.sun_dir.w / globals.eye_low_m.w * 0.6;
+    var open = 0.0;
+    for (var i = 0; i < 9; i++) {
+        let at = center + vec2f(f32(i % 3 - 1), f32(i / 3 - 1)) * reach;
+        if any(at < vec2f(0.0)) || any(at >= size) { continue; }
+        let ray = pixel_ray(at);
+        let length_at = length(ray);
+        if surface_distance(vec2i(at), ray / length_at, length_at) >= NOTHING_KM {
+            var through = 1.0;
+            if globals.clouds.z > 0.0 { through = textureLoad(cloud_light, vec2i(at), 0).a; }
+            open += through / 9.0;
+        }
+    }
+    let way = globals.eye_up.w;
+    var clear = vec3f(1.0);
+    if way < globals.air.x { clear = sun_transmittance(way, dot(globals.eye_up.xyz, sun)); }
+    return globals.sun_irradiance.rgb / PI * clear * (shape * open);
+}
+
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
@@ -76,9 +109,9 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     if far >= NOTHING_KM {
         // Stars drown in a bright sky.
-        let drowned = 1.0 / (1.0 + 400.0 * luminance(light) + 40.0 * luminance(clouds.rgb));
+        let drowned = 1.0 / (1.0 + 3000.0 * luminance(light) + 40.0 * luminance(clouds.rgb));
         scene = stars(dir, globals.eye_low_m.w) * drowned + sun_disc(dir);
     }
-    light += to_cloud * clouds.rgb + transmittance * clouds.a * scene;
+    light += glare(dir) + to_cloud * clouds.rgb + transmittance * clouds.a * scene;
     return vec4f(min(light, vec3f(60000.0)), 1.0);
 }

@@ -54,9 +54,9 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let curl = globals.cloud_turn.w;
     var p = dir * cells;
     // Weather systems turn, then their arms turn, then their edges fray.
-    p += swirl(p * 0.7, dir, 1u) * curl * 0.9;
-    p += swirl(p * 1.9, dir, 2u) * curl * 0.32;
-    p += swirl(p * 5.1, dir, 3u) * curl * 0.10;
+    p += swirl(p * 0.7, dir, 1u) * curl * 0.55;
+    p += swirl(p * 1.9, dir, 2u) * curl * 0.16;
+    p += swirl(p * 5.1, dir, 3u) * curl * 0.045;
     var sum = 0.0;
     var amplitude = 1.0;
     // Fronts are long along the parallels.
@@ -67,10 +67,10 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         if cells * exp2(f32(i)) > finest { break; }
         sum += amplitude * noise(q, 10u + i);
         q = q.yzx * 2.03 + 17.3;
-        amplitude *= 0.56;
+        amplitude *= 0.62;
     }
     // Wet at the equator and in the middle latitudes, dry between them (Hadley and Ferrel cells).
     let belt = 0.10 * cos(6.0 * asin(clamp(dir.z, -1.0, 1.0)));
-    let evenly = 0.5 + 0.5 * tanh((sum + belt) * 2.1);
+    let evenly = 0.5 + 0.5 * tanh((sum + belt) * 1.7);
     return vec4f(evenly, 0.0, 0.0, 1.0);
 }

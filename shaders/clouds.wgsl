@@ -17,7 +17,7 @@ struct March {
     weight: f32,
 }
 
-fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32) -> March {
+fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter: f32) -> March {
     var out = into;
     let radius = globals.eye_km.w;
     let h_eye = globals.eye_up.w;
@@ -48,13 +48,13 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32) -> Marc
     for (var i = 0.0; i < steps; i += 1.0) {
         let s0 = i / steps;
         let s1 = (i + 1.0) / steps;
-        let sm = (i + 0.5) / steps;
+        let sm = (i + jitter) / steps;
         let t = from_km + span * mix(sm, sm * sm, bend);
         let length_km = span * (s1 - s0) * mix(1.0, s0 + s1, bend);
         let rel = dir * t;
         let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
         let cover = cover_over(normalize(globals.eye_km.xyz + rel));
-        let footprint = max(t * globals.eye_low_m.w, length_km * 0.35);
+        let footprint = max(t * globals.eye_low_m.w, length_km * 0.3);
         let density = cloud_density(rel, cover, height, footprint);
         if density <= 0.002 { continue; }
         // A second look towards the star shapes light and shade; from afar it looks as far as a pixel.
@@ -116,9 +116,12 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     first.y = min(first.y, far);
     second.y = min(second.y, far);
+    // Neighbouring pixels step a little apart, or the steps would show as terraces (interleaved gradient noise, Jimenez,
+    // Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
+    let jitter = fract(52.9829189 * fract(dot(floor(position.xy), vec2f(0.06711056, 0.00583715))));
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
-    if first.y > first.x { state = march(state, dir, first.x, first.y, mu); }
-    if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu); }
+    if first.y > first.x { state = march(state, dir, first.x, first.y, mu, jitter); }
+    if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu, jitter); }
     var out: Output;
     out.light = vec4f(min(state.light, vec3f(60000.0)), state.transmittance);
     out.distance = vec4f(select(NOTHING_KM, state.distance / state.weight, state.weight > 0.0), 0.0, 0.0, 0.0);

@@ -43,12 +43,14 @@ struct Globals {
     clouds: vec4f,
     // xyz: place of the eye in the puff noise, in periods; w: steps of a march
     cloud_eye: vec4f,
+    // xyz: place of the eye in the noise that groups the puffs, in its periods
+    cloud_eye_wide: vec4f,
     // x, y: cosine and sine of the drift about the pole; z: weather cells along the radius; w: curl
     cloud_turn: vec4f,
     // xyz: seed of the weather map
     cloud_seed: vec4u,
     // xyz: place of the eye in each octave of the mottling, in periods; w: period in metres
-    mottle: array<vec4f, 6>,
+    mottle: array<vec4f, 7>,
     // rgb; w: cosine of the slope where rock begins
     cliff_color: vec4f,
     // x: cosine of the slope where only rock is left; y, z: lowest and highest height, metres; w: exposure factor

@@ -4,16 +4,22 @@
 #include "tables.wgsl"
 
 // About -1 to 1 with mean 0, at a point relative to the eye; `footprint_m`: width of a pixel there.
-fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
+fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 { return relief_at(rel_m, footprint_m).x; }
+
+// The same (x), with the height in metres of the small bumps that belong to it (y).
+fn relief_at(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = 0.0;
-    for (var i = 0u; i < 6u; i++) {
+    var bumps_m = 0.0;
+    for (var i = 0u; i < 7u; i++) {
         let octave = globals.mottle[i];
         let lod = log2(footprint_m * 64.0 / octave.w);
         if lod > 5.0 { break; }
         let n = textureSampleLevel(noise_tile, repeated, octave.xyz + rel_m / octave.w, lod).g;
-        sum += (n - 0.5) * (1.0 - 0.2 * max(lod, 0.0));
+        let weight = (n - 0.5) * (1.0 - 0.2 * max(lod, 0.0));
+        sum += weight;
+        if i >= 3u { bumps_m += weight * octave.w * 0.035; }
     }
-    return clamp(sum * 1.6, -1.0, 1.0);
+    return vec2f(clamp(sum * 1.3, -1.0, 1.0), bumps_m);
 }
 
 // Two broad independent octaves that bend borders between kinds of ground.

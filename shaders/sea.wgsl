@@ -16,6 +16,8 @@ fn waves_at(rel_m: vec3f, up: vec3f, footprint_m: f32) -> Waves {
     var seen = 0.0;
     if footprint_m < 20.0 {
         // Three quarters of the variance are in waves long enough to be drawn.
+        // Each wave bends the next one's crests, or they would cross in a pattern.
+        var twist = 0.0;
         let each = 0.75 * total / 16.0;
         for (var i = 0u; i < 16u; i++) {
             let wave = globals.waves[i];
@@ -23,7 +25,9 @@ fn waves_at(rel_m: vec3f, up: vec3f, footprint_m: f32) -> Waves {
             let k = length(along);
             let weight = 1.0 - smoothstep(0.12, 0.4, k * footprint_m / (2.0 * PI));
             if weight <= 0.0 { continue; }
-            slope += along / max(k, 1e-6) * (sqrt(2.0 * each) * weight * cos(dot(wave.xyz, rel_m) + wave.w));
+            let phase = dot(wave.xyz, rel_m) + wave.w + twist;
+            twist = 1.3 * sin(phase) + 0.4 * twist;
+            slope += along / max(k, 1e-6) * (sqrt(2.0 * each) * weight * cos(phase));
             seen += each * weight * weight;
         }
     }

@@ -52,12 +52,21 @@ struct Material {
     roughness: f32,
 }
 
-fn material(in: Ground, slope_cosine: f32, footprint_m: f32) -> Material {
+// Tilts a normal by a height that is only known pixel by pixel (Mikkelsen, Bump Mapping Unparametrized Surfaces on the
+// GPU, 2010). `bump_x`, `bump_y`, `rel_x`, `rel_y`: differences from pixel to pixel, in metres.
+fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec3f {
+    let across = cross(rel_y, n);
+    let along = cross(n, rel_x);
+    let area = dot(rel_x, across);
+    let tilt = (bump_x * across + bump_y * along) * sign(area);
+    return normalize(abs(area) * n - tilt + n * 1e-20);
+}
+
+fn material(in: Ground, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Material {
     let cells = vec2f(textureDimensions(biome_albedo));
     let jitter = border_jitter(in.rel_m, footprint_m);
     let x = vec2f(in.climate.x, 1.0 - in.climate.y) + jitter * 0.9 / cells;
     let ground = textureSampleLevel(biome_albedo, clamped, x, 0.0);
-    let mottle = mottle_at(in.rel_m, footprint_m);
     var out: Material;
     out.albedo = ground.rgb * (1.0 + mottle * ground.a);
     out.roughness = textureSampleLevel(biome_roughness, clamped, x, 0.0).r;
@@ -120,16 +129,18 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
 fn fragment(in: Ground) -> @location(0) vec4f {
     let rel_km = in.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
-    let n = normalize(in.normal);
+    var n = normalize(in.normal);
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
     if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
+    let footprint_m = distance_m * globals.eye_low_m.w / max(sqrt(max(dot(n, v), 0.0)), 0.2);
+    let relief = relief_at(in.rel_m, footprint_m);
+    let ground = material(in, dot(n, up), footprint_m, relief.x);
+    n = bumped(n, dpdx(in.rel_m), dpdy(in.rel_m), dpdx(relief.y), dpdy(relief.y));
     let n_v = max(dot(n, v), 0.0);
-    let footprint_m = distance_m * globals.eye_low_m.w / max(sqrt(n_v), 0.2);
-    let ground = material(in, dot(n, up), footprint_m);
 
     let sun = globals.sun_dir.xyz;
     let sun_mu = dot(up, sun);

@@ -9,6 +9,7 @@ use std::time::Instant;
 use support::{Gpu, camera, earth, frame, height_m, surface};
 use tellus::lod::Quality;
 use tellus::render::DebugView;
+use tellus::sphere::LatLon;
 
 /// Pictures to look at, with their times: `TELLUS_GALLERY=folder cargo test --test render gallery -- --ignored --nocapture`;
 /// `TELLUS_SHOTS` picks some by name, `TELLUS_QUALITY` is low, medium or high.
@@ -40,16 +41,21 @@ fn gallery() {
         ("m2_sunset", [10.0, 10.0, 2.0, 275.0, 8.0, 10.0, -76.0]),
         ("m2_night", [10.0, 10.0, 2.0, 40.0, 20.0, 12.0, 160.0]),
         ("m2_up", [10.0, 10.0, 2.0, 200.0, 60.0, 12.0, 0.0]),
-        ("sea2", [-20.0, -60.0, 2.0, 40.0, -4.0, 12.0, -30.0]),
-        ("sea300", [-20.0, -60.0, 300.0, 80.0, -12.0, 0.0, -25.0]),
+        ("sea2", [-20.0, -60.0, 2.0, 60.0, -4.0, 0.0, 50.0]),
+        ("sea300", [-20.0, -60.0, 300.0, 70.0, -12.0, 0.0, 60.0]),
         ("in_cloud", [10.0, 10.0, 4.2e3, 40.0, 0.0, 12.0, 0.0]),
     ];
     for (name, [lat, lon, altitude_m, heading, pitch, sun_lat, sun_lon]) in shots {
         if !wanted.is_empty() && !wanted.split(',').any(|w| w == name) {
             continue;
         }
+        let mut lon = lon;
+        while name.starts_with("sea") && height_m(LatLon::from_degrees(lat, lon).direction()) > -900.0 {
+            lon += 0.5;
+        }
         let camera = camera(&planet, lat, lon, altitude_m, heading, pitch);
         let surface = surface(&planet, camera.position_planet_m, 17, &height_m);
+        let sun_lon = if name.starts_with("sea") { lon + sun_lon } else { sun_lon };
         let mut frame = frame(&surface, &planet, camera, (sun_lat, sun_lon));
         frame.view.size_px = [1280, 720];
         frame.view.quality = quality;

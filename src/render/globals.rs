@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Waves that are summed up for the sea near the eye.
 const WAVES: usize = 16;
 /// Octaves of the mottling, coarse to fine.
-const MOTTLE_PERIODS_M: [f64; 6] = [400_000.0, 40_000.0, 4000.0, 400.0, 40.0, 4.0];
+const MOTTLE_PERIODS_M: [f64; 7] = [196_608.0, 24_576.0, 3072.0, 384.0, 48.0, 6.0, 0.75];
 
 /// See `shaders/globals.wgsl` for what each field holds.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -39,9 +39,10 @@ struct Globals {
     cloud_color: [f32; 4],
     clouds: [f32; 4],
     cloud_eye: [f32; 4],
+    cloud_eye_wide: [f32; 4],
     cloud_turn: [f32; 4],
     cloud_seed: [u32; 4],
-    mottle: [[f32; 4]; 6],
+    mottle: [[f32; 4]; 7],
     cliff_color: [f32; 4],
     misc: [f32; 4],
     modes: [u32; 4],
@@ -214,9 +215,9 @@ fn set_water(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, altitude_m: f6
     let over_sea_km = (altitude_m - water.level_m) * 1e-3;
     g.water = [(water.level_m * 1e-3) as f32, over_sea_km as f32, equator, pole];
     for (i, slot) in g.waves.iter_mut().enumerate() {
-        // Directions spread over the sphere by the golden angle, lengths from 40 m down to 0.5 m.
+        // Directions spread over the sphere by the golden angle, lengths from 30 m down to 0.2 m.
         let x = (i as f64 + 0.5) / WAVES as f64;
-        let length_m = 40.0 * (0.5_f64 / 40.0).powf(x);
+        let length_m = 30.0 * (0.2_f64 / 30.0).powf(x);
         let z = 1.0 - 2.0 * ((i * 7 % WAVES) as f64 + 0.5) / WAVES as f64;
         let angle = i as f64 * 2.399_963;
         let flat = (1.0 - z * z).sqrt();
@@ -249,6 +250,7 @@ fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup
     g.cloud_color = rgbw(clouds.color, clouds.density);
     g.clouds = [bottom as f32, top as f32, clouds.coverage as f32, period_km as f32];
     g.cloud_eye = vec4(wrapped(turned / period_km), if thin { 3.0 } else { steps });
+    g.cloud_eye_wide = vec4(wrapped(DVec3::new(turned.y, turned.z, turned.x) / (period_km * 7.0)), 0.0);
     g.cloud_turn = [c as f32, s as f32, (planet.radius_km / clouds.scale_km) as f32, clouds.curl as f32];
     g.cloud_seed = [clouds.seed ^ planet.seed.rotate_left(16), setup.weather_side_px, 0, 0];
 }
