@@ -1,4 +1,39 @@
 //! Tellus: whole planets from one small file.
+//!
+//! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text through this
+//! crate and asks the same evaluator that drew the artist's picture: the height that is queried is the height that was seen,
+//! bit for bit, on every machine.
+//!
+//! ```
+//! use tellus::planet::Planet;
+//! use tellus::sphere::LatLon;
+//! use tellus::terrain::Terrain;
+//!
+//! let planet = Planet::from_text("islet.ron", r#"(
+//!     version: 1,
+//!     name: "Islet",
+//!     radius_km: 40.0,
+//!     layers: [(name: "Hills", amplitude_m: 800.0, shape: Fbm(wavelength_km: 12.0, octaves: 8))],
+//!     water: (level_m: -50.0),
+//! )"#)?;
+//! let terrain = Terrain::new(planet.into());
+//! let place = terrain.sample(LatLon::from_degrees(48.2, 16.4).direction());
+//! println!("{:.1} m, {}", place.height_m, terrain.planet().biomes.palette[place.biome].name);
+//! # Ok::<(), tellus::planet::LoadError>(())
+//! ```
+//!
+//! Data flows one way; a module knows only those above it in this list:
+//!
+//! - [`planet`]: what a planet is: the preset's data, its parameters, loading and saving
+//! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
+//! - [`terrain`]: what the surface is: [`terrain::Terrain`], the evaluator that everything asks
+//! - [`lod`]: which nodes are shown from where
+//! - [`build`]: tiles from nodes, on all cores, in the background, stage by stage
+//! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
+//! - `editor`, `cli` (feature `editor`): the application and the command line
+//!
+//! Lengths are metres, angles radians, unless a name says otherwise. Frames are named in full (`sun_dir_planet`): the planet
+//! frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
 pub mod build;
 pub mod lod;

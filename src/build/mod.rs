@@ -1,6 +1,18 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
+//!
+//! - [`tile`]: what a tile is: vertices, bounds
+//! - [`make`]: one tile from one node, stage by stage
+//! - [`cache`]: tiles kept for later, and for the stages an edit leaves intact
+//! - [`refine`]: a complete set of tiles for a view
+//! - [`builder`]: all of it in the background
+pub mod builder;
+mod cache;
+mod make;
+mod refine;
 pub mod tile;
 
+pub use builder::Builder;
+pub use refine::lowest_radius_m;
 pub use tile::{Tile, Vertex};
 
 use crate::lod::View;
@@ -38,36 +50,13 @@ pub struct BuildStats {
     pub vertices: usize,
     /// Tiles (re)built for it.
     pub tiles_built: usize,
+    /// Octaves of noise times points that were evaluated.
+    pub octave_samples: usize,
     /// Seconds from the request to the finished surface.
     pub duration_secs: f64,
 }
 
-/// Builds surfaces in the background: the newest planet and view win, stale work is dropped.
-pub struct Builder {}
-
-impl Builder {
-    /// Starts the workers. `wake` is called from another thread whenever a new surface is ready.
-    pub fn new(_wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self {}
-    }
-    /// Asks for a planet as seen from a view. Cheap when nothing changed since the last call; call it every frame.
-    pub fn request(&self, _planet: &Arc<Planet>, _view: &View) {}
-    /// The newest surface, complete or not.
-    pub fn surface(&self) -> Option<Arc<Surface>> {
-        None
-    }
-    /// Whether work is under way.
-    pub fn is_busy(&self) -> bool {
-        false
-    }
-}
-
 /// Builds the complete surface for a view and waits for it.
-pub fn build_now(_planet: &Arc<Planet>, _view: &View) -> Surface {
-    Surface {
-        leaves: Vec::new(),
-        terrain: Arc::new(Terrain::new(_planet.clone())),
-        complete: true,
-        stats: BuildStats::default(),
-    }
+pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
+    refine::refine(&Arc::new(Terrain::new(planet.clone())), view, &cache::Cache::default(), &|| true)
 }

@@ -1,1 +1,127 @@
-//! The command line.
+//! The command line: one file for each subcommand.
+//!
+//! - [`args`]: how sizes, angles and places are written
+//! - [`render`], [`check`], [`sample`], [`new`], [`bench`]: the subcommands
+//! - [`view`]: where the camera stands unless told; [`headless`]: a GPU without a window
+//!
+//! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
+
+mod args;
+mod bench;
+mod check;
+mod headless;
+mod new;
+mod render;
+mod sample;
+mod view;
+
+use crate::planet::Planet;
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Shape a whole planet with live sliders, save it as one RON preset, draw and query it from scripts.
+#[derive(Parser)]
+#[command(name = "tellus", version, args_conflicts_with_subcommands = true)]
+#[command(after_help = "Without a subcommand the editor opens, with FILE if one is given.")]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// The preset to open in the editor
+    #[arg(value_name = "FILE.ron")]
+    file: Option<PathBuf>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Render(Box<render::Args>),
+    Check(check::Args),
+    Sample(sample::Args),
+    New(new::Args),
+    Bench(bench::Args),
+}
+
+/// Why a subcommand did not do what it was asked.
+enum Failure {
+    /// Said as `error: ...`.
+    Message(String),
+    /// What there is to say has been said.
+    Told,
+}
+
+impl From<String> for Failure {
+    fn from(message: String) -> Self {
+        Failure::Message(message)
+    }
+}
+
+/// Runs the program with the arguments of this process.
+pub fn run() -> ExitCode {
+    let filter = env_logger::Env::default().default_filter_or("error");
+    // Whoever embeds this may have a logger already.
+    let _ = env_logger::Builder::from_env(filter).try_init();
+    let cli = match Cli::command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help goes to standard output; a reader that has gone away is no reason to fail.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    let result = match cli.command {
+        None => edit(cli.file),
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Check(args)) => check::run(&args),
+        Some(Command::Sample(args)) => sample::run(&args),
+        Some(Command::New(args)) => new::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if let Failure::Message(message) = failure {
+                tell(&format!("error: {message}"));
+            }
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
+    if let Some(file) = &file {
+        // Said here rather than in a window: whoever gave a name on the command line reads the answer there.
+        load(file)?;
+    }
+    Ok(crate::editor::run(file)?)
+}
+
+fn load(path: &Path) -> Result<Planet, Failure> {
+    Planet::load(path).map_err(|error| Failure::Message(error.to_string()))
+}
+
+/// A line on standard error.
+fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// A line on standard output. A reader that has gone away (`tellus ... | head -1`) wants no more: that is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(format!("cannot write to standard output: {error}").into())
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_declared_without_contradiction() {
+        Cli::command().debug_assert();
+    }
+}

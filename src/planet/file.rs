@@ -1,9 +1,17 @@
-//! Loading and saving.
-use super::Planet;
+//! Loading and saving a preset, and what can go wrong with either.
+
+use super::locate::Place;
+use super::{Planet, VERSION, explain, locate, migrate, text, validate};
+use std::collections::HashMap;
+use std::fmt;
+use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
+/// Longest preset that is read. A preset with every list at its limit stays far below it.
+pub const MAX_FILE_BYTES: u64 = 1 << 20;
+
 /// One thing that is wrong with a preset.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// 1-based line, 0 when the problem has no place in the text.
     pub line: usize,
@@ -15,6 +23,19 @@ pub struct Problem {
     pub message: String,
 }
 
+/// `line:column: path: message`, without the parts that the problem does not have.
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.line > 0 {
+            write!(f, "{}:{}: ", self.line, self.column)?;
+        }
+        if !self.path.is_empty() {
+            write!(f, "{}: ", self.path)?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
 /// A preset that could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
@@ -24,16 +45,21 @@ pub enum LoadError {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// The text is not a valid preset. Displays one line per problem: `file:line:column: path: message`.
-    #[error("invalid preset")]
+    #[error("{}", lines(file, problems))]
     Invalid {
         /// The file, or a name for the text.
         file: String,
         /// Everything that is wrong.
         problems: Vec<Problem>,
     },
+}
+
+fn lines(file: &str, problems: &[Problem]) -> String {
+    let gap = |problem: &Problem| if problem.line > 0 { "" } else { " " };
+    problems.iter().map(|p| format!("{file}:{}{p}", gap(p))).collect::<Vec<_>>().join("\n")
 }
 
 /// A preset that could not be saved.
@@ -49,21 +75,162 @@ pub struct SaveError {
 impl Planet {
     /// Reads and checks a preset.
     pub fn load(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
-        let _ = path;
-        Ok(Planet::default())
+        let path = path.as_ref();
+        let file = path.display().to_string();
+        let invalid = |problem: Problem| LoadError::Invalid { file: file.clone(), problems: vec![problem] };
+        let bytes = read(path).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
+        if bytes.len() as u64 > MAX_FILE_BYTES {
+            let message = format!("the file is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
+            return Err(invalid(Problem { line: 0, column: 0, path: String::new(), message }));
+        }
+        match std::str::from_utf8(&bytes) {
+            Ok(text) => Planet::from_text(&file, text),
+            Err(error) => {
+                let readable = String::from_utf8_lossy(bytes.get(..error.valid_up_to()).unwrap_or_default());
+                let message = "the text is not UTF-8 from here on; save it as UTF-8";
+                Err(invalid(explain::at(&readable, readable.len(), message)))
+            }
+        }
     }
+
     /// Reads and checks a preset from text; `file` names it in messages.
     pub fn from_text(file: &str, text: &str) -> Result<Planet, LoadError> {
-        let _ = (file, text);
-        Ok(Planet::default())
+        let invalid = |problems| LoadError::Invalid { file: file.to_owned(), problems };
+        // Some editors put a byte-order mark in front.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if text.len() as u64 > MAX_FILE_BYTES {
+            let message = format!("the text is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
+            return Err(invalid(vec![Problem { line: 0, column: 0, path: String::new(), message }]));
+        }
+        let version = version(text).map_err(|problem| invalid(vec![problem]))?;
+        let planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
+        let problems = validate::problems(&planet);
+        if problems.is_empty() {
+            return Ok(planet);
+        }
+        let places = locate::all(text);
+        let problems = problems.into_iter().map(|(path, message)| placed(text, &places, path.to_string(), message));
+        Err(invalid(problems.collect()))
     }
+
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.
     pub fn to_text(&self) -> String {
-        String::new()
+        text::write(self)
     }
-    /// Saves atomically: the old file stays until the new one is whole.
+
+    /// Saves atomically: the old file stays until the new one is whole. A planet that could not be loaded again is
+    /// refused.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
-        let _ = path;
-        Ok(())
+        let path = path.as_ref();
+        let failed = |message: String| SaveError { path: path.to_owned(), message };
+        if let Some((place, message)) = validate::problems(self).into_iter().next() {
+            return Err(failed(format!("the planet is not valid and was not saved: {place}: {message}")));
+        }
+        write_atomically(path, self.to_text().as_bytes()).map_err(failed)
     }
+}
+
+/// At most one byte more than is allowed.
+fn read(path: &Path) -> io::Result<Vec<u8>> {
+    if path.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file"));
+    }
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The version that the text says it has. Found without reading the rest, which a newer version may write differently.
+fn version(text: &str) -> Result<u32, Problem> {
+    let field = "version";
+    let Some(place) = locate::find(text, field) else {
+        // A text that is no preset at all has a better explanation than a missing field.
+        let problem = match explain::parse::<migrate::FileV1>(text) {
+            Err(problem) if problem.path.is_empty() && !problem.message.starts_with("there is no field") => problem,
+            _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version()) },
+        };
+        return Err(problem);
+    };
+    let problem = |message| Problem { path: field.to_owned(), ..explain::at(text, place.value, message) };
+    let digits: String =
+        text[place.value..].chars().take_while(|c| c.is_alphanumeric() || "._-+\"'".contains(*c)).collect();
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        let found = locate::excerpt(text, place.value);
+        return Err(problem(format!("{found} is not a version; use a whole number, now {VERSION}")));
+    }
+    match digits.parse() {
+        Ok(0) => Err(problem(format!("there is no version 0; use {VERSION}"))),
+        Ok(version) if version <= VERSION => Ok(version),
+        _ => Err(problem(format!(
+            "this preset has version {digits} and was made by a newer Tellus; this one reads up to version {VERSION}: update it"
+        ))),
+    }
+}
+
+fn missing_version() -> String {
+    format!("the version is missing; write `version: {VERSION}` as the first field")
+}
+
+fn start(text: &str) -> usize {
+    locate::find(text, "").map_or(0, |place| place.value)
+}
+
+/// A problem of a parameter, at its value or at the nearest part of the text that holds it.
+fn placed(text: &str, places: &HashMap<String, Place>, path: String, message: String) -> Problem {
+    let mut holder = path.as_str();
+    loop {
+        if let Some(place) = places.get(holder) {
+            return Problem { path, ..explain::at(text, place.value, message) };
+        }
+        match holder.rfind(['.', '[']) {
+            Some(end) => holder = &holder[..end],
+            None if holder.is_empty() => return Problem { line: 1, column: 1, path, message },
+            None => holder = "",
+        }
+    }
+}
+
+/// Writes beside the target, waits for the disk, then takes the target's place: a reader finds the old file or the new
+/// one, never half of either, whatever fails in between.
+pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    // A link stays a link: what it points to is replaced.
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(format!("there is no folder {}; make it first or save elsewhere", folder.display()));
+    }
+    if target.is_dir() {
+        return Err("is a folder; name a file in it".to_owned());
+    }
+    if path.file_name().is_none() {
+        return Err("is not a file's name; name a file".to_owned());
+    }
+    let existing = std::fs::metadata(&target).ok().map(|metadata| metadata.permissions());
+    if existing.as_ref().is_some_and(std::fs::Permissions::readonly) {
+        return Err("is read-only; change its permissions or save elsewhere".to_owned());
+    }
+    let failed = |what: &str, error: &io::Error| format!("{what}: {error}; the old file is as it was");
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tellus-").suffix(".tmp");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder
+        .tempfile_in(folder)
+        .map_err(|e| failed(&format!("cannot write to the folder {}", folder.display()), &e))?;
+    file.write_all(bytes).map_err(|e| failed("cannot write", &e))?;
+    if let Some(permissions) = existing {
+        // Not every file system has permissions; the text matters more.
+        let _ = file.as_file().set_permissions(permissions);
+    }
+    file.as_file().sync_all().map_err(|e| failed("cannot write", &e))?;
+    file.persist(&target).map_err(|e| failed("cannot replace the file", &e.error))?;
+    // The rename itself must reach the disk too. Folders cannot be opened everywhere, and the file is whole already.
+    #[cfg(unix)]
+    if let Ok(folder) = std::fs::File::open(folder) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
 }

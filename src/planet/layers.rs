@@ -54,6 +54,8 @@ pub enum Shape {
     Fbm(Fbm),
     /// Mountain chains: octaves of noise folded into crests.
     Ridged(Ridged),
+    /// Impact craters of many sizes.
+    Craters(Craters),
 }
 
 impl Default for Shape {
@@ -64,7 +66,7 @@ impl Default for Shape {
 
 impl Shape {
     /// The names of the kinds, in the order of [`Choice::index`].
-    pub const NAMES: &'static [&'static str] = &["Fbm", "Ridged"];
+    pub const NAMES: &'static [&'static str] = &["Fbm", "Ridged", "Craters"];
     const KIND: Param = Param {
         name: "shape",
         label: "Kind",
@@ -83,6 +85,7 @@ impl Choice for Shape {
         match self {
             Shape::Fbm(_) => 0,
             Shape::Ridged(_) => 1,
+            Shape::Craters(_) => 2,
         }
     }
     /// Changes the kind and keeps what both kinds have.
@@ -90,10 +93,15 @@ impl Choice for Shape {
         let (wavelength_km, octaves, gain, lacunarity) = match self {
             Shape::Fbm(s) => (s.wavelength_km, s.octaves, s.gain, s.lacunarity),
             Shape::Ridged(s) => (s.wavelength_km, s.octaves, s.gain, s.lacunarity),
+            Shape::Craters(s) => (s.diameter_km, s.octaves, s.gain, s.lacunarity),
         };
         match index {
             0 => *self = Shape::Fbm(Fbm { wavelength_km, octaves, gain, lacunarity }),
             1 => *self = Shape::Ridged(Ridged { wavelength_km, octaves, gain, lacunarity, ..Ridged::default() }),
+            2 => {
+                let craters = Craters { diameter_km: wavelength_km, octaves, gain, lacunarity, ..Craters::default() };
+                *self = Shape::Craters(craters);
+            }
             _ => {}
         }
     }
@@ -107,6 +115,7 @@ impl Params for Shape {
         match self {
             Shape::Fbm(shape) => shape.each_param(path, visit),
             Shape::Ridged(shape) => shape.each_param(path, visit),
+            Shape::Craters(shape) => shape.each_param(path, visit),
         }
     }
 }
@@ -140,6 +149,22 @@ params! {
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// How much a crest of one octave strengthens the next: 0 is rough everywhere, 2 keeps valleys smooth.
         feedback: f64 = 2.0, "Feedback", Unit::None, linear(0.0, 4.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Impact craters: bowls with a raised rim, from -1 (floor) to about 0.3 (rim); each octave is a smaller size.
+    pub struct Craters {
+        /// Diameter of the widest craters.
+        diameter_km: f64 = 200.0, "Diameter", Unit::Kilometres, log(0.001, 50_000.0), Stage::Field;
+        /// How many sizes there are; each one more halves the smallest crater (at lacunarity 2).
+        octaves: u32 = 7, "Octaves", Unit::None, count(1, 20), Stage::Field;
+        /// Depth of each size against the one before.
+        gain: f64 = 0.55, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Smallness of each size against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// Share of the ground that has been hit, for each size.
+        density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 

@@ -4,11 +4,13 @@
 //! - [`layers`], [`parts`], [`table`]: the preset's data (terrain layers; everything else; the biome table)
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
-//! - [`file`]: loading and saving, with [`locate`] for line and column and [`migrate`] for old versions
+//! - [`file`]: loading and saving; [`text`] writes a preset, [`explain`] reads one and words what is wrong with it,
+//!   [`locate`] knows lines and columns, [`migrate`] old versions
 //! - [`shipped`]: the presets that come with the program
 //! - [`random`]: random planets that are always valid
 
 pub mod diff;
+pub(crate) mod explain;
 pub mod file;
 pub mod layers;
 pub(crate) mod locate;
@@ -18,10 +20,11 @@ pub mod parts;
 pub mod random;
 pub mod shipped;
 pub mod table;
+pub(crate) mod text;
 pub mod validate;
 
 pub use file::{LoadError, Problem, SaveError};
-pub use layers::{Blend, Fbm, Layer, Mask, Ridged, Shape};
+pub use layers::{Blend, Craters, Fbm, Layer, Mask, Ridged, Shape};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use table::Table;
 

@@ -423,6 +423,11 @@ macro_rules! params {
                     stage: $stage,
                 }, )*
             ];
+
+            /// Name and description of each field that holds parameters of its own.
+            pub const PARTS: &'static [(&'static str, &'static str)] = &[
+                $($( (stringify!($nested), concat!($($nested_doc),+).trim_ascii_start()), )*)?
+            ];
         }
 
         impl $crate::planet::param::Params for $struct {

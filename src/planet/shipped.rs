@@ -1,4 +1,7 @@
 //! The presets that come with the program.
+
+use super::{LoadError, Planet};
+
 /// A preset that is part of the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Shipped {
@@ -7,5 +10,57 @@ pub struct Shipped {
     /// Its text.
     pub text: &'static str,
 }
+
+impl Shipped {
+    /// Reads it; a test proves that this cannot fail.
+    pub fn load(&self) -> Result<Planet, LoadError> {
+        Planet::from_text(self.file, self.text)
+    }
+}
+
 /// All of them, the default planet first.
-pub const ALL: &[Shipped] = &[];
+pub const ALL: &[Shipped] = &[Shipped { file: "aurel.ron", text: include_str!("../../planets/aurel.ron") }];
+
+/// The planet that is there at the start: the first of [`ALL`].
+pub fn default_planet() -> Planet {
+    ALL.first().and_then(|shipped| shipped.load().ok()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    fn folder() -> std::path::PathBuf {
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("planets")
+    }
+
+    /// Run with `TELLUS_BLESS=1` to write the presets anew in the form that saving gives them.
+    #[test]
+    fn every_shipped_preset_loads_and_is_written_as_saving_writes_it() {
+        for shipped in ALL {
+            let path = folder().join(shipped.file);
+            let planet = Planet::load(&path).unwrap_or_else(|error| panic!("{error}"));
+            if std::env::var_os("TELLUS_BLESS").is_some() {
+                planet.save(&path).unwrap();
+            }
+            assert!(planet.to_text() == std::fs::read_to_string(&path).unwrap(), "{}: bless it", shipped.file);
+        }
+    }
+
+    #[test]
+    fn every_preset_in_the_folder_is_shipped() {
+        let files: BTreeSet<String> = std::fs::read_dir(folder())
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .filter(|name| name.ends_with(".ron"))
+            .collect();
+        assert_eq!(files, ALL.iter().map(|shipped| shipped.file.to_owned()).collect());
+    }
+
+    #[test]
+    fn the_default_planet_is_the_first() {
+        assert_eq!(default_planet(), ALL[0].load().unwrap());
+        assert_ne!(default_planet(), Planet::default());
+    }
+}

@@ -1,9 +1,217 @@
-//! What serde cannot see.
-use super::Planet;
-use super::param::ParamPath;
+//! What serde cannot see: ranges, names that refer to each other, the table's shape.
+//!
+//! Ranges come from the description of each parameter; what concerns several of them at once stands here.
 
-/// Everything that is wrong with a planet: where, and what would be right.
+use super::param::{ParamPath, Segment};
+use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, Planet, Table, layers, parts};
+use std::collections::HashSet;
+
+/// Everything that is wrong with a planet: where, and what would be right. In the order of the file, as far as one
+/// problem belongs to one place.
 pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
-    let _ = planet;
-    Vec::new()
+    let mut found = Found(Vec::new());
+    // A list that is far too long would only bury its own problem under those of its elements.
+    limits(planet, &mut found);
+    if !found.0.is_empty() {
+        return found.0;
+    }
+    planet.clone().each(&mut |path, param, value| {
+        if let Some(message) = value.get().problem(param) {
+            found.0.push((path.clone(), message));
+        }
+    });
+    names(&planet.layers, &mut found);
+    for (index, layer) in planet.layers.iter().enumerate() {
+        masks(&planet.layers, index, layer, &mut found);
+    }
+    biomes(&planet.biomes, &mut found);
+    found.0
+}
+
+struct Found(Vec<(ParamPath, String)>);
+
+impl Found {
+    fn add(&mut self, path: ParamPath, message: impl Into<String>) {
+        self.0.push((path, message.into()));
+    }
+}
+
+fn biomes_path(field: &'static str) -> ParamPath {
+    ParamPath::from(vec![Segment::Field("biomes"), Segment::Field(field)])
+}
+
+fn item(list: &ParamPath, index: usize, field: Option<&'static str>) -> ParamPath {
+    let mut segments = list.segments().to_vec();
+    segments.push(Segment::Index(index));
+    segments.extend(field.map(Segment::Field));
+    ParamPath::from(segments)
+}
+
+fn limits(planet: &Planet, found: &mut Found) {
+    let mut limit = |path: ParamPath, what: &str, count: usize, most: usize| {
+        if count > most {
+            found.add(path, format!("{count} {what} are too many; use at most {most}"));
+        }
+    };
+    limit(ParamPath::default().join("layers"), "layers", planet.layers.len(), MAX_LAYERS);
+    limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
+    for (index, layer) in planet.layers.iter().enumerate().take(MAX_LAYERS) {
+        limit(layers::layer_path(index).join("masks"), "masks", layer.masks.len(), MAX_MASKS);
+    }
+}
+
+fn names(layers: &[Layer], found: &mut Found) {
+    let mut seen = HashSet::new();
+    for (index, layer) in layers.iter().enumerate() {
+        let path = || layers::layer_path(index).join("name");
+        if layer.name.trim().is_empty() {
+            found.add(path(), "a layer needs a name, so that masks can refer to it; use any text");
+        } else if !seen.insert(layer.name.as_str()) {
+            found.add(path(), format!("another layer is called {:?} too; use a name of its own", layer.name));
+        }
+    }
+}
+
+fn masks(layers: &[Layer], index: usize, layer: &Layer, found: &mut Found) {
+    for (number, mask) in layer.masks.iter().enumerate() {
+        let path = |field| item(&layers::layer_path(index).join("masks"), number, Some(field));
+        let others: Vec<&str> =
+            layers.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, l)| l.name.as_str()).collect();
+        let choice = match others.as_slice() {
+            [] => "there is no other layer: remove the mask or add a layer".to_owned(),
+            some => format!("use {}", one_of(some)),
+        };
+        if !others.contains(&mask.layer.as_str()) {
+            let wrong = match layers.get(index) {
+                Some(own) if own.name == mask.layer => "a layer cannot mask itself".to_owned(),
+                _ => format!("there is no layer called {:?}", mask.layer),
+            };
+            found.add(path("layer"), format!("{wrong}; {choice}"));
+        }
+        if mask.from == mask.to {
+            found.add(path("to"), format!("`to` equals `from` ({}); use two different numbers", mask.to));
+        }
+    }
+}
+
+/// `"a"`, `"a" or "b"`, `"a", "b" or "c"`; a long list is cut.
+fn one_of(names: &[&str]) -> String {
+    const MOST: usize = 12;
+    let shown: Vec<String> = names.iter().take(MOST).map(|name| format!("{name:?}")).collect();
+    match shown.as_slice() {
+        [most @ .., last] if !most.is_empty() && names.len() <= MOST => format!("{} or {last}", most.join(", ")),
+        _ if names.len() > MOST => format!("{}, ...", shown.join(", ")),
+        _ => shown.join(", "),
+    }
+}
+
+fn biomes(biomes: &parts::Biomes, found: &mut Found) {
+    let mut ordered = |low: f64, high: f64, low_name: &str, high_name: &'static str, strict: bool| {
+        // Non-finite numbers are already reported.
+        if low > high || (strict && low == high) {
+            let right = if strict { "more than" } else { "at least" };
+            found.add(biomes_path(high_name), format!("{high} is out of order; use {right} `{low_name}` ({low})"));
+        }
+    };
+    ordered(biomes.coldest_c, biomes.hottest_c, "coldest_c", "hottest_c", true);
+    ordered(biomes.lowest_m, biomes.highest_m, "lowest_m", "highest_m", true);
+    ordered(biomes.cliff_start_deg, biomes.cliff_full_deg, "cliff_start_deg", "cliff_full_deg", false);
+
+    if biomes.palette.is_empty() {
+        found.add(biomes_path("palette"), "the palette is empty; give it at least one biome");
+    }
+    let mut keys = HashSet::new();
+    for (index, biome) in biomes.palette.iter().enumerate() {
+        if !keys.insert(biome.key) {
+            let message = format!("another biome has the key {:?} too; use a key of its own", biome.key);
+            found.add(item(&biomes_path("palette"), index, Some("key")), message);
+        }
+    }
+    table(biomes, &keys, found);
+}
+
+fn table(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
+    let (rows, columns) = (biomes.table.rows(), biomes.table.columns());
+    let sides = Table::MIN_SIDE..=Table::MAX_SIDE;
+    let range = format!("use {} to {}", Table::MIN_SIDE, Table::MAX_SIDE);
+    if !sides.contains(&rows.len()) {
+        found.add(biomes_path("table"), format!("the table has {} rows; {range}", rows.len()));
+        return;
+    }
+    if !sides.contains(&columns) {
+        let path = item(&biomes_path("table"), 0, None);
+        found.add(path, format!("the table has {columns} columns; {range}"));
+        return;
+    }
+    let known: String = biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
+    for (index, row) in rows.iter().enumerate() {
+        let path = || item(&biomes_path("table"), index, None);
+        let length = row.chars().count();
+        if length != columns {
+            let message = format!("this row has {length} letters, the first has {columns}; make all equally long");
+            found.add(path(), message);
+        }
+        let mut strangers: Vec<char> = row.chars().filter(|key| !keys.contains(key)).take(length).collect();
+        strangers.sort_unstable();
+        strangers.dedup();
+        if let Some(stranger) = strangers.first() {
+            found.add(path(), format!("{stranger:?} is no key of the palette; use one of `{known}`"));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::{Biome, Mask};
+
+    fn layer(name: &str, masked_by: &[&str]) -> Layer {
+        let masks = masked_by.iter().map(|&layer| Mask { layer: layer.to_owned(), ..Mask::default() }).collect();
+        Layer { name: name.to_owned(), masks, ..Layer::default() }
+    }
+
+    fn found(planet: &Planet) -> Vec<String> {
+        problems(planet).into_iter().map(|(path, message)| format!("{path}: {message}")).collect()
+    }
+
+    #[test]
+    fn the_default_planet_is_valid() {
+        assert_eq!(found(&Planet::default()), Vec::<String>::new());
+    }
+
+    #[test]
+    fn masks_refer_to_other_layers_on_or_off() {
+        let mut planet = Planet { layers: vec![layer("A", &["B"]), layer("B", &[])], ..Planet::default() };
+        planet.layers[1].enabled = false;
+        assert_eq!(found(&planet), Vec::<String>::new());
+        planet.layers[0].masks[0].layer = "A".to_owned();
+        assert_eq!(found(&planet), ["layers[0].masks[0].layer: a layer cannot mask itself; use \"B\""]);
+        planet.layers[0].masks[0].layer = "C".to_owned();
+        assert_eq!(found(&planet), ["layers[0].masks[0].layer: there is no layer called \"C\"; use \"B\""]);
+    }
+
+    #[test]
+    fn a_list_that_is_too_long_is_one_problem() {
+        let planet = Planet { layers: vec![layer("", &[]); 65], ..Planet::default() };
+        assert_eq!(found(&planet), ["layers: 65 layers are too many; use at most 64"]);
+    }
+
+    #[test]
+    fn every_problem_is_found_at_once() {
+        let mut planet = Planet { radius_km: f64::NAN, ..Planet::default() };
+        planet.biomes.hottest_c = -40.0;
+        planet.biomes.cliff_full_deg = 10.0;
+        planet.biomes.palette.push(Biome::default());
+        planet.biomes.table.set_key(3, 2, 'z');
+        assert_eq!(
+            found(&planet),
+            [
+                "radius_km: NaN is not a finite number; use 1 to 100000 km",
+                "biomes.hottest_c: -40 is out of order; use more than `coldest_c` (-30)",
+                "biomes.cliff_full_deg: 10 is out of order; use at least `cliff_start_deg` (28)",
+                "biomes.palette[1].key: another biome has the key 'a' too; use a key of its own",
+                "biomes.table[2]: 'z' is no key of the palette; use one of `aa`",
+            ]
+        );
+    }
 }

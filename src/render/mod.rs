@@ -1,6 +1,34 @@
 //! Draws a planet with wgpu into any texture view on the caller's own device.
+//!
+//! One frame, pass by pass; each file is named like its shader in `shaders/`:
+//! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`: what outlives a frame, made anew only when what
+//!   it depends on changed
+//! - `terrain` with `pool`: the ground into radiance and depth
+//! - `water`: the sea over it
+//! - `clouds`: their light, transmittance and distance
+//! - `air`: the air in front of everything, stars and the star's disc behind it
+//! - `tonemap`: radiance to display
+//!
+//! Around them: `shaders` (includes, checks, hot reload), `globals` (the uniform buffer), `targets`, `gpu` (helpers).
+
+mod air;
+mod air_tables;
+mod biome_table;
+mod cloud_map;
+mod clouds;
+mod globals;
+mod gpu;
+mod noise_tile;
+mod pool;
+pub mod shaders;
+mod tables;
+mod targets;
+mod terrain;
+mod tonemap;
+mod water;
+
 use crate::build::Surface;
-use crate::lod::View;
+use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use glam::DVec3;
 
@@ -33,7 +61,16 @@ impl DebugView {
     ];
     /// The name a person reads.
     pub fn label(self) -> &'static str {
-        "x"
+        match self {
+            DebugView::Shaded => "Shaded",
+            DebugView::Height => "Height",
+            DebugView::Normal => "Normal",
+            DebugView::Biome => "Biome",
+            DebugView::Slope => "Slope",
+            DebugView::Lod => "Level of detail",
+            DebugView::Wireframe => "Wireframe",
+            DebugView::Coverage => "Coverage",
+        }
     }
 }
 
@@ -72,8 +109,47 @@ pub struct FrameStats {
     pub triangles: usize,
 }
 
+/// Every pipeline; made anew as a whole when a shader changes on disk.
+pub(crate) struct Passes {
+    air_tables: air_tables::AirTablesPass,
+    cloud_map: cloud_map::CloudMapPass,
+    terrain: terrain::TerrainPass,
+    water: water::WaterPass,
+    clouds: clouds::CloudsPass,
+    air: air::AirPass,
+    tonemap: tonemap::TonemapPass,
+}
+
+impl Passes {
+    fn new(
+        device: &wgpu::Device,
+        globals: &wgpu::BindGroupLayout,
+        tables: &wgpu::BindGroupLayout,
+        target_format: wgpu::TextureFormat,
+    ) -> Result<Self, RenderError> {
+        Ok(Self {
+            air_tables: air_tables::AirTablesPass::new(device, globals, tables)?,
+            cloud_map: cloud_map::CloudMapPass::new(device, globals)?,
+            terrain: terrain::TerrainPass::new(device, globals, tables)?,
+            water: water::WaterPass::new(device, globals, tables)?,
+            clouds: clouds::CloudsPass::new(device, globals, tables)?,
+            air: air::AirPass::new(device, globals, tables)?,
+            tonemap: tonemap::TonemapPass::new(device, globals, target_format)?,
+        })
+    }
+}
+
 /// All GPU state of one viewport.
-pub struct Renderer {}
+pub struct Renderer {
+    target_format: wgpu::TextureFormat,
+    globals: globals::GlobalsBuffer,
+    tables: tables::Tables,
+    terrain: terrain::TerrainResources,
+    targets: Option<targets::Targets>,
+    passes: Passes,
+    watch: shaders::Watch,
+    shader_error: Option<String>,
+}
 
 impl Renderer {
     /// Features and limits to ask of the device; works on every adapter of the WebGPU default limits.
@@ -83,24 +159,100 @@ impl Renderer {
     /// Compiles the pipelines. `target_format` is what [`Renderer::render`] will draw into: `Rgba8UnormSrgb`,
     /// `Bgra8UnormSrgb` or their linear variants (`Rgba8Unorm`: gamma is then applied by the shader).
     pub fn new(
-        _device: &wgpu::Device,
-        _queue: &wgpu::Queue,
-        _target_format: wgpu::TextureFormat,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target_format: wgpu::TextureFormat,
     ) -> Result<Self, RenderError> {
-        Ok(Self {})
+        let globals = globals::GlobalsBuffer::new(device);
+        let tables = tables::Tables::new(device, queue);
+        let passes = Passes::new(device, &globals.layout, &tables.layout, target_format)?;
+        let terrain = terrain::TerrainResources::new(device);
+        let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
+        Ok(Self { target_format, globals, tables, terrain, targets, passes, watch, shader_error })
     }
     /// Draws one frame and submits it.
     pub fn render(
         &mut self,
-        _device: &wgpu::Device,
-        _queue: &wgpu::Queue,
-        _target: &wgpu::TextureView,
-        _frame: &Frame<'_>,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target: &wgpu::TextureView,
+        frame: &Frame<'_>,
     ) -> FrameStats {
-        FrameStats::default()
+        self.reload_shaders(device);
+        let (size_px, scale) = drawn_size(frame, device.limits().max_texture_dimension_2d);
+        let targets = match self.targets.take().filter(|targets| targets.size_px == size_px) {
+            Some(targets) => targets,
+            None => targets::Targets::new(device, size_px),
+        };
+        let height_range_m = height_range_m(frame.surface);
+        let setup = globals::Setup {
+            size_px,
+            scale,
+            height_range_m,
+            weather_side_px: tables::WEATHER_SIDE_PX,
+            srgb_target: self.target_format.is_srgb(),
+        };
+        self.globals.write(queue, frame, &setup);
+        self.terrain.prepare(device, queue, frame, height_range_m.0);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let globals = &self.globals.group;
+        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
+        let groups = [globals, self.tables.group()];
+
+        let stats = self.terrain.draw(&mut encoder, &self.passes.terrain, groups, &targets, frame.debug_view);
+        let mut scene = 0;
+        if frame.debug_view == DebugView::Shaded {
+            if frame.planet.water.is_some() {
+                self.passes.water.draw(device, &mut encoder, groups, &targets, scene);
+                scene = 1 - scene;
+            }
+            if frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) {
+                self.passes.clouds.draw(device, &mut encoder, groups, &targets, scene);
+            }
+            self.passes.air.draw(device, &mut encoder, groups, &targets, scene);
+            scene = 1 - scene;
+        }
+        self.passes.tonemap.draw(device, &mut encoder, globals, &targets.hdr[scene], target);
+        queue.submit([encoder.finish()]);
+        self.targets = Some(targets);
+        stats
     }
     /// What is wrong with a shader that was just edited on disk (debug builds); the last good one goes on drawing.
     pub fn shader_error(&self) -> Option<&str> {
-        None
+        self.shader_error.as_deref()
     }
+
+    fn reload_shaders(&mut self, device: &wgpu::Device) {
+        if !self.watch.changed() {
+            return;
+        }
+        match Passes::new(device, &self.globals.layout, &self.tables.layout, self.target_format) {
+            Ok(passes) => {
+                self.passes = passes;
+                self.tables.forget();
+                self.shader_error = None;
+            }
+            Err(error) => self.shader_error = Some(error.to_string()),
+        }
+    }
+}
+
+/// How large the picture is drawn before it is shown: twice the size at high quality, half at low; and that scale as the
+/// tone mapping knows it (2, 1, 0 for a half).
+fn drawn_size(frame: &Frame<'_>, limit_px: u32) -> ([u32; 2], u32) {
+    let size = frame.view.size_px.map(|side| side.max(1));
+    // Debug views show the mesh as it is.
+    let plain = matches!(frame.debug_view, DebugView::Coverage | DebugView::Wireframe);
+    match frame.view.quality {
+        _ if plain => (size, 1),
+        Quality::Low => (size.map(|side| side.div_ceil(2)), 0),
+        Quality::High if size.iter().all(|side| side * 2 <= limit_px) => (size.map(|side| side * 2), 2),
+        Quality::Medium | Quality::High => (size, 1),
+    }
+}
+
+/// Lowest and highest height of all tiles.
+fn height_range_m(surface: &Surface) -> (f64, f64) {
+    let heights = surface.leaves.iter().map(|leaf| (leaf.tile.min_height_m, leaf.tile.max_height_m));
+    heights.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((0.0, 0.0))
 }

@@ -1,11 +1,46 @@
 //! What the surface is: the compiled evaluator that everything asks.
+//!
+//! - [`noise`]: gradient noise at one point of one octave; the arithmetic all else rests on
+//! - [`craters`]: bowls and rims of one size
+//! - [`simd`]: the instruction sets the loops are compiled for
+//! - [`points`], [`field`]: batches of points; a layer's noise and gradient at them
+//! - [`height`]: layers joined by amplitude, blend and masks
+//! - [`climate`]: temperature, moisture, the place in the biome table
+//! - [`bench`]: the noise alone, for measuring
+//! - [`raycast`]: a ray against the ground and the sea
+//!
+//! [`Terrain`] is the only thing outsiders need. Tiles go through the same functions as queries, in batches.
+
+pub mod bench;
+pub(crate) mod climate;
+mod craters;
+pub(crate) mod field;
+pub(crate) mod height;
+pub(crate) mod noise;
+pub(crate) mod points;
+mod raycast;
+pub mod simd;
+
 use crate::planet::Planet;
+use climate::CompiledClimate;
+use field::{Bands, Field};
 use glam::DVec3;
+use height::CompiledLayer;
+use points::Points;
+use rayon::prelude::*;
+use simd::Simd;
 use std::sync::Arc;
 
 /// The compiled evaluator of one planet.
+///
+/// The same planet gives the same bits on every machine, instruction set and number of threads.
+#[derive(Clone, Debug)]
 pub struct Terrain {
     planet: Arc<Planet>,
+    simd: Simd,
+    pub(crate) layers: Vec<CompiledLayer>,
+    pub(crate) climate: CompiledClimate,
+    height_bounds_m: (f64, f64),
 }
 
 /// What the surface is at one point.
@@ -23,45 +58,121 @@ pub struct Sample {
     pub moisture: f64,
     /// Index of the biome in the palette.
     pub biome: usize,
-    /// What each layer of the preset adds there, in its order: its output in metres after blend and masks.
+    /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off.
     pub layers_m: Vec<f64>,
 }
 
 impl Terrain {
-    /// Compiles a planet. The planet must be valid (as loaded or checked by `planet::validate`).
+    /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid one
+    /// gives is unspecified, but finite work.
     pub fn new(planet: Arc<Planet>) -> Self {
-        Self { planet }
+        let layers = height::compile(&planet);
+        let climate = CompiledClimate::new(&planet);
+        let height_bounds_m = height::bounds_m(&layers);
+        Self { planet, simd: Simd::detect(), layers, climate, height_bounds_m }
     }
+
+    /// The same terrain evaluated with a given instruction set, for tests and benches. The answers are the same.
+    pub fn with_simd(mut self, simd: Simd) -> Self {
+        self.simd = simd.min(Simd::detect());
+        self
+    }
+
     /// The planet it was compiled from.
     pub fn planet(&self) -> &Arc<Planet> {
         &self.planet
     }
+
+    /// The instruction set in use.
+    pub fn simd(&self) -> Simd {
+        self.simd
+    }
+
     /// The surface under a direction from the planet's centre (of any length but zero).
-    pub fn sample(&self, _dir_planet: DVec3) -> Sample {
+    pub fn sample(&self, dir_planet: DVec3) -> Sample {
+        let dir = unit(dir_planet);
+        let points = Points::new(vec![dir]);
+        let fields = self.fields(&points, |shape| shape.field(self.simd, &points, Bands::EXACT));
+        let mut layers_m = vec![0.0; self.layers.len()];
+        let heights = height::combine(&self.layers, &fields, 1, true, |layer, _, change_m| layers_m[layer] = change_m);
+        let height_m = heights.height_m[0];
+        let slope = tangent_slope(dir, heights.own[0], self.planet.radius_m() + height_m);
+        let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
         Sample {
-            height_m: 0.0,
-            normal_planet: DVec3::Z,
-            slope_rad: 0.0,
-            temperature_c: 0.0,
-            moisture: 0.0,
-            biome: 0,
-            layers_m: vec![],
+            height_m,
+            normal_planet: (dir - slope).normalize(),
+            slope_rad: libm::atan(slope.length()),
+            temperature_c: climate.temperature_c,
+            moisture: climate.moisture,
+            biome: biome_index(&self.planet, climate.moisture, climate.row),
+            layers_m,
         }
     }
-    /// Height alone.
-    pub fn height_m(&self, _dir_planet: DVec3) -> f64 {
-        0.0
+
+    /// Height of the ground above the reference sphere under a direction (of any length but zero): the height that a tile
+    /// has at a vertex of that direction, to the bit.
+    pub fn height_m(&self, dir_planet: DVec3) -> f64 {
+        self.heights_of(vec![unit(dir_planet)])[0]
     }
-    /// Heights of many directions, on all cores.
+
+    /// Heights under many directions, on all cores.
     pub fn heights_m(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
-        dirs_planet.iter().map(|&d| self.height_m(d)).collect()
+        dirs_planet
+            .par_chunks(1024)
+            .flat_map_iter(|dirs| self.heights_of(dirs.iter().map(|&d| unit(d)).collect()))
+            .collect()
     }
-    /// Distance along a ray from `origin_planet_m` to the ground or the sea's surface, whichever comes first.
-    pub fn raycast(&self, _origin_planet_m: DVec3, _dir_planet: DVec3) -> Option<f64> {
-        None
-    }
-    /// Lowest and highest height the planet can have (conservative).
+
+    /// Lowest and greatest height the planet can have (conservative: no point lies outside).
     pub fn height_bounds_m(&self) -> (f64, f64) {
-        (0.0, 0.0)
+        self.height_bounds_m
     }
+
+    /// How many octaves of noise one point takes.
+    pub fn octaves_per_point(&self) -> usize {
+        let layers: usize = self.layers.iter().filter(|l| l.needed).map(|l| l.shape.octave_count()).sum();
+        let climate: usize = self.climate.noises().into_iter().flatten().map(field::NoiseShape::octave_count).sum();
+        layers + climate
+    }
+
+    /// A field for each needed layer, made by `make`.
+    pub(crate) fn fields(
+        &self,
+        points: &Points,
+        make: impl Fn(&field::NoiseShape) -> Field,
+    ) -> Vec<Option<Arc<Field>>> {
+        debug_assert!(points.len() > 0);
+        self.layers.iter().map(|layer| layer.needed.then(|| Arc::new(make(&layer.shape)))).collect()
+    }
+
+    fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {
+        let points = Points::new(dirs_planet);
+        let fields = self.fields(&points, |shape| Field {
+            value: shape.values(self.simd, &points),
+            own: Default::default(),
+            parent: Default::default(),
+        });
+        height::combine(&self.layers, &fields, points.len(), false, |_, _, _| {}).height_m
+    }
+}
+
+/// The direction as a unit vector; one that is already of unit length (to rounding) is left as it is, to the bit.
+fn unit(dir: DVec3) -> DVec3 {
+    if (dir.length_squared() - 1.0).abs() < 1e-12 { dir } else { dir.normalize() }
+}
+
+/// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a vector in the
+/// tangent plane. The surface's normal is along `dir - slope`.
+pub(crate) fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
+    (gradient - dir * dir.dot(gradient)) / radius_m
+}
+
+/// The palette index of the biome in the table's cell at a moisture and row, both 0 to 1. Keys that the palette lacks count
+/// as its first biome.
+pub fn biome_index(planet: &Planet, moisture: f64, row: f64) -> usize {
+    let table = &planet.biomes.table;
+    let (columns, rows) = (table.columns(), table.rows().len());
+    let cell = |w: f64, n: usize| ((w * n as f64) as usize).min(n.saturating_sub(1));
+    let key = table.key(cell(moisture, columns), cell(1.0 - row, rows));
+    key.and_then(|key| planet.biomes.palette.iter().position(|biome| biome.key == key)).unwrap_or(0)
 }

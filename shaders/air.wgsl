@@ -1,0 +1,84 @@
+// The air in front of everything, from 2 m over the ground to outer space: one march for each pixel. Puts clouds in at
+// their distance, and stars and the star's disc behind it all. Reads the scene, writes a new one.
+#include "surface.wgsl"
+#include "scattering.wgsl"
+#include "stars.wgsl"
+
+@group(2) @binding(2) var cloud_light: texture_2d<f32>;
+@group(2) @binding(3) var cloud_distance: texture_2d<f32>;
+
+// Disc of the star, darker and redder towards its limb (a linear law fitted to the Sun).
+fn sun_disc(dir: vec3f) -> vec3f {
+    let sun = globals.sun_dir.xyz;
+    let off = length(cross(dir, sun));
+    let soft = globals.eye_low_m.w * 0.7;
+    let radius = max(sin(globals.sun_dir.w), soft);
+    if dot(dir, sun) < 0.0 || off > radius + soft { return vec3f(0.0); }
+    let edge = 1.0 - smoothstep(radius - soft, radius + soft, off);
+    let x = saturate1(off / radius);
+    let depth = sqrt(1.0 - x * x);
+    let limb = 1.0 - vec3f(0.50, 0.58, 0.68) * (1.0 - depth);
+    return globals.sun_irradiance.rgb * (globals.sun_irradiance.w * edge) * limb;
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    let ray = pixel_ray(position.xy);
+    let ray_length = length(ray);
+    let dir = ray / ray_length;
+    let far = surface_distance(pixel, dir, ray_length);
+    var scene = textureLoad(scene_color, pixel, 0).rgb;
+    var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
+    var cloud_at = NOTHING_KM;
+    if globals.clouds.z > 0.0 {
+        clouds = textureLoad(cloud_light, pixel, 0);
+        cloud_at = textureLoad(cloud_distance, pixel, 0).r;
+    }
+
+    let radius = globals.eye_km.w;
+    let h = globals.eye_up.w;
+    let mu = dot(dir, globals.eye_up.xyz);
+    var light = vec3f(0.0);
+    var transmittance = vec3f(1.0);
+    var to_cloud = vec3f(1.0);
+    var way = vec2f(0.0, -1.0);
+    if globals.air.x > 0.0 { way = way_through_air(h, mu, far); }
+    if way.y > way.x {
+        let sun = globals.sun_dir.xyz;
+        let cosine = dot(dir, sun);
+        let phase_rayleigh = rayleigh_phase(cosine);
+        let phase_mie = mie_phase(cosine);
+        let sun_up = dot(sun, globals.eye_up.xyz);
+        let steps = globals.air.z;
+        let middle = clamp(-(radius + h) * mu, way.x, way.y);
+        let start = -sqrt(middle - way.x);
+        let step = (sqrt(way.y - middle) - start) / steps;
+        for (var i = 0.0; i < steps; i += 1.0) {
+            let w = start + i * step;
+            let t0 = bent(w, middle);
+            let t1 = bent(w + step, middle);
+            let length_km = t1 - t0;
+            let t = bent(w + 0.5 * step, middle);
+            let height = altitude_along(radius, h, mu, t);
+            let sun_mu = clamp(((radius + h) * sun_up + t * cosine) / (radius + height), -1.0, 1.0);
+            let air = air_at(height);
+            let passed = exp(-air.extinction * length_km);
+            let shine = source(height, sun_mu, phase_rayleigh, phase_mie, air);
+            // Air behind a cloud is seen through it.
+            let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
+            let inside = transmittance * shine * (1.0 - passed) / max(air.extinction, vec3f(1e-12));
+            light += inside * mix(1.0, clouds.a, behind);
+            if cloud_at > t0 { to_cloud = transmittance * exp(-air.extinction * min(cloud_at - t0, length_km)); }
+            transmittance *= passed;
+        }
+        light *= globals.sun_irradiance.rgb;
+    }
+    if far >= NOTHING_KM {
+        // Stars drown in a bright sky.
+        let drowned = 1.0 / (1.0 + 400.0 * luminance(light) + 40.0 * luminance(clouds.rgb));
+        scene = stars(dir, globals.eye_low_m.w) * drowned + sun_disc(dir);
+    }
+    light += to_cloud * clouds.rgb + transmittance * clouds.a * scene;
+    return vec4f(min(light, vec3f(60000.0)), 1.0);
+}

@@ -1,0 +1,66 @@
+// The air: density by altitude, phase functions, and the mapping of the transmittance table.
+// Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020; table mapping:
+// Bruneton and Neyret, Precomputed Atmospheric Scattering, 2008.
+#include "globals.wgsl"
+#include "math.wgsl"
+
+struct Air {
+    rayleigh: vec3f,
+    mie: vec3f,
+    extinction: vec3f,
+}
+
+// Scattering and extinction per km at an altitude.
+fn air_at(h: f32) -> Air {
+    let height = max(h, 0.0);
+    let rayleigh = globals.rayleigh.xyz * exp(-height / globals.rayleigh.w);
+    let haze = exp(-height / globals.mie_scattering.w);
+    let absorber = globals.absorber.xyz * max(0.0, 1.0 - abs(height - globals.absorber.w) / globals.air.y);
+    var air: Air;
+    air.rayleigh = rayleigh;
+    air.mie = globals.mie_scattering.xyz * haze;
+    air.extinction = rayleigh + globals.mie_extinction.xyz * haze + absorber;
+    return air;
+}
+
+fn rayleigh_phase(cosine: f32) -> f32 { return 3.0 / (16.0 * PI) * (1.0 + cosine * cosine); }
+
+// Cornette and Shanks, Physically reasonable analytic expression for the single-scattering phase function, 1992.
+fn mie_phase(cosine: f32) -> f32 {
+    let g = globals.mie_extinction.w;
+    let g2 = g * g;
+    let base = max(1.0 + g2 - 2.0 * g * cosine, 1e-6);
+    return 3.0 / (8.0 * PI) * (1.0 - g2) * (1.0 + cosine * cosine) / ((2.0 + g2) * base * sqrt(base));
+}
+
+const TRANSMITTANCE_SIZE: vec2f = vec2f(256.0, 64.0);
+
+fn texel_from_unit(x: vec2f, size: vec2f) -> vec2f { return (x * (size - 1.0) + 0.5) / size; }
+
+// Where altitude and cosine to the zenith stand in the transmittance table.
+fn transmittance_uv(h_km: f32, mu: f32) -> vec2f {
+    let radius = globals.eye_km.w;
+    let top = globals.air.x;
+    let h = clamp(h_km, 0.0, top);
+    let rho2 = h * (2.0 * radius + h);
+    let horizon2 = top * (2.0 * radius + top);
+    let r = radius + h;
+    let way = max(0.0, -r * mu + sqrt(max(r * r * mu * mu + horizon2 - rho2, 0.0)));
+    let way_min = top - h;
+    let way_max = sqrt(rho2) + sqrt(horizon2);
+    let x = vec2f((way - way_min) / max(way_max - way_min, 1e-9), sqrt(rho2 / horizon2));
+    return texel_from_unit(saturate(x), TRANSMITTANCE_SIZE);
+}
+
+// Cosine of the horizon's zenith angle from an altitude.
+fn horizon_cosine(h: f32) -> f32 {
+    let radius = globals.eye_km.w;
+    let height = max(h, 0.0);
+    return -sqrt(height * (2.0 * radius + height)) / (radius + height);
+}
+
+// Share of the star's disc over the horizon of the smooth planet.
+fn sun_over_horizon(h: f32, mu: f32) -> f32 {
+    let half = max(globals.sun_dir.w, 0.0015);
+    return smoothstep(-half, half, mu - horizon_cosine(h));
+}

@@ -1,0 +1,126 @@
+// Clouds: a march through an analytic shell, the same from beneath, within and above. Writes the light they send to the
+// eye (the air between not yet counted) with their transmittance, and their mean distance for air.wgsl.
+#include "surface.wgsl"
+#include "cloud_model.wgsl"
+
+// Henyey and Greenstein, Diffuse radiation in the galaxy, 1941.
+fn lobe(cosine: f32, g: f32) -> f32 {
+    let base = 1.0 + g * g - 2.0 * g * cosine;
+    return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
+}
+
+struct March {
+    light: vec3f,
+    transmittance: f32,
+    // Sum of distance, and of what it is weighted with
+    distance: f32,
+    weight: f32,
+}
+
+fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32) -> March {
+    var out = into;
+    let radius = globals.eye_km.w;
+    let h_eye = globals.eye_up.w;
+    let bottom = globals.clouds.x;
+    let thickness = globals.clouds.y - bottom;
+    let sun = globals.sun_dir.xyz;
+    let steps = globals.cloud_eye.w;
+    let span = to_km - from_km;
+    // Near the eye short steps first; from afar even ones.
+    let bend = span / (span + from_km + 1e-6);
+    let extinction = globals.cloud_color.w / thickness * 1.25;
+
+    // Light that reaches the layer here; it hardly changes along the way.
+    let middle = dir * (from_km + span * mix(0.5, 0.15, bend));
+    let up = normalize(globals.eye_km.xyz + middle);
+    let sun_mu = dot(up, sun);
+    let sunlight = globals.sun_irradiance.rgb * sun_transmittance(bottom + thickness * 0.7, sun_mu);
+    let sky = sky_irradiance(bottom + thickness, sun_mu);
+    let below = sunlight * max(sun_mu, 0.0) * 0.15 + sky * 0.15;
+    let cosine = dot(dir, sun);
+    let phases = vec3f(
+        mix(lobe(cosine, 0.75), lobe(cosine, -0.15), 0.35),
+        lobe(cosine, 0.35),
+        1.0 / (4.0 * PI),
+    );
+    let to_sun = 1.0 / max(abs(sun_mu), 0.2);
+
+    for (var i = 0.0; i < steps; i += 1.0) {
+        let s0 = i / steps;
+        let s1 = (i + 1.0) / steps;
+        let sm = (i + 0.5) / steps;
+        let t = from_km + span * mix(sm, sm * sm, bend);
+        let length_km = span * (s1 - s0) * mix(1.0, s0 + s1, bend);
+        let rel = dir * t;
+        let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
+        let cover = cover_over(normalize(globals.eye_km.xyz + rel));
+        let footprint = max(t * globals.eye_low_m.w, length_km * 0.35);
+        let density = cloud_density(rel, cover, height, footprint);
+        if density <= 0.002 { continue; }
+        // A second look towards the star shapes light and shade; from afar it looks as far as a pixel.
+        let reach = max(thickness * 0.4, footprint * 1.2);
+        let ahead_height = saturate1(height + reach * sun_mu / thickness);
+        let ahead = cloud_density(rel + sun * reach, cover, ahead_height, footprint);
+        let room = (1.0 - height) * thickness * to_sun;
+        let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * max(room - reach * 0.5, 0.0) * 0.55);
+        // Each further scattering sees a thinner cloud and a rounder phase (Wrenninge, Oz: The Great and Volumetric).
+        let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
+            + 1.5 * phases.z * exp(-0.07 * sun_depth);
+        let ambient = (sky * (0.35 + 0.65 * height) + below * (1.0 - height)) / PI;
+        let shine = globals.cloud_color.rgb * (sunlight * direct * 1.5 + ambient * 0.8);
+        let passed = exp(-extinction * density * length_km);
+        let seen = out.transmittance * (1.0 - passed);
+        out.light += seen * shine;
+        out.distance += seen * t;
+        out.weight += seen;
+        out.transmittance *= passed;
+        if out.transmittance < 0.004 { out.transmittance = 0.0; break; }
+    }
+    return out;
+}
+
+struct Output {
+    @location(0) light: vec4f,
+    @location(1) distance: vec4f,
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4f) -> Output {
+    let ray = pixel_ray(position.xy);
+    let ray_length = length(ray);
+    let dir = ray / ray_length;
+    let far = surface_distance(vec2i(position.xy), dir, ray_length);
+    let radius = globals.eye_km.w;
+    let h = globals.eye_up.w;
+    let mu = dot(dir, globals.eye_up.xyz);
+    let bottom = globals.clouds.x;
+    let top = globals.clouds.y;
+    let inner = ray_sphere((radius + h) * mu, (h - bottom) * (2.0 * radius + h + bottom));
+    let outer = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
+    let meets_inner = inner.y >= inner.x;
+
+    var first = vec2f(1.0, -1.0);
+    var second = vec2f(1.0, -1.0);
+    if outer.y >= outer.x && outer.y > 0.0 {
+        if h < bottom {
+            first = vec2f(inner.y, outer.y);
+        } else {
+            let enter = max(outer.x, 0.0);
+            if meets_inner && inner.x > 0.0 {
+                first = vec2f(enter, inner.x);
+                second = vec2f(inner.y, outer.y);
+            } else {
+                first = vec2f(enter, outer.y);
+            }
+        }
+    }
+    first.y = min(first.y, far);
+    second.y = min(second.y, far);
+    var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
+    if first.y > first.x { state = march(state, dir, first.x, first.y, mu); }
+    if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu); }
+    var out: Output;
+    out.light = vec4f(min(state.light, vec3f(60000.0)), state.transmittance);
+    out.distance = vec4f(select(NOTHING_KM, state.distance / state.weight, state.weight > 0.0), 0.0, 0.0, 0.0);
+    return out;
+}

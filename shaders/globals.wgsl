@@ -1,0 +1,63 @@
+// What every pass knows of the frame. Must match `Globals` in src/render/globals.rs.
+// Lengths in kilometres unless a name says metres; directions in the planet frame.
+
+struct Globals {
+    clip_from_rel_m: mat4x4f,
+    // xyz: greater part of the eye's position, metres; w: near plane, metres
+    eye_high_m: vec4f,
+    // xyz: rest of it; w: angle of a pixel, radians
+    eye_low_m: vec4f,
+    // xyz: eye from the planet's centre; w: radius of the reference sphere
+    eye_km: vec4f,
+    // xyz: unit vector from the centre to the eye; w: altitude over the reference sphere
+    eye_up: vec4f,
+    // Ray of a pixel = forward + x right + y up with x, y in -1..1; w: width, height, time in seconds
+    ray_right: vec4f,
+    ray_up: vec4f,
+    ray_forward: vec4f,
+    // xyz: to the star; w: its angular radius
+    sun_dir: vec4f,
+    // rgb; w: radiance factor of its disc
+    sun_irradiance: vec4f,
+    // Scattering or extinction per km at the reference sphere; w: scale heights, anisotropy, middle of the absorber
+    rayleigh: vec4f,
+    mie_scattering: vec4f,
+    mie_extinction: vec4f,
+    absorber: vec4f,
+    // x: thickness of the air, 0 for none; y: half width of the absorber; z: steps of a march
+    air: vec4f,
+    ground_albedo: vec4f,
+    // rgb per metre; w: 1 if there is a sea
+    water_absorption: vec4f,
+    // w: variance of the slope of all waves (Cox and Munk)
+    water_color: vec4f,
+    // w: freezing temperature
+    ice_color: vec4f,
+    // x: level over the reference sphere; y: altitude of the eye over the sea; z, w: temperature at equator and poles
+    water: vec4f,
+    // xyz: wave vector per metre; w: phase at the eye
+    waves: array<vec4f, 16>,
+    // rgb; w: optical depth from top to bottom
+    cloud_color: vec4f,
+    // x, y: bottom and top of the layer; z: coverage, 0 for none; w: period of the puff noise
+    clouds: vec4f,
+    // xyz: place of the eye in the puff noise, in periods; w: steps of a march
+    cloud_eye: vec4f,
+    // x, y: cosine and sine of the drift about the pole; z: weather cells along the radius; w: curl
+    cloud_turn: vec4f,
+    // xyz: seed of the weather map
+    cloud_seed: vec4u,
+    // xyz: place of the eye in each octave of the mottling, in periods; w: period in metres
+    mottle: array<vec4f, 6>,
+    // rgb; w: cosine of the slope where rock begins
+    cliff_color: vec4f,
+    // x: cosine of the slope where only rock is left; y, z: lowest and highest height, metres; w: exposure factor
+    misc: vec4f,
+    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: steps of
+    // mottling
+    modes: vec4u,
+}
+
+@group(0) @binding(0) var<uniform> globals: Globals;
+@group(0) @binding(1) var clamped: sampler;
+@group(0) @binding(2) var repeated: sampler;

@@ -1,0 +1,10 @@
+// Look-up tables and maps that outlive a frame.
+
+@group(1) @binding(0) var transmittance_table: texture_2d<f32>;
+@group(1) @binding(1) var multiscatter_table: texture_2d<f32>;
+@group(1) @binding(2) var irradiance_table: texture_2d<f32>;
+@group(1) @binding(3) var sky_table: texture_2d<f32>;
+@group(1) @binding(4) var weather_map: texture_cube<f32>;
+@group(1) @binding(5) var noise_tile: texture_3d<f32>;
+@group(1) @binding(6) var biome_albedo: texture_2d<f32>;
+@group(1) @binding(7) var biome_roughness: texture_2d<f32>;

@@ -1,0 +1,148 @@
+// The ground: tiles, coloured by climate, lit by star and sky; and the debug views of it.
+#include "cloud_model.wgsl"
+#include "mottle.wgsl"
+
+struct Vertex {
+    @location(0) high_m: vec3f,
+    @location(1) height_m: f32,
+    @location(2) low_m: vec3f,
+    @location(3) temperature_c: f32,
+    @location(4) climate: vec2f,
+    @location(5) normal_oct: vec2f,
+    @location(6) parent_normal_oct: vec2f,
+    // Distances in metres between which the parent's normal takes over, and the level.
+    @location(7) morph: vec3f,
+}
+
+struct Ground {
+    @builtin(position) position: vec4f,
+    @location(0) rel_m: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) climate: vec2f,
+    @location(3) height_m: f32,
+    @location(4) @interpolate(flat) level: f32,
+}
+
+// Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
+fn from_octahedral(e: vec2f) -> vec3f {
+    var v = vec3f(e, 1.0 - abs(e.x) - abs(e.y));
+    if v.z < 0.0 {
+        let signs = select(vec2f(-1.0), vec2f(1.0), v.xy >= vec2f(0.0));
+        v = vec3f((1.0 - abs(v.yx)) * signs, v.z);
+    }
+    return normalize(v);
+}
+
+@vertex
+fn vertex(in: Vertex) -> Ground {
+    var out: Ground;
+    // High and low parts apart: equal points give equal bits in every tile.
+    out.rel_m = (in.high_m - globals.eye_high_m.xyz) + (in.low_m - globals.eye_low_m.xyz);
+    out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
+    let far = saturate1((length(out.rel_m) - in.morph.x) / max(in.morph.y - in.morph.x, 1e-3));
+    out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), far);
+    out.climate = in.climate;
+    out.height_m = in.height_m;
+    out.level = in.morph.z;
+    return out;
+}
+
+struct Material {
+    albedo: vec3f,
+    roughness: f32,
+}
+
+fn material(in: Ground, slope_cosine: f32, footprint_m: f32) -> Material {
+    let cells = vec2f(textureDimensions(biome_albedo));
+    let jitter = border_jitter(in.rel_m, footprint_m);
+    let x = vec2f(in.climate.x, 1.0 - in.climate.y) + jitter * 0.9 / cells;
+    let ground = textureSampleLevel(biome_albedo, clamped, x, 0.0);
+    let mottle = mottle_at(in.rel_m, footprint_m);
+    var out: Material;
+    out.albedo = ground.rgb * (1.0 + mottle * ground.a);
+    out.roughness = textureSampleLevel(biome_roughness, clamped, x, 0.0).r;
+    let rock = smoothstep(globals.cliff_color.w, globals.misc.x, slope_cosine + mottle * 0.04);
+    out.albedo = mix(out.albedo, globals.cliff_color.rgb * (1.0 + mottle * 0.35), rock);
+    out.roughness = mix(out.roughness, 0.9, rock);
+    if globals.water_absorption.w > 0.0 {
+        let depth = globals.water.x * 1000.0 - in.height_m;
+        let sand = mix(vec3f(0.36, 0.31, 0.22), vec3f(0.10, 0.10, 0.10), smoothstep(5.0, 250.0, depth));
+        out.albedo = mix(out.albedo, sand * (1.0 + mottle * 0.3), smoothstep(-2.0, 2.0, depth + mottle * 2.0));
+    }
+    return out;
+}
+
+// Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model).
+fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, roughness: f32) -> f32 {
+    let sigma = roughness * 0.6;
+    let s = l_v - n_l * n_v;
+    let t = select(1.0, max(max(n_l, n_v), 1e-3), s > 0.0);
+    let a = 1.0 / (PI + (PI / 2.0 - 2.0 / 3.0) * sigma);
+    return n_l * (a + sigma * a * s / t);
+}
+
+fn ramp(x: f32) -> vec3f {
+    // Deep blue, teal, green, sand, brown, white.
+    let k = saturate1(x) * 5.0;
+    var c = mix(vec3f(0.01, 0.02, 0.12), vec3f(0.02, 0.22, 0.30), saturate1(k));
+    c = mix(c, vec3f(0.06, 0.28, 0.08), saturate1(k - 1.0));
+    c = mix(c, vec3f(0.52, 0.44, 0.20), saturate1(k - 2.0));
+    c = mix(c, vec3f(0.26, 0.13, 0.07), saturate1(k - 3.0));
+    return mix(c, vec3f(0.95), saturate1(k - 4.0));
+}
+
+fn level_color(level: f32) -> vec3f {
+    let hue = fract(level * 0.381966);
+    return 0.15 + 0.75 * saturate(abs(fract(hue + vec3f(0.0, 0.6667, 0.3333)) * 6.0 - 3.0) - 1.0);
+}
+
+fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
+    let shade = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
+    switch globals.modes.x {
+        case 1u: {
+            let span = max(globals.misc.z - globals.misc.y, 1.0);
+            return ramp((in.height_m - globals.misc.y) / span) * shade;
+        }
+        case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
+        case 3u: {
+            let cells = vec2f(textureDimensions(biome_albedo));
+            let cell = clamp(vec2f(in.climate.x, 1.0 - in.climate.y) * cells, vec2f(0.0), cells - 1.0);
+            return textureLoad(biome_albedo, vec2i(cell), 0).rgb;
+        }
+        case 4u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
+        case 5u: { return level_color(in.level) * shade; }
+        case 6u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        default: { return vec3f(1.0); }
+    }
+}
+
+@fragment
+fn fragment(in: Ground) -> @location(0) vec4f {
+    let rel_km = in.rel_m * 0.001;
+    let up = normalize(globals.eye_km.xyz + rel_km);
+    let n = normalize(in.normal);
+    let sea_level_m = globals.water.x * 1000.0;
+    let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
+    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
+
+    let distance_m = length(in.rel_m);
+    let v = -in.rel_m / max(distance_m, 1e-6);
+    let n_v = max(dot(n, v), 0.0);
+    let footprint_m = distance_m * globals.eye_low_m.w / max(sqrt(n_v), 0.2);
+    let ground = material(in, dot(n, up), footprint_m);
+
+    let sun = globals.sun_dir.xyz;
+    let sun_mu = dot(up, sun);
+    let h = max(in.height_m * 0.001, 0.0);
+    let sunlight = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu);
+    var shadow = 1.0;
+    if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
+    let sky_share = overcast(shadow);
+    let diffuse = rough_diffuse(max(dot(n, sun), 0.0), n_v, dot(sun, v), ground.roughness);
+    let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
+    let open = 0.5 + 0.5 * dot(n, up);
+    // What the ground around sends back to a slope that does not see the whole sky.
+    let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
+    let radiance = ground.albedo * (sunlight * shadow * diffuse + (sky * open + bounce) / PI);
+    return vec4f(min(radiance, vec3f(60000.0)), over_sea_m);
+}

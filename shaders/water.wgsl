@@ -1,0 +1,86 @@
+// Lays the sea over the terrain, pixel by pixel: an analytic sphere, so there is no mesh to fight with.
+#include "surface.wgsl"
+#include "sea.wgsl"
+
+// Light that comes out of the water: the floor through it, and what the water itself sends back.
+fn body(floor: vec3f, depth_m: f32, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
+    // Snell: the way under water is steeper than over it.
+    let view_way = depth_m / sqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769);
+    let sun_way = depth_m / sqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
+    let left = exp(-globals.water_absorption.rgb * min(view_way + sun_way, 1e5));
+    return floor * left + globals.water_color.rgb * downwelling / PI * (1.0 - left);
+}
+
+fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32) -> vec3f {
+    let distance_km = length(rel_km);
+    let up = normalize(globals.eye_km.xyz + rel_km);
+    let view_mu = clamp(-dot(up, dir), 0.0, 1.0);
+    let sun = globals.sun_dir.xyz;
+    let sun_mu = dot(up, sun);
+    let footprint_m = distance_km * 1000.0 * globals.eye_low_m.w / max(sqrt(view_mu), 0.1);
+    let h = max(globals.water.x, 0.0);
+    let sunlight = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu);
+    var shadow = 1.0;
+    if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
+    let share = overcast(shadow);
+    let diffused = sunlight * max(sun_mu, 0.0) * share.y;
+    let sky = sky_irradiance(h, sun_mu) * share.x + diffused;
+    let downwelling = sunlight * shadow * max(sun_mu, 0.0) + sky;
+
+    let rel_m = rel_km * 1000.0;
+    let mottle = mottle_at(rel_m, footprint_m);
+    let broad = border_jitter(rel_m, footprint_m).x;
+    let ice = frozen(up, mottle, broad);
+    var water = vec3f(0.0);
+    if ice < 1.0 {
+        let waves = waves_at(rel_m, up, footprint_m);
+        let fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
+        let mirrored = reflect(dir, waves.normal);
+        // Rough water mirrors a patch of sky above the exact direction.
+        let mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
+        let reflection = sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI;
+        water = body(floor, depth_m, view_mu, max(sun_mu, 0.0), downwelling) * (1.0 - fresnel) + reflection * fresnel;
+        water += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
+        // Foam where waves run up the shore.
+        let foam = (1.0 - smoothstep(0.0, 1.2, depth_m)) * smoothstep(0.1, 0.6, mottle + 0.25);
+        water = mix(water, vec3f(0.7) * downwelling / PI, foam * 0.6);
+    }
+    let white = globals.ice_color.rgb * (1.0 + 0.18 * mottle) * downwelling / PI;
+    return mix(water, white, ice);
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    let scene = textureLoad(scene_color, pixel, 0);
+    let height_m = scene.a;
+    let change_m = max(fwidth(height_m), 0.05);
+    let ray = pixel_ray(position.xy);
+    let ray_length = length(ray);
+    let dir = ray / ray_length;
+    let terrain = terrain_distance(pixel, ray_length);
+    let hits = sea_hits(dir);
+
+    if globals.water.y < 0.0 {
+        // The eye is under water: everything drowns in the colour of the deep.
+        let way_m = min(terrain, hits.y) * 1000.0;
+        let left = exp(-globals.water_absorption.rgb * min(way_m, 1e5));
+        let sun_mu = max(dot(globals.eye_up.xyz, globals.sun_dir.xyz), 0.0);
+        let h = max(globals.water.x, 0.0);
+        let light = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu) * sun_mu + sky_irradiance(h, sun_mu);
+        let dimmed = exp(globals.water_absorption.rgb * min(globals.water.y * 1000.0, 0.0));
+        return vec4f(scene.rgb * left + globals.water_color.rgb * light * dimmed / PI * (1.0 - left), height_m);
+    }
+    if hits.y < hits.x || hits.x <= 0.0 { return scene; }
+    // Land is told from sea by its height, never by which of two close surfaces is nearer; only where the ray came out
+    // of the sea again before it met land does the sea lie in front.
+    var wet = 1.0;
+    var depth_m = 10000.0;
+    if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
+        wet = saturate1(0.5 - height_m / change_m);
+        depth_m = max(-height_m, 0.0);
+    }
+    if wet <= 0.0 { return scene; }
+    let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depth_m);
+    return vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m);
+}

@@ -1,0 +1,79 @@
+//! How sizes, angles and places are written on the command line. Each parser says what would be right.
+
+/// Largest side of a picture.
+const MAX_SIDE: u32 = 8192;
+
+/// A finite number from `min` to `max`.
+fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= min && value <= max => Ok(value),
+        Ok(value) => Err(format!("{value} is out of range; use {min} to {max}")),
+        Err(_) => Err(format!("this is not a number; use {min} to {max}")),
+    }
+}
+
+pub(super) fn latitude(text: &str) -> Result<f64, String> {
+    number(text, -90.0, 90.0)
+}
+
+pub(super) fn longitude(text: &str) -> Result<f64, String> {
+    number(text, -360.0, 360.0)
+}
+
+pub(super) fn heading(text: &str) -> Result<f64, String> {
+    number(text, -360.0, 360.0)
+}
+
+pub(super) fn pitch(text: &str) -> Result<f64, String> {
+    number(text, -90.0, 90.0)
+}
+
+pub(super) fn opening_angle(text: &str) -> Result<f64, String> {
+    number(text, 1.0, 150.0)
+}
+
+pub(super) fn altitude(text: &str) -> Result<f64, String> {
+    number(text, 0.1, 1e12)
+}
+
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    number(text, -1e9, 1e9)
+}
+
+pub(super) fn exposure(text: &str) -> Result<f64, String> {
+    number(text, -20.0, 20.0)
+}
+
+/// `LAT,LON` in degrees.
+pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
+    let (lat, lon) = text.split_once(',').ok_or("this is not a place; write LAT,LON such as 20,-45")?;
+    let lat = latitude(lat.trim()).map_err(|e| format!("latitude: {e}"))?;
+    let lon = longitude(lon.trim()).map_err(|e| format!("longitude: {e}"))?;
+    Ok((lat, lon))
+}
+
+/// `WIDTHxHEIGHT` in pixels.
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || format!("this is not a size; write WIDTHxHEIGHT, each 1 to {MAX_SIDE}, such as 1280x720");
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or_else(wrong);
+    Ok([side(width)?, side(height)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_read_or_refused_with_what_would_be_right() {
+        assert_eq!(size("1x8192"), Ok([1, 8192]));
+        for wrong in ["", "x", "0x5", "5", "8193x1", "-1x5", "1x2x3", "1.5x2", "99999999999x1"] {
+            assert!(size(wrong).unwrap_err().contains("1280x720"), "{wrong}");
+        }
+        assert_eq!(place("-10, 30.5"), Ok((-10.0, 30.5)));
+        assert_eq!(place("91,0"), Err("latitude: 91 is out of range; use -90 to 90".to_owned()));
+        assert!(place("10").unwrap_err().contains("LAT,LON"));
+        assert_eq!(latitude("NaN"), Err("NaN is out of range; use -90 to 90".to_owned()));
+        assert!(latitude("north").is_err() && altitude("0").is_err() && altitude("inf").is_err());
+    }
+}

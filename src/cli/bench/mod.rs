@@ -1,0 +1,164 @@
+//! `tellus bench`: the figures that the design sets a bar for, measured on this machine in one run.
+//!
+//! - [`noise`]: million points a second, against fastnoise-lite
+//! - [`edits`]: time from an edit to the finished tiles
+
+mod edits;
+mod noise;
+
+use super::{Failure, headless, print, view};
+use crate::build::build_now;
+use crate::lod::{Quality, View};
+use crate::planet::{Planet, shipped};
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Measure how fast this machine is
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Answer as a JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Size of the opening view that rebuilds are measured in.
+const SIZE_PX: [u32; 2] = [1280, 720];
+/// Runs of which the median is taken, unless they take too long.
+const RUNS: usize = 15;
+/// Fewest runs, however long they take.
+const FEWEST_RUNS: usize = 3;
+/// After this no further run is begun.
+const LONG: Duration = Duration::from_secs(3);
+
+/// The view that the design's bar speaks of.
+fn opening_view(planet: &Planet) -> View {
+    view::opening_view(planet, SIZE_PX, Quality::Medium)
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let planets: Vec<(&str, Arc<Planet>)> = shipped::ALL
+        .iter()
+        .map(|shipped| match shipped.load() {
+            Ok(planet) => Ok((shipped.file, Arc::new(planet))),
+            Err(error) => Err(Failure::Message(error.to_string())),
+        })
+        .collect::<Result<_, _>>()?;
+    let Some((_, default)) = planets.first() else { return Err("no preset is shipped".to_owned().into()) };
+    let report = json!({
+        "simd": simd(),
+        "threads": rayon::current_num_threads(),
+        "adapter": headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name),
+        "noise": noise::measure(),
+        "rebuild": planets.iter().map(|(file, planet)| rebuild(file, planet)).collect::<Vec<_>>(),
+        "edits": edits::measure(default),
+        "memory_mb": peak_memory_mb(),
+    });
+    print(&if args.json { format!("{report:#}") } else { as_text(&report) })
+}
+
+/// The widest instructions that this machine has.
+fn simd() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f") {
+            "avx512"
+        } else if is_x86_feature_detected!("avx2") {
+            "avx2"
+        } else {
+            "sse2"
+        }
+    }
+    #[cfg(target_arch = "aarch64")]
+    {
+        "neon"
+    }
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    {
+        "scalar"
+    }
+}
+
+/// The whole surface of the opening view, from nothing.
+fn rebuild(file: &str, planet: &Arc<Planet>) -> Value {
+    let view = opening_view(planet);
+    let mut stats = build_now(planet, &view).stats;
+    let times = repeat(|| stats = build_now(planet, &view).stats);
+    json!({
+        "preset": file,
+        "nodes": stats.tiles,
+        "vertices": stats.vertices,
+        // Filled in when the builder counts them.
+        "octave_samples": Value::Null,
+        "full_ms": median(&times),
+        "full_ms_p95": p95(&times),
+    })
+}
+
+/// Milliseconds of several runs, sorted.
+fn repeat(mut run: impl FnMut()) -> Vec<f64> {
+    let begun = Instant::now();
+    let mut times = Vec::new();
+    while times.len() < FEWEST_RUNS || (times.len() < RUNS && begun.elapsed() < LONG) {
+        let start = Instant::now();
+        run();
+        times.push(start.elapsed().as_secs_f64() * 1000.0);
+    }
+    times.sort_by(f64::total_cmp);
+    times
+}
+
+/// The middle of sorted times.
+fn median(sorted: &[f64]) -> Option<f64> {
+    sorted.get(sorted.len() / 2).copied()
+}
+
+/// What 95 of 100 sorted times do not exceed.
+fn p95(sorted: &[f64]) -> Option<f64> {
+    let rank = (sorted.len() * 95).div_ceil(100);
+    sorted.get(rank.saturating_sub(1)).copied()
+}
+
+/// Peak resident size of this process, where the system tells.
+fn peak_memory_mb() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
+}
+
+fn as_text(report: &Value) -> String {
+    let plain = |value: &Value| match value {
+        Value::String(text) => text.clone(),
+        Value::Number(number) => number.as_f64().map_or(number.to_string(), |n| format!("{n:.2}")),
+        Value::Null => "-".to_owned(),
+        other => other.to_string(),
+    };
+    let mut lines = Vec::new();
+    for (key, value) in report.as_object().into_iter().flatten() {
+        match value {
+            Value::Object(fields) => lines.extend(fields.iter().map(|(k, v)| format!("{key}.{k}: {}", plain(v)))),
+            Value::Array(items) => {
+                for item in items.iter().filter_map(Value::as_object) {
+                    let fields: Vec<String> = item.iter().map(|(k, v)| format!("{k} {}", plain(v))).collect();
+                    lines.push(format!("{key}: {}", fields.join(", ")));
+                }
+            }
+            other => lines.push(format!("{key}: {}", plain(other))),
+        }
+    }
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_and_percentiles() {
+        let times: Vec<f64> = (1..=20).map(f64::from).collect();
+        assert_eq!((median(&times), p95(&times)), (Some(11.0), Some(19.0)));
+        assert_eq!((median(&[]), p95(&[])), (None, None));
+        assert_eq!((median(&[3.0]), p95(&[3.0])), (Some(3.0), Some(3.0)));
+    }
+}

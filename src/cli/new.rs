@@ -1,0 +1,38 @@
+//! `tellus new`: a random valid planet, or a variation of one.
+
+use super::{Failure, load, print};
+use crate::planet::random;
+use std::path::PathBuf;
+
+/// How far `--from` moves the numbers, as a share of their range.
+const VARIATION: f64 = 0.06;
+
+/// Write a random valid planet
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The preset to write
+    #[arg(short, long, value_name = "FILE.ron")]
+    output: PathBuf,
+    /// The same seed gives the same planet [default: another one each time]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Vary this planet instead of making a new one
+    #[arg(long, value_name = "FILE.ron")]
+    from: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let seed = args.seed.unwrap_or_else(seed_of_the_moment);
+    let planet = match &args.from {
+        Some(from) => random::vary(&load(from)?, seed, VARIATION),
+        None => random::random(seed),
+    };
+    planet.save(&args.output).map_err(|error| error.to_string())?;
+    print(&format!("{}: {}, seed {seed}", args.output.display(), planet.name))
+}
+
+fn seed_of_the_moment() -> u64 {
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+    // Short enough to be typed again.
+    (now.as_nanos() / 1000 % 1_000_000) as u64
+}

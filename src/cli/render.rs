@@ -1,0 +1,143 @@
+//! `tellus render`: a picture of a planet, without a window.
+
+use super::{Failure, args, headless, load, view};
+use crate::build::build_now;
+use crate::lod::{Camera, Quality, View};
+use crate::planet::Planet;
+use crate::planet::file::write_atomically;
+use crate::render::{DebugView, Frame, Renderer};
+use crate::sphere::LatLon;
+use crate::terrain::Terrain;
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use image::ImageEncoder as _;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Draw a planet into a PNG file
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The preset
+    #[arg(value_name = "FILE.ron")]
+    file: PathBuf,
+    /// The picture to write
+    #[arg(short, long, value_name = "OUT.png")]
+    output: PathBuf,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = args::size)]
+    size: [u32; 2],
+    /// Latitude of the camera in degrees, north positive [default: 20]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::latitude)]
+    lat: Option<f64>,
+    /// Longitude of the camera in degrees, east positive [default: 40 east of the star]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
+    lon: Option<f64>,
+    /// Height of the camera above the terrain or the sea, whichever is higher [default: the whole planet in view]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
+    altitude: Option<f64>,
+    /// Where the camera looks: 0 north, 90 east
+    #[arg(long, value_name = "DEG", default_value = "0", allow_hyphen_values = true, value_parser = args::heading)]
+    heading: f64,
+    /// 0 at the horizon, -90 straight down [default: -90 from afar, -10 from near]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::pitch)]
+    pitch: Option<f64>,
+    /// Opening angle from the bottom to the top of the picture
+    #[arg(long, value_name = "DEG", default_value = "50", allow_hyphen_values = true, value_parser = args::opening_angle)]
+    fov: f64,
+    /// Where the star stands overhead [default: as the preset says]
+    #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::place)]
+    sun: Option<(f64, f64)>,
+    /// Time since the start: clouds drift, waves run
+    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    time: f64,
+    /// Brightness of the picture in stops
+    #[arg(long, value_name = "EV", default_value = "0", allow_hyphen_values = true, value_parser = args::exposure)]
+    exposure: f64,
+    /// How well it is drawn
+    #[arg(long, value_enum, default_value_t = Quality::High)]
+    quality: Quality,
+    /// What is drawn
+    #[arg(long, value_enum, default_value_t = DebugView::Shaded)]
+    view: DebugView,
+}
+
+impl ValueEnum for Quality {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Quality::ALL
+    }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(match self {
+            Quality::Low => "low",
+            Quality::Medium => "medium",
+            Quality::High => "high",
+        }))
+    }
+}
+
+impl ValueEnum for DebugView {
+    fn value_variants<'a>() -> &'a [Self] {
+        &DebugView::ALL
+    }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(match self {
+            DebugView::Shaded => "shaded",
+            DebugView::Height => "height",
+            DebugView::Normal => "normal",
+            DebugView::Biome => "biome",
+            DebugView::Slope => "slope",
+            DebugView::Lod => "lod",
+            DebugView::Wireframe => "wireframe",
+            DebugView::Coverage => "coverage",
+        }))
+    }
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let planet = Arc::new(load(&args.file)?);
+    let gpu = headless::Gpu::open(args.size)?;
+    let mut renderer =
+        Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
+    let view = view(args, &planet);
+    let surface = build_now(&planet, &view);
+    let sun = args.sun.unwrap_or((planet.star.latitude_deg, planet.star.longitude_deg));
+    let frame = Frame {
+        surface: &surface,
+        planet: &planet,
+        view,
+        sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
+        time_secs: args.time,
+        exposure_ev: args.exposure,
+        debug_view: args.view,
+    };
+    let pixels = gpu.picture(args.size, |target| {
+        renderer.render(&gpu.device, &gpu.queue, target, &frame);
+    })?;
+    let [width, height] = args.size;
+    let mut png = Vec::new();
+    image::codecs::png::PngEncoder::new(&mut png)
+        .write_image(&pixels, width, height, image::ExtendedColorType::Rgba8)
+        .map_err(|error| format!("cannot encode the picture: {error}"))?;
+    write_atomically(&args.output, &png).map_err(|error| format!("{}: {error}", args.output.display()))?;
+    Ok(())
+}
+
+fn view(args: &Args, planet: &Arc<Planet>) -> View {
+    let lat_deg = args.lat.unwrap_or(view::OPENING_LAT_DEG);
+    let lon_deg = args.lon.unwrap_or_else(|| view::opening_lon_deg(planet));
+    let place = LatLon::from_degrees(lat_deg, lon_deg);
+    let (radius_m, altitude_m) = match args.altitude {
+        Some(altitude_m) => {
+            let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
+            let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
+            (planet.radius_m() + floor_m + altitude_m, altitude_m)
+        }
+        None => {
+            let altitude_m = view::OPENING_ALTITUDE_RADII * planet.radius_m();
+            (planet.radius_m() + altitude_m, altitude_m)
+        }
+    };
+    let pitch_deg = args.pitch.unwrap_or_else(|| view::default_pitch_deg(planet, altitude_m));
+    let (heading, pitch) = (args.heading.to_radians(), pitch_deg.to_radians());
+    let camera = Camera::over(place, radius_m, heading, pitch, args.fov.to_radians());
+    View { camera, size_px: args.size, quality: args.quality }
+}

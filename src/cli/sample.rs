@@ -1,0 +1,63 @@
+//! `tellus sample`: what the surface is at one place, as the editor's picture and a game see it.
+
+use super::{Failure, args, load, print};
+use crate::sphere::LatLon;
+use crate::terrain::{Sample, Terrain};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Say what the surface is at a place
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The preset
+    #[arg(value_name = "FILE.ron")]
+    file: PathBuf,
+    /// Latitude in degrees, north positive
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::latitude)]
+    lat: f64,
+    /// Longitude in degrees, east positive
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
+    lon: f64,
+    /// Answer as a JSON object: height_m, slope_deg, normal, temperature (°C), moisture, biome, layers
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let terrain = Terrain::new(Arc::new(load(&args.file)?));
+    let sample = terrain.sample(LatLon::from_degrees(args.lat, args.lon).direction());
+    print(&if args.json { format!("{:#}", as_json(&terrain, &sample)) } else { as_text(&terrain, &sample) })
+}
+
+fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
+    terrain.planet().biomes.palette.get(sample.biome).map_or("", |biome| biome.name.as_str())
+}
+
+fn as_json(terrain: &Terrain, sample: &Sample) -> Value {
+    let layers = terrain.planet().layers.iter().zip(&sample.layers_m);
+    json!({
+        "height_m": sample.height_m,
+        "slope_deg": sample.slope_rad.to_degrees(),
+        "normal": sample.normal_planet.to_array(),
+        "temperature": sample.temperature_c,
+        "moisture": sample.moisture,
+        "biome": biome_name(terrain, sample),
+        "layers": layers.map(|(layer, m)| json!({ "name": layer.name, "height_m": m })).collect::<Vec<_>>(),
+    })
+}
+
+fn as_text(terrain: &Terrain, sample: &Sample) -> String {
+    let [x, y, z] = sample.normal_planet.to_array();
+    let mut lines = vec![
+        format!("height       {:.3} m", sample.height_m),
+        format!("slope        {:.2}°", sample.slope_rad.to_degrees()),
+        format!("normal       {x:.6} {y:.6} {z:.6}"),
+        format!("temperature  {:.1} °C", sample.temperature_c),
+        format!("moisture     {:.3}", sample.moisture),
+        format!("biome        {}", biome_name(terrain, sample)),
+    ];
+    let layers = terrain.planet().layers.iter().zip(&sample.layers_m);
+    lines.extend(layers.map(|(layer, m)| format!("layer        {:.3} m  {}", m, layer.name)));
+    lines.join("\n")
+}

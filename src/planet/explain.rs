@@ -1,0 +1,244 @@
+//! Parses RON into a type and says what is wrong with it in words that a person who edits presets by hand can use.
+//!
+//! ron names a place and its own idea of what it expected; serde_path_to_error adds the path; the description of the
+//! parameter adds what would be right.
+
+use super::param::{Domain, Param, ValueMut};
+use super::{Atmosphere, Clouds, Fbm, Layer, Mask, Planet, Problem, Ridged, Shape, Water, locate};
+use ron::error::{Error, SpannedError};
+use ron::extensions::Extensions;
+use serde::de::DeserializeOwned;
+use serde_path_to_error::Segment;
+
+const TOO_EARLY: &str = "the text ends too early; a closing bracket or a value is missing";
+
+/// How presets are read and written: `shape: Fbm(octaves: 3)` and `water: (level_m: 0.0)` without further brackets.
+pub(crate) fn options() -> ron::Options {
+    let extensions = Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::IMPLICIT_SOME;
+    ron::Options::default().with_default_extension(extensions)
+}
+
+/// Reads the whole text as one value.
+pub(crate) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, Problem> {
+    let outside = |error: SpannedError| problem(text, String::new(), &error);
+    let mut deserializer = ron::Deserializer::from_str_with_options(text, &options()).map_err(outside)?;
+    let mut track = serde_path_to_error::Track::new();
+    let value = T::deserialize(serde_path_to_error::Deserializer::new(&mut deserializer, &mut track));
+    let value = value.map_err(|code| problem(text, path_text(&track.path()), &deserializer.span_error(code)))?;
+    deserializer.end().map_err(|code| outside(deserializer.span_error(code)))?;
+    Ok(value)
+}
+
+/// `layers[2].shape.octaves`: enum variants take no part in it.
+fn path_text(path: &serde_path_to_error::Path) -> String {
+    let mut text = String::new();
+    for segment in path {
+        match segment {
+            Segment::Seq { index } => text.push_str(&format!("[{index}]")),
+            Segment::Map { key } if text.is_empty() => text.push_str(key),
+            Segment::Map { key } => text.push_str(&format!(".{key}")),
+            Segment::Enum { .. } | Segment::Unknown => {}
+        }
+    }
+    text
+}
+
+fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
+    let stop = locate::offset(text, error.span.end.line, error.span.end.col);
+    let place = locate::find(text, &path);
+    let at_value = place.map_or(stop, |place| place.value);
+    let (offset, message) = match &error.code {
+        Error::NoSuchStructField { expected, found, .. } => {
+            (key_offset(text, &path, found).unwrap_or(stop), stranger("field", found, expected))
+        }
+        Error::NoSuchEnumVariant { expected, found, .. } => (at_value, stranger("value", found, expected)),
+        Error::DuplicateStructField { field, .. } => {
+            (key_offset(text, &path, field).unwrap_or(stop), format!("`{field}` stands here twice; remove one"))
+        }
+        Error::MissingStructField { field, .. } => (at_value, format!("`{field}` is missing; add it")),
+        // `octaves: 3.5` is read as 3, and then a comma is missed.
+        Error::ExpectedComma if text.get(stop..).is_some_and(|rest| rest.starts_with('.')) => {
+            let (path, place) = last_value(text, stop);
+            let offset = place.map_or(stop, |place| place.value);
+            let message = wanted(text, &path, offset);
+            return Problem { path, ..at(text, offset, message) };
+        }
+        Error::ExpectedComma if text.get(stop..).is_none_or(|rest| rest.trim().is_empty()) => {
+            (stop, TOO_EARLY.to_owned())
+        }
+        Error::ExpectedComma => (stop, format!("{} is unexpected; put a comma before it", locate::excerpt(text, stop))),
+        Error::ExpectedBoolean
+        | Error::ExpectedFloat
+        | Error::ExpectedInteger
+        | Error::ExpectedString
+        | Error::ExpectedChar
+        | Error::ExpectedArray
+        | Error::ExpectedStructLike
+        | Error::ExpectedNamedStructLike(_)
+        | Error::ExpectedOption
+        | Error::ExpectedUnit
+        | Error::InvalidValueForType { .. }
+        | Error::InvalidIntegerDigit { .. }
+        | Error::IntegerOutOfBounds
+        | Error::FloatUnderscore
+        | Error::UnderscoreAtBeginning
+            if place.is_some() =>
+        {
+            (at_value, wanted(text, &path, at_value))
+        }
+        Error::ExpectedDifferentLength { found, .. } => {
+            (at_value, format!("{found} numbers are too few; use three, for red, green and blue"))
+        }
+        Error::ExpectedStructLikeEnd if place.is_some_and(|p| parameter(&path).is_some() && p.value < stop) => {
+            (stop, "too many numbers; use three, for red, green and blue".to_owned())
+        }
+        Error::ExpectedStructLikeEnd => (stop, "a closing `)` is missing; add it here".to_owned()),
+        Error::ExpectedArrayEnd => (stop, "a closing `]` is missing; add it here".to_owned()),
+        Error::ExpectedMapColon => (stop, "a colon is missing; write `field: value`".to_owned()),
+        Error::ExpectedStringEnd => (stop, "this text has no closing `\"`; add it".to_owned()),
+        Error::UnclosedBlockComment => (stop, "this comment has no closing `*/`; add it".to_owned()),
+        Error::ExpectedIdentifier if text.get(stop..).is_some_and(|rest| rest.starts_with('(')) => {
+            (stop, "this `(` is one too many; write `(field: value, ...)`".to_owned())
+        }
+        Error::ExpectedIdentifier => {
+            (stop, format!("{} is not a field's name; write `field: value`", locate::excerpt(text, stop)))
+        }
+        Error::Eof => (text.len(), TOO_EARLY.to_owned()),
+        Error::TrailingCharacters => {
+            (stop, format!("{} stands behind the planet; remove all behind the last `)`", locate::excerpt(text, stop)))
+        }
+        Error::ExceededRecursionLimit => (stop, "brackets are nested too deeply; a preset needs few".to_owned()),
+        Error::ExpectedDifferentStructName { expected, found } => {
+            (at_value, format!("`{found}` is not what belongs here; write `{expected}(...)` or only `(...)`"))
+        }
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => {
+            (stop, format!("found {}; a preset is written `(version: 1, ...)`", locate::excerpt(text, stop)))
+        }
+        other => (stop, other.to_string()),
+    };
+    Problem { path, ..at(text, offset, message) }
+}
+
+/// A problem at a byte offset.
+pub(crate) fn at(text: &str, offset: usize, message: impl Into<String>) -> Problem {
+    let (line, column) = locate::line_column(text, offset);
+    Problem { line, column, path: String::new(), message: message.into() }
+}
+
+/// Where a field's name stands last; ron names the field, but its place is already behind it.
+fn key_offset(text: &str, path: &str, field: &str) -> Option<usize> {
+    let parent = locate::steps(path);
+    let parent = match parent.split_last() {
+        Some((locate::Step::Field(last), rest)) if *last == field => rest.to_vec(),
+        _ => parent,
+    };
+    let mut key = None;
+    locate::walk(text, |path, place| {
+        if path.split_last().is_some_and(|(last, rest)| *last == locate::Step::Field(field) && rest == parent) {
+            key = Some(place.key);
+        }
+        true
+    });
+    key
+}
+
+/// The value that began last before an offset.
+fn last_value(text: &str, before: usize) -> (String, Option<locate::Place>) {
+    let mut last = (String::new(), None);
+    locate::walk(text, |path, place| {
+        if place.value < before {
+            last = (locate::path_text(path), Some(place));
+        }
+        place.value < before
+    });
+    last
+}
+
+/// An unknown name, what was probably meant, and what there is.
+fn stranger(what: &str, found: &str, known: &[&str]) -> String {
+    let near = known
+        .iter()
+        .map(|name| (strsim::damerau_levenshtein(&found.to_lowercase(), &name.to_lowercase()), *name))
+        .filter(|(distance, name)| *distance <= 1 + name.len().min(found.len()) / 4)
+        .min();
+    let meant = near.map_or(String::new(), |(_, name)| format!("did you mean `{name}`? "));
+    format!("there is no {what} `{found}` here; {meant}use {}", list(known, ""))
+}
+
+/// What stands at an offset and what should.
+fn wanted(text: &str, path: &str, offset: usize) -> String {
+    let found = locate::excerpt(text, offset);
+    let right = match parameter(path) {
+        Some((param, names)) => in_words(param, names),
+        None if path.ends_with("layers") || path.ends_with("masks") || path.ends_with("palette") => {
+            "a list: `[(...), (...)]`".to_owned()
+        }
+        None if path.ends_with("table") => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
+        None if path.contains("table[") => "a row of letters: `\"aab\"`".to_owned(),
+        None if path == "version" => format!("a whole number, now {}", super::VERSION),
+        None if matches!(path, "water" | "atmosphere" | "clouds") => "`(...)` or `None`".to_owned(),
+        None => "`(field: value, ...)`".to_owned(),
+    };
+    format!("{found} is not what belongs here; use {right}")
+}
+
+fn in_words(param: &Param, names: &[&str]) -> String {
+    match param.domain {
+        Domain::Number { .. } => format!("a number: {}", param.range_text()),
+        Domain::Count { .. } => format!("a whole number: {}", param.range_text()),
+        Domain::Seed => format!("a whole number: 0 to {}", u32::MAX),
+        Domain::Triple { .. } | Domain::Color => {
+            format!("three numbers, for red, green and blue: `(0.1, 0.2, 0.3)`, {}", param.range_text())
+        }
+        Domain::Flag => "`true` or `false`".to_owned(),
+        Domain::Letter => "a letter in single quotes: `'a'`".to_owned(),
+        Domain::Text { .. } => "text in double quotes: `\"text\"`".to_owned(),
+        // A shape carries its own parameters: `Fbm(...)`.
+        Domain::Choice if param.name == "shape" => format!("one of {}", list(names, "(...)")),
+        Domain::Choice => format!("one of {}", list(names, "")),
+    }
+}
+
+fn list(names: &[&str], after: &str) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}{after}`")).collect();
+    names.join(", ")
+}
+
+/// The description of the parameter at a path, if it is one, and its values if there are but a few.
+fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
+    // Any index is as good as 0, and a colour's component is described by the colour.
+    let general = |steps: Vec<locate::Step<'_>>| -> Vec<Option<String>> {
+        let name = |step: &locate::Step<'_>| match step {
+            locate::Step::Field(name) => Some((*name).to_owned()),
+            locate::Step::Index(_) => None,
+        };
+        let mut steps: Vec<_> = steps.iter().map(name).collect();
+        while let Some(None) = steps.last() {
+            steps.pop();
+        }
+        steps
+    };
+    let wanted = general(locate::steps(path));
+    let mut found = None;
+    for shape in [Shape::Fbm(Fbm::default()), Shape::Ridged(Ridged::default())] {
+        specimen(shape).each(&mut |path, param, value| {
+            if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
+                let names = if let ValueMut::Choice(choice) = value { choice.names() } else { &[] };
+                found = Some((param, names));
+            }
+        });
+    }
+    found
+}
+
+/// A planet that has every part, so that every parameter can be found in it.
+fn specimen(shape: Shape) -> Planet {
+    let layer = Layer { shape, masks: vec![Mask::default()], ..Layer::default() };
+    Planet {
+        layers: vec![layer],
+        water: Some(Water::default()),
+        atmosphere: Some(Atmosphere::default()),
+        clouds: Some(Clouds::default()),
+        ..Planet::default()
+    }
+}

@@ -1,0 +1,101 @@
+//! The text of a preset: RON as ron writes it, with the description of each parameter above its first occurrence.
+//!
+//! The comments are put in afterwards, at the places that [`locate`] finds. ron's own metadata by path cannot tell the
+//! first element of a list from the rest, nor one shape of a layer from another.
+
+use super::explain::options;
+use super::migrate::FileV1;
+use super::param::{Domain, Param, ValueMut};
+use super::{Biomes, Layer, Planet, VERSION, locate};
+use ron::ser::PrettyConfig;
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write as _;
+
+/// Longest line of a comment, without its indentation.
+const COMMENT_CHARS: usize = 100;
+
+/// Writes a planet.
+pub(crate) fn write(planet: &Planet) -> String {
+    // Raw strings rather than escapes: a name stays readable.
+    let config = PrettyConfig::new().new_line("\n").escape_strings(false);
+    let mut bare = String::new();
+    // Writing plain data into a string cannot fail; should it, what came out is refused when it is read.
+    let _ = options().to_writer_pretty(&mut bare, &FileV1::from(planet.clone()), config);
+    let mut text = header();
+    let mut done = 0;
+    for (at, comment) in comments(planet, &bare) {
+        let line_start = bare[..at].rfind('\n').map_or(0, |i| i + 1);
+        let indent = &bare[line_start..at];
+        text.push_str(&bare[done..line_start]);
+        for line in wrapped(&comment) {
+            let _ = writeln!(text, "{indent}// {line}");
+        }
+        done = line_start;
+    }
+    text.push_str(&bare[done..]);
+    text.push('\n');
+    text
+}
+
+fn header() -> String {
+    format!(
+        "// A planet for Tellus, format version {VERSION}. Fields that are left out take their default values.\n\
+         // Colours are linear sRGB. Comments are written anew when the file is saved.\n"
+    )
+}
+
+/// Each parameter and part of the planet, where its name first stands.
+fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
+    // In the planet each path has its own description; in the file it is written once.
+    let mut params: HashMap<String, String> = HashMap::new();
+    planet.clone().each(&mut |path, param, value| {
+        params.insert(path.to_string(), comment(param, &value));
+    });
+    let parts: HashMap<&str, &str> =
+        [Planet::PARTS, Layer::PARTS, Biomes::PARTS].into_iter().flatten().copied().collect();
+    let mut written = HashSet::new();
+    let mut found = Vec::new();
+    locate::walk(bare, |steps, place| {
+        let Some(locate::Step::Field(name)) = steps.last() else { return true };
+        let param = params.get(&locate::path_text(steps)).cloned();
+        if let Some(comment) = param.or_else(|| parts.get(name).map(|doc| (*doc).to_owned()))
+            && written.insert((*name, comment.clone()))
+        {
+            found.push((place.key, comment));
+        }
+        true
+    });
+    found
+}
+
+/// `Distance from crest to crest. (0.001 to 100000 km)`
+fn comment(param: &Param, value: &ValueMut<'_>) -> String {
+    let mut text = param.doc.to_owned();
+    let range = match (value, param.domain) {
+        (ValueMut::Choice(choice), _) => choice.names().join(", "),
+        // Nothing to be learnt from these.
+        (_, Domain::Text { .. } | Domain::Color) => String::new(),
+        _ => param.range_text(),
+    };
+    if !range.is_empty() {
+        let _ = write!(text, " ({range})");
+    }
+    text
+}
+
+fn wrapped(text: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        if let Some(line) = lines.last_mut() {
+            if line.is_empty() {
+                line.push_str(word);
+            } else if line.chars().count() + 1 + word.chars().count() <= COMMENT_CHARS {
+                line.push(' ');
+                line.push_str(word);
+            } else {
+                lines.push(word.to_owned());
+            }
+        }
+    }
+    lines
+}

@@ -1,0 +1,78 @@
+//! The weather map (`cloud_map.wgsl`): six faces of a cube, drawn once for each change of scale, curl or seed.
+
+use super::tables::WEATHER_SIDE_PX;
+use super::{RenderError, gpu};
+use wgpu::util::DeviceExt;
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+
+/// Centre, right and down of each face in the order and orientation of cube textures.
+const FACES: [[[f32; 4]; 3]; 6] = [
+    [[1., 0., 0., 0.], [0., 0., -1., 0.], [0., -1., 0., 0.]],
+    [[-1., 0., 0., 0.], [0., 0., 1., 0.], [0., -1., 0., 0.]],
+    [[0., 1., 0., 0.], [1., 0., 0., 0.], [0., 0., 1., 0.]],
+    [[0., -1., 0., 0.], [1., 0., 0., 0.], [0., 0., -1., 0.]],
+    [[0., 0., 1., 0.], [1., 0., 0., 0.], [0., -1., 0., 0.]],
+    [[0., 0., -1., 0.], [-1., 0., 0., 0.], [0., -1., 0., 0.]],
+];
+
+/// The map and the view that shaders read.
+pub(crate) fn texture(device: &wgpu::Device) -> (wgpu::Texture, wgpu::TextureView) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("weather map"),
+        size: wgpu::Extent3d { width: WEATHER_SIDE_PX, height: WEATHER_SIDE_PX, depth_or_array_layers: 6 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let cube = texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        ..wgpu::TextureViewDescriptor::default()
+    });
+    (texture, cube)
+}
+
+/// The pipeline and the orientation of each face.
+pub(crate) struct CloudMapPass {
+    pipeline: wgpu::RenderPipeline,
+    faces: Vec<wgpu::BindGroup>,
+}
+
+impl CloudMapPass {
+    pub(crate) fn new(device: &wgpu::Device, globals: &wgpu::BindGroupLayout) -> Result<Self, RenderError> {
+        let layout = gpu::layout(device, "cube face", &[gpu::Slot::Uniform]);
+        let pipeline = gpu::screen_pipeline(device, "cloud_map.wgsl", &[globals, &layout], &[FORMAT])?;
+        let faces = FACES
+            .iter()
+            .map(|face| {
+                let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some("cube face"),
+                    contents: bytemuck::cast_slice(face),
+                    usage: wgpu::BufferUsages::UNIFORM,
+                });
+                device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("cube face"),
+                    layout: &layout,
+                    entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+                })
+            })
+            .collect();
+        Ok(Self { pipeline, faces })
+    }
+
+    /// Fills the map.
+    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, texture: &wgpu::Texture) {
+        for (layer, face) in (0..).zip(&self.faces) {
+            let view = texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..wgpu::TextureViewDescriptor::default()
+            });
+            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[globals, face], &[&view]);
+        }
+    }
+}

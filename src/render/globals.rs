@@ -1,0 +1,254 @@
+//! The uniform buffer that every pass reads: the frame in the units of the shaders. Must match `shaders/globals.wgsl`.
+
+use super::{DebugView, Frame, gpu};
+use crate::lod::Quality;
+use crate::planet::Planet;
+use glam::{DVec3, Mat4};
+use std::f64::consts::{PI, TAU};
+
+/// Waves that are summed up for the sea near the eye.
+const WAVES: usize = 16;
+/// Octaves of the mottling, coarse to fine.
+const MOTTLE_PERIODS_M: [f64; 6] = [400_000.0, 40_000.0, 4000.0, 400.0, 40.0, 4.0];
+
+/// See `shaders/globals.wgsl` for what each field holds.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Globals {
+    clip_from_rel_m: [[f32; 4]; 4],
+    eye_high_m: [f32; 4],
+    eye_low_m: [f32; 4],
+    eye_km: [f32; 4],
+    eye_up: [f32; 4],
+    ray_right: [f32; 4],
+    ray_up: [f32; 4],
+    ray_forward: [f32; 4],
+    sun_dir: [f32; 4],
+    sun_irradiance: [f32; 4],
+    rayleigh: [f32; 4],
+    mie_scattering: [f32; 4],
+    mie_extinction: [f32; 4],
+    absorber: [f32; 4],
+    air: [f32; 4],
+    ground_albedo: [f32; 4],
+    water_absorption: [f32; 4],
+    water_color: [f32; 4],
+    ice_color: [f32; 4],
+    water: [f32; 4],
+    waves: [[f32; 4]; WAVES],
+    cloud_color: [f32; 4],
+    clouds: [f32; 4],
+    cloud_eye: [f32; 4],
+    cloud_turn: [f32; 4],
+    cloud_seed: [u32; 4],
+    mottle: [[f32; 4]; 6],
+    cliff_color: [f32; 4],
+    misc: [f32; 4],
+    modes: [u32; 4],
+}
+
+/// What of a frame is not in [`Frame`].
+pub(crate) struct Setup {
+    /// Size of the picture that is drawn before it is shrunk or enlarged to the target.
+    pub(crate) size_px: [u32; 2],
+    /// 2, 1, or 0 for a half: pixels drawn for each one shown, in one direction.
+    pub(crate) scale: u32,
+    /// Lowest and highest height of the surface's tiles.
+    pub(crate) height_range_m: (f64, f64),
+    /// Pixels along a face of the weather map.
+    pub(crate) weather_side_px: u32,
+    /// Whether the target encodes sRGB by itself.
+    pub(crate) srgb_target: bool,
+}
+
+/// The buffer, the two samplers, and their bind group (group 0 of every pass).
+pub(crate) struct GlobalsBuffer {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+    buffer: wgpu::Buffer,
+}
+
+impl GlobalsBuffer {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let layout = gpu::layout(device, "globals", &[gpu::Slot::Uniform, gpu::Slot::Sampler, gpu::Slot::Sampler]);
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("globals"),
+            size: size_of::<Globals>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let sampler = |label, mode| {
+            device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(label),
+                address_mode_u: mode,
+                address_mode_v: mode,
+                address_mode_w: mode,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                ..wgpu::SamplerDescriptor::default()
+            })
+        };
+        let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge);
+        let repeated = sampler("repeated", wgpu::AddressMode::Repeat);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("globals"),
+            layout: &layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&clamped) },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
+            ],
+        });
+        Self { layout, group, buffer }
+    }
+
+    /// Sets the frame that the passes submitted next will see.
+    pub(crate) fn write(&self, queue: &wgpu::Queue, frame: &Frame<'_>, setup: &Setup) {
+        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&globals(frame, setup)));
+    }
+}
+
+fn vec4(v: DVec3, w: f64) -> [f32; 4] {
+    [v.x as f32, v.y as f32, v.z as f32, w as f32]
+}
+
+fn rgbw(c: [f64; 3], w: f64) -> [f32; 4] {
+    vec4(DVec3::from_array(c), w)
+}
+
+/// Fraction of each component, so that 32 bits hold it well.
+fn wrapped(v: DVec3) -> DVec3 {
+    v - v.floor()
+}
+
+fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
+    let planet = frame.planet;
+    let camera = &frame.view.camera;
+    let eye = camera.position_planet_m;
+    let radius_m = planet.radius_m();
+    let eye_r = eye.length().max(1.0);
+    let up = eye / eye_r;
+    let altitude_m = eye_r - radius_m;
+
+    // Reverse-Z with the far plane at infinity: depth = near / distance.
+    let clearance_m = altitude_m - setup.height_range_m.1;
+    let near_m = (clearance_m * 0.05).clamp(0.05, 1000.0);
+    let tan_y = (camera.fov_y_rad * 0.5).tan();
+    let tan_x = tan_y * frame.view.aspect();
+    let clip_from_view = Mat4::from_cols_array_2d(&[
+        [(1.0 / tan_x) as f32, 0.0, 0.0, 0.0],
+        [0.0, (1.0 / tan_y) as f32, 0.0, 0.0],
+        [0.0, 0.0, 0.0, -1.0],
+        [0.0, 0.0, near_m as f32, 0.0],
+    ]);
+    let view_from_rel = Mat4::from_quat(camera.planet_from_view.inverse().as_quat());
+    let high = DVec3::from_array(eye.to_array().map(|x| f64::from(x as f32)));
+    let turn = |v: DVec3| camera.planet_from_view * v;
+
+    let star = &planet.star;
+    let sun_radius_rad = star.radius_deg.to_radians();
+    // White ground under a star of brightness 1 overhead has radiance 1.
+    let irradiance = star.color.map(|c| c * star.brightness * PI);
+    let disc = (1.0 / (PI * sun_radius_rad.sin().powi(2))).min(15_000.0 / star.brightness.max(1e-3));
+
+    let mut g: Globals = bytemuck::Zeroable::zeroed();
+    g.clip_from_rel_m = (clip_from_view * view_from_rel).to_cols_array_2d();
+    g.eye_high_m = vec4(high, near_m);
+    g.eye_low_m = vec4(eye - high, 2.0 * tan_y / f64::from(setup.size_px[1]));
+    g.eye_km = vec4(eye * 1e-3, planet.radius_km);
+    g.eye_up = vec4(up, altitude_m * 1e-3);
+    g.ray_right = vec4(turn(DVec3::X * tan_x), f64::from(setup.size_px[0]));
+    g.ray_up = vec4(turn(DVec3::Y * tan_y), f64::from(setup.size_px[1]));
+    g.ray_forward = vec4(turn(DVec3::NEG_Z), frame.time_secs);
+    g.sun_dir = vec4(frame.sun_dir_planet.normalize_or(DVec3::X), sun_radius_rad);
+    g.sun_irradiance = rgbw(irradiance, disc);
+    set_air(&mut g, frame);
+    set_water(&mut g, planet, frame, altitude_m);
+    set_clouds(&mut g, planet, frame, setup);
+    for (slot, period) in g.mottle.iter_mut().zip(MOTTLE_PERIODS_M) {
+        *slot = vec4(wrapped(eye / period), period);
+    }
+    let biomes = &planet.biomes;
+    let (start, full) = (biomes.cliff_start_deg, biomes.cliff_full_deg.max(biomes.cliff_start_deg + 0.5));
+    g.cliff_color = rgbw(biomes.cliff_color, start.to_radians().cos());
+    g.misc = [
+        full.to_radians().cos() as f32,
+        setup.height_range_m.0 as f32,
+        setup.height_range_m.1 as f32,
+        frame.exposure_ev.exp2() as f32,
+    ];
+    let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
+    g.modes = [view, setup.scale, u32::from(setup.srgb_target), 0];
+    g
+}
+
+fn set_air(g: &mut Globals, frame: &Frame<'_>) {
+    let steps = match frame.view.quality {
+        Quality::Low => 12.0,
+        Quality::Medium => 20.0,
+        Quality::High => 32.0,
+    };
+    // Without air the scale heights still stand in denominators.
+    let none = crate::planet::Atmosphere::default();
+    let (air, height_km) = frame.planet.atmosphere.as_ref().map_or((&none, 0.0), |air| (air, air.height_km));
+    let extinction: [f64; 3] = std::array::from_fn(|i| air.mie_scattering_per_km[i] + air.mie_absorption_per_km[i]);
+    g.rayleigh = rgbw(air.rayleigh_per_km, air.rayleigh_scale_km);
+    g.mie_scattering = rgbw(air.mie_scattering_per_km, air.mie_scale_km);
+    g.mie_extinction = rgbw(extinction, air.mie_anisotropy);
+    g.absorber = rgbw(air.absorber_per_km, air.absorber_height_km);
+    g.air = [height_km as f32, air.absorber_width_km as f32, steps, 0.0];
+    g.ground_albedo = rgbw(air.ground_albedo, 0.0);
+}
+
+fn set_water(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, altitude_m: f64) {
+    let none = crate::planet::Water::default();
+    let water = planet.water.as_ref().unwrap_or(&none);
+    let eye = frame.view.camera.position_planet_m;
+    // Cox and Munk 1954: variance of the slope, up- and crosswind together.
+    let variance = 0.003 + 0.00512 * water.wind_m_s;
+    g.water_absorption = rgbw(water.absorption_per_m, f64::from(u8::from(planet.water.is_some())));
+    g.water_color = rgbw(water.color, variance);
+    g.ice_color = rgbw(water.ice_color, water.freezing_c);
+    let (equator, pole) = (planet.climate.equator_c as f32, planet.climate.pole_c as f32);
+    let over_sea_km = (altitude_m - water.level_m) * 1e-3;
+    g.water = [(water.level_m * 1e-3) as f32, over_sea_km as f32, equator, pole];
+    for (i, slot) in g.waves.iter_mut().enumerate() {
+        // Directions spread over the sphere by the golden angle, lengths from 40 m down to 0.5 m.
+        let x = (i as f64 + 0.5) / WAVES as f64;
+        let length_m = 40.0 * (0.5_f64 / 40.0).powf(x);
+        let z = 1.0 - 2.0 * ((i * 7 % WAVES) as f64 + 0.5) / WAVES as f64;
+        let angle = i as f64 * 2.399_963;
+        let flat = (1.0 - z * z).sqrt();
+        let k = TAU / length_m;
+        let wave = DVec3::new(flat * angle.cos(), flat * angle.sin(), z) * k;
+        // Deep water: omega^2 = g k.
+        let phase = wave.dot(eye) - (9.81 * k).sqrt() * frame.time_secs;
+        *slot = vec4(wave, phase.rem_euclid(TAU));
+    }
+}
+
+fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup) {
+    let Some(clouds) = &planet.clouds else { return };
+    let steps = match frame.view.quality {
+        Quality::Low => 7.0,
+        Quality::Medium => 16.0,
+        Quality::High => 28.0,
+    };
+    let eye = frame.view.camera.position_planet_m;
+    let eye_km = eye * 1e-3;
+    let (bottom, top) = (clouds.altitude_km, clouds.altitude_km + clouds.thickness_km);
+    let angle = clouds.wind_km_h / 3600.0 * frame.time_secs / planet.radius_km;
+    let (s, c) = angle.rem_euclid(TAU).sin_cos();
+    let turned = DVec3::new(c * eye_km.x + s * eye_km.y, c * eye_km.y - s * eye_km.x, eye_km.z);
+    // The tile holds four puffs along its side.
+    let period_km = clouds.puff_km * 4.0;
+    // From so far away that the layer is thinner than a pixel a few samples tell all. One choice for the whole picture.
+    let away_km = eye_km.length() - planet.radius_km - top;
+    let thin = away_km * f64::from(g.eye_low_m[3]) > 0.5 * clouds.thickness_km;
+    g.cloud_color = rgbw(clouds.color, clouds.density);
+    g.clouds = [bottom as f32, top as f32, clouds.coverage as f32, period_km as f32];
+    g.cloud_eye = vec4(wrapped(turned / period_km), if thin { 3.0 } else { steps });
+    g.cloud_turn = [c as f32, s as f32, (planet.radius_km / clouds.scale_km) as f32, clouds.curl as f32];
+    g.cloud_seed = [clouds.seed ^ planet.seed.rotate_left(16), setup.weather_side_px, 0, 0];
+}

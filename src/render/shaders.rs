@@ -1,0 +1,204 @@
+//! Shader texts: `#include`, checks with file and line, and hot reload while one works on them.
+//!
+//! Every text of `shaders/` is part of the program. In debug builds the files on disk win while they are there, and
+//! [`Watch`] tells when one of them changed.
+
+use super::RenderError;
+use std::borrow::Cow;
+use std::path::PathBuf;
+use std::time::{Duration, Instant, SystemTime};
+use wgpu::naga;
+
+macro_rules! embedded {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $name)))),*]
+    };
+}
+
+/// Every file of `shaders/` by name.
+const EMBEDDED: &[(&str, &str)] = embedded![
+    "air.wgsl",
+    "air_model.wgsl",
+    "cloud_map.wgsl",
+    "cloud_model.wgsl",
+    "clouds.wgsl",
+    "globals.wgsl",
+    "irradiance.wgsl",
+    "light.wgsl",
+    "math.wgsl",
+    "mottle.wgsl",
+    "multiscatter.wgsl",
+    "scattering.wgsl",
+    "screen.wgsl",
+    "sea.wgsl",
+    "sky.wgsl",
+    "stars.wgsl",
+    "surface.wgsl",
+    "tables.wgsl",
+    "terrain.wgsl",
+    "tonemap.wgsl",
+    "transmittance.wgsl",
+    "water.wgsl",
+];
+
+/// The files that are compiled on their own: one for each pass. All others are included by them.
+pub const ENTRIES: &[&str] = &[
+    "air.wgsl",
+    "cloud_map.wgsl",
+    "clouds.wgsl",
+    "irradiance.wgsl",
+    "multiscatter.wgsl",
+    "sky.wgsl",
+    "terrain.wgsl",
+    "tonemap.wgsl",
+    "transmittance.wgsl",
+    "water.wgsl",
+];
+
+/// A shader with everything it includes, and where each of its lines comes from.
+#[derive(Debug)]
+pub struct Resolved {
+    /// The whole text.
+    pub text: String,
+    /// Names of the files it was made of.
+    pub files: Vec<String>,
+    /// For each line of the text: index into `files`, and line there, from 1.
+    lines: Vec<(usize, usize)>,
+}
+
+impl Resolved {
+    /// `shaders/air.wgsl:12` for a line of the text (from 1).
+    pub fn origin(&self, line: usize) -> String {
+        match self.lines.get(line.saturating_sub(1)) {
+            Some(&(file, line)) => format!("shaders/{}:{line}", self.files[file]),
+            None => format!("shaders/{}", self.files.first().map_or("?", String::as_str)),
+        }
+    }
+}
+
+/// The folder that hot reload reads, in debug builds on the machine the program was built on.
+fn disk_folder() -> Option<PathBuf> {
+    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders"));
+    (cfg!(debug_assertions) && folder.is_dir()).then_some(folder)
+}
+
+/// The text of one file: from disk in debug builds, otherwise the one that is part of the program.
+fn read(name: &str) -> Option<Cow<'static, str>> {
+    let on_disk = disk_folder().and_then(|folder| std::fs::read_to_string(folder.join(name)).ok());
+    on_disk.map(Cow::Owned).or_else(|| EMBEDDED.iter().find(|(n, _)| *n == name).map(|(_, text)| Cow::Borrowed(*text)))
+}
+
+/// Puts an entry file and all it includes into one text. `read` gives a file's text by name.
+pub fn resolve_with(entry: &str, read: &dyn Fn(&str) -> Option<Cow<'static, str>>) -> Result<Resolved, RenderError> {
+    let mut resolved = Resolved { text: String::new(), files: Vec::new(), lines: Vec::new() };
+    append(entry, &format!("shaders/{entry}"), read, &mut Vec::new(), &mut resolved)?;
+    Ok(resolved)
+}
+
+/// Puts an entry file of `shaders/` and all it includes into one text.
+pub fn resolve(entry: &str) -> Result<Resolved, RenderError> {
+    resolve_with(entry, &read)
+}
+
+fn append(
+    name: &str,
+    asked_at: &str,
+    read: &dyn Fn(&str) -> Option<Cow<'static, str>>,
+    open: &mut Vec<String>,
+    out: &mut Resolved,
+) -> Result<(), RenderError> {
+    if open.iter().any(|n| n == name) {
+        let circle = open.join("` -> `");
+        return Err(RenderError::Shader(format!("{asked_at}: `{circle}` -> `{name}` include each other")));
+    }
+    if out.files.iter().any(|n| n == name) {
+        return Ok(());
+    }
+    let text =
+        read(name).ok_or_else(|| RenderError::Shader(format!("{asked_at}: there is no shader file `{name}`")))?;
+    let file = out.files.len();
+    out.files.push(name.to_owned());
+    open.push(name.to_owned());
+    for (i, line) in text.lines().enumerate() {
+        if let Some(rest) = line.trim_start().strip_prefix("#include") {
+            let at = format!("shaders/{name}:{}", i + 1);
+            let included = rest.trim().strip_prefix('"').and_then(|r| r.strip_suffix('"'));
+            let included =
+                included.ok_or_else(|| RenderError::Shader(format!("{at}: write `#include \"name.wgsl\"`")))?;
+            append(included, &at, read, open, out)?;
+        } else {
+            out.text.push_str(line);
+            out.text.push('\n');
+            out.lines.push((file, i + 1));
+        }
+    }
+    open.pop();
+    Ok(())
+}
+
+/// Resolves an entry file and has it parsed and validated, so that nothing wrong ever reaches the driver.
+pub fn check(entry: &str) -> Result<Resolved, RenderError> {
+    let resolved = resolve(entry)?;
+    check_resolved(&resolved)?;
+    Ok(resolved)
+}
+
+/// Parses and validates a resolved text; the message names file and line of its origin.
+pub fn check_resolved(resolved: &Resolved) -> Result<(), RenderError> {
+    let module = naga::front::wgsl::parse_str(&resolved.text).map_err(|error| {
+        let line = error.location(&resolved.text).map_or(0, |l| l.line_number as usize);
+        RenderError::Shader(format!("{}: {}", resolved.origin(line), error.message()))
+    })?;
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    validator.validate(&module).map_err(|error| {
+        let line = error.location(&resolved.text).map_or(0, |l| l.line_number as usize);
+        let mut message = format!("{}: {}", resolved.origin(line), error.as_inner());
+        let mut cause: Option<&dyn std::error::Error> = std::error::Error::source(error.as_inner());
+        while let Some(inner) = cause {
+            message = format!("{message}: {inner}");
+            cause = inner.source();
+        }
+        RenderError::Shader(message)
+    })?;
+    Ok(())
+}
+
+/// The shader module of an entry file.
+pub(crate) fn module(device: &wgpu::Device, entry: &str) -> Result<wgpu::ShaderModule, RenderError> {
+    let resolved = check(entry)?;
+    Ok(device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(entry),
+        source: wgpu::ShaderSource::Wgsl(resolved.text.into()),
+    }))
+}
+
+/// Watches the files on disk; does nothing in release builds.
+pub(crate) struct Watch {
+    looked: Instant,
+    newest: Option<SystemTime>,
+}
+
+impl Watch {
+    /// From now on.
+    pub(crate) fn new() -> Self {
+        Self { looked: Instant::now(), newest: newest_change() }
+    }
+
+    /// Whether a file changed since the last call; looks at most twice a second.
+    pub(crate) fn changed(&mut self) -> bool {
+        if self.looked.elapsed() < Duration::from_millis(500) {
+            return false;
+        }
+        self.looked = Instant::now();
+        let newest = newest_change();
+        let changed = newest != self.newest;
+        self.newest = newest;
+        changed
+    }
+}
+
+fn newest_change() -> Option<SystemTime> {
+    let folder = disk_folder()?;
+    EMBEDDED.iter().filter_map(|(name, _)| std::fs::metadata(folder.join(name)).ok()?.modified().ok()).max()
+}

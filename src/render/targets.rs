@@ -1,0 +1,34 @@
+//! The textures a frame is drawn into; made anew when the size changes.
+
+use super::gpu;
+
+/// Radiance.
+pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Reverse-Z depth.
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Distance of the clouds.
+pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+
+/// Two radiance targets that passes read and write in turn, depth, and what the clouds pass leaves behind.
+pub(crate) struct Targets {
+    pub(crate) size_px: [u32; 2],
+    pub(crate) hdr: [wgpu::TextureView; 2],
+    pub(crate) depth: wgpu::TextureView,
+    pub(crate) cloud_light: wgpu::TextureView,
+    pub(crate) cloud_distance: wgpu::TextureView,
+}
+
+impl Targets {
+    pub(crate) fn new(device: &wgpu::Device, size_px: [u32; 2]) -> Self {
+        Self {
+            size_px,
+            hdr: [
+                gpu::target(device, "radiance 0", size_px, HDR_FORMAT),
+                gpu::target(device, "radiance 1", size_px, HDR_FORMAT),
+            ],
+            depth: gpu::target(device, "depth", size_px, DEPTH_FORMAT),
+            cloud_light: gpu::target(device, "cloud light", size_px, HDR_FORMAT),
+            cloud_distance: gpu::target(device, "cloud distance", size_px, DISTANCE_FORMAT),
+        }
+    }
+}

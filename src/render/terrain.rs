@@ -1,0 +1,226 @@
+//! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
+
+use super::gpu;
+use super::pool::{Place, TilePool};
+use super::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use super::{DebugView, Frame, FrameStats, RenderError, shaders};
+use crate::build::tile::Vertex;
+use crate::lod::{self, Culling, stitch};
+use std::collections::HashSet;
+use std::ops::Range;
+use wgpu::util::DeviceExt;
+
+const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
+    0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Unorm16x2, 5 => Snorm16x2, 6 => Snorm16x2
+];
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
+
+/// Pipelines of the ground.
+pub(crate) struct TerrainPass {
+    filled: wgpu::RenderPipeline,
+    wireframe: wgpu::RenderPipeline,
+}
+
+impl TerrainPass {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        globals: &wgpu::BindGroupLayout,
+        tables: &wgpu::BindGroupLayout,
+    ) -> Result<Self, RenderError> {
+        const ENTRY: &str = "terrain.wgsl";
+        let module = shaders::module(device, ENTRY)?;
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(ENTRY),
+            bind_group_layouts: &[Some(globals), Some(tables)],
+            immediate_size: 0,
+        });
+        let make = |topology, cull_mode| {
+            gpu::checked(device, ENTRY, || {
+                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                    label: Some(ENTRY),
+                    layout: Some(&layout),
+                    vertex: wgpu::VertexState {
+                        module: &module,
+                        entry_point: Some("vertex"),
+                        compilation_options: wgpu::PipelineCompilationOptions::default(),
+                        buffers: &[
+                            Some(wgpu::VertexBufferLayout {
+                                array_stride: size_of::<Vertex>() as u64,
+                                step_mode: wgpu::VertexStepMode::Vertex,
+                                attributes: &VERTEX_ATTRIBUTES,
+                            }),
+                            Some(wgpu::VertexBufferLayout {
+                                array_stride: size_of::<[f32; 3]>() as u64,
+                                step_mode: wgpu::VertexStepMode::Instance,
+                                attributes: &INSTANCE_ATTRIBUTES,
+                            }),
+                        ],
+                    },
+                    fragment: Some(wgpu::FragmentState {
+                        module: &module,
+                        entry_point: Some("fragment"),
+                        compilation_options: wgpu::PipelineCompilationOptions::default(),
+                        targets: &[Some(HDR_FORMAT.into())],
+                    }),
+                    primitive: wgpu::PrimitiveState { topology, cull_mode, ..wgpu::PrimitiveState::default() },
+                    depth_stencil: Some(wgpu::DepthStencilState {
+                        format: DEPTH_FORMAT,
+                        depth_write_enabled: Some(true),
+                        depth_compare: Some(wgpu::CompareFunction::Greater),
+                        stencil: wgpu::StencilState::default(),
+                        bias: wgpu::DepthBiasState::default(),
+                    }),
+                    multisample: wgpu::MultisampleState::default(),
+                    multiview_mask: None,
+                    cache: None,
+                })
+            })
+        };
+        Ok(Self {
+            filled: make(wgpu::PrimitiveTopology::TriangleList, Some(wgpu::Face::Back))?,
+            wireframe: make(wgpu::PrimitiveTopology::LineList, None)?,
+        })
+    }
+}
+
+/// Index lists of all 16 permutations, one after the other, as triangles and as lines.
+struct Indices {
+    buffer: wgpu::Buffer,
+    triangles: Vec<Range<u32>>,
+    lines: Vec<Range<u32>>,
+}
+
+impl Indices {
+    fn new(device: &wgpu::Device) -> Self {
+        let mut all: Vec<u16> = Vec::new();
+        let mut append = |list: &[u16]| {
+            let start = all.len() as u32;
+            all.extend(list);
+            start..all.len() as u32
+        };
+        let (mut triangles, mut lines) = (Vec::new(), Vec::new());
+        for mask in 0..16 {
+            let list = stitch::triangle_indices(mask);
+            triangles.push(append(&list));
+            lines.push(append(&edges(&list)));
+        }
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("tile indices"),
+            contents: bytemuck::cast_slice(&all),
+            usage: wgpu::BufferUsages::INDEX,
+        });
+        Self { buffer, triangles, lines }
+    }
+}
+
+/// Every edge of a triangle list once.
+fn edges(triangles: &[u16]) -> Vec<u16> {
+    let mut seen = HashSet::new();
+    triangles
+        .chunks_exact(3)
+        .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]])
+        .filter(|&[a, b]| seen.insert((a.min(b), a.max(b))))
+        .flatten()
+        .collect()
+}
+
+struct Draw {
+    place: Place,
+    mask: usize,
+}
+
+/// What is kept of the ground from frame to frame.
+pub(crate) struct TerrainResources {
+    indices: Indices,
+    pool: TilePool,
+    instances: wgpu::Buffer,
+    draws: Vec<Draw>,
+}
+
+impl TerrainResources {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        Self {
+            indices: Indices::new(device),
+            pool: TilePool::default(),
+            instances: instance_buffer(device, 1024),
+            draws: Vec::new(),
+        }
+    }
+
+    /// Chooses the tiles to draw, uploads what is new.
+    pub(crate) fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &Frame<'_>, lowest_m: f64) {
+        let radius_m = frame.surface.terrain.planet().radius_m();
+        let culling = Culling::new(&frame.view, (radius_m + lowest_m).max(0.0));
+        self.pool.begin_frame();
+        self.draws.clear();
+        let mut instances: Vec<[f32; 3]> = Vec::new();
+        for leaf in frame.surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)) {
+            let Some(place) = self.pool.place(device, queue, &leaf.tile) else { continue };
+            let level = leaf.tile.id.level;
+            let (start, end) = lod::morph_range_m(level, radius_m, &frame.view);
+            instances.push([start as f32, end as f32, f32::from(level)]);
+            self.draws.push(Draw { place, mask: usize::from(leaf.coarser_edges & 15) });
+        }
+        let bytes: &[u8] = bytemuck::cast_slice(&instances);
+        if self.instances.size() < bytes.len() as u64 {
+            self.instances = instance_buffer(device, instances.len().next_power_of_two());
+        }
+        queue.write_buffer(&self.instances, 0, bytes);
+    }
+
+    /// Draws the tiles chosen by [`TerrainResources::prepare`].
+    pub(crate) fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pass: &TerrainPass,
+        groups: [&wgpu::BindGroup; 2],
+        targets: &Targets,
+        view: DebugView,
+    ) -> FrameStats {
+        let lines = view == DebugView::Wireframe;
+        let mut draw = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("terrain"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &targets.hdr[0],
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &targets.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        draw.set_pipeline(if lines { &pass.wireframe } else { &pass.filled });
+        draw.set_bind_group(0, groups[0], &[]);
+        draw.set_bind_group(1, groups[1], &[]);
+        draw.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint16);
+        draw.set_vertex_buffer(1, self.instances.slice(..));
+        let mut bound = None;
+        let mut triangles = 0;
+        for (i, Draw { place, mask }) in (0..).zip(&self.draws) {
+            if bound != Some(place.buffer) {
+                draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));
+                bound = Some(place.buffer);
+            }
+            let range = if lines { &self.indices.lines[*mask] } else { &self.indices.triangles[*mask] };
+            draw.draw_indexed(range.clone(), place.base_vertex, i..i + 1);
+            triangles += self.indices.triangles[*mask].len() / 3;
+        }
+        FrameStats { tiles_drawn: self.draws.len(), triangles }
+    }
+}
+
+fn instance_buffer(device: &wgpu::Device, instances: usize) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("tile instances"),
+        size: (instances * size_of::<[f32; 3]>()) as u64,
+        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}

@@ -1,0 +1,196 @@
+//! Gradient noise: the arithmetic at the bottom of every layer.
+//!
+//! 3D simplex noise (Perlin 2001, after Gustavson's formulation) with two changes that make it fast and exact at planet scale:
+//!
+//! - The skew onto the simplex grid is linear, so it is applied to a point once ([`skew`]) and each octave only scales the
+//!   skewed point. Lattice and fraction are found in f64, whose rounding at the Earth's scale is below a micrometre; only the
+//!   fraction goes on in f32. The answer does not depend on which tile asks.
+//! - Gradients are three signed 10-bit numbers out of an integer hash, uniform in a cube: no table, no preferred axes.
+//!
+//! Everything is branch-free and uses only operations that IEEE 754 rounds correctly, never a fused multiply-add, so that
+//! the loop over points can be compiled for each instruction set (see [`super::simd`]) with the same bits everywhere.
+
+/// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
+pub(crate) const BOUND: f64 = 1.45;
+
+/// Scales the sum of corners so that the noise's standard deviation is about 0.33.
+const SCALE: f32 = 90.0 / 512.0;
+
+/// Adding and subtracting this rounds an f64 below 2^51 to a whole number and leaves that number in the low bits.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// One octave: where and how fine the lattice is, and how its corners are hashed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Octave {
+    /// Lattice cells per unit of the point's coordinates.
+    pub(crate) frequency: f64,
+    /// Shift of the lattice in skewed coordinates, so that octaves do not share a centre.
+    pub(crate) offset: [f64; 3],
+    /// Hash seed.
+    pub(crate) seed: u32,
+}
+
+/// Skews a point onto the simplex grid: a third of the sum of its coordinates is added to each.
+#[inline(always)]
+pub(crate) fn skew(p: [f64; 3]) -> [f64; 3] {
+    let s = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
+    [p[0] + s, p[1] + s, p[2] + s]
+}
+
+/// Cell number and position within the cell, 0 to 1.
+#[inline(always)]
+pub(crate) fn split(q: f64) -> (u32, f32) {
+    let rounded = (q - 0.5) + ROUNDER;
+    (rounded.to_bits() as u32, (q - (rounded - ROUNDER)) as f32)
+}
+
+/// Large odd numbers that spread cell numbers over the hash's bits.
+const PRIME: [u32; 3] = [0x8DA6_B343, 0xD816_3841, 0xCB1A_B31F];
+
+/// Spreads the bits of a number.
+#[inline(always)]
+pub(crate) fn scramble(bits: u32) -> u32 {
+    let h = bits.wrapping_mul(0x9E37_79B1);
+    (h ^ (h >> 15)).wrapping_mul(0x85EB_CA77)
+}
+
+/// Random bits of a lattice cell.
+#[inline(always)]
+pub(crate) fn cell_hash(cell: [u32; 3], seed: u32) -> u32 {
+    let spread = |axis: usize| cell[axis].wrapping_mul(PRIME[axis]);
+    let h = scramble(spread(0) ^ spread(1) ^ spread(2) ^ seed);
+    h ^ (h >> 16)
+}
+
+/// A corner's gradient, each component an odd whole number from -511 to 511.
+#[inline(always)]
+fn gradient(hash_x: u32, hash_y: u32, hash_z: u32, seed: u32) -> [f32; 3] {
+    let h = scramble(hash_x ^ hash_y ^ hash_z ^ seed);
+    let component = |bits: u32| ((bits as i32 >> 22) | 1) as f32;
+    [component(h), component(h << 10), component(h << 20)]
+}
+
+/// What one corner of the simplex adds: its weight cubed, and gradient dot distance.
+#[inline(always)]
+fn falloff(d: [f32; 3]) -> f32 {
+    (0.5 - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(0.0)
+}
+
+/// The four corners of the simplex around a skewed point: distances, gradients.
+#[inline(always)]
+fn corners(point_skewed: [f64; 3], octave: &Octave) -> ([[f32; 3]; 4], [[f32; 3]; 4]) {
+    let (ix, x) = split(point_skewed[0] * octave.frequency + octave.offset[0]);
+    let (iy, y) = split(point_skewed[1] * octave.frequency + octave.offset[1]);
+    let (iz, z) = split(point_skewed[2] * octave.frequency + octave.offset[2]);
+
+    let t = (x + y + z) * (1.0 / 6.0);
+    let d0 = [x - t, y - t, z - t];
+    // Which tetrahedron of the cell: the order of x, y and z, as selects.
+    let (xy, yz, zx) = (x >= y, y >= z, z > x);
+    let first = [xy & !zx, yz & !xy, zx & !yz];
+    let second = [xy | !zx, yz | !xy, zx | !yz];
+    let step = |on: bool| if on { 1.0_f32 } else { 0.0 };
+    let away = |offset: [bool; 3], unskew: f32| {
+        [d0[0] - step(offset[0]) + unskew, d0[1] - step(offset[1]) + unskew, d0[2] - step(offset[2]) + unskew]
+    };
+    let d1 = away(first, 1.0 / 6.0);
+    let d2 = away(second, 1.0 / 3.0);
+    let d3 = [d0[0] - 0.5, d0[1] - 0.5, d0[2] - 0.5];
+
+    let base = [ix.wrapping_mul(PRIME[0]), iy.wrapping_mul(PRIME[1]), iz.wrapping_mul(PRIME[2])];
+    let next = [base[0].wrapping_add(PRIME[0]), base[1].wrapping_add(PRIME[1]), base[2].wrapping_add(PRIME[2])];
+    let pick = |on: bool, axis: usize| if on { next[axis] } else { base[axis] };
+    let at = |o: [bool; 3]| gradient(pick(o[0], 0), pick(o[1], 1), pick(o[2], 2), octave.seed);
+    let g0 = gradient(base[0], base[1], base[2], octave.seed);
+    let g3 = gradient(next[0], next[1], next[2], octave.seed);
+    ([d0, d1, d2, d3], [g0, at(first), at(second), g3])
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The noise at a skewed point, about -1 to 1.
+#[inline(always)]
+pub(crate) fn value(point_skewed: [f64; 3], octave: &Octave) -> f32 {
+    let (d, g) = corners(point_skewed, octave);
+    let corner = |i: usize| {
+        let w = falloff(d[i]);
+        let w2 = w * w;
+        w2 * w2 * dot(g[i], d[i])
+    };
+    (corner(0) + corner(1) + (corner(2) + corner(3))) * SCALE
+}
+
+/// The noise at a skewed point (the same bits as [`value`]) and its gradient by the unskewed lattice coordinates.
+#[inline(always)]
+pub(crate) fn value_gradient(point_skewed: [f64; 3], octave: &Octave) -> (f32, [f32; 3]) {
+    let (d, g) = corners(point_skewed, octave);
+    let corner = |i: usize| {
+        let w = falloff(d[i]);
+        let w2 = w * w;
+        let (w4, slope) = (w2 * w2, dot(g[i], d[i]));
+        // d/dp of w^4 (g.d) = w^4 g - 8 w^3 (g.d) d
+        let pull = w2 * w * slope * 8.0;
+        let grad = [w4 * g[i][0] - pull * d[i][0], w4 * g[i][1] - pull * d[i][1], w4 * g[i][2] - pull * d[i][2]];
+        (w4 * slope, grad)
+    };
+    let ((v0, g0), (v1, g1), (v2, g2), (v3, g3)) = (corner(0), corner(1), corner(2), corner(3));
+    let sum = |axis: usize| ((g0[axis] + g1[axis]) + (g2[axis] + g3[axis])) * SCALE;
+    ((v0 + v1 + (v2 + v3)) * SCALE, [sum(0), sum(1), sum(2)])
+}
+
+/// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.
+pub(crate) fn mix(state: u64) -> u64 {
+    let mut z = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const OCTAVE: Octave = Octave { frequency: 1.0, offset: [0.3, 17.7, -4.1], seed: 77 };
+
+    proptest! {
+        #[test]
+        fn gradients_match_central_differences(x in -40.0..40.0_f64, y in -40.0..40.0_f64, z in -40.0..40.0_f64) {
+            let at = |p: [f64; 3]| f64::from(value(skew(p), &OCTAVE));
+            let (v, g) = value_gradient(skew([x, y, z]), &OCTAVE);
+            prop_assert_eq!(v, value(skew([x, y, z]), &OCTAVE));
+            let h = 1e-3;
+            for axis in 0..3 {
+                let (mut lo, mut hi) = ([x, y, z], [x, y, z]);
+                lo[axis] -= h;
+                hi[axis] += h;
+                let difference = (at(hi) - at(lo)) / (2.0 * h);
+                prop_assert!((difference - f64::from(g[axis])).abs() < 2e-3, "{} {}", difference, g[axis]);
+            }
+        }
+
+        #[test]
+        fn never_beyond_its_bound(x in -1e9..1e9_f64, y in -1e9..1e9_f64, z in -1e9..1e9_f64, seed: u32) {
+            let v = value(skew([x, y, z]), &Octave { seed, ..OCTAVE });
+            prop_assert!(f64::from(v.abs()) <= BOUND);
+        }
+    }
+
+    #[test]
+    fn mean_and_spread_are_as_promised() {
+        let n = 200_000;
+        let values: Vec<f64> = (0..n)
+            .map(|i| {
+                let r = |k: u64| (mix(i * 3 + k) >> 11) as f64 / (1_u64 << 53) as f64 * 1000.0;
+                f64::from(value([r(0), r(1), r(2)], &OCTAVE))
+            })
+            .collect();
+        let mean = values.iter().sum::<f64>() / n as f64;
+        let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n as f64).sqrt();
+        assert!(mean.abs() < 0.005, "mean {mean}");
+        assert!((0.31..0.35).contains(&deviation), "deviation {deviation}");
+    }
+}

@@ -1,0 +1,91 @@
+//! The instruction sets the noise loops are compiled for, and the choice between them at run time.
+//!
+//! The same Rust source is compiled once for each set; the compiler vectorises it. The bits are equal, only the speed differs.
+
+use std::sync::OnceLock;
+
+/// An instruction set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs)]
+pub enum Simd {
+    /// Whatever the target guarantees: SSE2 on x86-64, NEON on aarch64.
+    Baseline,
+    Sse41,
+    Avx2,
+    Avx512,
+}
+
+impl Simd {
+    /// The best this machine has.
+    pub fn detect() -> Simd {
+        static BEST: OnceLock<Simd> = OnceLock::new();
+        *BEST.get_or_init(|| Self::available().last().copied().unwrap_or(Simd::Baseline))
+    }
+
+    /// All this machine has, slowest first.
+    pub fn available() -> Vec<Simd> {
+        let mut sets = vec![Simd::Baseline];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("sse4.1") {
+                sets.push(Simd::Sse41);
+            }
+            if is_x86_feature_detected!("avx2") {
+                sets.push(Simd::Avx2);
+            }
+            if is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw")
+                && is_x86_feature_detected!("avx512vl")
+            {
+                sets.push(Simd::Avx512);
+            }
+        }
+        sets
+    }
+
+    /// Short name, as in `tellus bench`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Simd::Baseline => "baseline",
+            Simd::Sse41 => "sse4.1",
+            Simd::Avx2 => "avx2",
+            Simd::Avx512 => "avx512",
+        }
+    }
+}
+
+/// Compiles `$body` (an `#[inline(always)]` function) once for each instruction set, and writes `$name`, which takes the
+/// set to use as its first argument. Sets that this machine lacks fall back to the baseline, so the call is always sound.
+macro_rules! for_each_simd {
+    ($(#[$meta:meta])* fn $name:ident = $body:ident($($arg:ident: $type:ty),* $(,)?)) => {
+        $(#[$meta])*
+        #[allow(clippy::too_many_arguments)]
+        fn $name(simd: $crate::terrain::simd::Simd, $($arg: $type),*) {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "sse4.1")]
+                fn sse41($($arg: $type),*) { $body($($arg),*) }
+                #[target_feature(enable = "avx2")]
+                fn avx2($($arg: $type),*) { $body($($arg),*) }
+                #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
+                fn avx512($($arg: $type),*) { $body($($arg),*) }
+                use $crate::terrain::simd::Simd;
+                if simd > Simd::Baseline && simd <= Simd::detect() {
+                    // SAFETY: `simd` is at most what was detected on this machine, and each set includes the ones before.
+                    unsafe {
+                        match simd {
+                            Simd::Sse41 => return sse41($($arg),*),
+                            Simd::Avx2 => return avx2($($arg),*),
+                            Simd::Avx512 => return avx512($($arg),*),
+                            Simd::Baseline => {}
+                        }
+                    }
+                }
+            }
+            let _ = simd;
+            $body($($arg),*)
+        }
+    };
+}
+pub(crate) use for_each_simd;
