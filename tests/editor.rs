@@ -272,26 +272,53 @@ fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
     }
 }
 
-#[test]
-fn an_idle_editor_draws_nothing() {
-    let mut harness = editor(vec![]);
+/// Steps until the picture is complete and its time is known.
+fn wait_for_picture(harness: &mut Editor) {
     for _ in 0..600 {
         harness.step();
         let viewport = harness.state().viewport();
-        if viewport.surface().is_none_or(|surface| surface.complete) && !viewport.is_busy() {
+        if viewport.surface().is_some_and(|surface| surface.complete) && !viewport.is_busy() {
             break;
         }
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    harness.run_steps(5);
+    harness.run_steps(3);
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    harness.run_steps(3);
+}
+
+#[test]
+fn an_idle_editor_draws_nothing() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
     let pictures = harness.state().viewport().pictures();
+    assert!(pictures > 0);
     harness.run_steps(20);
     assert_eq!(harness.state().viewport().pictures(), pictures);
     harness.state_mut().viewport_mut().settings.exposure_ev = 1.0;
     harness.run_steps(3);
-    if harness.state().viewport().surface().is_some() {
-        assert_eq!(harness.state().viewport().pictures(), pictures + 1);
+    assert_eq!(harness.state().viewport().pictures(), pictures + 1);
+}
+
+#[test]
+fn the_time_from_an_edit_to_its_picture_is_measured() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
+    assert_eq!(harness.state().viewport().edit_clock.last(), None);
+    click(&mut harness, "Star");
+    slide(&mut harness, "Brightness of star", 2.0);
+    wait_for_picture(&mut harness);
+    let uniform = harness.state().viewport().edit_clock.last();
+    assert!(uniform.is_some(), "an edit that rebuilds nothing");
+    click(&mut harness, "Climate");
+    slide(&mut harness, "Equator of climate", 20.0);
+    for _ in 0..100 {
+        wait_for_picture(&mut harness);
+        if harness.state().viewport().edit_clock.last() != uniform {
+            break;
+        }
     }
+    assert_ne!(harness.state().viewport().edit_clock.last(), uniform, "an edit that rebuilds tiles");
 }
 
 #[test]
