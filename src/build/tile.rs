@@ -35,6 +35,13 @@ pub struct Vertex {
     pub parent_normal_oct: [i16; 2],
 }
 
+impl Vertex {
+    /// The position in the planet frame.
+    pub fn position_planet_m(&self) -> DVec3 {
+        DVec3::from_array(self.position_high_m.map(f64::from)) + DVec3::from_array(self.position_low_m.map(f64::from))
+    }
+}
+
 /// The finished mesh of a node.
 #[derive(Debug)]
 pub struct Tile {

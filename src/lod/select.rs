@@ -5,12 +5,12 @@
 //! level's distance is half the one before.
 
 use super::{Culling, Quality, View};
-use crate::build::tile::{TILE_QUADS, Tile};
+use crate::build::tile::{TILE_QUADS, TILE_SIDE, Tile};
 use crate::sphere::NodeId;
 
-/// A node is never split farther away than needed for this many of its vertex spacings, however small the picture: the blend
-/// between levels ([`morph_range_m`]) relies on nodes being small against their distance.
-const LEAST_DISTANCE_SPACINGS: f64 = 110.0;
+/// A node nearer than this many of its vertex spacings is always split, however small the picture: the blend between levels
+/// ([`morph_range_m`]) relies on nodes being small against their distance.
+const LEAST_DISTANCE_SPACINGS: f64 = 48.0;
 
 /// Nodes a little outside the picture are refined too, so that a turn of the head shows no coarse ground.
 const FRUSTUM_MARGIN: f64 = 1.15;
@@ -32,10 +32,27 @@ impl Selection {
     /// Whether the tile is too coarse for the view.
     pub fn wants_split(&self, tile: &Tile) -> bool {
         let level = tile.id.level;
-        let distance_m = self.view.camera.position_planet_m.distance(tile.center_planet_m) - tile.bounding_radius_m;
         level < NodeId::MAX_LEVEL
-            && distance_m < split_distance_m(level, self.radius_m, &self.view)
+            && self.is_within(tile, split_distance_m(level, self.radius_m, &self.view))
             && self.culling.sees(tile)
+    }
+
+    /// Whether any of the tile is nearer than a distance: by its bounding sphere, then by every eighth vertex and what may lie
+    /// around it.
+    fn is_within(&self, tile: &Tile, distance_m: f64) -> bool {
+        const STRIDE: usize = 8;
+        let eye = self.view.camera.position_planet_m;
+        if eye.distance(tile.center_planet_m) - tile.bounding_radius_m >= distance_m {
+            return false;
+        }
+        let between_m = spacing_rad(tile.id.level) * self.radius_m * STRIDE as f64 * std::f64::consts::FRAC_1_SQRT_2;
+        let reach_m = distance_m + between_m;
+        (0..TILE_SIDE).step_by(STRIDE).any(|y| {
+            (0..TILE_SIDE).step_by(STRIDE).any(|x| {
+                let vertex = &tile.vertices[y * TILE_SIDE + x];
+                vertex.position_planet_m().distance_squared(eye) < reach_m * reach_m
+            })
+        })
     }
 }
 
@@ -47,7 +64,7 @@ pub fn spacing_rad(level: u8) -> f64 {
 /// Distance from the eye inside which a node of a level is split.
 pub fn split_distance_m(level: u8, radius_m: f64, view: &View) -> f64 {
     let spacing_px = match view.quality {
-        Quality::Low => 9.0,
+        Quality::Low => 16.0,
         Quality::Medium => 6.0,
         Quality::High => 3.0,
     };
