@@ -131,8 +131,8 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
-            // A range that begins at zero needs a smallest step; a millionth of the range is finer than anyone can see.
-            add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-6));
+            // A range that begins at zero needs a smallest step; a hundred-thousandth of the range is finer than anyone can see.
+            add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-5));
             number_field(ui, &name, row.param, v, min, max, logarithmic);
         }
         (Domain::Count { min, max }, ValueMut::Count(v)) => {
