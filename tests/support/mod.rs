@@ -165,11 +165,9 @@ impl Gpu {
         Self { device, queue, renderer }
     }
 
-    /// Draws a frame and reads it back, RGBA.
-    pub fn draw(&mut self, frame: &Frame<'_>) -> Vec<u8> {
-        let [width, height] = frame.view.size_px;
+    fn picture(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+        self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
             size,
             mip_level_count: 1,
@@ -178,7 +176,23 @@ impl Gpu {
             format: FORMAT,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
-        });
+        })
+    }
+
+    /// Draws a frame so many times and waits.
+    pub fn draw_only(&mut self, frame: &Frame<'_>, times: usize) {
+        let texture = self.picture(frame.view.size_px);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        for _ in 0..times {
+            self.renderer.render(&self.device, &self.queue, &view, frame);
+            self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+        }
+    }
+
+    /// Draws a frame and reads it back, RGBA.
+    pub fn draw(&mut self, frame: &Frame<'_>) -> Vec<u8> {
+        let [width, height] = frame.view.size_px;
+        let texture = self.picture(frame.view.size_px);
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         self.renderer.render(&self.device, &self.queue, &view, frame);
         let row = (width * 4).next_multiple_of(256);
@@ -193,7 +207,7 @@ impl Gpu {
         encoder.copy_texture_to_buffer(
             texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
-            size,
+            texture.size(),
         );
         self.queue.submit([encoder.finish()]);
         buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
