@@ -13,7 +13,6 @@ mod headless;
 mod new;
 mod render;
 mod sample;
-mod view;
 
 use crate::planet::Planet;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};

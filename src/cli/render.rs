@@ -1,8 +1,8 @@
 //! `tellus render`: a picture of a planet, without a window.
 
-use super::{Failure, args, headless, load, view};
+use super::{Failure, args, headless, load};
 use crate::build::build_now;
-use crate::lod::{Camera, Quality, View};
+use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
 use crate::render::{DebugView, Frame, Renderer};
@@ -122,9 +122,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn view(args: &Args, planet: &Arc<Planet>) -> View {
-    let lat_deg = args.lat.unwrap_or(view::OPENING_LAT_DEG);
-    let lon_deg = args.lon.unwrap_or_else(|| view::opening_lon_deg(planet));
-    let place = LatLon::from_degrees(lat_deg, lon_deg);
+    let (opening_lat_deg, opening_lon_deg) = opening::opening_place(planet).to_degrees();
+    let place = LatLon::from_degrees(args.lat.unwrap_or(opening_lat_deg), args.lon.unwrap_or(opening_lon_deg));
     let (radius_m, altitude_m) = match args.altitude {
         Some(altitude_m) => {
             let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
@@ -132,11 +131,11 @@ fn view(args: &Args, planet: &Arc<Planet>) -> View {
             (planet.radius_m() + floor_m + altitude_m, altitude_m)
         }
         None => {
-            let altitude_m = view::OPENING_ALTITUDE_RADII * planet.radius_m();
+            let altitude_m = opening::OPENING_ALTITUDE_RADII * planet.radius_m();
             (planet.radius_m() + altitude_m, altitude_m)
         }
     };
-    let pitch_deg = args.pitch.unwrap_or_else(|| view::default_pitch_deg(planet, altitude_m));
+    let pitch_deg = args.pitch.unwrap_or_else(|| opening::default_pitch_deg(planet, altitude_m));
     let (heading, pitch) = (args.heading.to_radians(), pitch_deg.to_radians());
     let camera = Camera::over(place, radius_m, heading, pitch, args.fov.to_radians());
     View { camera, size_px: args.size, quality: args.quality }

@@ -2,10 +2,12 @@
 //!
 //! - [`view`]: camera, viewport, quality
 //! - [`stitch`]: index permutations for coarser neighbours
+//! - [`opening`]: where the camera stands when a planet is opened
 //! - [`select`]: which nodes must be split for a view, and how levels blend
 //! - [`cull`]: frustum and horizon
 
 pub mod cull;
+pub mod opening;
 pub mod select;
 pub mod stitch;
 pub mod view;

@@ -6,9 +6,9 @@
 mod edits;
 mod noise;
 
-use super::{Failure, headless, print, view};
+use super::{Failure, headless, print};
 use crate::build::build_now;
-use crate::lod::{Quality, View};
+use crate::lod::{Quality, View, opening};
 use crate::planet::{Planet, shipped};
 use crate::terrain::simd::Simd;
 use serde_json::{Value, json};
@@ -34,7 +34,7 @@ const LONG: Duration = Duration::from_secs(3);
 
 /// The view that the design's bar speaks of.
 fn opening_view(planet: &Planet) -> View {
-    view::opening_view(planet, SIZE_PX, Quality::Medium)
+    opening::opening_view(planet, SIZE_PX, Quality::Medium)
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {

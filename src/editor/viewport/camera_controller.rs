@@ -14,7 +14,7 @@ pub const MIN_ALTITUDE_M: f64 = 2.0;
 /// Farthest one goes, in planet radii from the centre.
 const MAX_RADII: f64 = 20.0;
 /// Where one starts, in planet radii from the centre.
-const START_RADII: f64 = 3.2;
+const START_RADII: f64 = 1.0 + crate::lod::opening::OPENING_ALTITUDE_RADII;
 /// Duration of a flight.
 const FLIGHT_SECS: f64 = 1.2;
 /// How far the view can be tilted up from the horizon.

@@ -13,6 +13,7 @@ pub mod input;
 pub mod target;
 
 use crate::build::{Builder, Surface};
+use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use crate::render::{DebugView, Frame, FrameStats, Renderer};
@@ -301,10 +302,4 @@ impl Viewport {
             }
         });
     }
-}
-
-/// Where one looks at first: the lit side, a little before noon, so that there are shadows to see.
-fn opening_place(planet: &Planet) -> LatLon {
-    let lon_deg = (planet.star.longitude_deg - 35.0 + 180.0).rem_euclid(360.0) - 180.0;
-    LatLon::from_degrees((planet.star.latitude_deg * 0.5 + 10.0).clamp(-60.0, 60.0), lon_deg)
 }

@@ -1,34 +1,33 @@
-//! Where the camera stands unless told.
+//! Where the camera stands when a planet is opened: for the editor, for pictures and for benches alike.
 
-use crate::lod::{Camera, Quality, View};
+use super::{Camera, Quality, View};
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 
 /// The latitude over which one looks at a planet that nobody chose a place on.
-pub(super) const OPENING_LAT_DEG: f64 = 20.0;
+const OPENING_LAT_DEG: f64 = 20.0;
 /// How far to the east of the star one looks at it from: most of what one sees is lit, and the night shows at the rim.
-const OPENING_LON_FROM_STAR_DEG: f64 = 40.0;
+const OPENING_LON_FROM_STAR_DEG: f64 = 52.0;
 /// Height of the opening view in radii: the whole disc fits, with some room around it.
-pub(super) const OPENING_ALTITUDE_RADII: f64 = 2.0;
+pub const OPENING_ALTITUDE_RADII: f64 = 1.9;
 /// Below this height in radii one looks along the ground rather than down at it.
 const LOOK_DOWN_RADII: f64 = 0.2;
 
-/// The longitude of the opening view.
-pub(super) fn opening_lon_deg(planet: &Planet) -> f64 {
+/// The place over which a planet is first seen.
+pub fn opening_place(planet: &Planet) -> LatLon {
     let lon = planet.star.longitude_deg + OPENING_LON_FROM_STAR_DEG;
-    if lon > 180.0 { lon - 360.0 } else { lon }
+    LatLon::from_degrees(OPENING_LAT_DEG, if lon > 180.0 { lon - 360.0 } else { lon })
 }
 
 /// Straight down from afar, a little below the horizon from near.
-pub(super) fn default_pitch_deg(planet: &Planet, altitude_m: f64) -> f64 {
+pub fn default_pitch_deg(planet: &Planet, altitude_m: f64) -> f64 {
     if altitude_m > LOOK_DOWN_RADII * planet.radius_m() { -90.0 } else { -10.0 }
 }
 
 /// The whole planet, seen from where most of it is lit.
-pub(super) fn opening_view(planet: &Planet, size_px: [u32; 2], quality: Quality) -> View {
-    let place = LatLon::from_degrees(OPENING_LAT_DEG, opening_lon_deg(planet));
+pub fn opening_view(planet: &Planet, size_px: [u32; 2], quality: Quality) -> View {
     let radius_m = planet.radius_m() * (1.0 + OPENING_ALTITUDE_RADII);
     let down = -std::f64::consts::FRAC_PI_2;
-    let camera = Camera::over(place, radius_m, 0.0, down, Camera::DEFAULT_FOV_Y_RAD);
+    let camera = Camera::over(opening_place(planet), radius_m, 0.0, down, Camera::DEFAULT_FOV_Y_RAD);
     View { camera, size_px, quality }
 }
