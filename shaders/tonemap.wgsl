@@ -9,7 +9,9 @@
 // ground at noon, shows as 0.85).
 fn film(radiance: vec3f) -> vec3f {
     let mixed = mix(radiance, vec3f(luminance(radiance)), 0.12);
-    let x = pow(max(mixed, vec3f(0.0)), vec3f(1.22));
+    // The power 1.25 from two roots: much cheaper than pow on a software adapter.
+    let light = max(mixed, vec3f(0.0));
+    let x = light * sqrt(sqrt(light));
     let shown = x / (x + 0.44);
     let grey = luminance(shown);
     return saturate(mix(vec3f(grey), shown, 1.0 / 0.88));

@@ -1,6 +1,6 @@
 //! The renderer on a real (software) adapter.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+#![allow(clippy::expect_used, clippy::panic)]
 
 mod support;
 
@@ -28,8 +28,9 @@ fn gallery() {
     let planet = Arc::new(earth());
     let mut gpu = Gpu::new();
     // Name, latitude, longitude, altitude in metres, heading, pitch, sun's latitude and longitude.
-    let shots: [(&str, [f64; 7]); 16] = [
+    let shots: [(&str, [f64; 7]); 17] = [
         ("orbit", [15.0, 20.0, 13e6, 0.0, -90.0, 12.0, 0.0]),
+        ("orbit_back", [-10.0, 200.0, 13e6, 0.0, -90.0, 12.0, 180.0]),
         ("orbit_dusk", [15.0, 20.0, 13e6, 0.0, -90.0, 12.0, -70.0]),
         ("orbit_pole", [75.0, 20.0, 9e6, 0.0, -90.0, 12.0, 0.0]),
         ("limb", [10.0, 10.0, 400e3, 40.0, -18.0, 12.0, 0.0]),

@@ -1,5 +1,7 @@
 //! Every shader through the resolver and naga, and the resolver itself.
 
+#![allow(clippy::expect_used, clippy::panic)]
+
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use tellus::render::shaders::{self, ENTRIES};

@@ -4,7 +4,7 @@ use super::gpu;
 use super::pool::{Place, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
-use crate::build::tile::Vertex;
+use crate::build::tile::{Tile, Vertex};
 use crate::lod::{self, Culling, stitch};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -154,7 +154,12 @@ impl TerrainResources {
         self.pool.begin_frame();
         self.draws.clear();
         let mut instances: Vec<[f32; 3]> = Vec::new();
-        for leaf in frame.surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)) {
+        // Near tiles first: what they hide is not shaded.
+        let eye = frame.view.camera.position_planet_m;
+        let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
+        let mut seen: Vec<_> = frame.surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).collect();
+        seen.sort_by(|a, b| away_m(&a.tile).total_cmp(&away_m(&b.tile)));
+        for leaf in seen {
             let Some(place) = self.pool.place(device, queue, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, &frame.view);

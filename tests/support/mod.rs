@@ -1,5 +1,5 @@
 //! A planet with an analytic surface, and a device to draw it on: what the renderer's tests need of the rest.
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(dead_code, unreachable_pub, clippy::expect_used, clippy::panic)]
 
 use glam::DVec3;
 use std::collections::HashSet;
