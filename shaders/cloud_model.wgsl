@@ -12,44 +12,49 @@ fn drifted(p: vec3f) -> vec3f {
 // 1 - coverage leaves that share of the sky.
 fn cover_over(dir: vec3f) -> f32 {
     let weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
-    const SOFT: f32 = 0.65;
-    return saturate1((weather - 1.0 + globals.clouds.z * (1.0 + SOFT)) / SOFT);
+    const SOFT: f32 = 0.7;
+    let cover = saturate1((weather - 1.0 + globals.clouds.z * (1.0 + SOFT)) / SOFT);
+    return cover * cover * (3.0 - 2.0 * cover);
 }
+
+// From one band of the noise to the next finer one; the same as in globals.rs.
+const BAND_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
+const BANDS: i32 = 6;
+const PUFF_BAND: i32 = 3;
 
 // Density (0..1) where the cover is `cover`, at a point relative to the eye (km) and a height in the layer (0..1).
 // `footprint`: size in km below which nothing is resolved; there the noise is its mean and the edge widens instead.
 fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f32 {
     if wide_cover <= 0.0 { return 0.0; }
-    let period = globals.clouds.w;
-    // Puffs gather in groups, so that their tile does not show. Nothing changes where all or nothing is covered.
-    let group_lod = log2(max(footprint * 64.0 / (period * 7.0), 1e-6));
-    var cover = wide_cover;
-    if group_lod < 6.0 {
-        let group = globals.cloud_eye_wide.xyz + drifted(rel).yzx / (period * 7.0);
-        let bend = 1.5 * (textureSampleLevel(noise_tile, repeated, group, group_lod).g - 0.5);
-        // The tile fades before it is so small that one sees it repeat.
-        let strength = 2.0 * (1.0 - smoothstep(0.5, 3.0, group_lod));
-        cover = saturate1(cover + bend * cover * (1.0 - cover) * strength);
-    }
-    let place = globals.cloud_eye.xyz + drifted(rel) / period;
-    let lod = log2(max(footprint * 64.0 / period, 1e-6));
-    var n = 0.5;
+    var place = drifted(rel);
+    // Bands wider than a puff bend the cover, so that puffs gather in groups; the others carve the puffs.
+    var bend = 0.0;
+    var carve = 0.5;
+    var strength = 1.0;
     var blurred = 1.0;
-    if lod < 6.0 {
-        blurred = smoothstep(0.5, 4.0, lod);
-        n = textureSampleLevel(noise_tile, repeated, place, lod).r;
-        let fine = lod + 2.32;
-        if fine < 5.0 {
-            n += 0.45 * (textureSampleLevel(noise_tile, repeated, place * 5.0, fine).r - 0.5);
-            if fine < 2.0 {
-                n += 0.2 * (textureSampleLevel(noise_tile, repeated, place * 23.0, fine + 2.2).r - 0.5);
-            }
+    for (var i = 0; i < BANDS; i++) {
+        let band = globals.cloud_bands[i];
+        let lod = log2(max(footprint * 64.0 / band.w, 1e-6));
+        // A band fades before its tile is so small that one sees it repeat.
+        let share = 1.0 - smoothstep(-1.0, 2.0, lod);
+        if share <= 0.0 { break; }
+        let n = textureSampleLevel(noise_tile, repeated, band.xyz + place / band.w, lod);
+        if i < PUFF_BAND {
+            bend += (n.g - 0.5) * share * (0.9 - 0.1 * f32(i));
+        } else {
+            carve += (n.r - 0.5) * share * strength;
+            strength *= 0.42;
+            if i == PUFF_BAND { blurred = 1.0 - share; }
         }
+        place = BAND_TURN * place;
     }
-    n -= (1.0 - cover) * 0.55 * max(height - 0.25, 0.0);
-    n = clamp(n, 0.0, 1.0);
+    // Nothing changes where all or nothing is covered.
+    let cover = saturate1(wide_cover + 4.0 * bend * wide_cover * (1.0 - wide_cover));
+    let n = clamp(carve - (1.0 - cover) * 0.55 * max(height - 0.25, 0.0), 0.0, 1.0);
     const WIDTH: f32 = 0.3;
-    let sharp = saturate1((n - 1.0 + cover) / WIDTH + cover * cover * cover);
+    // Even a closed cover is thick here and thin there.
+    let body = 0.5 + n + 2.0 * bend * cover;
+    let sharp = saturate1((n - 1.0 + cover) / WIDTH + cover * cover * cover) * max(body, 0.25);
     // Puffs too small to see cover a share of the pixel: the density that lets through as much as they do together.
     let opaque = 1.0 - exp(-globals.cloud_color.w);
     let mean = -log(1.0 - cover * opaque) / globals.cloud_color.w;

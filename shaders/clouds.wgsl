@@ -24,7 +24,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     let bottom = globals.clouds.x;
     let thickness = globals.clouds.y - bottom;
     let sun = globals.sun_dir.xyz;
-    let steps = globals.cloud_eye.w;
+    let steps = globals.cloud_march.x;
     let span = to_km - from_km;
     // Near the eye short steps first; from afar even ones.
     let bend = span / (span + from_km + 1e-6);

@@ -39,12 +39,12 @@ struct Globals {
     waves: array<vec4f, 16>,
     // rgb; w: optical depth from top to bottom
     cloud_color: vec4f,
-    // x, y: bottom and top of the layer; z: coverage, 0 for none; w: period of the puff noise
+    // x, y: bottom and top of the layer; z: coverage, 0 for none; w: period of the band that makes puffs
     clouds: vec4f,
-    // xyz: place of the eye in the puff noise, in periods; w: steps of a march
-    cloud_eye: vec4f,
-    // xyz: place of the eye in the noise that groups the puffs, in its periods
-    cloud_eye_wide: vec4f,
+    // Bands of the noise that shapes clouds, widest first; xyz: place of the eye, in periods; w: period in km
+    cloud_bands: array<vec4f, 6>,
+    // x: steps of a march
+    cloud_march: vec4f,
     // x, y: cosine and sine of the drift about the pole; z: weather cells along the radius; w: curl
     cloud_turn: vec4f,
     // xyz: seed of the weather map

@@ -8,13 +8,13 @@
 // (the idea of AgX; the matrix and the curve x^n / (x^n + c) are fitted here so that 0.18 stays near 0.2 and 1.0, white
 // ground at noon, shows as 0.85).
 fn film(radiance: vec3f) -> vec3f {
-    let mixed = mix(radiance, vec3f(luminance(radiance)), 0.12);
+    let mixed = mix(radiance, vec3f(luminance(radiance)), 0.10);
     // The power 1.25 from two roots: much cheaper than pow on a software adapter.
     let light = max(mixed, vec3f(0.0));
     let x = light * sqrt(sqrt(light));
     let shown = x / (x + 0.44);
     let grey = luminance(shown);
-    return saturate(mix(vec3f(grey), shown, 1.0 / 0.88));
+    return saturate(mix(vec3f(grey), shown, 1.0 / 0.76));
 }
 
 fn encode_srgb(c: vec3f) -> vec3f {

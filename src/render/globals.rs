@@ -3,7 +3,7 @@
 use super::{DebugView, Frame, gpu};
 use crate::lod::Quality;
 use crate::planet::Planet;
-use glam::{DVec3, Mat4};
+use glam::{DMat3, DVec3, Mat4};
 use std::f64::consts::{PI, TAU};
 
 /// Waves that are summed up for the sea near the eye.
@@ -38,8 +38,8 @@ struct Globals {
     waves: [[f32; 4]; WAVES],
     cloud_color: [f32; 4],
     clouds: [f32; 4],
-    cloud_eye: [f32; 4],
-    cloud_eye_wide: [f32; 4],
+    cloud_bands: [[f32; 4]; CLOUD_BANDS],
+    cloud_march: [f32; 4],
     cloud_turn: [f32; 4],
     cloud_seed: [u32; 4],
     mottle: [[f32; 4]; 7],
@@ -229,6 +229,16 @@ fn set_water(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, altitude_m: f6
     }
 }
 
+/// Bands of the clouds' noise, widest first; each is turned and finer by the ratio against the one before, so that the
+/// repeats of their tile never fall together.
+const CLOUD_BANDS: usize = 6;
+/// The band whose tile holds four puffs along its side.
+const CLOUD_PUFF_BAND: i32 = 3;
+const CLOUD_BAND_RATIO: f64 = 3.3;
+/// From one band to the next; the same as in `cloud_model.wgsl`.
+const CLOUD_BAND_TURN: DMat3 =
+    DMat3::from_cols(DVec3::new(0.36, -0.8, 0.48), DVec3::new(0.48, 0.6, 0.64), DVec3::new(-0.8, 0.0, 0.6));
+
 fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup) {
     let Some(clouds) = &planet.clouds else { return };
     let steps = match frame.view.quality {
@@ -242,15 +252,19 @@ fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup
     let angle = clouds.wind_km_h / 3600.0 * frame.time_secs / planet.radius_km;
     let (s, c) = angle.rem_euclid(TAU).sin_cos();
     let turned = DVec3::new(c * eye_km.x + s * eye_km.y, c * eye_km.y - s * eye_km.x, eye_km.z);
-    // The tile holds four puffs along its side.
     let period_km = clouds.puff_km * 4.0;
     // From so far away that the layer is thinner than a pixel a few samples tell all. One choice for the whole picture.
     let away_km = eye_km.length() - planet.radius_km - top;
     let thin = away_km * f64::from(g.eye_low_m[3]) > 0.5 * clouds.thickness_km;
     g.cloud_color = rgbw(clouds.color, clouds.density);
     g.clouds = [bottom as f32, top as f32, clouds.coverage as f32, period_km as f32];
-    g.cloud_eye = vec4(wrapped(turned / period_km), if thin { 3.0 } else { steps });
-    g.cloud_eye_wide = vec4(wrapped(DVec3::new(turned.y, turned.z, turned.x) / (period_km * 7.0)), 0.0);
+    let mut place = turned;
+    for (band, octave) in g.cloud_bands.iter_mut().enumerate() {
+        let period_km = period_km * CLOUD_BAND_RATIO.powi(CLOUD_PUFF_BAND - band as i32);
+        *octave = vec4(wrapped(place / period_km), period_km);
+        place = CLOUD_BAND_TURN * place;
+    }
+    g.cloud_march = [if thin { 3.0 } else { steps }, 0.0, 0.0, 0.0];
     g.cloud_turn = [c as f32, s as f32, (planet.radius_km / clouds.scale_km) as f32, clouds.curl as f32];
     g.cloud_seed = [clouds.seed ^ planet.seed.rotate_left(16), setup.weather_side_px, 0, 0];
 }
