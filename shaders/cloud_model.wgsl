@@ -12,7 +12,7 @@ fn drifted(p: vec3f) -> vec3f {
 // 1 - coverage leaves that share of the sky.
 fn cover_over(dir: vec3f) -> f32 {
     let weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
-    const SOFT: f32 = 0.65;
+    const SOFT: f32 = 0.4;
     return saturate1((weather - 1.0 + globals.clouds.z * (1.0 + SOFT)) / SOFT);
 }
 
