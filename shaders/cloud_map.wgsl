@@ -71,6 +71,6 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     }
     // Wet at the equator and in the middle latitudes, dry between them (Hadley and Ferrel cells).
     let belt = 0.10 * cos(6.0 * asin(clamp(dir.z, -1.0, 1.0)));
-    let evenly = 0.5 + 0.5 * tanh((sum + belt) * 1.7);
+    let evenly = 0.5 + 0.5 * tanh((sum + belt) * 1.9);
     return vec4f(evenly, 0.0, 0.0, 1.0);
 }

@@ -28,7 +28,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     let span = to_km - from_km;
     // Near the eye short steps first; from afar even ones.
     let bend = span / (span + from_km + 1e-6);
-    let extinction = globals.cloud_color.w / thickness * 1.25;
+    let extinction = globals.cloud_color.w / thickness;
 
     // Light that reaches the layer here; it hardly changes along the way.
     let middle = dir * (from_km + span * mix(0.5, 0.15, bend));

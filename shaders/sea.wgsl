@@ -10,14 +10,15 @@ struct Waves {
 
 // Sum of plane waves in the planet frame. A wave shorter than a few pixels fades into roughness (Bruneton, Neyret,
 // Holzschuch, Real-time Realistic Ocean Lighting, 2010), so that the mean stays and nothing shimmers.
-fn waves_at(rel_m: vec3f, up: vec3f, footprint_m: f32) -> Waves {
+// `broad`: slow noise that makes crests wander.
+fn waves_at(rel_m: vec3f, up: vec3f, footprint_m: f32, broad: f32) -> Waves {
     let total = globals.water_color.w;
     var slope = vec3f(0.0);
     var seen = 0.0;
     if footprint_m < 20.0 {
         // Three quarters of the variance are in waves long enough to be drawn.
         // Each wave bends the next one's crests, or they would cross in a pattern.
-        var twist = 0.0;
+        var twist = broad * 16.0;
         let each = 0.75 * total / 16.0;
         for (var i = 0u; i < 16u; i++) {
             let wave = globals.waves[i];

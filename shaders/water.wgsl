@@ -33,7 +33,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32) -> vec3f 
     let ice = frozen(up, mottle, broad);
     var water = vec3f(0.0);
     if ice < 1.0 {
-        let waves = waves_at(rel_m, up, footprint_m);
+        let waves = waves_at(rel_m, up, footprint_m, broad);
         let fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
         // Rough water mirrors a patch of sky above the exact direction.
