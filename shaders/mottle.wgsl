@@ -6,30 +6,44 @@
 // About -1 to 1 with mean 0, at a point relative to the eye; `footprint_m`: width of a pixel there.
 fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 { return relief_at(rel_m, footprint_m).x; }
 
+// From one octave to the next; the same as in globals.rs. Turned octaves never repeat together along an axis.
+const OCTAVE_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
+
+// How much of an octave is shown: it fades before its tile is so small that one sees it repeat.
+fn octave_share(lod: f32) -> f32 { return 1.0 - smoothstep(-0.5, 3.0, lod); }
+
 // The same (x), with the height in metres of the small bumps that belong to it (y).
 fn relief_at(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = 0.0;
     var bumps_m = 0.0;
+    var place = rel_m;
     for (var i = 0u; i < 7u; i++) {
         let octave = globals.mottle[i];
         let lod = log2(footprint_m * 64.0 / octave.w);
-        if lod > 5.0 { break; }
-        let n = textureSampleLevel(noise_tile, repeated, octave.xyz + rel_m / octave.w, lod).g;
-        let weight = (n - 0.5) * (1.0 - 0.2 * max(lod, 0.0));
+        let share = octave_share(lod);
+        if share <= 0.0 { break; }
+        let n = textureSampleLevel(noise_tile, repeated, octave.xyz + place / octave.w, lod).g;
+        let weight = (n - 0.5) * share;
         sum += weight;
         if i >= 3u { bumps_m += weight * octave.w * 0.035; }
+        place = OCTAVE_TURN * place;
     }
-    return vec2f(clamp(sum * 1.3, -1.0, 1.0), bumps_m);
+    return vec2f(clamp(sum * 1.1, -1.0, 1.0), bumps_m);
 }
 
-// Two broad independent octaves that bend borders between kinds of ground.
+// Broad independent octaves that bend borders between kinds of ground.
 fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = vec2f(0.0);
-    for (var i = 1u; i < 4u; i++) {
+    var place = rel_m;
+    for (var i = 0u; i < 4u; i++) {
         let octave = globals.mottle[i];
         let lod = log2(footprint_m * 64.0 / octave.w);
-        if lod > 5.0 { break; }
-        sum += textureSampleLevel(noise_tile, repeated, octave.yzx - rel_m.yzx / octave.w, lod).rg - 0.5;
+        let share = octave_share(lod);
+        if share <= 0.0 { break; }
+        if i >= 1u {
+            sum += (textureSampleLevel(noise_tile, repeated, (octave.xyz + place / octave.w).yzx, lod).rg - 0.5) * share;
+        }
+        place = OCTAVE_TURN * place;
     }
     return sum;
 }

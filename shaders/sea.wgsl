@@ -59,9 +59,8 @@ fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
     return fresnel * slopes * hidden / (4.0 * n_v);
 }
 
-// Share of the sea that is frozen, from latitude, with an edge that noise breaks up.
-fn frozen(up: vec3f, mottle: f32, broad: f32) -> f32 {
-    let temperature = mix(globals.water.z, globals.water.w, up.z * up.z);
-    let broken = temperature + broad * 7.0 + mottle * 2.5;
-    return 1.0 - smoothstep(-0.5, 0.5, broken - globals.ice_color.w);
+// Share of the sea that is frozen at a temperature, with an edge that noise breaks up.
+fn frozen(temperature_c: f32, mottle: f32, broad: f32) -> f32 {
+    let broken = temperature_c + broad * 3.0 + mottle * 1.2;
+    return 1.0 - smoothstep(-0.4, 0.4, broken - globals.ice_color.w);
 }

@@ -21,6 +21,7 @@ struct Ground {
     @location(2) climate: vec2f,
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
+    @location(5) temperature_c: f32,
 }
 
 // Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
@@ -44,6 +45,7 @@ fn vertex(in: Vertex) -> Ground {
     out.climate = in.climate;
     out.height_m = in.height_m;
     out.level = in.morph.z;
+    out.temperature_c = in.temperature_c;
     return out;
 }
 
@@ -125,8 +127,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
     }
 }
 
-@fragment
-fn fragment(in: Ground) -> @location(0) vec4f {
+fn shade(in: Ground) -> vec4f {
     let rel_km = in.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
     var n = normalize(in.normal);
@@ -156,4 +157,15 @@ fn fragment(in: Ground) -> @location(0) vec4f {
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let radiance = ground.albedo * (sunlight * shadow * diffuse + (sky * open + bounce) / PI);
     return vec4f(min(radiance, vec3f(60000.0)), over_sea_m);
+}
+
+struct Output {
+    // Radiance; height over the sea in metres
+    @location(0) light: vec4f,
+    @location(1) temperature_c: vec4f,
+}
+
+@fragment
+fn fragment(in: Ground) -> Output {
+    return Output(shade(in), vec4f(in.temperature_c, 0.0, 0.0, 0.0));
 }

@@ -2,6 +2,8 @@
 #include "surface.wgsl"
 #include "sea.wgsl"
 
+@group(2) @binding(2) var surface_temperature: texture_2d<f32>;
+
 // Light that comes out of the water: the floor through it, and what the water itself sends back.
 fn body(floor: vec3f, depth_m: f32, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
     // Snell: the way under water is steeper than over it.
@@ -11,7 +13,7 @@ fn body(floor: vec3f, depth_m: f32, view_mu: f32, sun_mu: f32, downwelling: vec3
     return floor * left + globals.water_color.rgb * downwelling / PI * (1.0 - left);
 }
 
-fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32) -> vec3f {
+fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32, temperature_c: f32) -> vec3f {
     let distance_km = length(rel_km);
     let up = normalize(globals.eye_km.xyz + rel_km);
     let view_mu = clamp(-dot(up, dir), 0.0, 1.0);
@@ -30,7 +32,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32) -> vec3f 
     let rel_m = rel_km * 1000.0;
     let mottle = mottle_at(rel_m, footprint_m);
     let broad = border_jitter(rel_m, footprint_m).x;
-    let ice = frozen(up, mottle, broad);
+    let ice = frozen(temperature_c, mottle, broad);
     var water = vec3f(0.0);
     if ice < 1.0 {
         let waves = waves_at(rel_m, up, footprint_m, broad);
@@ -76,11 +78,15 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // of the sea again before it met land does the sea lie in front.
     var wet = 1.0;
     var depth_m = 10000.0;
+    // Beyond the last terrain the climate of the latitude has to do.
+    let sin_lat = normalize(globals.eye_km.xyz + dir * hits.x).z;
+    var temperature_c = mix(globals.water.z, globals.water.w, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
         wet = saturate1(0.5 - height_m / change_m);
         depth_m = max(-height_m, 0.0);
+        temperature_c = textureLoad(surface_temperature, pixel, 0).r;
     }
     if wet <= 0.0 { return scene; }
-    let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depth_m);
+    let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depth_m, temperature_c);
     return vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m);
 }

@@ -66,7 +66,7 @@ pub fn split_distance_m(level: u8, radius_m: f64, view: &View) -> f64 {
     let spacing_px = match view.quality {
         Quality::Low => 16.0,
         Quality::Medium => 6.0,
-        Quality::High => 3.0,
+        Quality::High => 2.5,
     };
     let focal_px = f64::from(view.size_px[1]) * 0.5 / (view.camera.fov_y_rad * 0.5).tan();
     spacing_rad(level) * radius_m * (focal_px / spacing_px).max(LEAST_DISTANCE_SPACINGS)

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// Waves that are summed up for the sea near the eye.
 const WAVES: usize = 16;
 /// Octaves of the mottling, coarse to fine.
-const MOTTLE_PERIODS_M: [f64; 7] = [196_608.0, 24_576.0, 3072.0, 384.0, 48.0, 6.0, 0.75];
+const MOTTLE_PERIODS_M: [f64; 7] = [330_000.0, 41_000.0, 5100.0, 640.0, 80.0, 10.0, 1.25];
 
 /// See `shaders/globals.wgsl` for what each field holds.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -167,8 +167,10 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     set_air(&mut g, frame);
     set_water(&mut g, planet, frame, altitude_m);
     set_clouds(&mut g, planet, frame, setup);
+    let mut place = eye;
     for (slot, period) in g.mottle.iter_mut().zip(MOTTLE_PERIODS_M) {
-        *slot = vec4(wrapped(eye / period), period);
+        *slot = vec4(wrapped(place / period), period);
+        place = OCTAVE_TURN * place;
     }
     let biomes = &planet.biomes;
     let (start, full) = (biomes.cliff_start_deg, biomes.cliff_full_deg.max(biomes.cliff_start_deg + 0.5));
@@ -235,8 +237,8 @@ const CLOUD_BANDS: usize = 6;
 /// The band whose tile holds four puffs along its side.
 const CLOUD_PUFF_BAND: i32 = 3;
 const CLOUD_BAND_RATIO: f64 = 3.3;
-/// From one band to the next; the same as in `cloud_model.wgsl`.
-const CLOUD_BAND_TURN: DMat3 =
+/// From one octave of a tiled noise to the next; the same as in `mottle.wgsl` and `cloud_model.wgsl`.
+const OCTAVE_TURN: DMat3 =
     DMat3::from_cols(DVec3::new(0.36, -0.8, 0.48), DVec3::new(0.48, 0.6, 0.64), DVec3::new(-0.8, 0.0, 0.6));
 
 fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup) {
@@ -262,7 +264,7 @@ fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup
     for (band, octave) in g.cloud_bands.iter_mut().enumerate() {
         let period_km = period_km * CLOUD_BAND_RATIO.powi(CLOUD_PUFF_BAND - band as i32);
         *octave = vec4(wrapped(place / period_km), period_km);
-        place = CLOUD_BAND_TURN * place;
+        place = OCTAVE_TURN * place;
     }
     g.cloud_march = [if thin { 3.0 } else { steps }, 0.0, 0.0, 0.0];
     g.cloud_turn = [c as f32, s as f32, (planet.radius_km / clouds.scale_km) as f32, clouds.curl as f32];

@@ -2,7 +2,7 @@
 
 use super::gpu;
 use super::pool::{Place, TilePool};
-use super::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
 use crate::build::tile::{Tile, Vertex};
 use crate::lod::{self, Culling, stitch};
@@ -60,7 +60,7 @@ impl TerrainPass {
                         module: &module,
                         entry_point: Some("fragment"),
                         compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        targets: &[Some(HDR_FORMAT.into())],
+                        targets: &[Some(HDR_FORMAT.into()), Some(TEMPERATURE_FORMAT.into())],
                     }),
                     primitive: wgpu::PrimitiveState { topology, cull_mode, ..wgpu::PrimitiveState::default() },
                     depth_stencil: Some(wgpu::DepthStencilState {
@@ -183,17 +183,20 @@ impl TerrainResources {
         view: DebugView,
     ) -> FrameStats {
         let lines = view == DebugView::Wireframe;
-        let mut draw = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("terrain"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &targets.hdr[0],
+        let cleared = |view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
                     load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                     store: wgpu::StoreOp::Store,
                 },
-            })],
+            })
+        };
+        let mut draw = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("terrain"),
+            color_attachments: &[cleared(&targets.hdr[0]), cleared(&targets.temperature)],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),

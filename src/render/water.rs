@@ -16,7 +16,7 @@ impl WaterPass {
         globals: &wgpu::BindGroupLayout,
         tables: &wgpu::BindGroupLayout,
     ) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "water", &[Slot::Unfiltered2d, Slot::Depth]);
+        let layout = gpu::layout(device, "water", &[Slot::Unfiltered2d, Slot::Depth, Slot::Unfiltered2d]);
         let layouts = [globals, tables, &layout];
         let pipeline = gpu::screen_pipeline(device, "water.wgsl", &layouts, &[HDR_FORMAT])?;
         Ok(Self { pipeline, layout })
@@ -31,7 +31,7 @@ impl WaterPass {
         targets: &Targets,
         scene: usize,
     ) {
-        let views = [&targets.hdr[scene], &targets.depth];
+        let views = [&targets.hdr[scene], &targets.depth, &targets.temperature];
         let inputs = gpu::texture_group(device, "water", &self.layout, &views);
         let groups = [groups[0], groups[1], &inputs];
         gpu::draw_screen(encoder, "water", &self.pipeline, &groups, &[&targets.hdr[1 - scene]]);

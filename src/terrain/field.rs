@@ -120,13 +120,14 @@ impl NoiseShape {
         }
     }
 
-    /// Share of each octave that points so far apart can carry: all of it at four points a wavelength, nothing at two.
+    /// Share of each octave that points so far apart can carry: all of it at 2.5 points to a lattice
+    /// cell (a wave is about two cells long), nothing at half of that.
     fn fades(&self, spacing_rad: f64) -> Vec<f32> {
         self.octaves
             .iter()
             .map(|octave| {
                 let points_per_wavelength = 1.0 / (octave.frequency * spacing_rad.max(1e-30));
-                ((points_per_wavelength - 2.0) * 0.5).clamp(0.0, 1.0) as f32
+                ((points_per_wavelength - 1.25) / 1.25).clamp(0.0, 1.0) as f32
             })
             .collect()
     }
