@@ -281,7 +281,7 @@ fn the_saved_text_is_made_to_be_read() {
     for part in [
         "    version: 1,\n",
         "    // Radius of the reference sphere from which heights are measured. (1 to 100000 km)\n    radius_km: 6371.0,\n",
-        "        color: (1.0, 0.97, 0.93),\n",
+        "        color: (1.0, 0.98, 0.955),\n",
         "            \"dddddaaaawwwjjjj\",\n",
     ] {
         assert!(text.contains(part), "{part:?} is not in\n{text}");
