@@ -110,7 +110,10 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if far >= NOTHING_KM {
         // Stars drown in a bright sky.
         let drowned = 1.0 / (1.0 + 3000.0 * luminance(light) + 40.0 * luminance(clouds.rgb));
-        scene = stars(dir, globals.eye_low_m.w) * drowned + sun_disc(dir);
+        // As wide as a pixel of the display, not of this picture: as bright at every quality.
+        let shown = globals.eye_low_m.w * max(f32(globals.modes.y), 1.0);
+        let spread = select(1.0, 0.5, globals.modes.y == 0u);
+        scene = stars(dir, shown) * (drowned * spread) + sun_disc(dir);
     }
     light += glare(dir) + to_cloud * clouds.rgb + transmittance * clouds.a * scene;
     return vec4f(min(light, vec3f(60000.0)), 1.0);

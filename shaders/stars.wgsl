@@ -21,7 +21,7 @@ fn star_layer(dir: vec3f, cells: f32, seed: u32, pixel_rad: f32) -> vec3f {
     let away = (x - place) * (2.0 / cells) / max(pixel_rad, 0.0006);
     let spot = exp(-dot(away, away) * 1.6);
     let tint = mix(vec3f(1.0, 0.82, 0.66), vec3f(0.72, 0.83, 1.0), r.z);
-    return tint * (spot * (0.012 + 0.6 * magnitude));
+    return tint * (spot * (0.02 + 0.8 * magnitude));
 }
 
 fn stars(dir: vec3f, pixel_rad: f32) -> vec3f {
