@@ -21,7 +21,9 @@ fn star_layer(dir: vec3f, cells: f32, seed: u32, pixel_rad: f32) -> vec3f {
     let away = (x - place) * (2.0 / cells) / max(pixel_rad, 0.0006);
     let spot = exp(-dot(away, away) * 1.6);
     let tint = mix(vec3f(1.0, 0.82, 0.66), vec3f(0.72, 0.83, 1.0), r.z);
-    return tint * (spot * (0.02 + 0.8 * magnitude));
+    // A pixel that is wider than a star dims it, or a small picture would be full of blots.
+    let dim = clamp(0.0009 / pixel_rad, 0.25, 1.0);
+    return tint * (spot * dim * (0.014 + 0.8 * magnitude));
 }
 
 fn stars(dir: vec3f, pixel_rad: f32) -> vec3f {

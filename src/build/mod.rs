@@ -1,9 +1,9 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
 //! - [`tile`]: what a tile is: vertices, bounds
-//! - [`make`]: one tile from one node, stage by stage
-//! - [`cache`]: tiles kept for later, and for the stages an edit leaves intact
-//! - [`refine`]: a complete set of tiles for a view
+//! - `make`: one tile from one node, stage by stage
+//! - `cache`: tiles kept for later, and for the stages an edit leaves intact
+//! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
 pub mod builder;
 mod cache;

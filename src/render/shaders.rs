@@ -1,7 +1,7 @@
 //! Shader texts: `#include`, checks with file and line, and hot reload while one works on them.
 //!
 //! Every text of `shaders/` is part of the program. In debug builds the files on disk win while they are there, and
-//! [`Watch`] tells when one of them changed.
+//! `Watch` tells when one of them changed.
 
 use super::RenderError;
 use std::borrow::Cow;

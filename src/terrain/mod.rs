@@ -1,13 +1,13 @@
 //! What the surface is: the compiled evaluator that everything asks.
 //!
-//! - [`noise`]: gradient noise at one point of one octave; the arithmetic all else rests on
-//! - [`craters`]: bowls and rims of one size
+//! - `noise`: gradient noise at one point of one octave; the arithmetic all else rests on
+//! - `craters`: bowls and rims of one size
 //! - [`simd`]: the instruction sets the loops are compiled for
-//! - [`points`], [`field`]: batches of points; a layer's noise and gradient at them
-//! - [`height`]: layers joined by amplitude, blend and masks
-//! - [`climate`]: temperature, moisture, the place in the biome table
-//! - [`bench`]: the noise alone, for measuring
-//! - [`raycast`]: a ray against the ground and the sea
+//! - `points`, `field`: batches of points; a layer's noise and gradient at them
+//! - `height`: layers joined by amplitude, blend and masks
+//! - `climate`: temperature, moisture, the place in the biome table
+//! - `bench`: the noise alone, for measuring
+//! - `raycast`: a ray against the ground and the sea
 //!
 //! [`Terrain`] is the only thing outsiders need. Tiles go through the same functions as queries, in batches.
 

@@ -144,6 +144,8 @@ pub fn earth() -> Planet {
 
 /// A device on whichever adapter there is.
 pub struct Gpu {
+    /// The adapter's name and driver, for messages.
+    pub adapter: String,
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub renderer: Renderer,
@@ -162,7 +164,8 @@ impl Gpu {
         }))
         .expect("a device");
         let renderer = Renderer::new(&device, &queue, FORMAT).unwrap_or_else(|error| panic!("{error}"));
-        Self { device, queue, renderer }
+        let info = adapter.get_info();
+        Self { adapter: format!("{} ({})", info.name, info.driver_info), device, queue, renderer }
     }
 
     fn picture(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
@@ -236,4 +239,25 @@ pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: 
         exposure_ev: 0.0,
         debug_view: DebugView::Shaded,
     }
+}
+
+/// Red, green and blue of each pixel, summed.
+pub fn lights(picture: &[u8]) -> Vec<u32> {
+    picture.chunks(4).map(|p| u32::from(p[0]) + u32::from(p[1]) + u32::from(p[2])).collect()
+}
+
+/// Whether the middle of each pixel of the picture lies well within the planet's disc.
+pub fn inside_disc(frame: &Frame<'_>, lowest_m: f64) -> Vec<bool> {
+    let [width, height] = frame.view.size_px;
+    let eye = frame.view.camera.position_planet_m;
+    let radius_m = frame.planet.radius_m() + lowest_m;
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .map(|(x, y)| {
+            let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+            let dir = frame.view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), frame.view.aspect());
+            let closest = eye - dir * eye.dot(dir);
+            eye.dot(dir) < 0.0 && closest.length() < radius_m * 0.999
+        })
+        .collect()
 }
