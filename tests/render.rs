@@ -1,6 +1,5 @@
 //! The renderer on a real (software) adapter.
 #![cfg(feature = "editor")]
-
 #![allow(clippy::expect_used, clippy::panic)]
 
 mod support;

@@ -1,6 +1,5 @@
 //! Every shader through the resolver and naga, and the resolver itself.
 #![cfg(feature = "render")]
-
 #![allow(clippy::expect_used, clippy::panic)]
 
 use std::borrow::Cow;
