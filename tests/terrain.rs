@@ -5,8 +5,8 @@ use glam::DVec3;
 use proptest::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
-use tellus::build::tile::TILE_SIDE;
 use tellus::build::{Builder, Surface, build_now};
+use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Blend, Craters, Fbm, Layer, Mask, Planet, Ridged, Shape, Water};
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
@@ -217,7 +217,7 @@ fn settled(builder: &Builder) -> Arc<Surface> {
     }
 }
 
-fn bits(surface: &Surface) -> Vec<(NodeId, u8, Vec<tellus::build::Vertex>)> {
+fn bits(surface: &Surface) -> Vec<(NodeId, u8, Vec<tellus::lod::Vertex>)> {
     surface.leaves.iter().map(|leaf| (leaf.tile.id, leaf.coarser_edges, leaf.tile.vertices.clone())).collect()
 }
 

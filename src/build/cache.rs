@@ -1,18 +1,13 @@
 //! Tiles kept from one request to the next: valid ones to be shown again, stale ones for the stages that an edit left intact.
 
 use super::make::{Parts, Work, make_tile};
-use super::tile::Tile;
+use crate::lod::tile::Tile;
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-/// Which tile.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Key {
-    pub(crate) id: NodeId,
-}
 
 /// Most bytes kept in tiles and their parts.
 const BUDGET_BYTES: usize = 256 << 20;
@@ -30,7 +25,8 @@ struct Entry {
 #[derive(Default)]
 pub(crate) struct Cache {
     entries: Mutex<HashMap<NodeId, Entry>>,
-    request: std::sync::atomic::AtomicU64,
+    /// Grows with each request.
+    request: AtomicU64,
 }
 
 impl Cache {
@@ -39,7 +35,7 @@ impl Cache {
     }
 
     fn now(&self) -> u64 {
-        self.request.load(std::sync::atomic::Ordering::Relaxed)
+        self.request.load(Ordering::Relaxed)
     }
 
     /// The valid tile of a node.
@@ -52,12 +48,12 @@ impl Cache {
     }
 
     /// Builds a node's tile, reusing what the stale one still has.
-    pub(crate) fn build(&self, key: Key, terrain: &Terrain) -> Work {
-        let before = self.lock().get(&key.id).map(|entry| (entry.parts.clone(), entry.stale.unwrap_or(Stage::Label)));
+    pub(crate) fn build(&self, id: NodeId, terrain: &Terrain) -> Work {
+        let before = self.lock().get(&id).map(|entry| (entry.parts.clone(), entry.stale.unwrap_or(Stage::Label)));
         let before = before.as_ref().map(|(parts, stale)| (parts.as_ref(), *stale));
-        let (tile, parts, work) = make_tile(terrain, key.id, before);
+        let (tile, parts, work) = make_tile(terrain, id, before);
         let entry = Entry { tile: Arc::new(tile), parts: Arc::new(parts), stale: None, used: self.now() };
-        self.lock().insert(key.id, entry);
+        self.lock().insert(id, entry);
         work
     }
 
@@ -70,7 +66,7 @@ impl Cache {
 
     /// A new request begins: drops what was asked for least recently until the rest fits the budget.
     pub(crate) fn begin_request(&self) {
-        self.request.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        self.request.fetch_add(1, Ordering::Relaxed);
         let mut entries = self.lock();
         let mut bytes: usize = entries.values().map(|entry| entry.parts.bytes()).sum();
         if bytes <= BUDGET_BYTES {

@@ -1,8 +1,8 @@
 //! One tile from one node: directions, layer fields, height, climate, mesh. Stages whose inputs did not change are taken
 //! from the tile that stood there before.
 
-use super::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
 use crate::lod::select::spacing_rad;
+use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::climate::{ClimateField, PointClimate};

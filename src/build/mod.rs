@@ -1,6 +1,5 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
-//! - [`tile`]: what a tile is: vertices, bounds
 //! - `make`: one tile from one node, stage by stage
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
@@ -9,13 +8,11 @@ pub mod builder;
 mod cache;
 mod make;
 mod refine;
-pub mod tile;
 
 pub use builder::Builder;
 pub use refine::lowest_radius_m;
-pub use tile::{Tile, Vertex};
 
-use crate::lod::View;
+use crate::lod::{Tile, View};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
 use std::sync::Arc;

@@ -4,7 +4,7 @@
 //! done so far cover the whole planet without a gap. A node is split only together with the neighbours that this makes
 //! necessary: no two neighbours are ever more than one level apart.
 
-use super::cache::{Cache, Key};
+use super::cache::Cache;
 use super::{BuildStats, Leaf, Surface};
 use crate::lod::{Selection, View};
 use crate::planet::Planet;
@@ -105,7 +105,7 @@ fn build_all(
         .par_iter()
         .map(|&id| {
             keep_going().then(|| {
-                let work = cache.build(Key { id }, terrain);
+                let work = cache.build(id, terrain);
                 Counts { tiles: 1, octave_samples: work.octave_samples }
             })
         })

@@ -1,7 +1,7 @@
 //! Which tiles can be seen: frustum and horizon, both by bounding sphere.
 
 use super::View;
-use crate::build::tile::Tile;
+use crate::lod::tile::Tile;
 use glam::DVec3;
 
 /// What a view can see; made once a frame.

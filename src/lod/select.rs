@@ -5,7 +5,7 @@
 //! level's distance is half the one before.
 
 use super::{Culling, Quality, View};
-use crate::build::tile::{TILE_QUADS, TILE_SIDE, Tile};
+use crate::lod::tile::{TILE_QUADS, TILE_SIDE, Tile};
 use crate::sphere::NodeId;
 
 /// A node nearer than this many of its vertex spacings is always split, however small the picture: the blend between levels

@@ -3,7 +3,7 @@
 //!
 //! On such an edge every second vertex is left out. All 16 lists are made once; a tile picks one by its edge mask.
 
-use crate::build::tile::{TILE_QUADS, TILE_SIDE};
+use crate::lod::tile::{TILE_QUADS, TILE_SIDE};
 use crate::sphere::Edge;
 
 /// The triangle list (anticlockwise seen from outside) of a tile whose `coarser_edges` (bits of [`Edge::bit`]) touch

@@ -1,7 +1,7 @@
 //! Tiles on the GPU: slots in a few large vertex buffers, keyed by [`Tile::serial`], filled once and kept until another
 //! tile needs the room and nobody has drawn them for a while.
 
-use crate::build::tile::{TILE_VERTICES, Tile, Vertex};
+use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
 use std::collections::HashMap;
 
 /// Tiles in one buffer: 12 MB.

@@ -4,7 +4,7 @@ use super::gpu;
 use super::pool::{Place, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
-use crate::build::tile::{Tile, Vertex};
+use crate::lod::tile::{Tile, Vertex};
 use crate::lod::{self, Culling, stitch};
 use std::collections::HashSet;
 use std::ops::Range;

@@ -1,9 +1,9 @@
 //! From an edit to the finished tiles, for one parameter of every kind, through the builder that the editor uses.
 
 use super::{median, opening_view, p95};
-use crate::build::tile::TILE_VERTICES;
 use crate::build::{Builder, Surface};
 use crate::lod::View;
+use crate::lod::tile::TILE_VERTICES;
 use crate::planet::param::{Domain, Param, ParamPath, Stage, Value, ValueMut};
 use crate::planet::{Planet, diff, validate};
 use serde_json::json;
