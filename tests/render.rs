@@ -5,7 +5,7 @@
 mod support;
 
 use std::sync::Arc;
-use support::{Gpu, camera, earth, frame, height_m, inside_disc, lights, surface};
+use support::{Gpu, camera, earth, frame, inside_disc, lights, surface};
 use tellus::lod::Quality;
 use tellus::planet::{Clouds, Planet};
 use tellus::render::DebugView;
@@ -29,7 +29,7 @@ fn every_pose_is_lit_and_drawn_twice_the_same() {
     for quality in Quality::ALL {
         for (altitude_m, pitch, sun_lon) in POSES {
             let camera = camera(&planet, 10.0, 10.0, altitude_m, 40.0, pitch);
-            let surface = surface(&planet, camera.position_planet_m, 10, &height_m);
+            let surface = surface(&planet, &camera);
             let mut frame = frame(&surface, &planet, camera, (12.0, sun_lon));
             frame.view.quality = quality;
             let picture = gpu.draw(&frame);
@@ -49,7 +49,7 @@ fn the_surface_has_no_holes() {
     let mut gpu = Gpu::new();
     for (altitude_m, pitch, _) in POSES {
         let camera = camera(&planet, 40.0, 44.0, altitude_m, 40.0, pitch);
-        let surface = surface(&planet, camera.position_planet_m, 10, &height_m);
+        let surface = surface(&planet, &camera);
         let mut frame = frame(&surface, &planet, camera, (12.0, 0.0));
         frame.debug_view = DebugView::Coverage;
         let picture = gpu.draw(&frame);
@@ -70,7 +70,7 @@ fn clouds_that_cover_nothing_are_no_clouds() {
     let mut gpu = Gpu::new();
     for (altitude_m, pitch, sun_lon) in POSES {
         let camera = camera(&bare, 10.0, 10.0, altitude_m, 40.0, pitch);
-        let surface = surface(&bare, camera.position_planet_m, 8, &height_m);
+        let surface = surface(&bare, &camera);
         let without = gpu.draw(&frame(&surface, &bare, camera, (12.0, sun_lon)));
         let with = gpu.draw(&frame(&surface, &clear, camera, (12.0, sun_lon)));
         assert_eq!(without, with, "from {altitude_m} m");
@@ -87,7 +87,7 @@ fn closed_clouds_hide_the_ground_from_above_beneath_and_within() {
         let camera = camera(&dark, 10.0, 10.0, altitude_m, 40.0, pitch);
         let bright = Planet { water: None, ..dark.clone() };
         let planet = Arc::new(dark.clone());
-        let surface = surface(&planet, camera.position_planet_m, 8, &height_m);
+        let surface = surface(&planet, &camera);
         let one = lights(&gpu.draw(&frame(&surface, &planet, camera, (12.0, 10.0))));
         let other = lights(&gpu.draw(&frame(&surface, &bright, camera, (12.0, 10.0))));
         let disc = inside_disc(&frame(&surface, &planet, camera, (12.0, 10.0)), 0.0);
@@ -102,7 +102,7 @@ fn the_night_side_of_a_moon_is_black() {
     let moon = Arc::new(Planet { water: None, atmosphere: None, clouds: None, ..earth() });
     let mut gpu = Gpu::new();
     let camera = camera(&moon, 0.0, 0.0, 13e6, 0.0, -90.0);
-    let surface = surface(&moon, camera.position_planet_m, 3, &height_m);
+    let surface = surface(&moon, &camera);
     let night = frame(&surface, &moon, camera, (0.0, 180.0));
     let disc = inside_disc(&night, -5000.0);
     let brightest = lights(&gpu.draw(&night)).into_iter().zip(&disc).filter(|(_, i)| **i).map(|(l, _)| l).max();
@@ -114,18 +114,30 @@ fn the_night_side_of_a_moon_is_black() {
 
 #[test]
 fn the_sea_lies_where_the_ground_is_below_its_level() {
-    // Half of the globe two kilometres deep, half two kilometres high; neither clouds nor ice.
-    let mut planet = earth();
-    planet.clouds = None;
+    // Neither clouds nor ice, and nothing that blue air could be taken for.
+    let mut planet = Planet { clouds: None, atmosphere: None, ..earth() };
     planet.climate.pole_c = 20.0;
     let planet = Arc::new(planet);
-    let step = |dir: glam::DVec3| if dir.y < 0.0 { -2000.0 } else { 2000.0 };
     let mut gpu = Gpu::new();
     let camera = camera(&planet, 0.0, 0.0, 13e6, 0.0, -90.0);
-    let surface = surface(&planet, camera.position_planet_m, 4, &step);
-    let picture = gpu.draw(&frame(&surface, &planet, camera, (30.0, 0.0)));
-    let pixel = |x: usize| &picture[(90 * 320 + x) * 4..][..3];
-    let (sea, land) = (pixel(160 - 30), pixel(160 + 30));
-    assert!(sea[2] > sea[0] + 30 && sea[2] > sea[1], "{sea:?}");
-    assert!(land[2] < land[1] + 20, "{land:?}");
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (20.0, 0.0));
+    let picture = gpu.draw(&frame);
+    let (mut seas, mut lands) = (0, 0);
+    for (x, y) in (50..130).step_by(4).flat_map(|y| (120..200).step_by(4).map(move |x| (x, y))) {
+        let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
+        let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), frame.view.aspect());
+        let Some(away_m) = surface.terrain.raycast(camera.position_planet_m, dir) else { continue };
+        let height_m = surface.terrain.height_m(camera.position_planet_m + dir * away_m);
+        let [red, _, blue] = [0, 1, 2].map(|c| picture[(y * 320 + x) * 4 + c]);
+        // Shallows show the sand, and a coast may lie within the pixel.
+        if height_m < -400.0 {
+            seas += 1;
+            assert!(blue > red, "{height_m} m at {x} {y}: {red} {blue}");
+        } else if height_m > 900.0 {
+            lands += 1;
+            assert!(red > blue, "{height_m} m at {x} {y}: {red} {blue}");
+        }
+    }
+    assert!(seas > 20 && lands > 20, "{seas} {lands}");
 }

@@ -120,14 +120,15 @@ impl NoiseShape {
         }
     }
 
-    /// Share of each octave that points so far apart can carry: all of it at 2.5 points to a lattice
-    /// cell (a wave is about two cells long), nothing at half of that.
+    /// Share of each octave that points so far apart can carry. A wave of gradient noise is about two lattice cells long; folded
+    /// into crests it is half as long.
     fn fades(&self, spacing_rad: f64) -> Vec<f32> {
+        let least = if matches!(self.kind, Kind::Ridged { .. }) { 2.2 } else { 1.5 };
         self.octaves
             .iter()
             .map(|octave| {
-                let points_per_wavelength = 1.0 / (octave.frequency * spacing_rad.max(1e-30));
-                ((points_per_wavelength - 1.25) / 1.25).clamp(0.0, 1.0) as f32
+                let points_per_cell = 1.0 / (octave.frequency * spacing_rad.max(1e-30));
+                (points_per_cell / least - 1.0).clamp(0.0, 1.0) as f32
             })
             .collect()
     }

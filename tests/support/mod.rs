@@ -1,124 +1,31 @@
-//! A planet with an analytic surface, and a device to draw it on: what the renderer's tests need of the rest.
-#![allow(dead_code, unreachable_pub, clippy::expect_used, clippy::panic)]
+//! A planet to draw in tests, a device to draw it on, and how to read the picture.
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use glam::DVec3;
-use std::collections::HashSet;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use tellus::build::{BuildStats, Leaf, Surface};
-use tellus::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES};
-use tellus::lod::{Camera, Quality, Tile, Vertex, View};
-use tellus::planet::{Atmosphere, Biome, Clouds, Planet, Table, Water};
+use tellus::build::{Surface, build_now};
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
 use tellus::render::{DebugView, Frame, Renderer};
-use tellus::sphere::{Edge, LatLon, NodeId};
+use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
-/// Height over the reference sphere: waves of all sizes, the shorter the lower.
-pub fn height_m(dir: DVec3) -> f64 {
-    let mut sum = 0.0;
-    let mut p = dir * 2.1 + DVec3::new(0.3, 1.7, -0.4);
-    let mut amplitude = 2600.0;
-    for _ in 0..17 {
-        sum += amplitude * (p.x + 1.3 * p.y.sin()).sin() * (p.y + 0.7 * p.z.sin()).cos();
-        p = DVec3::new(p.y * 2.03 + 1.1, p.z * 2.11 - 0.7, p.x * 2.07 + 0.5);
-        amplitude *= 0.52;
-    }
-    sum + 150.0
-}
+pub const SIZE_PX: [u32; 2] = [320, 180];
 
-fn octahedral(n: DVec3) -> [i16; 2] {
-    let n = n / (n.x.abs() + n.y.abs() + n.z.abs());
-    let sign = |x: f64| if x >= 0.0 { 1.0 } else { -1.0 };
-    let (x, y) = if n.z >= 0.0 { (n.x, n.y) } else { ((1.0 - n.y.abs()) * sign(n.x), (1.0 - n.x.abs()) * sign(n.y)) };
-    [x, y].map(|c| (c * 32767.0).round() as i16)
-}
-
-/// The tile of a node.
-pub fn tile(id: NodeId, planet: &Planet, height_m: &dyn Fn(DVec3) -> f64) -> Tile {
-    static SERIAL: AtomicU64 = AtomicU64::new(1);
-    let radius_m = planet.radius_m();
-    let at = |u: f64, v: f64| {
-        let dir = id.direction(u, v);
-        let height = height_m(dir);
-        (dir, height, dir * (radius_m + height))
-    };
-    let mut vertices = Vec::with_capacity(TILE_VERTICES);
-    let step = 1.0 / TILE_QUADS as f64;
-    for y in 0..TILE_SIDE {
-        for x in 0..TILE_SIDE {
-            let (u, v) = (x as f64 * step, y as f64 * step);
-            let (dir, height, position) = at(u, v);
-            let e = step * 0.7;
-            let normal = (at(u + e, v).2 - at(u - e, v).2).cross(at(u, v + e).2 - at(u, v - e).2).normalize();
-            let temperature = planet.climate.equator_c
-                + (planet.climate.pole_c - planet.climate.equator_c) * dir.z * dir.z
-                - planet.climate.lapse_c_per_km * height.max(0.0) * 1e-3;
-            let moisture = 0.5 + 0.4 * (dir.x * 5.0).sin() * (dir.y * 4.0 + 1.0).cos();
-            let row = (temperature - planet.biomes.coldest_c) / (planet.biomes.hottest_c - planet.biomes.coldest_c);
-            let high = position.to_array().map(|c| c as f32);
-            let low = std::array::from_fn(|i| (position[i] - f64::from(high[i])) as f32);
-            vertices.push(Vertex {
-                position_high_m: high,
-                height_m: height as f32,
-                position_low_m: low,
-                temperature_c: temperature as f32,
-                climate_unorm: [moisture, row].map(|c| (c.clamp(0.0, 1.0) * 65535.0) as u16),
-                normal_oct: octahedral(normal),
-                parent_normal_oct: octahedral(normal),
-            });
-        }
-    }
-    let heights = vertices.iter().map(|v| f64::from(v.height_m));
-    let center = id.direction(0.5, 0.5) * radius_m;
-    let position = |v: &Vertex| DVec3::from_array(v.position_high_m.map(f64::from));
-    Tile {
-        id,
-        serial: SERIAL.fetch_add(1, Ordering::Relaxed),
-        min_height_m: heights.clone().fold(f64::MAX, f64::min),
-        max_height_m: heights.fold(f64::MIN, f64::max),
-        center_planet_m: center,
-        bounding_radius_m: vertices.iter().map(|v| position(v).distance(center)).fold(0.0, f64::max) + 1.0,
-        vertices,
-    }
-}
-
-fn split(id: NodeId, eye: DVec3, radius_m: f64, finest: u8, out: &mut HashSet<NodeId>) {
-    let side_m = radius_m * 1.6 / f64::from(1_u32 << id.level);
-    let distance = (id.direction(0.5, 0.5) * radius_m).distance(eye);
-    if id.level < 3 || (id.level < finest && distance < side_m * 1.9) {
-        for child in id.children() {
-            split(child, eye, radius_m, finest, out);
-        }
-    } else {
-        out.insert(id);
-    }
-}
-
-/// Tiles that get finer towards the eye.
-pub fn surface(planet: &Arc<Planet>, eye: DVec3, finest: u8, height_m: &dyn Fn(DVec3) -> f64) -> Surface {
-    let mut nodes = HashSet::new();
-    for root in NodeId::roots() {
-        split(root, eye, planet.radius_m(), finest, &mut nodes);
-    }
-    let mut sorted: Vec<NodeId> = nodes.iter().copied().collect();
-    sorted.sort();
-    let leaves = sorted
-        .into_iter()
-        .map(|id| {
-            let coarser = |edge: &Edge| {
-                let over = id.neighbour(*edge);
-                !nodes.contains(&over) && over.parent().is_some_and(|parent| nodes.contains(&parent))
-            };
-            let coarser_edges = Edge::ALL.into_iter().filter(coarser).map(Edge::bit).sum();
-            Leaf { tile: Arc::new(tile(id, planet, height_m)), coarser_edges }
-        })
-        .collect();
-    Surface { terrain: Arc::new(Terrain::new(planet.clone())), leaves, complete: true, stats: BuildStats::default() }
+/// The surface that a camera sees, coarse.
+pub fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
+    build_now(planet, &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
 }
 
 /// A planet like the Earth, with everything on.
 pub fn earth() -> Planet {
+    let layer = |name: &str, wavelength_km, octaves, amplitude_m| Layer {
+        name: name.to_owned(),
+        amplitude_m,
+        shape: Shape::Fbm(Fbm { wavelength_km, octaves, ..Fbm::default() }),
+        ..Layer::default()
+    };
     let mut planet = Planet {
+        layers: vec![layer("Continents", 6000.0, 8, 4000.0), layer("Hills", 60.0, 10, 500.0)],
         water: Some(Water::default()),
         atmosphere: Some(Atmosphere::default()),
         clouds: Some(Clouds::default()),
@@ -223,7 +130,9 @@ impl Gpu {
 /// A camera over a place, `altitude_m` above the ground or the sea.
 pub fn camera(planet: &Planet, lat: f64, lon: f64, altitude_m: f64, heading: f64, pitch: f64) -> Camera {
     let place = LatLon::from_degrees(lat, lon);
-    let ground = height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
+    let ground = Terrain::new(Arc::new(planet.clone()))
+        .height_m(place.direction())
+        .max(planet.sea_level_m().unwrap_or(f64::MIN));
     let radius_m = planet.radius_m() + ground + altitude_m;
     Camera::over(place, radius_m, heading.to_radians(), pitch.to_radians(), Camera::DEFAULT_FOV_Y_RAD)
 }
@@ -233,7 +142,7 @@ pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: 
     Frame {
         surface,
         planet,
-        view: View { camera, size_px: [320, 180], quality: Quality::Medium },
+        view: View { camera, size_px: SIZE_PX, quality: Quality::Medium },
         sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
         time_secs: 0.0,
         exposure_ev: 0.0,
