@@ -146,9 +146,10 @@ impl NoiseShape {
                 let strength = Strength { weight: self.weights[i], own: own_fades[i], parent: parent_fades[i] };
                 let (x, y, z) = (&points.x[start..end], &points.y[start..end], &points.z[start..end]);
                 match self.kind {
-                    // An octave too fine for either band needs no gradient at all.
-                    Kind::Fbm if strength.own == 0.0 && strength.parent == 0.0 => {
-                        fbm_value(simd, x, y, z, octave, strength, &mut state);
+                    // An octave too fine for either band needs no gradient, nor do the finer ones that follow it.
+                    Kind::Fbm if strength.is_unseen() => fbm_value(simd, x, y, z, octave, strength, &mut state),
+                    Kind::Ridged { feedback } if strength.is_unseen() => {
+                        ridged_value(simd, x, y, z, octave, strength, feedback, &mut state);
                     }
                     Kind::Fbm => fbm_gradient(simd, x, y, z, octave, strength, &mut state),
                     Kind::Ridged { feedback } => ridged_gradient(simd, x, y, z, octave, strength, feedback, &mut state),
@@ -208,6 +209,12 @@ struct Strength {
     weight: f32,
     own: f32,
     parent: f32,
+}
+
+impl Strength {
+    fn is_unseen(self) -> bool {
+        self.own == 0.0 && self.parent == 0.0
+    }
 }
 
 /// Sums of one chunk. Values are summed in f64: it costs little and keeps millimetres of an 8 km mountain.

@@ -31,12 +31,12 @@ fn measure_one(bench: &Bench, planet: &Arc<Planet>, view: &View, path: &ParamPat
     let (mut times, mut tiles) = (Vec::new(), 0);
     for run in 1..=RUNS {
         let Some(edited) = edited(planet, path, run) else { continue };
+        bench.settle(planet, view);
         if let Some((secs, built)) = bench.settle(&Arc::new(edited), view) {
             times.push(secs * 1000.0);
             tiles = built;
         }
     }
-    bench.settle(planet, view);
     times.sort_by(f64::total_cmp);
     json!({
         "parameter": path.to_string(),
