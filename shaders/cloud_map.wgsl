@@ -50,7 +50,8 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let side = f32(globals.cloud_seed.y);
     let x = pixel.xy / side * 2.0 - 1.0;
     let dir = normalize(face.center.xyz + face.right.xyz * x.x + face.down.xyz * x.y);
-    let cells = globals.cloud_turn.z;
+    // Smaller systems than the map can hold are drawn as large as it can.
+    let cells = min(globals.cloud_turn.z, side * 0.2);
     let curl = globals.cloud_turn.w;
     var p = dir * cells;
     // Weather systems turn, then their arms turn, then their edges fray.
@@ -64,7 +65,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     // No octave finer than the map can hold.
     let finest = side * 0.2;
     for (var i = 0u; i < 9u; i++) {
-        if cells * exp2(f32(i)) > finest { break; }
+        if i > 0u && cells * exp2(f32(i)) > finest { break; }
         sum += amplitude * noise(q, 10u + i);
         q = q.yzx * 2.03 + 17.3;
         amplitude *= 0.62;

@@ -60,7 +60,9 @@ fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec
     let across = cross(rel_y, n);
     let along = cross(n, rel_x);
     let area = dot(rel_x, across);
-    let tilt = (bump_x * across + bump_y * along) * sign(area);
+    var tilt = (bump_x * across + bump_y * along) * sign(area);
+    // From one triangle to another behind it the differences mean nothing: no bump is steeper than this.
+    tilt *= min(1.0, 0.6 * abs(area) / max(length(tilt), 1e-20));
     return normalize(abs(area) * n - tilt + n * 1e-20);
 }
 

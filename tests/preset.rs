@@ -354,3 +354,11 @@ proptest! {
         }
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_not_replaced_by_a_file() {
+    let error = random::random(1).save("/dev/null").unwrap_err().to_string();
+    assert!(error.contains("is a device or a pipe"), "{error}");
+    assert!(!std::fs::metadata("/dev/null").unwrap().is_file());
+}

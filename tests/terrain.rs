@@ -280,3 +280,41 @@ fn edits_rebuild_no_more_than_they_must() {
         assert_eq!((stats.tiles_built > 0, stats.octave_samples > 0), (tiles, octaves), "edit {which}");
     }
 }
+
+#[test]
+fn no_valid_planet_is_turned_inside_out() {
+    for (radius_km, amplitude_m) in [(1.0, 100_000.0), (1.0, 900.0), (100_000.0, 100_000.0)] {
+        let mut planet = Planet { radius_km, ..planet() };
+        planet.layers[0].amplitude_m = amplitude_m;
+        for i in 0..40 {
+            let name = format!("times {i}");
+            planet.layers.push(Layer { name, bias: 2.0, blend: Blend::Multiply, ..Layer::default() });
+        }
+        assert!(tellus::planet::validate::problems(&planet).is_empty());
+        let planet = Arc::new(planet);
+        let camera = Camera { position_planet_m: DVec3::X * planet.radius_m() * 14.0, ..view(1.0, -90.0).camera };
+        let surface = build_now(&planet, &View { camera, ..view(1.0, 0.0) });
+        for vertex in surface.leaves.iter().flat_map(|leaf| &leaf.tile.vertices) {
+            let position = vertex.position_planet_m();
+            assert!(position.is_finite() && position.length() > 0.05 * planet.radius_m());
+            assert!(vertex.height_m.is_finite() && vertex.temperature_c.is_finite());
+        }
+        let sample = surface.terrain.sample(DVec3::new(0.3, -0.2, 0.9));
+        assert!(sample.normal_planet.is_finite() && (sample.normal_planet.length() - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_mask_follows_its_name_to_another_layer() {
+    let builder = Builder::new(|| {});
+    let view = view(3_000_000.0, -80.0);
+    let mut planet = planet();
+    builder.request(&Arc::new(planet.clone()), &view);
+    settled(&builder);
+    // Only names change, but the mask on "mountains" now means another layer.
+    let name = std::mem::replace(&mut planet.layers[0].name, "floor".to_owned());
+    planet.layers[3].name = name;
+    let planet = Arc::new(planet);
+    builder.request(&planet, &view);
+    assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)));
+}

@@ -139,21 +139,20 @@ fn work(shared: &Shared, wake: &dyn Fn()) {
 
 /// The evaluator of the planet; tiles stay valid when nothing that they hold has changed.
 fn compile(current: &mut Option<Arc<Terrain>>, planet: &Arc<Planet>, cache: &Cache) -> Arc<Terrain> {
-    if let Some(terrain) = current {
-        if Arc::ptr_eq(terrain.planet(), planet) {
-            return terrain.clone();
-        }
-        let stage = first_stale_stage(terrain.planet(), planet);
-        if let Some(stage) = stage.filter(|stage| stage.touches_tiles()) {
-            cache.invalidate(stage_of_tiles(stage, terrain.planet(), planet));
-        }
+    let before = current.take();
+    if let Some(terrain) = before.as_ref().filter(|terrain| Arc::ptr_eq(terrain.planet(), planet)) {
+        *current = Some(terrain.clone());
+        return terrain.clone();
     }
     let terrain = Arc::new(Terrain::new(planet.clone()));
+    if let Some(before) = before {
+        let edited = first_stale_stage(before.planet(), planet).filter(|stage| stage.touches_tiles());
+        // Heights depend on more than single parameters say: order, number, and which layer a mask's name means.
+        let rejoined = (before.layers != terrain.layers).then_some(Stage::Height);
+        if let Some(stage) = edited.into_iter().chain(rejoined).min() {
+            cache.invalidate(stage);
+        }
+    }
     *current = Some(terrain.clone());
     terrain
-}
-
-/// The first stale stage as tiles see it. Heights depend on the order and number of layers too, which no single parameter says.
-fn stage_of_tiles(stage: Stage, before: &Planet, after: &Planet) -> Stage {
-    if before.layers == after.layers { stage } else { stage.min(Stage::Height) }
 }

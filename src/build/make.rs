@@ -65,7 +65,14 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
 
     let heights = match before {
         Some((parts, stale)) if stale > Stage::Height => parts.heights.clone(),
-        _ => Arc::new(height::combine(&terrain.layers, &fields, TILE_VERTICES, true, |_, _, _| {})),
+        _ => Arc::new(height::combine(
+            &terrain.layers,
+            terrain.planet().radius_m(),
+            &fields,
+            TILE_VERTICES,
+            true,
+            |_, _, _| {},
+        )),
     };
 
     let climate_noises = terrain.climate.noises().cloned();

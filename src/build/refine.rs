@@ -42,17 +42,19 @@ pub(crate) fn refine(
             break;
         }
         let children: Vec<NodeId> = wanted.iter().flat_map(|id| id.children()).collect();
+        let mut wanted = wanted;
         match build_all(terrain, cache, &children, keep_going) {
             Some(counts) => built.add(counts),
+            // Out of time: go on with what is there from before.
             None => {
                 complete = false;
-                break;
+                wanted.retain(|id| id.children().iter().all(|child| cache.tile(*child).is_some()));
             }
         }
+        level = wanted.iter().flat_map(|id| id.children()).collect();
         for id in wanted {
             split_with_neighbours(id, &mut split);
         }
-        level = children;
     }
     // Splits forced by neighbours; few, and needed for a set without cracks, so never cut short.
     let mut forced: Vec<NodeId> =

@@ -27,7 +27,10 @@ pub type Wake = Box<dyn Fn() + Send + 'static>;
 /// Asks for files. The answer comes later, through [`FileDialogs::poll`].
 pub trait FileDialogs {
     /// Opens a dialog. Called on the main thread.
-    fn start(&mut self, request: DialogRequest, wake: Wake);
+    ///
+    /// # Errors
+    /// Why this desktop cannot show one, and what to do.
+    fn start(&mut self, request: DialogRequest, wake: Wake) -> Result<(), String>;
     /// The answer, once: the file, or None when the person cancelled.
     fn poll(&mut self) -> Option<Option<PathBuf>>;
 }
@@ -38,8 +41,26 @@ pub struct NativeDialogs {
     answer: Option<Receiver<Option<PathBuf>>>,
 }
 
+const NO_DIALOGS: &str = "This desktop has no file dialogs. Install xdg-desktop-portal or zenity; or start Tellus with \
+    the file's name (`tellus my.ron`), drop files on the window, and save with Ctrl+S.";
+
+/// Whether anything here can show a file dialog: on Linux that is a portal, reached over the session bus, or zenity. Without
+/// either the dialog would be "cancelled" at once, and nobody would know why.
+fn can_show_dialogs() -> bool {
+    if !cfg!(target_os = "linux") {
+        return true;
+    }
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    set("DBUS_SESSION_BUS_ADDRESS").is_some()
+        || set("XDG_RUNTIME_DIR").is_some_and(|folder| PathBuf::from(folder).join("bus").exists())
+        || set("PATH").is_some_and(|path| std::env::split_paths(&path).any(|folder| folder.join("zenity").is_file()))
+}
+
 impl FileDialogs for NativeDialogs {
-    fn start(&mut self, request: DialogRequest, wake: Wake) {
+    fn start(&mut self, request: DialogRequest, wake: Wake) -> Result<(), String> {
+        if !can_show_dialogs() {
+            return Err(NO_DIALOGS.to_owned());
+        }
         let dialog = rfd::AsyncFileDialog::new().add_filter("Planet presets", &["ron"]);
         let with_folder = |dialog: rfd::AsyncFileDialog, folder: Option<PathBuf>| match folder {
             Some(folder) => dialog.set_directory(folder),
@@ -62,6 +83,7 @@ impl FileDialogs for NativeDialogs {
             let _ = sender.send(file);
             wake();
         });
+        Ok(())
     }
 
     fn poll(&mut self) -> Option<Option<PathBuf>> {
@@ -91,9 +113,10 @@ impl ScriptedDialogs {
 }
 
 impl FileDialogs for ScriptedDialogs {
-    fn start(&mut self, _request: DialogRequest, wake: Wake) {
+    fn start(&mut self, _request: DialogRequest, wake: Wake) -> Result<(), String> {
         self.pending = Some(self.answers.pop_front().flatten());
         wake();
+        Ok(())
     }
 
     fn poll(&mut self) -> Option<Option<PathBuf>> {

@@ -1,8 +1,10 @@
 //! Opening and saving, and the promise that no work is lost on the way.
 
 use super::app::{EditorApp, default_planet};
+use super::command::Command;
 use super::dialogs::{DialogRequest, FileDialogs};
 use super::document::Document;
+use super::handle::Action;
 use super::prompts::Message;
 use super::recovery;
 use super::widgets::random_seed;
@@ -63,6 +65,7 @@ pub enum PromptAnswer {
 impl EditorApp {
     /// Does it, after asking if unsaved work would be lost.
     pub(super) fn pursue(&mut self, ctx: &egui::Context, goal: Goal) {
+        self.files.after_save = None;
         if self.document.is_dirty() {
             self.files.prompt = Some(goal);
         } else {
@@ -77,8 +80,7 @@ impl EditorApp {
             Goal::Random => self.replace(Document::unsaved(random::random(random_seed()))),
             Goal::Open => {
                 let folder = self.folder();
-                self.files.asking = Some(Asking::Open);
-                self.files.dialogs.start(DialogRequest::Open { folder }, waker(ctx));
+                self.ask(ctx, Asking::Open, DialogRequest::Open { folder });
             }
             Goal::OpenPath(path) => self.load(&path),
             Goal::OpenShipped(index) => {
@@ -128,8 +130,18 @@ impl EditorApp {
 
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
         let request = DialogRequest::SaveAs { folder: self.folder(), file_name: self.document.suggested_file_name() };
-        self.files.asking = Some(Asking::SaveAs);
-        self.files.dialogs.start(request, waker(ctx));
+        self.ask(ctx, Asking::SaveAs, request);
+    }
+
+    /// Opens a dialog, or says why there is none.
+    fn ask(&mut self, ctx: &egui::Context, asking: Asking, request: DialogRequest) {
+        match self.files.dialogs.start(request, waker(ctx)) {
+            Ok(()) => self.files.asking = Some(asking),
+            Err(why) => {
+                self.files.after_save = None;
+                self.messages.push(Message { title: "No file dialog".to_owned(), lines: vec![why] });
+            }
+        }
     }
 
     fn save_to(&mut self, ctx: &egui::Context, path: PathBuf) {
@@ -172,7 +184,14 @@ impl EditorApp {
 
     /// The window's close button: holds it back while there is unsaved work.
     pub(super) fn handle_close_request(&mut self, ctx: &egui::Context) {
-        if ctx.input(|input| input.viewport().close_requested()) && !self.files.may_close && self.document.is_dirty() {
+        if !ctx.input(|input| input.viewport().close_requested()) || self.files.may_close {
+            return;
+        }
+        // A value that is still being typed makes the document unsaved too, once it is taken over.
+        if ctx.text_edit_focused() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.actions.push(Action::Command(Command::Quit));
+        } else if self.document.is_dirty() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.files.prompt = Some(Goal::Quit);
         }
@@ -193,6 +212,9 @@ impl EditorApp {
 
     fn replace(&mut self, document: Document) {
         self.document = document;
+        // A dialog that is still open asked about the document before: its answer must not touch this one.
+        self.files.asking = None;
+        self.files.after_save = None;
         let planet = self.document.valid_planet().clone();
         self.viewport.reset_view(&planet);
         self.panels.new_document();

@@ -42,6 +42,7 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
             .with_title("Tellus")
             .with_app_id(APP_ID)
             .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([720.0, 480.0])
             .with_min_inner_size([800.0, 500.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,

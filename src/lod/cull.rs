@@ -59,7 +59,7 @@ impl Culling {
 
 /// Angle at the planet's centre between a point at `radius_m` and where its sight grazes the sphere of `lowest_radius_m`.
 fn horizon_angle_rad(lowest_radius_m: f64, radius_m: f64) -> f64 {
-    (lowest_radius_m / radius_m).min(1.0).acos()
+    (lowest_radius_m / radius_m).clamp(-1.0, 1.0).acos()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::Planet;
 use super::param::{ParamPath, Params, Segment, Stage, Value};
+use std::collections::HashMap;
 
 /// One parameter that two planets differ in. A whole part or list element that only one of them has stands as one change
 /// under the path of its list or part.
@@ -16,10 +17,14 @@ pub struct Change {
 /// Every difference, in the order of the file.
 pub fn diff(before: &Planet, after: &Planet) -> Vec<Change> {
     let (old, new) = (snapshot(before), snapshot(after));
+    let index = |values: &'_ [Entry]| -> HashMap<ParamPath, usize> {
+        values.iter().enumerate().map(|(i, (path, _, _))| (path.clone(), i)).collect()
+    };
+    let (in_old, in_new) = (index(&old), index(&new));
     let mut changes: Vec<Change> = new
         .iter()
-        .filter(|(path, _, value)| old.iter().find(|(p, _, _)| p == path).is_none_or(|(_, _, v)| v != value))
-        .chain(old.iter().filter(|(path, _, _)| !new.iter().any(|(p, _, _)| p == path)))
+        .filter(|(path, _, value)| in_old.get(path).is_none_or(|&i| old[i].2 != *value))
+        .chain(old.iter().filter(|(path, _, _)| !in_new.contains_key(path)))
         .map(|(path, stage, _)| Change { path: path.clone(), stage: *stage })
         .collect();
     if before.biomes.table != after.biomes.table {
@@ -34,7 +39,9 @@ pub fn first_stale_stage(before: &Planet, after: &Planet) -> Option<Stage> {
     diff(before, after).into_iter().map(|change| change.stage).min()
 }
 
-fn snapshot(planet: &Planet) -> Vec<(ParamPath, Stage, Value)> {
+type Entry = (ParamPath, Stage, Value);
+
+fn snapshot(planet: &Planet) -> Vec<Entry> {
     let mut values = Vec::new();
     planet.clone().each_param(&mut ParamPath::default(), &mut |path, param, value| {
         values.push((path.clone(), param.stage, value.get()));

@@ -211,6 +211,9 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> 
     if path.file_name().is_none() {
         return Err("is not a file's name; name a file".to_owned());
     }
+    if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err("is a device or a pipe, not a file; name a file".to_owned());
+    }
     let existing = std::fs::metadata(&target).ok().map(|metadata| metadata.permissions());
     if existing.as_ref().is_some_and(std::fs::Permissions::readonly) {
         return Err("is read-only; change its permissions or save elsewhere".to_owned());

@@ -136,7 +136,7 @@ params! {
     /// A layer of clouds.
     pub struct Clouds {
         /// Share of the sky they cover.
-        coverage: f64 = 0.5, "Coverage", Unit::None, linear(0.0, 1.0), Stage::CloudMap;
+        coverage: f64 = 0.5, "Coverage", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Size of the weather systems.
         scale_km: f64 = 2500.0, "Scale", Unit::Kilometres, log(1.0, 50_000.0), Stage::CloudMap;
         /// How far wind tears and curls the weather systems.
@@ -170,7 +170,7 @@ params! {
         /// Strength of its light on the planet; 1 is the Sun on the Earth.
         brightness: f64 = 1.0, "Brightness", Unit::None, log(0.0, 100.0), Stage::Uniform;
         /// Half the angle under which its disc is seen.
-        radius_deg: f64 = 0.268, "Angular radius", Unit::Degrees, log(0.01, 20.0), Stage::Uniform;
+        radius_deg: f64 = 0.268, "Angular radius", Unit::Degrees, log(0.01, 20.0), Stage::AirTables;
     }
 }
 

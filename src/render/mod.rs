@@ -237,16 +237,21 @@ impl Renderer {
     }
 }
 
+/// Pictures of more pixels than this are not supersampled: the targets would take gigabytes.
+const MOST_SUPERSAMPLED_PX: u32 = 9_000_000;
+
 /// How large the picture is drawn before it is shown: twice the size at high quality, half at low; and that scale as the
 /// tone mapping knows it (2, 1, 0 for a half).
 fn drawn_size(frame: &Frame<'_>, limit_px: u32) -> ([u32; 2], u32) {
-    let size = frame.view.size_px.map(|side| side.max(1));
+    let size = frame.view.size_px.map(|side| side.clamp(1, limit_px));
     // Debug views show the mesh as it is.
     let plain = matches!(frame.debug_view, DebugView::Coverage | DebugView::Wireframe);
     match frame.view.quality {
         _ if plain => (size, 1),
         Quality::Low => (size.map(|side| side.div_ceil(2)), 0),
-        Quality::High if size.iter().all(|side| side * 2 <= limit_px) => (size.map(|side| side * 2), 2),
+        Quality::High if size.iter().all(|side| side * 2 <= limit_px) && size[0] * size[1] <= MOST_SUPERSAMPLED_PX => {
+            (size.map(|side| side * 2), 2)
+        }
         Quality::Medium | Quality::High => (size, 1),
     }
 }

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 /// Tiles in one buffer: 12 MB.
 const SLOTS: u32 = 256;
 /// Frames after which a tile that is not drawn may lose its slot.
-const KEPT_FRAMES: u64 = 8;
+const KEPT_FRAMES: u64 = 1;
 
 /// Where a tile's vertices are.
 #[derive(Clone, Copy)]

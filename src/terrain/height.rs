@@ -8,7 +8,7 @@ use glam::DVec3;
 use std::sync::Arc;
 
 /// A layer, ready to be evaluated and combined.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CompiledLayer {
     /// Its noise; equal shapes have equal fields, so this is the key under which a field is kept.
     pub(crate) shape: Arc<NoiseShape>,
@@ -21,7 +21,7 @@ pub(crate) struct CompiledLayer {
     masks: Vec<CompiledMask>,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct CompiledMask {
     layer: usize,
     from: f64,
@@ -114,10 +114,17 @@ impl Dual {
     }
 }
 
-/// Joins the layers at each point. `fields[i]` must be there for every needed layer; `each(layer, point, change_m)` is told
+/// Lowest and greatest height that a planet of this radius may have, so that no sum of layers turns it inside out: nine tenths
+/// of the way to the centre, ten radii out.
+pub(crate) fn limits_m(radius_m: f64) -> (f64, f64) {
+    (-0.9 * radius_m, 10.0 * radius_m)
+}
+
+/// Joins the layers at each point of a planet of a radius. `fields[i]` must be there for every needed layer; `each(layer, point, change_m)` is told
 /// what each layer that is on changes.
 pub(crate) fn combine(
     layers: &[CompiledLayer],
+    radius_m: f64,
     fields: &[Option<Arc<Field>>],
     points: usize,
     gradients: bool,
@@ -129,6 +136,7 @@ pub(crate) fn combine(
         own: Vec::with_capacity(reserve),
         parent: Vec::with_capacity(reserve),
     };
+    let (lowest_m, highest_m) = limits_m(radius_m);
     for point in 0..points {
         let mut height = Dual::ZERO;
         for (index, layer) in layers.iter().enumerate() {
@@ -154,6 +162,9 @@ pub(crate) fn combine(
             each(index, point, joined.v - height.v);
             height = joined;
         }
+        if height.v < lowest_m || height.v > highest_m {
+            height = Dual { v: height.v.clamp(lowest_m, highest_m), ..Dual::ZERO };
+        }
         heights.height_m.push(height.v);
         if gradients {
             heights.own.push(height.own);
@@ -164,7 +175,7 @@ pub(crate) fn combine(
 }
 
 /// Bounds of the height over the whole planet: each layer's noise may be anywhere in its range. Conservative.
-pub(crate) fn bounds_m(layers: &[CompiledLayer]) -> (f64, f64) {
+pub(crate) fn bounds_m(layers: &[CompiledLayer], radius_m: f64) -> (f64, f64) {
     let (mut lo, mut hi) = (0.0_f64, 0.0_f64);
     for layer in layers.iter().filter(|layer| layer.enabled) {
         let (v_lo, v_hi) = layer.shape.bounds();
@@ -184,5 +195,6 @@ pub(crate) fn bounds_m(layers: &[CompiledLayer]) -> (f64, f64) {
         // A mask can leave what was there.
         (lo, hi) = if layer.masks.is_empty() { (new_lo, new_hi) } else { (lo.min(new_lo), hi.max(new_hi)) };
     }
-    (lo, hi)
+    let (lowest_m, highest_m) = limits_m(radius_m);
+    (lo.clamp(lowest_m, highest_m), hi.clamp(lowest_m, highest_m))
 }

@@ -68,7 +68,7 @@ impl Terrain {
     pub fn new(planet: Arc<Planet>) -> Self {
         let layers = height::compile(&planet);
         let climate = CompiledClimate::new(&planet);
-        let height_bounds_m = height::bounds_m(&layers);
+        let height_bounds_m = height::bounds_m(&layers, planet.radius_m());
         Self { planet, simd: Simd::detect(), layers, climate, height_bounds_m }
     }
 
@@ -94,7 +94,9 @@ impl Terrain {
         let points = Points::new(vec![dir]);
         let fields = self.fields(&points, |shape| shape.field(self.simd, &points, Bands::EXACT));
         let mut layers_m = vec![0.0; self.layers.len()];
-        let heights = height::combine(&self.layers, &fields, 1, true, |layer, _, change_m| layers_m[layer] = change_m);
+        let heights = height::combine(&self.layers, self.planet.radius_m(), &fields, 1, true, |layer, _, change_m| {
+            layers_m[layer] = change_m;
+        });
         let height_m = heights.height_m[0];
         let slope = tangent_slope(dir, heights.own[0], self.planet.radius_m() + height_m);
         let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
@@ -152,7 +154,7 @@ impl Terrain {
             own: Default::default(),
             parent: Default::default(),
         });
-        height::combine(&self.layers, &fields, points.len(), false, |_, _, _| {}).height_m
+        height::combine(&self.layers, self.planet.radius_m(), &fields, points.len(), false, |_, _, _| {}).height_m
     }
 }
 

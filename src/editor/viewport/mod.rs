@@ -223,10 +223,16 @@ impl Viewport {
             size_px: [side_px(rect.width()), side_px(rect.height())],
             quality: self.settings.quality,
         };
-        self.builder.request(valid, &view);
+        // The camera stands over the surface that is shown; a planet of another size is asked for from as far in its radii.
+        let mut wanted = view;
+        wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
+        self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
         if let Some(surface) = surface {
-            self.draw(surface, valid, view);
+            // Sea and air of one size over ground of another would flash until the new tiles are there.
+            let shown = surface.terrain.planet().clone();
+            let planet = if shown.radius_km == valid.radius_km { valid } else { &shown };
+            self.draw(surface, planet, view);
         }
         if let Some(target) = &self.target {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
