@@ -66,13 +66,18 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
             let white = lights(&gpu.draw(&coverage));
             // A coarse tile's chord lies below the sphere by up to spacing^2 / 8 R.
             let inside = inside_disc(&coverage, lowest_m.min(0.0) - 0.003 * planet.radius_m());
-            let holes = white.iter().zip(inside).filter(|(light, inside)| *inside && **light != 765).count();
+            let holes = white.iter().zip(&inside).filter(|(light, inside)| **inside && **light != 765).count();
             assert_eq!(holes, 0, "{file} from {altitude_m} m");
 
             for sun in noon_and_sunset(&planet) {
                 let frame = frame(&planet, &surface, view, sun);
                 let picture = gpu.draw(&frame);
                 assert!(lights(&picture).iter().any(|&light| light > 150), "{file} from {altitude_m} m is dark");
+                // Where there is air no place that the star stands over is black; a value that is not a number would be.
+                let noon = sun == noon_and_sunset(&planet)[0] && planet.atmosphere.is_some();
+                let black =
+                    lights(&picture).iter().zip(&inside).filter(|(light, inside)| **inside && **light == 0).count();
+                assert!(!noon || black == 0, "{file} from {altitude_m} m has {black} black pixels at noon");
                 assert!(picture == gpu.draw(&frame), "{file} from {altitude_m} m");
             }
         }
