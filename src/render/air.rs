@@ -1,14 +1,12 @@
 //! The air (`air.wgsl`): reads scene, depth and clouds, writes the finished radiance.
 
 use super::RenderError;
-use super::gpu::{self, Slot};
+use super::gpu::Slot;
+use super::scene_pass::ScenePass;
 use super::targets::{HDR_FORMAT, Targets};
 
-/// The pipeline and the layout of what it reads.
-pub(crate) struct AirPass {
-    pipeline: wgpu::RenderPipeline,
-    layout: wgpu::BindGroupLayout,
-}
+/// See the module.
+pub(crate) struct AirPass(ScenePass);
 
 impl AirPass {
     pub(crate) fn new(
@@ -16,11 +14,8 @@ impl AirPass {
         globals: &wgpu::BindGroupLayout,
         tables: &wgpu::BindGroupLayout,
     ) -> Result<Self, RenderError> {
-        let layout =
-            gpu::layout(device, "air", &[Slot::Unfiltered2d, Slot::Depth, Slot::Unfiltered2d, Slot::Unfiltered2d]);
-        let layouts = [globals, tables, &layout];
-        let pipeline = gpu::screen_pipeline(device, "air.wgsl", &layouts, &[HDR_FORMAT])?;
-        Ok(Self { pipeline, layout })
+        let inputs = [Slot::Unfiltered2d, Slot::Depth, Slot::Unfiltered2d, Slot::Unfiltered2d];
+        ScenePass::new(device, [globals, tables], "air.wgsl", &inputs, &[HDR_FORMAT]).map(Self)
     }
 
     /// Draws it. `scene`: which of the two radiance targets holds the scene.
@@ -32,9 +27,7 @@ impl AirPass {
         targets: &Targets,
         scene: usize,
     ) {
-        let views = [&targets.hdr[scene], &targets.depth, &targets.cloud_light, &targets.cloud_distance];
-        let inputs = gpu::texture_group(device, "air", &self.layout, &views);
-        let groups = [groups[0], groups[1], &inputs];
-        gpu::draw_screen(encoder, "air", &self.pipeline, &groups, &[&targets.hdr[1 - scene]]);
+        let inputs = [&targets.hdr[scene], &targets.depth, &targets.cloud_light, &targets.cloud_distance];
+        self.0.draw(device, encoder, groups, &inputs, &[&targets.hdr[1 - scene]]);
     }
 }

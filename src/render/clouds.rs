@@ -1,14 +1,12 @@
 //! Clouds (`clouds.wgsl`): their light, transmittance and distance, for the air pass to put in.
 
 use super::RenderError;
-use super::gpu::{self, Slot};
+use super::gpu::Slot;
+use super::scene_pass::ScenePass;
 use super::targets::{DISTANCE_FORMAT, HDR_FORMAT, Targets};
 
-/// The pipeline and the layout of what it reads.
-pub(crate) struct CloudsPass {
-    pipeline: wgpu::RenderPipeline,
-    layout: wgpu::BindGroupLayout,
-}
+/// See the module.
+pub(crate) struct CloudsPass(ScenePass);
 
 impl CloudsPass {
     pub(crate) fn new(
@@ -16,10 +14,8 @@ impl CloudsPass {
         globals: &wgpu::BindGroupLayout,
         tables: &wgpu::BindGroupLayout,
     ) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "clouds", &[Slot::Unfiltered2d, Slot::Depth]);
-        let layouts = [globals, tables, &layout];
-        let pipeline = gpu::screen_pipeline(device, "clouds.wgsl", &layouts, &[HDR_FORMAT, DISTANCE_FORMAT])?;
-        Ok(Self { pipeline, layout })
+        let inputs = [Slot::Unfiltered2d, Slot::Depth];
+        ScenePass::new(device, [globals, tables], "clouds.wgsl", &inputs, &[HDR_FORMAT, DISTANCE_FORMAT]).map(Self)
     }
 
     /// Draws it. `scene`: which of the two radiance targets holds the scene.
@@ -31,9 +27,7 @@ impl CloudsPass {
         targets: &Targets,
         scene: usize,
     ) {
-        let views = [&targets.hdr[scene], &targets.depth];
-        let inputs = gpu::texture_group(device, "clouds", &self.layout, &views);
-        let groups = [groups[0], groups[1], &inputs];
-        gpu::draw_screen(encoder, "clouds", &self.pipeline, &groups, &[&targets.cloud_light, &targets.cloud_distance]);
+        let inputs = [&targets.hdr[scene], &targets.depth];
+        self.0.draw(device, encoder, groups, &inputs, &[&targets.cloud_light, &targets.cloud_distance]);
     }
 }

@@ -9,7 +9,8 @@
 //! - `air`: the air in front of everything, stars and the star's disc behind it
 //! - `tonemap`: radiance to display
 //!
-//! Around them: `shaders` (includes, checks, hot reload), `globals` (the uniform buffer), `targets`, `gpu` (helpers).
+//! Around them: `shaders` (includes, checks, hot reload), `globals` (the uniform buffer), `targets`, `gpu` (helpers),
+//! `scene_pass` (what the full-screen passes over the scene share).
 
 mod air;
 mod air_tables;
@@ -20,6 +21,7 @@ mod globals;
 mod gpu;
 mod noise_tile;
 mod pool;
+mod scene_pass;
 pub mod shaders;
 mod tables;
 mod targets;
