@@ -6,8 +6,9 @@ use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::climate::{ClimateField, PointClimate};
-use crate::terrain::field::{Bands, Field, NoiseShape};
+use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
+use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
 use crate::terrain::{Terrain, tangent_slope};
 use glam::DVec3;
@@ -17,9 +18,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// What a tile was made from, kept so that an edit re-runs only the stages it makes stale.
 #[derive(Debug)]
 pub(crate) struct Parts {
-    fields: Vec<(Arc<NoiseShape>, Arc<Field>)>,
+    fields: Vec<(Arc<Landform>, Arc<Field>)>,
     heights: Arc<Heights>,
-    climate_noises: Option<[NoiseShape; 2]>,
+    climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
 }
 
@@ -49,15 +50,16 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
         .layers
         .iter()
         .map(|layer| {
-            let kept = before.and_then(|(parts, _)| parts.fields.iter().find(|(shape, _)| *shape == layer.shape));
+            let kept =
+                before.and_then(|(parts, _)| parts.fields.iter().find(|(landform, _)| *landform == layer.landform));
             match kept {
                 _ if !layer.needed => kept.map(|(_, field)| field.clone()),
                 Some((_, field)) => Some(field.clone()),
                 None => {
-                    work.octave_samples += layer.shape.octave_count() * TILE_VERTICES;
+                    work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
                     let own_spacing_rad = spacing_rad(id.level);
-                    let bands = Bands { own_spacing_rad, parent_spacing_rad: 2.0 * own_spacing_rad };
-                    Some(Arc::new(layer.shape.field(simd, &points, bands)))
+                    let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
+                    Some(Arc::new(Field::new(&layer.landform, simd, &points, &spacings_rad)))
                 }
             }
         })
@@ -70,7 +72,7 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
             terrain.planet().radius_m(),
             &fields,
             TILE_VERTICES,
-            true,
+            2,
             |_, _, _| {},
         )),
     };
@@ -79,7 +81,7 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
     let climate = match before {
         Some((parts, _)) if parts.climate_noises == climate_noises => parts.climate.clone(),
         _ => {
-            let octaves: usize = climate_noises.iter().flatten().map(NoiseShape::octave_count).sum();
+            let octaves: usize = climate_noises.iter().flatten().map(Landform::octave_count).sum();
             work.octave_samples += octaves * TILE_VERTICES;
             Arc::new(terrain.climate.field(simd, &points))
         }
@@ -87,7 +89,7 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
 
     let tile = mesh(terrain, id, &points, &heights, &climate);
     let fields =
-        terrain.layers.iter().zip(fields).filter_map(|(layer, field)| Some((layer.shape.clone(), field?))).collect();
+        terrain.layers.iter().zip(fields).filter_map(|(layer, field)| Some((layer.landform.clone(), field?))).collect();
     (tile, Parts { fields, heights, climate_noises, climate }, work)
 }
 
@@ -118,8 +120,8 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
                 position_low_m: (position - high.as_dvec3()).as_vec3().to_array(),
                 temperature_c: temperature_c as f32,
                 climate_unorm: [unorm(moisture), unorm(row)],
-                normal_oct: normal(heights.own[i]),
-                parent_normal_oct: normal(heights.parent[i]),
+                normal_oct: normal(heights.gradients[0][i]),
+                parent_normal_oct: normal(heights.gradients[1][i]),
             }
         })
         .collect();

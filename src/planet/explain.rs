@@ -4,7 +4,7 @@
 //! parameter adds what would be right.
 
 use super::param::{Domain, Param, ValueMut};
-use super::{Atmosphere, Clouds, Fbm, Layer, Mask, Planet, Problem, Ridged, Shape, Water, locate};
+use super::{Atmosphere, Clouds, Layer, Mask, Planet, Problem, Shape, Water, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -220,7 +220,7 @@ fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
     };
     let wanted = general(locate::steps(path));
     let mut found = None;
-    for shape in [Shape::Fbm(Fbm::default()), Shape::Ridged(Ridged::default())] {
+    for shape in Shape::all() {
         specimen(shape).each(&mut |path, param, value| {
             if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
                 let names = if let ValueMut::Choice(choice) = value { choice.names() } else { &[] };

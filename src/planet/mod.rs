@@ -1,7 +1,8 @@
 //! What a planet is: plain data, its description, its file.
 //!
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
-//! - [`layers`], [`parts`], [`table`]: the preset's data (terrain layers; everything else; the biome table)
+//! - [`layers`], [`shapes`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; everything else; the biome
+//!   table)
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
@@ -18,14 +19,16 @@ pub(crate) mod migrate;
 pub mod param;
 pub mod parts;
 pub mod random;
+pub mod shapes;
 pub mod shipped;
 pub mod table;
 pub(crate) mod text;
 pub mod validate;
 
 pub use file::{LoadError, Problem, SaveError};
-pub use layers::{Blend, Craters, Fbm, Layer, Mask, Ridged, Shape};
+pub use layers::{Blend, Layer, Mask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
+pub use shapes::{Craters, Fbm, Ridged, Shape};
 pub use table::Table;
 
 use param::{Domain, ParamPath, Params, Stage, Unit, log, params};

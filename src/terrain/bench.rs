@@ -1,6 +1,7 @@
 //! The noise alone, for `tellus bench`: 8 octaves at arbitrary points on the unit sphere, on the calling thread.
 
-use super::field::{Bands, NoiseShape};
+use super::field::{EXACT, Field};
+use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
 use glam::DVec3;
@@ -9,22 +10,22 @@ use glam::DVec3;
 #[derive(Debug)]
 pub struct NoiseBench {
     points: Points,
-    shape: NoiseShape,
+    landform: Landform,
 }
 
 impl NoiseBench {
     /// 8 octaves whose coarsest has 8 cells to the sphere's radius.
     pub fn new(dirs: Vec<DVec3>) -> Self {
-        Self { points: Points::new(dirs), shape: NoiseShape::fbm(1, 8.0, 8) }
+        Self { points: Points::new(dirs), landform: Landform::fbm(1, 8.0, 8) }
     }
 
     /// Evaluates values; the sum, so that nothing is optimised away.
     pub fn values(&self, simd: Simd) -> f64 {
-        self.shape.values(simd, &self.points).iter().sum()
+        Field::new(&self.landform, simd, &self.points, &[]).value.iter().sum()
     }
 
     /// Evaluates values and gradients; the sum of the values, which is that of [`NoiseBench::values`].
     pub fn gradients(&self, simd: Simd) -> f64 {
-        self.shape.field(simd, &self.points, Bands::EXACT).value.iter().sum()
+        Field::new(&self.landform, simd, &self.points, EXACT).value.iter().sum()
     }
 }

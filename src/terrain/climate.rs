@@ -1,6 +1,7 @@
 //! Temperature and moisture at the surface, and the place in the biome table that they make.
 
-use super::field::NoiseShape;
+use super::field::Field;
+use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
 use crate::planet::{Planet, TableRows};
@@ -9,7 +10,7 @@ use glam::DVec3;
 /// The climate of a planet, compiled.
 #[derive(Clone, Debug)]
 pub(crate) struct CompiledClimate {
-    noises: Option<[NoiseShape; 2]>,
+    noises: Option<[Landform; 2]>,
 }
 
 /// Climate noise at a batch of points; depends on the climate's seed, region size and octaves only.
@@ -36,20 +37,21 @@ impl CompiledClimate {
         let noise = |kind: u64| {
             // Apart from the layers' seeds, whose upper half is the planet's seed alone.
             let seed = super::noise::mix(u64::from(planet.seed)) ^ (u64::from(climate.seed) << 1) ^ kind;
-            NoiseShape::fbm(seed, planet.radius_km / climate.wavelength_km, climate.octaves)
+            Landform::fbm(seed, planet.radius_km / climate.wavelength_km, climate.octaves)
         };
         Self { noises: varies.then(|| [noise(0), noise(1)]) }
     }
 
     /// The noises, as the key under which a field may be kept.
-    pub(crate) fn noises(&self) -> Option<&[NoiseShape; 2]> {
+    pub(crate) fn noises(&self) -> Option<&[Landform; 2]> {
         self.noises.as_ref()
     }
 
     pub(crate) fn field(&self, simd: Simd, points: &Points) -> ClimateField {
         match &self.noises {
             Some([temperature, moisture]) => {
-                ClimateField { temperature: temperature.values(simd, points), moisture: moisture.values(simd, points) }
+                let values = |landform| Field::new(landform, simd, points, &[]).value;
+                ClimateField { temperature: values(temperature), moisture: values(moisture) }
             }
             None => ClimateField { temperature: vec![0.0; points.len()], moisture: vec![0.0; points.len()] },
         }

@@ -2,7 +2,8 @@
 //!
 //! No noise is evaluated here; an edit of an amplitude, a blend or a mask runs this stage alone.
 
-use super::field::{Field, NoiseShape};
+use super::field::Field;
+use super::landform::Landform;
 use crate::planet::{Blend, Layer, Planet};
 use glam::DVec3;
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CompiledLayer {
     /// Its noise; equal shapes have equal fields, so this is the key under which a field is kept.
-    pub(crate) shape: Arc<NoiseShape>,
+    pub(crate) landform: Arc<Landform>,
     /// Whether its field is needed: it is on, or a layer that is on is masked by it.
     pub(crate) needed: bool,
     enabled: bool,
@@ -34,9 +35,8 @@ struct CompiledMask {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Heights {
     pub(crate) height_m: Vec<f64>,
-    /// Empty if the fields had no gradients.
-    pub(crate) own: Vec<DVec3>,
-    pub(crate) parent: Vec<DVec3>,
+    /// One list for each of the bands asked for.
+    pub(crate) gradients: Vec<Vec<DVec3>>,
 }
 
 /// Compiles the layers of a valid planet; masks that name no layer are left out.
@@ -46,7 +46,11 @@ pub(crate) fn compile(planet: &Planet) -> Vec<CompiledLayer> {
         .layers
         .iter()
         .map(|layer: &Layer| CompiledLayer {
-            shape: Arc::new(NoiseShape::of_layer(layer, planet.seed, planet.radius_km)),
+            landform: Arc::new(Landform::new(
+                &layer.shape,
+                u64::from(planet.seed) << 32 | u64::from(layer.seed),
+                planet.radius_km,
+            )),
             needed: layer.enabled,
             enabled: layer.enabled,
             amplitude_m: layer.amplitude_m,
@@ -70,31 +74,36 @@ pub(crate) fn compile(planet: &Planet) -> Vec<CompiledLayer> {
     layers
 }
 
-/// A value with its gradients in the two bands.
+/// Most bands that heights are combined in: a tile's own and its parent's.
+const BANDS: usize = 2;
+
+/// A value with its gradients in the bands.
 #[derive(Clone, Copy)]
 struct Dual {
     v: f64,
-    own: DVec3,
-    parent: DVec3,
+    d: [DVec3; BANDS],
 }
 
 impl Dual {
-    const ZERO: Dual = Dual { v: 0.0, own: DVec3::ZERO, parent: DVec3::ZERO };
+    const ZERO: Dual = Dual { v: 0.0, d: [DVec3::ZERO; BANDS] };
     const ONE: Dual = Dual { v: 1.0, ..Dual::ZERO };
 
-    fn of(field: &Field, point: usize, gradients: bool) -> Dual {
+    fn of(field: &Field, point: usize, bands: usize) -> Dual {
         let at = |c: &[Vec<f32>; 3]| DVec3::new(f64::from(c[0][point]), f64::from(c[1][point]), f64::from(c[2][point]));
-        let v = field.value[point];
-        if gradients { Dual { v, own: at(&field.own), parent: at(&field.parent) } } else { Dual { v, ..Dual::ZERO } }
+        let mut dual = Dual { v: field.value[point], ..Dual::ZERO };
+        for (d, gradient) in dual.d.iter_mut().zip(&field.gradients[..bands]) {
+            *d = at(gradient);
+        }
+        dual
     }
 
     /// `scale * self + shift`
     fn scaled(self, scale: f64, shift: f64) -> Dual {
-        Dual { v: self.v * scale + shift, own: self.own * scale, parent: self.parent * scale }
+        Dual { v: self.v * scale + shift, d: self.d.map(|d| d * scale) }
     }
 
     fn plus(self, o: Dual) -> Dual {
-        Dual { v: self.v + o.v, own: self.own + o.own, parent: self.parent + o.parent }
+        Dual { v: self.v + o.v, d: std::array::from_fn(|k| self.d[k] + o.d[k]) }
     }
 
     fn minus(self, o: Dual) -> Dual {
@@ -102,7 +111,7 @@ impl Dual {
     }
 
     fn times(self, o: Dual) -> Dual {
-        Dual { v: self.v * o.v, own: self.own * o.v + o.own * self.v, parent: self.parent * o.v + o.parent * self.v }
+        Dual { v: self.v * o.v, d: std::array::from_fn(|k| self.d[k] * o.v + o.d[k] * self.v) }
     }
 
     /// Smoothstep from `from` (0) to `to` (1); the ends may stand either way round.
@@ -110,7 +119,7 @@ impl Dual {
         let span = to - from;
         let t = ((self.v - from) / span).clamp(0.0, 1.0);
         let slope = 6.0 * t * (1.0 - t) / span;
-        Dual { v: t * t * (3.0 - 2.0 * t), own: self.own * slope, parent: self.parent * slope }
+        Dual { v: t * t * (3.0 - 2.0 * t), d: self.d.map(|d| d * slope) }
     }
 }
 
@@ -120,32 +129,30 @@ pub(crate) fn limits_m(radius_m: f64) -> (f64, f64) {
     (-0.9 * radius_m, 10.0 * radius_m)
 }
 
-/// Joins the layers at each point of a planet of a radius. `fields[i]` must be there for every needed layer; `each(layer, point, change_m)` is told
-/// what each layer that is on changes.
+/// Joins the layers at each point of a planet of a radius. `fields[i]` must be there for every needed layer, with gradients
+/// in at least the first `bands` bands; `each(layer, point, change_m)` is told what each layer that is on changes.
 pub(crate) fn combine(
     layers: &[CompiledLayer],
     radius_m: f64,
     fields: &[Option<Arc<Field>>],
     points: usize,
-    gradients: bool,
+    bands: usize,
     mut each: impl FnMut(usize, usize, f64),
 ) -> Heights {
-    let reserve = if gradients { points } else { 0 };
     let mut heights = Heights {
         height_m: Vec::with_capacity(points),
-        own: Vec::with_capacity(reserve),
-        parent: Vec::with_capacity(reserve),
+        gradients: (0..bands).map(|_| Vec::with_capacity(points)).collect(),
     };
     let (lowest_m, highest_m) = limits_m(radius_m);
     for point in 0..points {
         let mut height = Dual::ZERO;
         for (index, layer) in layers.iter().enumerate() {
             let (true, Some(field)) = (layer.enabled, &fields[index]) else { continue };
-            let noise = Dual::of(field, point, gradients).scaled(1.0, layer.bias);
+            let noise = Dual::of(field, point, bands).scaled(1.0, layer.bias);
             let mut mask = Dual::ONE;
             for m in &layer.masks {
                 let Some(masking) = &fields[m.layer] else { continue };
-                let step = Dual::of(masking, point, gradients).smoothstep(m.from, m.to);
+                let step = Dual::of(masking, point, bands).smoothstep(m.from, m.to);
                 mask = mask.times(if m.invert { step.scaled(-1.0, 1.0) } else { step });
             }
             let output = noise.scaled(layer.amplitude_m, 0.0);
@@ -166,9 +173,8 @@ pub(crate) fn combine(
             height = Dual { v: height.v.clamp(lowest_m, highest_m), ..Dual::ZERO };
         }
         heights.height_m.push(height.v);
-        if gradients {
-            heights.own.push(height.own);
-            heights.parent.push(height.parent);
+        for (list, d) in heights.gradients.iter_mut().zip(height.d) {
+            list.push(d);
         }
     }
     heights
@@ -178,7 +184,7 @@ pub(crate) fn combine(
 pub(crate) fn bounds_m(layers: &[CompiledLayer], radius_m: f64) -> (f64, f64) {
     let (mut lo, mut hi) = (0.0_f64, 0.0_f64);
     for layer in layers.iter().filter(|layer| layer.enabled) {
-        let (v_lo, v_hi) = layer.shape.bounds();
+        let (v_lo, v_hi) = layer.landform.bounds();
         let (v_lo, v_hi) = (v_lo + layer.bias, v_hi + layer.bias);
         let (y_lo, y_hi) = (v_lo * layer.amplitude_m, v_hi * layer.amplitude_m);
         let (new_lo, new_hi) = match layer.blend {

@@ -1,8 +1,9 @@
 //! What the surface is: the compiled evaluator that everything asks.
 //!
-//! - `noise`: gradient noise at one point of one octave; the arithmetic all else rests on
-//! - `craters`: bowls and rims of one size
 //! - [`simd`]: the instruction sets the loops are compiled for
+//! - `noise`: gradient noise of one octave; the arithmetic all else rests on
+//! - `jet`: numbers that carry their gradient
+//! - `landform`: the kinds of layer, one file each
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
 //! - `height`: layers joined by amplitude, blend and masks
 //! - `climate`: temperature, moisture, the place in the biome table
@@ -13,9 +14,10 @@
 
 pub mod bench;
 pub(crate) mod climate;
-mod craters;
 pub(crate) mod field;
 pub(crate) mod height;
+mod jet;
+pub(crate) mod landform;
 pub(crate) mod noise;
 pub(crate) mod points;
 mod raycast;
@@ -23,9 +25,10 @@ pub mod simd;
 
 use crate::planet::Planet;
 use climate::CompiledClimate;
-use field::{Bands, Field};
+use field::{EXACT, Field};
 use glam::DVec3;
 use height::CompiledLayer;
+use landform::Landform;
 use points::Points;
 use rayon::prelude::*;
 use simd::Simd;
@@ -92,13 +95,13 @@ impl Terrain {
     pub fn sample(&self, dir_planet: DVec3) -> Sample {
         let dir = unit(dir_planet);
         let points = Points::new(vec![dir]);
-        let fields = self.fields(&points, |shape| shape.field(self.simd, &points, Bands::EXACT));
+        let fields = self.fields(&points, |landform| Field::new(landform, self.simd, &points, EXACT));
         let mut layers_m = vec![0.0; self.layers.len()];
-        let heights = height::combine(&self.layers, self.planet.radius_m(), &fields, 1, true, |layer, _, change_m| {
+        let heights = height::combine(&self.layers, self.planet.radius_m(), &fields, 1, 1, |layer, _, change_m| {
             layers_m[layer] = change_m;
         });
         let height_m = heights.height_m[0];
-        let slope = tangent_slope(dir, heights.own[0], self.planet.radius_m() + height_m);
+        let slope = tangent_slope(dir, heights.gradients[0][0], self.planet.radius_m() + height_m);
         let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
         Sample {
             height_m,
@@ -132,29 +135,21 @@ impl Terrain {
 
     /// How many octaves of noise one point takes.
     pub fn octaves_per_point(&self) -> usize {
-        let layers: usize = self.layers.iter().filter(|l| l.needed).map(|l| l.shape.octave_count()).sum();
-        let climate: usize = self.climate.noises().into_iter().flatten().map(field::NoiseShape::octave_count).sum();
+        let layers: usize = self.layers.iter().filter(|l| l.needed).map(|l| l.landform.octave_count()).sum();
+        let climate: usize = self.climate.noises().into_iter().flatten().map(Landform::octave_count).sum();
         layers + climate
     }
 
     /// A field for each needed layer, made by `make`.
-    pub(crate) fn fields(
-        &self,
-        points: &Points,
-        make: impl Fn(&field::NoiseShape) -> Field,
-    ) -> Vec<Option<Arc<Field>>> {
+    pub(crate) fn fields(&self, points: &Points, make: impl Fn(&Landform) -> Field) -> Vec<Option<Arc<Field>>> {
         debug_assert!(points.len() > 0);
-        self.layers.iter().map(|layer| layer.needed.then(|| Arc::new(make(&layer.shape)))).collect()
+        self.layers.iter().map(|layer| layer.needed.then(|| Arc::new(make(&layer.landform)))).collect()
     }
 
     fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {
         let points = Points::new(dirs_planet);
-        let fields = self.fields(&points, |shape| Field {
-            value: shape.values(self.simd, &points),
-            own: Default::default(),
-            parent: Default::default(),
-        });
-        height::combine(&self.layers, self.planet.radius_m(), &fields, points.len(), false, |_, _, _| {}).height_m
+        let fields = self.fields(&points, |landform| Field::new(landform, self.simd, &points, &[]));
+        height::combine(&self.layers, self.planet.radius_m(), &fields, points.len(), 0, |_, _, _| {}).height_m
     }
 }
 

@@ -55,10 +55,11 @@ impl Simd {
     }
 }
 
-/// Compiles `$body` (an `#[inline(always)]` function) once for each instruction set, and writes `$name`, which takes the
-/// set to use as its first argument. Sets that this machine lacks fall back to the baseline, so the call is always sound.
+/// Compiles `$body` (an `#[inline(always)]` function, perhaps with type arguments) once for each instruction set, and writes
+/// `$name`, which takes the set to use as its first argument. Sets that this machine lacks fall back to the baseline, so the
+/// call is always sound.
 macro_rules! for_each_simd {
-    ($(#[$meta:meta])* fn $name:ident = $body:ident($($arg:ident: $type:ty),* $(,)?)) => {
+    ($(#[$meta:meta])* fn $name:ident($($arg:ident: $type:ty),* $(,)?) = $body:expr) => {
         $(#[$meta])*
         #[allow(clippy::too_many_arguments)]
         fn $name(simd: $crate::terrain::simd::Simd, $($arg: $type),*) {

@@ -8,7 +8,12 @@
 //! - Gradients are three signed 10-bit numbers out of an integer hash, uniform in a cube: no table, no preferred axes.
 //!
 //! Everything is branch-free and uses only operations that IEEE 754 rounds correctly, never a fused multiply-add, so that
-//! the loop over points can be compiled for each instruction set (see [`super::simd`]) with the same bits everywhere.
+//! the loops over points ([`batch`]) can be compiled for each instruction set (see [`super::simd`]) with the same bits
+//! everywhere.
+
+mod batch;
+
+pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
 
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
 pub(crate) const BOUND: f64 = 1.45;
@@ -76,13 +81,9 @@ fn falloff(d: [f32; 3]) -> f32 {
     (0.5 - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(0.0)
 }
 
-/// The four corners of the simplex around a skewed point: distances, gradients.
+/// The four corners of the simplex around a place in a cell: distances, gradients.
 #[inline(always)]
-fn corners(point_skewed: [f64; 3], octave: &Octave) -> ([[f32; 3]; 4], [[f32; 3]; 4]) {
-    let (ix, x) = split(point_skewed[0] * octave.frequency + octave.offset[0]);
-    let (iy, y) = split(point_skewed[1] * octave.frequency + octave.offset[1]);
-    let (iz, z) = split(point_skewed[2] * octave.frequency + octave.offset[2]);
-
+fn corners([ix, iy, iz]: [u32; 3], [x, y, z]: [f32; 3], seed: u32) -> ([[f32; 3]; 4], [[f32; 3]; 4]) {
     let t = (x + y + z) * (1.0 / 6.0);
     let d0 = [x - t, y - t, z - t];
     // Which tetrahedron of the cell: the order of x, y and z, as selects.
@@ -100,9 +101,9 @@ fn corners(point_skewed: [f64; 3], octave: &Octave) -> ([[f32; 3]; 4], [[f32; 3]
     let base = [ix.wrapping_mul(PRIME[0]), iy.wrapping_mul(PRIME[1]), iz.wrapping_mul(PRIME[2])];
     let next = [base[0].wrapping_add(PRIME[0]), base[1].wrapping_add(PRIME[1]), base[2].wrapping_add(PRIME[2])];
     let pick = |on: bool, axis: usize| if on { next[axis] } else { base[axis] };
-    let at = |o: [bool; 3]| gradient(pick(o[0], 0), pick(o[1], 1), pick(o[2], 2), octave.seed);
-    let g0 = gradient(base[0], base[1], base[2], octave.seed);
-    let g3 = gradient(next[0], next[1], next[2], octave.seed);
+    let at = |o: [bool; 3]| gradient(pick(o[0], 0), pick(o[1], 1), pick(o[2], 2), seed);
+    let g0 = gradient(base[0], base[1], base[2], seed);
+    let g3 = gradient(next[0], next[1], next[2], seed);
     ([d0, d1, d2, d3], [g0, at(first), at(second), g3])
 }
 
@@ -111,10 +112,10 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The noise at a skewed point, about -1 to 1.
+/// The noise at a place within a cell of the skewed lattice, about -1 to 1.
 #[inline(always)]
-pub(crate) fn value(point_skewed: [f64; 3], octave: &Octave) -> f32 {
-    let (d, g) = corners(point_skewed, octave);
+pub(crate) fn value(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> f32 {
+    let (d, g) = corners(cell, fraction, seed);
     let corner = |i: usize| {
         let w = falloff(d[i]);
         let w2 = w * w;
@@ -123,10 +124,10 @@ pub(crate) fn value(point_skewed: [f64; 3], octave: &Octave) -> f32 {
     (corner(0) + corner(1) + (corner(2) + corner(3))) * SCALE
 }
 
-/// The noise at a skewed point (the same bits as [`value`]) and its gradient by the unskewed lattice coordinates.
+/// The noise (the same bits as [`value`]) and its gradient by the unskewed lattice coordinates.
 #[inline(always)]
-pub(crate) fn value_gradient(point_skewed: [f64; 3], octave: &Octave) -> (f32, [f32; 3]) {
-    let (d, g) = corners(point_skewed, octave);
+pub(crate) fn value_gradient(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> (f32, [f32; 3]) {
+    let (d, g) = corners(cell, fraction, seed);
     let corner = |i: usize| {
         let w = falloff(d[i]);
         let w2 = w * w;
@@ -139,6 +140,27 @@ pub(crate) fn value_gradient(point_skewed: [f64; 3], octave: &Octave) -> (f32, [
     let ((v0, g0), (v1, g1), (v2, g2), (v3, g3)) = (corner(0), corner(1), corner(2), corner(3));
     let sum = |axis: usize| ((g0[axis] + g1[axis]) + (g2[axis] + g3[axis])) * SCALE;
     ((v0 + v1 + (v2 + v3)) * SCALE, [sum(0), sum(1), sum(2)])
+}
+
+/// The noise, its gradient (the same bits as [`value_gradient`]) and its second derivatives xx, yy, zz, yz, zx, xy by the
+/// unskewed lattice coordinates.
+#[inline(always)]
+pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> (f32, [f32; 3], [f32; 6]) {
+    let (v, g) = value_gradient(cell, fraction, seed);
+    let (d, corner_gradients) = corners(cell, fraction, seed);
+    let corner = |i: usize| {
+        let (d, g) = (d[i], corner_gradients[i]);
+        let w = falloff(d);
+        let (w2, slope) = (w * w, dot(g, d));
+        // d/dp of w^4 g - 8 w^3 (g.d) d = -8 w^3 (g d' + d g' + (g.d) 1) + 48 w^2 (g.d) d d'
+        let (cubic, square) = (w2 * w * -8.0, w2 * slope * 48.0);
+        let same = |a: usize| cubic * (2.0 * g[a] * d[a] + slope) + square * (d[a] * d[a]);
+        let cross = |a: usize, b: usize| cubic * (g[a] * d[b] + g[b] * d[a]) + square * (d[a] * d[b]);
+        [same(0), same(1), same(2), cross(1, 2), cross(2, 0), cross(0, 1)]
+    };
+    let (c0, c1, c2, c3) = (corner(0), corner(1), corner(2), corner(3));
+    let sum = |k: usize| ((c0[k] + c1[k]) + (c2[k] + c3[k])) * SCALE;
+    (v, g, [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5)])
 }
 
 /// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.
@@ -154,28 +176,44 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const OCTAVE: Octave = Octave { frequency: 1.0, offset: [0.3, 17.7, -4.1], seed: 77 };
+    /// Cell and fraction of a point on a shifted lattice.
+    fn place(point: [f64; 3]) -> ([u32; 3], [f32; 3]) {
+        let (skewed, offset) = (skew(point), [0.3, 17.7, -4.1]);
+        let [(ix, x), (iy, y), (iz, z)] = [0, 1, 2].map(|axis| split(skewed[axis] + offset[axis]));
+        ([ix, iy, iz], [x, y, z])
+    }
+
+    fn with_seed<T>(point: [f64; 3], seed: u32, noise: impl Fn([u32; 3], [f32; 3], u32) -> T) -> T {
+        let (cell, fraction) = place(point);
+        noise(cell, fraction, seed)
+    }
 
     proptest! {
         #[test]
-        fn gradients_match_central_differences(x in -40.0..40.0_f64, y in -40.0..40.0_f64, z in -40.0..40.0_f64) {
-            let at = |p: [f64; 3]| f64::from(value(skew(p), &OCTAVE));
-            let (v, g) = value_gradient(skew([x, y, z]), &OCTAVE);
-            prop_assert_eq!(v, value(skew([x, y, z]), &OCTAVE));
-            let h = 1e-3;
+        fn derivatives_match_central_differences(x in -40.0..40.0_f64, y in -40.0..40.0_f64, z in -40.0..40.0_f64) {
+            let at = |p: [f64; 3]| with_seed(p, 77, value_gradient);
+            let (v, g, h) = with_seed([x, y, z], 77, value_gradient_curvature);
+            prop_assert_eq!((v, g), at([x, y, z]));
+            prop_assert_eq!(v, with_seed([x, y, z], 77, value));
+            let step = 1e-3;
+            let second = [[h[0], h[5], h[4]], [h[5], h[1], h[3]], [h[4], h[3], h[2]]];
             for axis in 0..3 {
                 let (mut lo, mut hi) = ([x, y, z], [x, y, z]);
-                lo[axis] -= h;
-                hi[axis] += h;
-                let difference = (at(hi) - at(lo)) / (2.0 * h);
-                prop_assert!((difference - f64::from(g[axis])).abs() < 2e-3, "{} {}", difference, g[axis]);
+                lo[axis] -= step;
+                hi[axis] += step;
+                let difference = |hi: f32, lo: f32| f64::from(hi - lo) / (2.0 * step);
+                let d = difference(at(hi).0, at(lo).0);
+                prop_assert!((d - f64::from(g[axis])).abs() < 2e-3, "{} {}", d, g[axis]);
+                for other in 0..3 {
+                    let d = difference(at(hi).1[other], at(lo).1[other]);
+                    prop_assert!((d - f64::from(second[axis][other])).abs() < 2e-2, "{} {}", d, second[axis][other]);
+                }
             }
         }
 
         #[test]
         fn never_beyond_its_bound(x in -1e9..1e9_f64, y in -1e9..1e9_f64, z in -1e9..1e9_f64, seed: u32) {
-            let v = value(skew([x, y, z]), &Octave { seed, ..OCTAVE });
-            prop_assert!(f64::from(v.abs()) <= BOUND);
+            prop_assert!(f64::from(with_seed([x, y, z], seed, value).abs()) <= BOUND);
         }
     }
 
@@ -185,7 +223,7 @@ mod tests {
         let values: Vec<f64> = (0..n)
             .map(|i| {
                 let r = |k: u64| (mix(i * 3 + k) >> 11) as f64 / (1_u64 << 53) as f64 * 1000.0;
-                f64::from(value([r(0), r(1), r(2)], &OCTAVE))
+                f64::from(with_seed([r(0), r(1), r(2)], 77, value))
             })
             .collect();
         let mean = values.iter().sum::<f64>() / n as f64;

@@ -1,10 +1,16 @@
-//! Craters of one size: bowls with a raised rim, scattered without storing any.
+//! Craters of many sizes: bowls with a raised rim, scattered without storing any.
 //!
 //! Space is cut into cells; each holds one jittered centre. Only centres near the sphere's surface count, the fainter the
 //! farther they lie off it, which reads as age. Jitter, reach and thickness are chosen so that a crater can only be felt in the
 //! eight cells nearest to a point: whatever point asks, it looks at every crater that reaches it.
 
-use super::noise::{self, Octave};
+use super::fbm::LEAST_POINTS;
+use super::octaves::{Weighted, series};
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet;
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::noise::{self, CHUNK, Lane, Octave, Points3};
+use crate::terrain::simd::for_each_simd;
 
 /// Most radius of a crater, in cells.
 const RADIUS: f32 = 0.45;
@@ -15,13 +21,90 @@ const RIM: f32 = 0.28;
 /// Centres up to this far off the surface count, in cells. sqrt((RADIUS * REACH)^2 + THICKNESS^2) + 0.2 (jitter) < 1.
 const THICKNESS: f32 = 0.34;
 
-/// Height (-1, the floor of the largest, to [`RIM`]) and gradient by the lattice coordinates, of the craters of an octave at a
-/// skewed point. `dir` is the point's unit direction; `density` the share of cells that hold a crater.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Craters {
+    octaves: Vec<Weighted>,
+    /// Share of cells that hold a crater.
+    density: f32,
+}
+
+impl Craters {
+    pub(super) fn new(params: &planet::Craters, seed: u64, radius_km: f64) -> Self {
+        let planet::Craters { diameter_km, octaves, gain, lacunarity, density } = *params;
+        // The widest crater is 0.9 cells across.
+        let octaves = series(seed, 0.9 * radius_km / diameter_km, octaves, gain, lacunarity);
+        Self { octaves, density: density as f32 }
+    }
+}
+
+impl Evaluate for Craters {
+    fn octave_count(&self) -> usize {
+        self.octaves.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (-1.0, 1.0)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, jets: [craters, ..], .. } = scratch;
+        let n = chunk.len();
+        let mut places = Places::default();
+        for Weighted { octave, weight } in &self.octaves {
+            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            find_places(chunk.simd, chunk.skewed, octave, &mut places);
+            dig(chunk.simd, n, &places, octave, self.density, craters);
+            sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
+        }
+    }
+}
+
+/// Where each point stands in a lattice of cubes, and its direction.
+struct Places {
+    cell: [Lane<u32>; 3],
+    fraction: [Lane<f32>; 3],
+    dir: [Lane<f32>; 3],
+}
+
+impl Default for Places {
+    fn default() -> Self {
+        Self { cell: [[0; CHUNK]; 3], fraction: [[0.0; CHUNK]; 3], dir: [[0.0; CHUNK]; 3] }
+    }
+}
+
 #[inline(always)]
-pub(crate) fn value_gradient(point_skewed: [f64; 3], dir: [f32; 3], octave: &Octave, density: f32) -> (f32, [f32; 3]) {
-    let unskew = (point_skewed[0] + point_skewed[1] + point_skewed[2]) * (1.0 / 6.0);
-    let axis = |i: usize| noise::split((point_skewed[i] - unskew) * octave.frequency + octave.offset[i]);
-    let ((ix, x), (iy, y), (iz, z)) = (axis(0), axis(1), axis(2));
+fn find_places_body(skewed: Points3<'_>, octave: &Octave, places: &mut Places) {
+    let [x, y, z] = skewed;
+    let n = x.len().min(y.len()).min(z.len()).min(CHUNK);
+    for axis in 0..3 {
+        let p = skewed[axis];
+        for i in 0..n {
+            let unskewed = p[i] - (x[i] + y[i] + z[i]) * (1.0 / 6.0);
+            let (cell, fraction) = noise::split(unskewed * octave.frequency + octave.offset[axis]);
+            places.cell[axis][i] = cell;
+            places.fraction[axis][i] = fraction;
+            places.dir[axis][i] = unskewed as f32;
+        }
+    }
+}
+for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places) = find_places_body);
+
+#[inline(always)]
+fn dig_body(n: usize, places: &Places, octave: &Octave, density: f32, craters: &mut Jets) {
+    let ([ix, iy, iz], [fx, fy, fz], [dx, dy, dz]) = (&places.cell, &places.fraction, &places.dir);
+    let frequency = octave.frequency as f32;
+    for i in 0..n.min(CHUNK) {
+        let (v, g) =
+            value_gradient([ix[i], iy[i], iz[i]], [fx[i], fy[i], fz[i]], [dx[i], dy[i], dz[i]], octave.seed, density);
+        Jet { v, d: [g[0] * frequency, g[1] * frequency, g[2] * frequency] }.store(craters, i);
+    }
+}
+for_each_simd!(fn dig(n: usize, places: &Places, octave: &Octave, density: f32, craters: &mut Jets) = dig_body);
+
+/// Height (-1, the floor of the largest, to [`RIM`]) and gradient by the lattice coordinates, of the craters of an octave at a
+/// place in a cell. `dir` is the point's unit direction; `density` the share of cells that hold a crater.
+#[inline(always)]
+fn value_gradient([ix, iy, iz]: [u32; 3], [x, y, z]: [f32; 3], dir: [f32; 3], seed: u32, density: f32) -> (f32, [f32; 3]) {
     // The nearer neighbour along each axis: one cell down in the lower half, one up in the upper.
     let side = |w: f32| if w < 0.5 { (u32::MAX, -1.0) } else { (1, 1.0) };
     let ((sx, ox), (sy, oy), (sz, oz)) = (side(x), side(y), side(z));
@@ -29,7 +112,7 @@ pub(crate) fn value_gradient(point_skewed: [f64; 3], dir: [f32; 3], octave: &Oct
     for corner in 0..8_u32 {
         let (bx, by, bz) = (corner & 1, corner >> 1 & 1, corner >> 2);
         let cell = [ix.wrapping_add(sx * bx), iy.wrapping_add(sy * by), iz.wrapping_add(sz * bz)];
-        let random = noise::cell_hash(cell, octave.seed);
+        let random = noise::cell_hash(cell, seed);
         let unit = |bits: u32| (bits & 1023) as f32 * (1.0 / 1023.0);
         let jitter = |bits: u32| 0.3 + 0.4 * unit(bits);
         let to = [
@@ -74,7 +157,9 @@ mod tests {
         let octave = Octave { frequency: 9.0, offset: [0.3, 17.7, -4.1], seed: 77 };
         let at = |p: DVec3| {
             let p = p.normalize();
-            value_gradient(noise::skew(p.to_array()), p.as_vec3().to_array(), &octave, 0.8)
+            let [(ix, x), (iy, y), (iz, z)] =
+                [0, 1, 2].map(|axis| noise::split(p[axis] * octave.frequency + octave.offset[axis]));
+            value_gradient([ix, iy, iz], [x, y, z], p.as_vec3().to_array(), octave.seed, 0.8)
         };
         let (mut off, mut jumps, mut deep) = (0, 0, 0);
         for i in 0..20_000 {
