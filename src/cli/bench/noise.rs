@@ -14,27 +14,33 @@ const OCTAVES: i32 = 8;
 /// Cycles along a radius of the coarsest octave.
 const FREQUENCY: f32 = 4.0;
 
-/// The `noise` object of the report.
+/// The `noise` object of the report: the figures of the best instruction set, and those of each.
 pub(super) fn measure() -> Value {
     let points = points();
+    let noise = NoiseBench::new(points.clone());
     let yardstick = fastnoise_lite_mpts(&points);
-    let (value, gradient) = own_mpts(&points);
-    let ratio = |mpts: Option<f64>| mpts.zip(yardstick).map(|(own, other)| own / other);
-    json!({
-        "points": POINTS,
-        "octaves": OCTAVES,
-        "value_mpts": value,
-        "gradient_mpts": gradient,
-        "fastnoise_lite_mpts": yardstick,
-        "value_ratio": ratio(value),
-        "gradient_ratio": ratio(gradient),
-    })
+    let figures = |simd: Simd| {
+        let (value, gradient) = own_mpts(&noise, simd);
+        let ratio = |mpts: Option<f64>| mpts.zip(yardstick).map(|(own, other)| own / other);
+        json!({
+            "simd": simd.name(),
+            "value_mpts": value,
+            "gradient_mpts": gradient,
+            "value_ratio": ratio(value),
+            "gradient_ratio": ratio(gradient),
+        })
+    };
+    let by_simd: Vec<Value> = Simd::available().into_iter().map(figures).collect();
+    let mut report = by_simd.last().cloned().unwrap_or_default();
+    report["points"] = json!(POINTS);
+    report["octaves"] = json!(OCTAVES);
+    report["fastnoise_lite_mpts"] = json!(yardstick);
+    report["by_simd"] = json!(by_simd);
+    report
 }
 
 /// Million points a second of this crate's noise: value alone, and value with gradient.
-fn own_mpts(points: &[DVec3]) -> (Option<f64>, Option<f64>) {
-    let simd = Simd::detect();
-    let noise = NoiseBench::new(points.to_vec());
+fn own_mpts(noise: &NoiseBench, simd: Simd) -> (Option<f64>, Option<f64>) {
     let values = repeat(|| {
         black_box(noise.values(simd));
     });

@@ -4,6 +4,7 @@ use super::octaves::{Weighted, series};
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::noise;
+use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: a wave is about two cells long.
 pub(super) const LEAST_POINTS: f64 = 1.5;
@@ -31,6 +32,14 @@ impl Evaluate for Fbm {
 
     fn bounds(&self) -> (f64, f64) {
         (-noise::BOUND, noise::BOUND)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        self.octaves.iter().fold((0.0, 0.0), |(lo, hi), Weighted { octave, weight }| {
+            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            (lo + low * f64::from(*weight), hi + high * f64::from(*weight))
+        })
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

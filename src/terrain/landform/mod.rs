@@ -64,7 +64,8 @@ impl Landform {
 
     /// Lowest and highest value it can take within an angle of a direction; conservative.
     pub(crate) fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.evaluate().bounds_near(dir_planet, angle_rad)
+        let ((least, most), (lo, hi)) = (self.bounds(), self.evaluate().bounds_near(dir_planet, angle_rad));
+        (lo.max(least), hi.min(most))
     }
 
     /// Evaluates it at a chunk: the answer is in `scratch.sums`.
@@ -206,3 +207,33 @@ fn add_gradient_body(n: usize, gradient: &[Lane<f32>; 3], weight: f32, sum: &mut
     }
 }
 for_each_simd!(fn add_gradient(n: usize, gradient: &[Lane<f32>; 3], weight: f32, sum: &mut [Lane<f32>; 3]) = add_gradient_body);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terrain::field::Field;
+    use crate::terrain::points::Points;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn bounds_near_a_direction_hold_around_it(
+            seed: u64, x in -1.0..1.0_f64, y in -1.0..1.0_f64, z in 0.1..1.0_f64, log_angle in -12.0..0.0_f64,
+        ) {
+            let (dir, angle_rad) = (DVec3::new(x, y, z).normalize(), 10.0_f64.powf(log_angle));
+            let (a, b) = dir.any_orthonormal_pair();
+            let around = (0..64).map(|i| {
+                let (turn, share) = (f64::from(i) * 2.4, (f64::from(i) / 64.0).sqrt());
+                (dir + (a * turn.cos() + b * turn.sin()) * (angle_rad * share * 0.99).tan()).normalize()
+            });
+            let points = Points::new(around.collect());
+            for shape in Shape::all() {
+                let landform = Landform::new(&shape, seed, 6371.0);
+                let (lo, hi) = landform.bounds_near(dir, angle_rad);
+                for v in Field::new(&landform, Simd::detect(), &points, &[]).value {
+                    prop_assert!(lo <= v && v <= hi, "{shape:?}: {v} not in {lo}..{hi} within {angle_rad}");
+                }
+            }
+        }
+    }
+}

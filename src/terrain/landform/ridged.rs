@@ -5,8 +5,9 @@ use super::octaves::{Weighted, series};
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise};
+use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: crests are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
@@ -34,6 +35,23 @@ impl Evaluate for Ridged {
 
     fn bounds(&self) -> (f64, f64) {
         (-1.0, 1.0)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        let feedback = f64::from(self.feedback);
+        let (mut sum, mut feed) = ((0.0, 0.0), (1.0, 1.0));
+        for Weighted { octave, weight } in &self.octaves {
+            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            // Folding turns the noise nearest to zero into the highest crest.
+            let nearest = low.max(-high).max(0.0);
+            let farthest = high.max(-low);
+            let crest = |fold: f64, feed: f64| fold.max(0.0).powi(2) * feed;
+            let (low, high) = (crest(1.0 - farthest, feed.0), crest(1.0 - nearest, feed.1));
+            sum = (sum.0 + low * f64::from(*weight), sum.1 + high * f64::from(*weight));
+            feed = ((low * feedback).min(1.0), (high * feedback).min(1.0));
+        }
+        (2.0 * sum.0 - 1.0, 2.0 * sum.1 - 1.0)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -18,6 +18,11 @@ pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
 pub(crate) const BOUND: f64 = 1.45;
 
+/// Bounds of the length of the gradient and of the greatest second derivative along any direction, by lattice coordinates:
+/// sums of the four corners' greatest contributions, each with the worst of gradients. True values are far smaller.
+pub(crate) const SLOPE_BOUND: f64 = 11.4;
+pub(crate) const CURVATURE_BOUND: f64 = 131.0;
+
 /// Scales the sum of corners so that the noise's standard deviation is about 0.33.
 const SCALE: f32 = 90.0 / 512.0;
 
@@ -163,6 +168,19 @@ pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed:
     (v, g, [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5)])
 }
 
+/// Lowest and highest noise of an octave within a distance of a skewed point (in the point's units). Conservative: from the
+/// value and gradient there, and what the derivatives can do at most on the way.
+pub(crate) fn range_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, f64) {
+    let [(ix, x), (iy, y), (iz, z)] =
+        [0, 1, 2].map(|axis| split(point_skewed[axis] * octave.frequency + octave.offset[axis]));
+    let (v, g) = value_gradient([ix, iy, iz], [x, y, z], octave.seed);
+    let (v, slope) = (f64::from(v), f64::from(dot(g, g)).sqrt());
+    let cells = distance * octave.frequency;
+    // A little more than exact arithmetic has it, for the rounding of f32.
+    let reach = ((slope + 0.5 * CURVATURE_BOUND * cells) * cells).min(SLOPE_BOUND * cells) + 1e-5;
+    ((v - reach).max(-BOUND), (v + reach).min(BOUND))
+}
+
 /// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.
 pub(crate) fn mix(state: u64) -> u64 {
     let mut z = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -230,5 +248,35 @@ mod tests {
         let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n as f64).sqrt();
         assert!(mean.abs() < 0.005, "mean {mean}");
         assert!((0.31..0.35).contains(&deviation), "deviation {deviation}");
+    }
+
+    /// The greatest that corners can add up to, over a grid of places in a simplex.
+    #[test]
+    fn bounds_hold_with_the_worst_of_gradients() {
+        let longest = 511.0 * 3.0_f64.sqrt() * f64::from(SCALE);
+        let (mut value, mut slope, mut curvature) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let n = 80;
+        for (i, j, k) in (0..=n).flat_map(|i| (0..=i).flat_map(move |j| (0..=j).map(move |k| (i, j, k)))) {
+            let (d, _) = corners([0; 3], [i, j, k].map(|w| w as f32 / n as f32), 0);
+            let sum = |of: &dyn Fn(f64, f64) -> f64| {
+                d.iter()
+                    .map(|d| {
+                        let square = f64::from(dot(*d, *d));
+                        of(square.sqrt(), f64::from(falloff(*d)))
+                    })
+                    .sum::<f64>()
+                    * longest
+            };
+            value = value.max(sum(&|r, w| w.powi(4) * r));
+            slope = slope.max(sum(&|r, w| w.powi(4).max((w.powi(4) - 8.0 * w.powi(3) * r * r).abs())));
+            curvature = curvature.max(sum(&|r, w| {
+                let across = 8.0 * w.powi(3) * r;
+                let along = (r * w * w * (24.0 * w - 48.0 * r * r)).abs().max(across);
+                along.hypot(across)
+            }));
+        }
+        for (found, bound) in [(value, BOUND), (slope, SLOPE_BOUND), (curvature, CURVATURE_BOUND)] {
+            assert!(found <= bound && found > 0.95 * bound, "{found} {bound}");
+        }
     }
 }
