@@ -122,6 +122,30 @@ fn layers_are_added_edited_and_masked() {
 }
 
 #[test]
+fn a_layer_is_dragged_to_another_place_in_one_step() {
+    let mut harness = editor(vec![]);
+    let names =
+        |harness: &Editor| -> Vec<String> { planet(harness).layers.iter().map(|layer| layer.name.clone()).collect() };
+    let before = names(&harness);
+    let steps = undo_len(&harness);
+    let row = |harness: &Editor, index: usize| harness.get_by_label(&format!("Layer {}", before[index])).rect();
+    let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(to);
+    harness.run_steps(2);
+    harness.drop_at(to);
+    harness.run_steps(3);
+    let mut expected = before.clone();
+    let moved = expected.remove(0);
+    expected.insert(2, moved);
+    assert_eq!(names(&harness), expected);
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Move layer".to_owned()));
+    send(&mut harness, Command::Undo);
+    assert_eq!(names(&harness), before);
+}
+
+#[test]
 fn a_stroke_on_the_biome_table_paints_cells_in_one_step() {
     let mut harness = editor(vec![]);
     click(&mut harness, "Biomes");

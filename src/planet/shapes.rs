@@ -60,6 +60,11 @@ impl Shape {
         stage: Stage::Field,
     };
 
+    /// A kind by its index, with its default parameters.
+    pub fn of_kind(index: usize) -> Option<Shape> {
+        Self::all().into_iter().nth(index)
+    }
+
     /// Takes over what both kinds have: parameters of the same name, and the size of the largest feature, which is the
     /// first parameter in kilometres of either.
     fn take_from(&mut self, before: &mut Shape) {
@@ -90,7 +95,7 @@ impl Choice for Shape {
     }
     /// Changes the kind and keeps what both kinds have.
     fn set_index(&mut self, index: usize) {
-        if let Some(mut kind) = Self::all().into_iter().nth(index).filter(|_| index != self.index()) {
+        if let Some(mut kind) = Self::of_kind(index).filter(|_| index != self.index()) {
             kind.take_from(self);
             *self = kind;
         }

@@ -1,12 +1,10 @@
 //! What is done to the list of layers as a whole. Names stay unique, and masks follow the layers they refer to.
 
-use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
 
 /// Adds a layer of a kind (an index into [`Shape::NAMES`]) behind `after`; gives its place, or None when there are too many.
 pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
-    let mut shape = Shape::default();
-    shape.set_index(kind);
+    let shape = Shape::of_kind(kind)?;
     let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));
     insert(planet, Layer { name, seed, shape, ..Layer::default() }, after)
 }
@@ -48,12 +46,22 @@ pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
 pub fn shift(planet: &mut Planet, index: usize, by: isize) -> usize {
     match index.checked_add_signed(by) {
         Some(to) if to < planet.layers.len() && index < planet.layers.len() => {
-            let layer = planet.layers.remove(index);
-            planet.layers.insert(to, layer);
-            to
+            let gap = if by > 0 { to + 1 } else { to };
+            move_to_gap(planet, index, gap)
         }
         _ => index,
     }
+}
+
+/// Moves a layer into the gap before the layer that stands at `gap` (or behind the last); gives its new place.
+pub fn move_to_gap(planet: &mut Planet, index: usize, gap: usize) -> usize {
+    if index >= planet.layers.len() || gap > planet.layers.len() {
+        return index;
+    }
+    let to = if gap > index { gap - 1 } else { gap };
+    let layer = planet.layers.remove(index);
+    planet.layers.insert(to, layer);
+    to
 }
 
 fn insert(planet: &mut Planet, layer: Layer, after: Option<usize>) -> Option<usize> {
@@ -76,6 +84,7 @@ fn unique_name(planet: &Planet, name: &str) -> String {
 mod tests {
     use super::*;
     use crate::planet::Mask;
+    use crate::planet::param::Choice;
 
     fn planet() -> Planet {
         let layer = |name: &str| Layer { name: name.to_owned(), ..Layer::default() };
@@ -114,5 +123,9 @@ mod tests {
         assert_eq!(shift(&mut planet, 0, 1), 1);
         assert_eq!(planet.layers[1].name, "A");
         assert_eq!(shift(&mut planet, 2, 1), 2);
+        let names = |planet: &Planet| planet.layers.iter().map(|layer| layer.name.clone()).collect::<String>();
+        assert_eq!((move_to_gap(&mut planet, 0, 3), names(&planet)), (2, "ACB".to_owned()));
+        assert_eq!((move_to_gap(&mut planet, 2, 0), names(&planet)), (0, "BAC".to_owned()));
+        assert_eq!((move_to_gap(&mut planet, 1, 2), names(&planet)), (1, "BAC".to_owned()));
     }
 }
