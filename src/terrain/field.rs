@@ -29,6 +29,15 @@ impl Field {
     /// Evaluates a landform at points, with gradients as points so far apart (as angles) can show them; with no spacing, values
     /// alone.
     pub(crate) fn new(landform: &Landform, simd: Simd, points: &Points, spacings_rad: &[f64]) -> Field {
+        Self::evaluate(landform, simd, points, spacings_rad, false)
+    }
+
+    /// The same for shading: values may lack what no spacing shows.
+    pub(crate) fn seen_only(landform: &Landform, simd: Simd, points: &Points, spacings_rad: &[f64]) -> Field {
+        Self::evaluate(landform, simd, points, spacings_rad, true)
+    }
+
+    fn evaluate(landform: &Landform, simd: Simd, points: &Points, spacings_rad: &[f64], seen_only: bool) -> Field {
         thread_local! {
             static SCRATCH: RefCell<Box<Scratch>> = RefCell::default();
         }
@@ -45,6 +54,7 @@ impl Field {
                     skewed: [&points.x[start..end], &points.y[start..end], &points.z[start..end]],
                     dirs: &points.dirs[start..end],
                     spacings_rad,
+                    seen_only,
                 };
                 landform.chunk(&chunk, scratch);
                 field.value.extend_from_slice(&scratch.sums.value[..end - start]);

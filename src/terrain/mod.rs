@@ -146,6 +146,18 @@ impl Terrain {
         self.layers.iter().map(|layer| layer.needed.then(|| Arc::new(make(&layer.landform)))).collect()
     }
 
+    /// Slopes (see [`tangent_slope`]) at unit directions, as points so far apart can show them; one list for each spacing.
+    pub(crate) fn slopes(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> [Vec<DVec3>; 2] {
+        let points = Points::new(dirs_planet);
+        let radius_m = self.planet.radius_m();
+        let fields = self.fields(&points, |landform| Field::seen_only(landform, self.simd, &points, &spacings_rad));
+        let heights = height::combine(&self.layers, radius_m, &fields, points.len(), 2, |_, _, _| {});
+        let slope = |band: usize, i: usize| {
+            tangent_slope(points.dirs[i], heights.gradients[band][i], radius_m + heights.height_m[i])
+        };
+        [0, 1].map(|band| (0..points.len()).map(|i| slope(band, i)).collect())
+    }
+
     fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {
         let points = Points::new(dirs_planet);
         let fields = self.fields(&points, |landform| Field::new(landform, self.simd, &points, &[]));

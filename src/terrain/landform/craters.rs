@@ -52,6 +52,9 @@ impl Evaluate for Craters {
         let mut places = Places::default();
         for Weighted { octave, weight } in &self.octaves {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
             find_places(chunk.simd, chunk.skewed, octave, &mut places);
             dig(chunk.simd, n, &places, octave, self.density, craters);
             sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);

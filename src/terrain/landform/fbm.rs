@@ -46,6 +46,9 @@ impl Evaluate for Fbm {
         let Scratch { sums, noise, .. } = scratch;
         for Weighted { octave, weight } in &self.octaves {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
             } else {

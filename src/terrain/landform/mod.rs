@@ -90,7 +90,7 @@ trait Evaluate {
 
     /// Adds its values at the chunk's points to `scratch.sums.value` (all zero before), and to each of `scratch.sums.gradients`
     /// what points as far apart as `chunk.spacings_rad` can show of its gradient. All else in `scratch` is free to use, with
-    /// anything in it. If `spacings_rad` is empty, values alone are wanted; they must have the same bits.
+    /// anything in it. What `chunk.skips` may be left out, with all that is finer. If `spacings_rad` is empty, values alone are wanted; they must have the same bits.
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch);
 }
 
@@ -107,11 +107,18 @@ pub(crate) struct Chunk<'a> {
     pub(crate) dirs: &'a [DVec3],
     /// The spacings of points (as angles) for which gradients are wanted, at most [`MAX_BANDS`]; 0 wants every octave.
     pub(crate) spacings_rad: &'a [f64],
+    /// Whether values may lack what is seen in none of the bands: for shading, which has no use for heights.
+    pub(crate) seen_only: bool,
 }
 
 impl Chunk<'_> {
     pub(crate) fn len(&self) -> usize {
         self.dirs.len()
+    }
+
+    /// Whether something with these fades can be left out.
+    pub(crate) fn skips(&self, fades: &Fades) -> bool {
+        self.seen_only && fades.is_unseen()
     }
 
     /// What each of the spacings can show of features so large (as an angle): all of it from `least` points for each feature

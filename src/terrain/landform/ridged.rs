@@ -60,6 +60,9 @@ impl Evaluate for Ridged {
         feed.fill(n, 1.0);
         for Weighted { octave, weight } in &self.octaves {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
             // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
