@@ -4,7 +4,7 @@
 
 use super::field::Field;
 use super::landform::Landform;
-use crate::planet::{Blend, Layer, Planet};
+use crate::planet::{Blend, Layer, Mask, Planet};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -60,6 +60,7 @@ pub(crate) fn compile(planet: &Planet) -> Vec<CompiledLayer> {
                 .masks
                 .iter()
                 .filter_map(|mask| {
+                    let Mask::Layer(mask) = mask else { return None };
                     let layer = index_of(&mask.layer)?;
                     Some(CompiledMask { layer, from: mask.from, to: mask.to, invert: mask.invert })
                 })
@@ -160,6 +161,7 @@ pub(crate) fn combine(
                 Blend::Add => height.plus(output),
                 Blend::Subtract => height.minus(output),
                 Blend::Multiply => height.times(noise),
+                Blend::SmoothMax | Blend::SmoothMin => height,
                 Blend::Max if output.v > height.v => output,
                 Blend::Min if output.v < height.v => output,
                 Blend::Max | Blend::Min => height,
@@ -197,6 +199,7 @@ pub(crate) fn bounds_m(layers: &[CompiledLayer], radius_m: f64) -> (f64, f64) {
             Blend::Max => (lo.max(y_lo), hi.max(y_hi)),
             Blend::Min => (lo.min(y_lo), hi.min(y_hi)),
             Blend::Replace => (y_lo, y_hi),
+            Blend::SmoothMax | Blend::SmoothMin => (lo, hi),
         };
         // A mask can leave what was there.
         (lo, hi) = if layer.masks.is_empty() { (new_lo, new_hi) } else { (lo.min(new_lo), hi.max(new_hi)) };
