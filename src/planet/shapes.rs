@@ -1,36 +1,19 @@
 //! The kinds of terrain layer and the parameters of each. How a kind is evaluated stands in the file of the same name in
 //! `terrain/landform`.
 //!
-//! A new kind: its parameters here, one line in the list of [`Shape`], one file in `terrain/landform`. The list of names,
+//! A new kind: its parameters here, one line in the list of kinds, one file in `terrain/landform`. The list of names,
 //! the panels, the file and the messages follow from these.
 
-use super::param::{
-    Choice, Domain, Param, ParamPath, Params, Stage, Unit, ValueMut, Visit, count, linear, log, params,
-};
-use serde::{Deserialize, Serialize};
+use super::kinds::kinds;
+use super::param::{Stage, Unit, count, linear, log, params};
 
-/// Writes the enum of all kinds from their list.
+/// Writes the enum from the list of kinds, each of which is also the name of its parameters.
 macro_rules! shapes {
     ($( $(#[doc = $doc:literal])+ $kind:ident, )+) => {
-        /// The kind of noise of a layer, with the parameters of that kind.
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-        pub enum Shape { $( $(#[doc = $doc])+ $kind($kind), )+ }
-
-        impl Shape {
-            /// The names of the kinds, in the order of [`Choice::index`].
-            pub const NAMES: &'static [&'static str] = &[$( stringify!($kind), )+];
-
-            /// What each kind is, in the same order.
-            pub const DOCS: &'static [&'static str] = &[$( concat!($($doc),+).trim_ascii_start(), )+];
-
-            /// One of each kind, with its default parameters.
-            pub fn all() -> Vec<Shape> {
-                vec![$( Shape::$kind($kind::default()), )+]
-            }
-
-            fn params(&mut self) -> &mut dyn Params {
-                match self { $( Shape::$kind(shape) => shape, )+ }
-            }
+        kinds! {
+            /// The kind of terrain that this layer is made of.
+            pub enum Shape: "shape", "Kind", Stage::Field;
+            $( $(#[doc = $doc])+ $kind($kind), )+
         }
     };
 }
@@ -42,71 +25,8 @@ shapes! {
     Ridged,
     /// Impact craters of many sizes.
     Craters,
-}
-
-impl Default for Shape {
-    fn default() -> Self {
-        Shape::Fbm(Fbm::default())
-    }
-}
-
-impl Shape {
-    const KIND: Param = Param {
-        name: "shape",
-        label: "Kind",
-        doc: "The kind of noise this layer is made of.",
-        unit: Unit::None,
-        domain: Domain::Choice,
-        stage: Stage::Field,
-    };
-
-    /// A kind by its index, with its default parameters.
-    pub fn of_kind(index: usize) -> Option<Shape> {
-        Self::all().into_iter().nth(index)
-    }
-
-    /// Takes over what both kinds have: parameters of the same name, and the size of the largest feature, which is the
-    /// first parameter in kilometres of either.
-    fn take_from(&mut self, before: &mut Shape) {
-        let mut old = Vec::new();
-        before.params().each_param(&mut ParamPath::default(), &mut |_, param, value| {
-            old.push((param.name, param.unit, value.get()));
-        });
-        let old_size = old.iter().find(|(_, unit, _)| *unit == Unit::Kilometres).map(|(_, _, value)| value.clone());
-        let mut size_seen = false;
-        self.params().each_param(&mut ParamPath::default(), &mut |_, param, mut value| {
-            let is_size =
-                param.unit == Unit::Kilometres && !std::mem::replace(&mut size_seen, param.unit == Unit::Kilometres);
-            let same = old.iter().find(|(name, unit, _)| *name == param.name && *unit == param.unit);
-            let new = if is_size { old_size.as_ref() } else { same.map(|(_, _, value)| value) };
-            if let Some(new) = new.filter(|new| new.problem(param).is_none()) {
-                value.set(new);
-            }
-        });
-    }
-}
-
-impl Choice for Shape {
-    fn names(&self) -> &'static [&'static str] {
-        Self::NAMES
-    }
-    fn index(&self) -> usize {
-        Self::all().iter().position(|kind| std::mem::discriminant(kind) == std::mem::discriminant(self)).unwrap_or(0)
-    }
-    /// Changes the kind and keeps what both kinds have.
-    fn set_index(&mut self, index: usize) {
-        if let Some(mut kind) = Self::of_kind(index).filter(|_| index != self.index()) {
-            kind.take_from(self);
-            *self = kind;
-        }
-    }
-}
-
-impl Params for Shape {
-    fn each_param(&mut self, path: &mut ParamPath, visit: &mut Visit<'_>) {
-        visit(path, &Self::KIND, ValueMut::Choice(self));
-        self.params().each_param(path, visit);
-    }
+    /// Steps cut into the ground that the layers before have made.
+    Terraces,
 }
 
 params! {
@@ -154,5 +74,21 @@ params! {
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// Share of the ground that has been hit, for each size.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Terraces: the height made by the layers before is cut into flat treads with steep risers between them, one step for each
+    /// `amplitude_m`. The layer's noise is the way from that height to its step, -0.5 to 0.5, so that it belongs with the blend
+    /// Add. Masks on it look at the noise of its waviness.
+    pub struct Terraces {
+        /// How flat the treads are and how steep the risers: 0 leaves the ground as it is, 1 makes stairs.
+        sharpness: f64 = 0.8, "Sharpness", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// How far noise raises and lowers the steps, as a share of a step.
+        waviness: f64 = 0.5, "Waviness", Unit::None, linear(0.0, 4.0), Stage::Height;
+        /// Distance from crest to crest of that noise's coarsest octave.
+        wavelength_km: f64 = 30.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves that noise has; each one more halves the smallest feature.
+        octaves: u32 = 4, "Octaves", Unit::None, count(1, 24), Stage::Field;
     }
 }

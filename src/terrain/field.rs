@@ -21,8 +21,8 @@ pub(crate) const EXACT: &[f64] = &[0.0];
 pub(crate) struct Field {
     /// The noise, about -1 to 1.
     pub(crate) value: Vec<f64>,
-    /// Gradients by the unit direction, one for each spacing asked for.
-    pub(crate) gradients: Vec<Components>,
+    /// Gradients by the unit direction, each with the spacing of points that can show it.
+    gradients: Vec<(f64, Components)>,
 }
 
 impl Field {
@@ -45,7 +45,7 @@ impl Field {
             let n = points.len();
             let mut field = Field {
                 value: Vec::with_capacity(n),
-                gradients: spacings_rad.iter().map(|_| [(); 3].map(|()| Vec::with_capacity(n))).collect(),
+                gradients: spacings_rad.iter().map(|&s| (s, [(); 3].map(|()| Vec::with_capacity(n)))).collect(),
             };
             for start in (0..n).step_by(CHUNK) {
                 let end = (start + CHUNK).min(n);
@@ -58,7 +58,7 @@ impl Field {
                 };
                 landform.chunk(&chunk, scratch);
                 field.value.extend_from_slice(&scratch.sums.value[..end - start]);
-                for (components, lanes) in field.gradients.iter_mut().zip(&scratch.sums.gradients) {
+                for ((_, components), lanes) in field.gradients.iter_mut().zip(&scratch.sums.gradients) {
                     for (component, lane) in components.iter_mut().zip(lanes) {
                         component.extend_from_slice(&lane[..end - start]);
                     }
@@ -66,5 +66,20 @@ impl Field {
             }
             field
         })
+    }
+
+    /// The gradient that points so far apart can show, if it was asked for.
+    pub(crate) fn gradient(&self, spacing_rad: f64) -> Option<&Components> {
+        self.gradients.iter().find(|(spacing, _)| *spacing == spacing_rad).map(|(_, components)| components)
+    }
+
+    /// Whether it has gradients for all these spacings.
+    pub(crate) fn has(&self, spacings_rad: &[f64]) -> bool {
+        spacings_rad.iter().all(|spacing| self.gradient(*spacing).is_some())
+    }
+
+    /// Resident size.
+    pub(crate) fn bytes(&self) -> usize {
+        self.value.len() * (size_of::<f64>() + self.gradients.len() * size_of::<[f32; 3]>())
     }
 }

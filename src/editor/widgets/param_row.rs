@@ -119,6 +119,8 @@ fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
         Value::Triple([r, g, b]) => format!("({r}, {g}, {b}){unit}"),
         Value::Text(v) => v.clone(),
         Value::Letter(v) => v.to_string(),
+        Value::Curve(points) if points.is_empty() => "no curve".to_owned(),
+        Value::Curve(points) => points.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(", "),
         Value::Choice(index) => match place {
             ValueMut::Choice(choice) => choice.names().get(*index).copied().unwrap_or_default().to_owned(),
             _ => index.to_string(),
