@@ -3,19 +3,27 @@
 //! - `fbm`: octaves summed
 //! - `ridged`: octaves folded into crests
 //! - `craters`: bowls and rims of many sizes
+//! - `billow`: octaves folded into rounded hills
+//! - `damped`: octaves weaker where the ground is steep
+//! - `warped`: octaves at displaced points
 //! - `octaves`: what most kinds are made of
+//! - `warp`: displaced points
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
 //! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
 mod octaves;
+mod warp;
+#[cfg(test)]
+mod tests;
 
 use super::jet::Jets;
 use super::noise::{CHUNK, Lane, Noise, Points3};
 use super::simd::{Simd, for_each_simd};
 use crate::planet::Shape;
 use glam::DVec3;
+use warp::Displaced;
 
 /// Lists the kinds: `Kind in file`.
 macro_rules! landforms {
@@ -44,6 +52,9 @@ landforms! {
     Fbm in fbm,
     Ridged in ridged,
     Craters in craters,
+    Billow in billow,
+    Damped in damped,
+    Warped in warped,
 }
 
 impl Landform {
@@ -142,6 +153,18 @@ pub(crate) struct Scratch {
     pub(crate) sums: Sums,
     noise: Noise,
     jets: [Jets; 8],
+    displaced: Displaced,
+}
+
+/// The coordinates of the chunk's directions as numbers with gradients.
+fn place(chunk: &Chunk<'_>, dir: [&mut Jets; 3]) {
+    for (axis, jets) in dir.into_iter().enumerate() {
+        jets.fill(chunk.len(), 0.0);
+        jets.gradient[axis][..chunk.len()].fill(1.0);
+        for (value, dir) in jets.value.iter_mut().zip(chunk.dirs) {
+            *value = dir[axis] as f32;
+        }
+    }
 }
 
 /// Sums of one chunk. Values are summed in f64: it costs little and keeps millimetres of an 8 km mountain.
