@@ -175,7 +175,7 @@ params! {
 
 params! {
     /// Slope-damped fractal noise (Quilez): an octave counts less where those before it have made the ground steep, as if
-    /// rain had smoothed the slopes. About -1 to 1.
+    /// rain had worn the slopes down into wide, smooth valleys below rough peaks. About -1 to 1; damping lowers the mean.
     pub struct Damped {
         /// Distance from crest to crest of the coarsest octave.
         wavelength_km: f64 = 400.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -186,7 +186,7 @@ params! {
         /// Fineness of each octave against the one before.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// How strongly slope smooths: 0 is plain fractal noise.
-        damping: f64 = 0.5, "Damping", Unit::None, linear(0.0, 4.0), Stage::Field;
+        damping: f64 = 0.12, "Damping", Unit::None, log(0.0, 4.0), Stage::Field;
     }
 }
 

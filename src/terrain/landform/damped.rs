@@ -1,5 +1,6 @@
 //! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave divided by `1 + damping * slope^2`, where the slope is
-//! that of the octaves up to it, undamped.
+//! that of the octaves up to it, undamped. Octaves are raised by 1 first, so that damping pulls slopes down: peaks stand out,
+//! valleys widen.
 //!
 //! Slopes are measured along the ground, in coarsest wavelengths, so that `damping` means the same on every planet. Where the
 //! gradient is wanted too, second derivatives of the noise make it exact.
@@ -57,6 +58,8 @@ impl Evaluate for Damped {
             }
             sums.add(chunk, &damped.value, &damped.gradient, *weight, &fades);
         }
+        // Raised octaves sum to about 0..2.
+        sums.map(n, |v| (v - 1.0, 1.0));
     }
 }
 
@@ -83,7 +86,7 @@ fn damp_body<R: Real>(
         z.store(sz, i);
         let upward = x * R::load(px, i) + y * R::load(py, i) + z * R::load(pz, i);
         let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
-        (R::noise(noise, i) * along.scale(damping).plus(1.0).recip()).store(damped, i);
+        (R::noise(noise, i).plus(1.0) * along.scale(damping).plus(1.0).recip()).store(damped, i);
     }
 }
 for_each_simd!(fn damp_values(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<f32>);

@@ -14,9 +14,9 @@
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
 mod octaves;
-mod warp;
 #[cfg(test)]
 mod tests;
+mod warp;
 
 use super::jet::Jets;
 use super::noise::{CHUNK, Lane, Noise, Points3};
@@ -189,11 +189,15 @@ impl Sums {
 
     /// Adds numbers and, as far as they are seen, their gradients, all times a weight.
     fn add(&mut self, chunk: &Chunk<'_>, value: &Lane<f32>, gradient: &[Lane<f32>; 3], weight: f32, fades: &Fades) {
-        let n = chunk.len();
-        add_value(chunk.simd, n, value, weight, &mut self.value);
+        add_value(chunk.simd, chunk.len(), value, weight, &mut self.value);
+        self.add_gradients(chunk, gradient, weight, fades);
+    }
+
+    /// Adds gradients alone, as far as they are seen, times a weight.
+    fn add_gradients(&mut self, chunk: &Chunk<'_>, gradient: &[Lane<f32>; 3], weight: f32, fades: &Fades) {
         for (sum, share) in self.gradients.iter_mut().zip(fades.0) {
             if share > 0.0 {
-                add_gradient(chunk.simd, n, gradient, weight * share, sum);
+                add_gradient(chunk.simd, chunk.len(), gradient, weight * share, sum);
             }
         }
     }

@@ -3,11 +3,15 @@
 //! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian, which only
 //! turns gradients, in f32.
 
-use super::fbm::LEAST_POINTS;
+use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
 use super::{Chunk, Sums, add_gradient};
 use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
 use crate::terrain::simd::for_each_simd;
+
+/// So many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32 is
+/// half a millimetre of 4 km.
+const PRECISE: usize = 2;
 
 /// Root mean square of the noise's derivative along one axis of its lattice.
 const DERIVATIVE: f64 = 1.2;
@@ -48,13 +52,38 @@ impl Warp {
     }
 
     /// By how much features of the warped noise are typically squeezed.
-    pub(super) fn squeeze(&self) -> f64 {
+    fn squeeze(&self) -> f64 {
         let shear = |o: &Weighted| self.reach * f64::from(o.weight) * o.octave.frequency * DERIVATIVE;
         1.0 + self.octaves.iter().map(|o| shear(o) * shear(o)).sum::<f64>().sqrt()
     }
 
+    /// Adds octaves of noise at the displaced points of a chunk.
+    pub(super) fn add_octaves(
+        &self,
+        octaves: &[Weighted],
+        chunk: &Chunk<'_>,
+        noise: &mut Noise,
+        displaced: &mut Displaced,
+        sums: &mut Sums,
+    ) {
+        self.displace(chunk, noise, displaced);
+        let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
+        let least_points = LEAST_POINTS * self.squeeze();
+        let (coarse, fine) = octaves.split_at(PRECISE.min(octaves.len()));
+        for Weighted { octave, weight } in coarse {
+            precise::add(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
+            let fades = chunk.fades(1.0 / octave.frequency, least_points);
+            if !fades.is_unseen() {
+                noise.gradients(chunk.simd, there.skewed, octave);
+                sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
+            }
+        }
+        add_octaves(fine, &there, least_points, noise, sums);
+        displaced.pull_back(chunk, sums);
+    }
+
     /// Displaces the points of a chunk.
-    pub(super) fn displace(&self, chunk: &Chunk<'_>, noise: &mut Noise, displaced: &mut Displaced) {
+    fn displace(&self, chunk: &Chunk<'_>, noise: &mut Noise, displaced: &mut Displaced) {
         let n = chunk.len();
         displaced.skewed.0 = [[0.0; CHUNK]; 3];
         displaced.jacobians.resize(chunk.spacings_rad.len(), [[[0.0; CHUNK]; 3]; 3]);
@@ -85,12 +114,12 @@ impl Warp {
 
 impl Displaced {
     /// The displaced points, of which there are `n`.
-    pub(super) fn points(&self, n: usize) -> Points3<'_> {
+    fn points(&self, n: usize) -> Points3<'_> {
         self.skewed.0.each_ref().map(|lane| &lane[..n])
     }
 
     /// Turns gradients by the displaced points into gradients by the points.
-    pub(super) fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
+    fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
         for (jacobian, gradient) in self.jacobians.iter().zip(&mut sums.gradients) {
             multiply(chunk.simd, chunk.len(), jacobian, gradient);
         }

@@ -1,6 +1,5 @@
 //! Fractal noise at displaced points: swirls and folds.
 
-use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
 use super::warp::Warp;
 use super::{Chunk, Evaluate, Scratch};
@@ -35,10 +34,7 @@ impl Evaluate for Warped {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, displaced, .. } = scratch;
-        self.warp.displace(chunk, noise, displaced);
-        let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
-        add_octaves(&self.octaves, &there, LEAST_POINTS * self.warp.squeeze(), noise, sums);
-        displaced.pull_back(chunk, sums);
+        self.warp.add_octaves(&self.octaves, chunk, noise, displaced, sums);
     }
 }
 
@@ -47,7 +43,6 @@ mod tests {
     use super::super::Landform;
     use super::*;
     use crate::terrain::field::Field;
-    use crate::terrain::noise::precise;
     use crate::terrain::points::Points;
     use crate::terrain::simd::Simd;
     use glam::DVec3;
@@ -65,28 +60,35 @@ mod tests {
             dirs: &points.dirs,
             spacings_rad: &[],
         };
-        let Scratch { noise, displaced, .. } = &mut Scratch::default();
-        warped.warp.displace(&chunk, noise, displaced);
-        let mut precise = [[0.0; noise::CHUNK]];
-        for Weighted { octave, weight } in &warped.octaves {
-            precise::add(chunk.simd, displaced.points(count), octave, f64::from(*weight), &mut precise);
+        // Every octave at displaced points, as the first of a series is.
+        let mut exact = [0.0; noise::CHUNK];
+        for octave in &warped.octaves {
+            let mut scratch = Box::<Scratch>::default();
+            let Scratch { sums, noise, displaced, .. } = &mut *scratch;
+            sums.restart(&chunk);
+            warped.warp.add_octaves(std::slice::from_ref(octave), &chunk, noise, displaced, sums);
+            for (exact, v) in exact.iter_mut().zip(&sums.value) {
+                *exact += v;
+            }
         }
         let field = Field::new(&Landform::Warped(warped), Simd::detect(), &points, &[]);
-        field.value.iter().zip(precise[0]).map(|(v, exact)| (v * 4000.0, exact * 4000.0)).collect()
+        field.value.iter().zip(exact).map(|(v, exact)| (v * 4000.0, exact * 4000.0)).collect()
     }
 
     #[test]
     fn within_a_millimetre_of_f64_and_smooth_underfoot() {
+        let mut worst_m = 0.0_f64;
         for i in 0..60 {
             let start = DVec3::new(0.1 * f64::from(i) - 3.0, 0.7, 1.0 - 0.03 * f64::from(i));
             for (height_m, exact_m) in walk(start, 0.1, 256) {
-                assert!((height_m - exact_m).abs() < 1e-3, "{height_m} {exact_m}");
+                assert!((height_m - exact_m).abs() < 5e-4, "{height_m} {exact_m}");
             }
             let steps = walk(start, 0.01, 256);
             for three in steps.windows(3) {
                 let bend_m = three[0].0 - 2.0 * three[1].0 + three[2].0;
-                assert!(bend_m.abs() < 1e-3, "{bend_m}");
+                worst_m = worst_m.max(bend_m.abs());
             }
         }
+         assert!(worst_m < 7e-4, "{worst_m}");
     }
 }

@@ -8,9 +8,9 @@ use super::batch::{CHUNK, Lane, Points3};
 use super::{Octave, PRIME, ROUNDER, SCALE, scramble};
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// Adds to `sums` the noise of an octave at skewed points, times a weight.
-pub(crate) fn add(simd: Simd, skewed: Points3<'_>, octave: &Octave, weight: f64, sum: &mut [Lane<f64>; 1]) {
-    add_one(simd, skewed, octave, [octave.seed], weight, sum);
+/// Adds to `sum` the noise of an octave at skewed points, times a weight.
+pub(crate) fn add(simd: Simd, skewed: Points3<'_>, octave: &Octave, weight: f64, sum: &mut Lane<f64>) {
+    add_one(simd, skewed, octave, [octave.seed], weight, std::array::from_mut(sum));
 }
 
 /// Adds to `sums` three noises on the lattice of an octave at skewed points, times a weight; see [`components`].
@@ -117,8 +117,8 @@ mod tests {
             add_vector(simd, skewed, &octave, 2.0, &mut same);
             assert_eq!(same, sums, "{}", simd.name());
         }
-        let mut first = [[1.0; CHUNK]];
+        let mut first = [1.0; CHUNK];
         add(Simd::detect(), skewed, &octave, 2.0, &mut first);
-        assert_eq!(first[0], sums[0]);
+        assert_eq!(first, sums[0]);
     }
 }
