@@ -48,6 +48,8 @@ shapes! {
     Damped,
     /// Swirling, folded ground: octaves summed at points displaced by other noise.
     Warped,
+    /// Continents and oceans with shelves, slopes and abyssal plains: the base of most planets.
+    Continents,
 }
 
 impl Default for Shape {
@@ -208,5 +210,26 @@ params! {
         warp_wavelength_km: f64 = 1000.0, "Warp wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
         /// How many octaves the displacement has: 1 bends, more curl and fray.
         warp_octaves: u32 = 3, "Warp octaves", Unit::None, count(1, 8), Stage::Field;
+    }
+}
+
+params! {
+    /// Continents and oceans: warped fractal noise, put through a profile with shares of the surface as on the Earth. -1 is the
+    /// abyssal plain, 0 the coast; a continental slope leads up to the shelf, a coastal plain to the interior, up to 1.
+    pub struct Continents {
+        /// Size of the continents.
+        wavelength_km: f64 = 5500.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
+        octaves: u32 = 14, "Octaves", Unit::None, count(1, 24), Stage::Field;
+        /// Strength of each octave against the one before: higher frays the coasts and scatters islands.
+        gain: f64 = 0.56, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// Displacement of the coasts against the wavelength: 0 is blobs, more draws out peninsulas, gulfs and straits.
+        warp: f64 = 0.3, "Warp", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// Share of the surface that lies above 0.
+        land: f64 = 0.32, "Land", Unit::None, linear(0.02, 0.98), Stage::Field;
+        /// Share of the sea floor that is shallow shelf.
+        shelf: f64 = 0.12, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
     }
 }

@@ -6,13 +6,16 @@
 //! - `billow`: octaves folded into rounded hills
 //! - `damped`: octaves weaker where the ground is steep
 //! - `warped`: octaves at displaced points
+//! - `continents`: octaves at displaced points, put through a profile of land and sea floor
 //! - `octaves`: what most kinds are made of
 //! - `warp`: displaced points
+//! - `curve`: a smooth curve through knots
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
 //! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
+mod curve;
 mod octaves;
 #[cfg(test)]
 mod tests;
@@ -55,6 +58,7 @@ landforms! {
     Billow in billow,
     Damped in damped,
     Warped in warped,
+    Continents in continents,
 }
 
 impl Landform {
