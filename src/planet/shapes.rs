@@ -27,6 +27,14 @@ shapes! {
     Craters,
     /// Steps cut into the ground that the layers before have made.
     Terraces,
+    /// Rounded hills between creased valleys: octaves of folded noise.
+    Billow,
+    /// Smooth valleys and rough peaks: octaves that count less where the ground is steep already.
+    Damped,
+    /// Swirling, folded ground: octaves summed at points displaced by other noise.
+    Warped,
+    /// Continents and oceans with shelves, slopes and abyssal plains: the base of most planets.
+    Continents,
 }
 
 params! {
@@ -90,5 +98,79 @@ params! {
         wavelength_km: f64 = 30.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
         /// How many octaves that noise has; each one more halves the smallest feature.
         octaves: u32 = 4, "Octaves", Unit::None, count(1, 24), Stage::Field;
+    }
+}
+
+params! {
+    /// Billow noise: each octave folded at zero, the other way round than `Ridged`, so that hills are round and the valleys
+    /// between them creases. From -1 (valleys) to 1 (tops).
+    pub struct Billow {
+        /// Distance between neighbouring hills of the coarsest octave.
+        wavelength_km: f64 = 100.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
+        octaves: u32 = 8, "Octaves", Unit::None, count(1, 24), Stage::Field;
+        /// Strength of each octave against the one before: higher is rougher.
+        gain: f64 = 0.4, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Slope-damped fractal noise (Quilez): an octave counts less where those before it have made the ground steep, as if
+    /// rain had worn the slopes down into wide, smooth valleys below rough peaks. About -1 to 1; damping lowers the mean.
+    pub struct Damped {
+        /// Distance from crest to crest of the coarsest octave.
+        wavelength_km: f64 = 400.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
+        octaves: u32 = 12, "Octaves", Unit::None, count(1, 24), Stage::Field;
+        /// Strength of each octave against the one before: higher is rougher.
+        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// How strongly slope smooths: 0 is plain fractal noise.
+        damping: f64 = 0.12, "Damping", Unit::None, log(0.0, 4.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Fractal noise at points displaced by another fractal noise, which draws its features out into swirls and folds. About
+    /// -1 to 1.
+    pub struct Warped {
+        /// Distance from crest to crest of the coarsest octave.
+        wavelength_km: f64 = 1000.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
+        octaves: u32 = 12, "Octaves", Unit::None, count(1, 24), Stage::Field;
+        /// Strength of each octave against the one before: higher is rougher.
+        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// How far points are displaced.
+        warp_km: f64 = 300.0, "Warp", Unit::Kilometres, log(0.0, 100_000.0), Stage::Field;
+        /// Distance over which the displacement changes.
+        warp_wavelength_km: f64 = 1000.0, "Warp wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves the displacement has: 1 bends, more curl and fray.
+        warp_octaves: u32 = 3, "Warp octaves", Unit::None, count(1, 8), Stage::Field;
+    }
+}
+
+params! {
+    /// Continents and oceans: warped fractal noise, put through a profile with shares of the surface as on the Earth. -1 is the
+    /// abyssal plain, 0 the coast; a continental slope leads up to the shelf, a coastal plain to the interior, up to 1.
+    pub struct Continents {
+        /// Size of the continents.
+        wavelength_km: f64 = 5500.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
+        octaves: u32 = 14, "Octaves", Unit::None, count(1, 24), Stage::Field;
+        /// Strength of each octave against the one before: higher frays the coasts and scatters islands.
+        gain: f64 = 0.56, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// Displacement of the coasts against the wavelength: 0 is blobs, more draws out peninsulas, gulfs and straits.
+        warp: f64 = 0.3, "Warp", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// Share of the surface that lies above 0.
+        land: f64 = 0.32, "Land", Unit::None, linear(0.02, 0.98), Stage::Field;
+        /// Share of the sea floor that is shallow shelf.
+        shelf: f64 = 0.12, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
     }
 }

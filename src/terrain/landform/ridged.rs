@@ -55,7 +55,7 @@ impl Evaluate for Ridged {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [crest, feed, ..] } = scratch;
+        let Scratch { sums, noise, jets: [crest, feed, ..], .. } = scratch;
         let n = chunk.len();
         feed.fill(n, 1.0);
         for Weighted { octave, weight } in &self.octaves {

@@ -12,6 +12,7 @@
 //! everywhere.
 
 mod batch;
+pub(crate) mod precise;
 
 pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
 
