@@ -4,12 +4,17 @@
 //! - `ridged`: octaves folded into crests
 //! - `craters`: bowls and rims of many sizes
 //! - `octaves`: what most kinds are made of
+//! - `places`: cells of a lattice around points, for kinds that scatter things
+//! - `check`: what every kind must hold, for tests
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
 //! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
+#[cfg(test)]
+mod check;
 mod octaves;
+mod places;
 
 use super::jet::Jets;
 use super::noise::{CHUNK, Lane, Noise, Points3};
