@@ -42,6 +42,8 @@ shapes! {
     Ridged,
     /// Impact craters of many sizes.
     Craters,
+    /// Dunes: crests across the wind, gentle before it and steep behind.
+    Dunes,
 }
 
 impl Default for Shape {
@@ -149,5 +151,25 @@ params! {
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// Share of the ground that has been hit, for each size.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Dunes: crests that stand across the wind, fork and end as real ones do, from -1 (trough) to 1 (crest).
+    pub struct Dunes {
+        /// Distance from crest to crest of the largest dunes.
+        wavelength_km: f64 = 1.5, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many sizes of dunes ride on one another.
+        octaves: u32 = 2, "Octaves", Unit::None, count(1, 8), Stage::Field;
+        /// Height of each size against the one before.
+        gain: f64 = 0.2, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Smallness of each size against the one before.
+        lacunarity: f64 = 4.0, "Lacunarity", Unit::None, linear(1.5, 10.0), Stage::Field;
+        /// Heading towards which the wind blows: 0 is north, 90 east.
+        wind_deg: f64 = 90.0, "Wind", Unit::Degrees, linear(-180.0, 360.0), Stage::Field;
+        /// How much steeper the lee is than the side before the wind: 0 is as steep, 1 breaks off at a sharp crest.
+        asymmetry: f64 = 0.8, "Asymmetry", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How far the crests bend to and fro.
+        waviness: f64 = 0.5, "Waviness", Unit::None, linear(0.0, 2.0), Stage::Field;
     }
 }

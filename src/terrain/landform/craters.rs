@@ -6,7 +6,7 @@
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
-use super::places::{Places, nearer_side, unit};
+use super::places::{CORNERS, Places, neighbour, unit};
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
@@ -66,17 +66,17 @@ impl Evaluate for Craters {
     }
 }
 
-/// The eight cells around a point: its own, and the nearer neighbour along each axis or not.
-const CORNERS: [[u32; 3]; 8] =
-    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
-
 /// Adds the craters of one cell of the eight: one loop for each cell, as the compiler makes vectors of innermost loops alone.
 #[inline(always)]
 fn dig_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], seed: u32, density: f32, craters: &mut Jets) {
-    let ([ix, iy, iz], [fx, fy, fz], [dx, dy, dz]) = (&places.cell, &places.fraction, &places.dir);
     for i in 0..n.min(CHUNK) {
-        let crater =
-            crater::<R>(corner, [ix[i], iy[i], iz[i]], [fx[i], fy[i], fz[i]], [dx[i], dy[i], dz[i]], seed, density);
+        let (cell, step) = neighbour(places, corner, i);
+        let random = noise::cell_hash(cell, seed);
+        let jitter = |bits: u32| 0.3 + 0.4 * unit(bits);
+        let towards = |axis: usize, bits: u32| step[axis] + jitter(bits) - places.fraction[axis][i];
+        let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
+        let dir = [places.dir[0][i], places.dir[1][i], places.dir[2][i]];
+        let crater = crater::<R>(to, dir, noise::scramble(random), density);
         (R::load(craters, i) + crater).store(craters, i);
     }
 }
@@ -96,27 +96,12 @@ fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets) {
 for_each_simd!(fn settle_values(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<f32>);
 for_each_simd!(fn settle_gradients(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<Jet>);
 
-/// Height (-1, the floor of the largest, to [`RIM`]) and gradient by the lattice coordinates, of the crater of one of the
-/// [`CORNERS`] around a place in a cell. `dir` is the point's unit direction; `density` the share of cells that hold a crater.
+/// Height (-1, the floor of the largest, to [`RIM`]) and gradient by the lattice coordinates of a crater whose centre lies
+/// `to` from a point with unit direction `dir`. `random` decides its size, and with `density`, the share of cells that hold
+/// a crater, whether it is there.
 #[inline(always)]
-fn crater<R: Real>(
-    corner: [u32; 3],
-    cell: [u32; 3],
-    place: [f32; 3],
-    dir: [f32; 3],
-    seed: u32,
-    density: f32,
-) -> R {
-    let (sx, sy, sz) = (nearer_side(place[0]), nearer_side(place[1]), nearer_side(place[2]));
-    let sides = [sx, sy, sz];
-    let at = |axis: usize| cell[axis].wrapping_add(sides[axis].0.wrapping_mul(corner[axis]));
-    let random = noise::cell_hash([at(0), at(1), at(2)], seed);
-    let jitter = |bits: u32| 0.3 + 0.4 * unit(bits);
-    let towards =
-        |axis: usize, bits: u32| sides[axis].1 * corner[axis] as f32 + jitter(bits) - place[axis];
-    let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
-    let more = noise::scramble(random);
-    let size = unit(more >> 10);
+fn crater<R: Real>(to: [f32; 3], dir: [f32; 3], random: u32, density: f32) -> R {
+    let size = unit(random >> 10);
     let radius = RADIUS * (0.3 + 0.7 * size * size);
     let off = to[0] * dir[0] + to[1] * dir[1] + to[2] * dir[2];
     let flat = [to[0] - off * dir[0], to[1] - off * dir[1], to[2] - off * dir[2]];
@@ -125,7 +110,7 @@ fn crater<R: Real>(
 
     let nearness = (1.0 - off.abs() * (1.0 / THICKNESS)).max(0.0);
     let depth =
-        if unit(more) < density { nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS) } else { 0.0 };
+        if unit(random) < density { nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS) } else { 0.0 };
     // A bowl up to the rim, then ejecta that run out.
     let inside = r < 1.0;
     let tail = ((REACH - r) * (1.0 / (REACH - 1.0))).max(0.0);

@@ -3,6 +3,7 @@
 //! - `fbm`: octaves summed
 //! - `ridged`: octaves folded into crests
 //! - `craters`: bowls and rims of many sizes
+//! - `dunes`: waves that run with the wind
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
 //! - `check`: what every kind must hold, for tests
@@ -49,6 +50,7 @@ landforms! {
     Fbm in fbm,
     Ridged in ridged,
     Craters in craters,
+    Dunes in dunes,
 }
 
 impl Landform {

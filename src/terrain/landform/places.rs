@@ -40,11 +40,19 @@ fn find_places_body(skewed: Points3<'_>, octave: &Octave, places: &mut Places) {
 }
 for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places) = find_places_body);
 
-/// The nearer neighbour along an axis, as steps of the cell's number and of the place: one cell down from the lower half of a
-/// cell, one up from the upper.
+/// The eight cells around a point: its own, and the nearer neighbour along each axis or not.
+pub(super) const CORNERS: [[u32; 3]; 8] =
+    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
+
+/// One of the [`CORNERS`] around the `i`th point: its cell, and how many cells it lies from the point's own.
 #[inline(always)]
-pub(super) fn nearer_side(fraction: f32) -> (u32, f32) {
-    if fraction < 0.5 { (u32::MAX, -1.0) } else { (1, 1.0) }
+pub(super) fn neighbour(places: &Places, corner: [u32; 3], i: usize) -> ([u32; 3], [f32; 3]) {
+    // The nearer neighbour is one cell down from the lower half of a cell, one up from the upper.
+    let side = |axis: usize| if places.fraction[axis][i] < 0.5 { (u32::MAX, -1.0) } else { (1, 1.0) };
+    let ((x, dx), (y, dy), (z, dz)) = (side(0), side(1), side(2));
+    let cell = |axis: usize, step: u32| places.cell[axis][i].wrapping_add(step.wrapping_mul(corner[axis]));
+    let step = [dx * corner[0] as f32, dy * corner[1] as f32, dz * corner[2] as f32];
+    ([cell(0, x), cell(1, y), cell(2, z)], step)
 }
 
 /// A number from 0 to 1 out of the low ten bits.
