@@ -35,6 +35,10 @@ shapes! {
     Warped,
     /// Continents and oceans with shelves, slopes and abyssal plains: the base of most planets.
     Continents,
+    /// Dunes: crests across the wind, gentle before it and steep behind.
+    Dunes,
+    /// Eroded mountains: gullies and ridges that run down the slope and branch.
+    Gullies,
 }
 
 params! {
@@ -172,5 +176,45 @@ params! {
         land: f64 = 0.32, "Land", Unit::None, linear(0.02, 0.98), Stage::Field;
         /// Share of the sea floor that is shallow shelf.
         shelf: f64 = 0.12, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
+    }
+}
+
+params! {
+    /// Dunes: crests that stand across the wind, fork and end as real ones do, from -1 (trough) to 1 (crest).
+    pub struct Dunes {
+        /// Distance from crest to crest of the largest dunes.
+        wavelength_km: f64 = 1.5, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many sizes of dunes ride on one another.
+        octaves: u32 = 2, "Octaves", Unit::None, count(1, 8), Stage::Field;
+        /// Height of each size against the one before.
+        gain: f64 = 0.2, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Smallness of each size against the one before.
+        lacunarity: f64 = 4.0, "Lacunarity", Unit::None, linear(1.5, 10.0), Stage::Field;
+        /// Heading towards which the wind blows: 0 is north, 90 east.
+        wind_deg: f64 = 90.0, "Wind", Unit::Degrees, linear(-180.0, 360.0), Stage::Field;
+        /// How much steeper the lee is than the side before the wind: 0 is as steep, 1 breaks off at a sharp crest.
+        asymmetry: f64 = 0.8, "Asymmetry", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How far the crests bend to and fro.
+        waviness: f64 = 0.5, "Waviness", Unit::None, linear(0.0, 2.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Mountains as running water carves them: smooth relief, and gullies that run down its slopes and branch.
+    pub struct Gullies {
+        /// Distance from crest to crest of the relief that is carved.
+        wavelength_km: f64 = 60.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves the relief has; those coarser than the gullies lead them.
+        octaves: u32 = 3, "Octaves", Unit::None, count(1, 16), Stage::Field;
+        /// Strength of each octave, of the relief as of the gullies, against the one before.
+        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave, of the relief as of the gullies, against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// Distance between neighbouring gullies of the coarsest kind.
+        gully_km: f64 = 8.0, "Gullies", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves of gullies branch off one another.
+        gully_octaves: u32 = 5, "Gully octaves", Unit::None, count(1, 16), Stage::Field;
+        /// How deep the gullies are against their width: 1 is about as steep as the relief.
+        depth: f64 = 1.0, "Depth", Unit::None, linear(0.0, 4.0), Stage::Field;
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! - [`simd`]: the instruction sets the loops are compiled for
 //! - `noise`: gradient noise of one octave; the arithmetic all else rests on
+//! - `approx`: sine, cosine and arctangent for the hot loops
 //! - `jet`: numbers that carry their gradient
 //! - `landform`: the kinds of layer, one file each
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
@@ -12,6 +13,7 @@
 //!
 //! [`Terrain`] is the only thing outsiders need. Tiles go through the same functions as queries, in batches.
 
+mod approx;
 pub mod bench;
 pub(crate) mod climate;
 pub(crate) mod field;

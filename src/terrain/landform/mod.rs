@@ -8,16 +8,23 @@
 //! - `damped`: octaves weaker where the ground is steep
 //! - `warped`: octaves at displaced points
 //! - `continents`: octaves at displaced points, put through a profile of land and sea floor
-//! - `octaves`: what most kinds are made of
 //! - `warp`: displaced points
 //! - `curve`: a smooth curve through knots
+//! - `dunes`: waves that run with the wind
+//! - `gullies`: mountains carved by running water
+//! - `octaves`: what most kinds are made of
+//! - `places`: cells of a lattice around points, for kinds that scatter things
+//! - `check`: what every kind must hold, for tests
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
 //! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
+#[cfg(test)]
+mod check;
 mod curve;
 mod octaves;
+mod places;
 #[cfg(test)]
 mod tests;
 mod warp;
@@ -61,6 +68,8 @@ landforms! {
     Damped in damped,
     Warped in warped,
     Continents in continents,
+    Dunes in dunes,
+    Gullies in gullies,
 }
 
 impl Landform {
