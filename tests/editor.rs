@@ -146,6 +146,33 @@ fn a_layer_is_dragged_to_another_place_in_one_step() {
 }
 
 #[test]
+fn a_curve_is_bent_by_its_points() {
+    let mut harness = editor(vec![]);
+    let name = planet(&harness).layers[0].name.clone();
+    let curve = |harness: &Editor| planet(harness).layers[0].curve.clone();
+    click(&mut harness, &format!("Layer {name}"));
+    click(&mut harness, &format!("Bend Curve of {name}"));
+    assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
+
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
+    let middle = rect.center();
+    harness.drag_at(middle);
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 20.0));
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    harness.drop_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    let [x, y] = curve(&harness)[1];
+    assert!(x.abs() < 0.1 && (0.3..0.9).contains(&y), "{x} {y}");
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, &format!("Reset Curve of {name}"));
+    assert!(curve(&harness).is_empty());
+}
+
+#[test]
 fn a_stroke_on_the_biome_table_paints_cells_in_one_step() {
     let mut harness = editor(vec![]);
     click(&mut harness, "Biomes");

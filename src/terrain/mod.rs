@@ -27,6 +27,8 @@ pub mod simd;
 
 use crate::planet::Planet;
 use climate::CompiledClimate;
+pub use height::curve_at;
+
 use field::{EXACT, Field};
 use glam::DVec3;
 use height::{CompiledLayer, LayerStack};

@@ -5,6 +5,11 @@
 use crate::terrain::noise::{CHUNK, Lane};
 use crate::terrain::simd::for_each_simd;
 
+/// What a curve makes of a number; one without points leaves it as it is.
+pub fn curve_at(points: &[[f64; 2]], x: f64) -> f64 {
+    CompiledCurve::new(points).map_or(x, |curve| curve.at(x).0)
+}
+
 /// A curve, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CompiledCurve {

@@ -15,6 +15,7 @@ mod lanes;
 #[cfg(test)]
 mod tests;
 
+pub use curve::curve_at;
 pub(crate) use join::{Heights, combine};
 
 use super::landform::Landform;
