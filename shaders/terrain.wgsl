@@ -168,7 +168,7 @@ fn shade(in: Ground) -> vec4f {
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let footprint_m = distance_m * globals.eye_low_m.w / max(dot(n, v), 0.08);
+    let footprint_m = max(max(length(dpdx(in.rel_m)), length(dpdy(in.rel_m))), 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
     let ground = material(in, dot(n, up), footprint_m, relief.x);
     n = bumped(n, dpdx(in.rel_m), dpdy(in.rel_m), dpdx(relief.y), dpdy(relief.y));
