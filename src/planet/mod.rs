@@ -28,7 +28,7 @@ pub mod validate;
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer, Mask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
-pub use shapes::{Billow, Continents, Craters, Damped, Fbm, Ridged, Shape, Warped};
+pub use shapes::{Billow, Canyons, Continents, Craters, Damped, Fbm, Ridged, Shape, Warped};
 pub use table::Table;
 
 use param::{Domain, ParamPath, Params, Stage, Unit, log, params};

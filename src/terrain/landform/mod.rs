@@ -7,6 +7,7 @@
 //! - `damped`: octaves weaker where the ground is steep
 //! - `warped`: octaves at displaced points
 //! - `continents`: octaves at displaced points, put through a profile of land and sea floor
+//! - `canyons`: valleys along the zero lines of warped noise
 //! - `octaves`: what most kinds are made of
 //! - `warp`: displaced points
 //! - `curve`: a smooth curve through knots
@@ -59,6 +60,7 @@ landforms! {
     Damped in damped,
     Warped in warped,
     Continents in continents,
+    Canyons in canyons,
 }
 
 impl Landform {
