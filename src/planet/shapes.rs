@@ -232,7 +232,7 @@ params! {
         /// Share of the surface that lies above 0.
         land: f64 = 0.32, "Land", Unit::None, linear(0.02, 0.98), Stage::Field;
         /// Share of the sea floor that is shallow shelf.
-        shelf: f64 = 0.12, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
+        shelf: f64 = 0.2, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
     }
 }
 

@@ -13,8 +13,8 @@ use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{CHUNK, Noise, precise};
 use crate::terrain::simd::for_each_simd;
 
-/// Points across a valley from which on it shows in full.
-const LEAST_POINTS: f64 = 3.0;
+/// Points across a valley's wall from which on it shows in full.
+const LEAST_POINTS: f64 = 2.5;
 
 /// Added to the gradient (by the lattice), so that a valley widens no further than this where the noise is level.
 const LEAST_GRADIENT: f32 = 0.5;
@@ -33,8 +33,8 @@ pub(crate) struct Canyons {
     warp: Warp,
     octaves: Vec<Weighted>,
     channel: Channel,
-    /// Width of the valleys against their wavelength.
-    width: f64,
+    /// Width of a valley's wall against the wavelength.
+    wall: f64,
 }
 
 /// The form of a valley.
@@ -56,7 +56,7 @@ impl Canyons {
             warp: Warp::new(seed, frequency / MEANDER_WAVELENGTH, MEANDER_OCTAVES, reach),
             octaves: series(seed, frequency, octaves, gain, lacunarity),
             channel: Channel { narrowness: (2.0 / width) as f32, floor: steepness as f32 },
-            width,
+            wall: 0.5 * width * (1.0 - steepness),
         }
     }
 }
@@ -78,7 +78,7 @@ impl Evaluate for Canyons {
         let dir = [&*px, &*py, &*pz];
         uncut.fill(n, 1.0);
         wet.fill(n, 1.0);
-        let fades_of = |octave: &Weighted| chunk.fades(self.width / octave.octave.frequency, LEAST_POINTS);
+        let fades_of = |octave: &Weighted| chunk.fades(self.wall / octave.octave.frequency, LEAST_POINTS);
         // The distance needs the gradient, whether or not its own is seen.
         let exact = Chunk { spacings_rad: EXACT, ..*chunk };
         self.warp.displace(&exact, !fades_of(largest).is_unseen(), noise, displaced);

@@ -25,6 +25,9 @@ const WARP_OCTAVES: u32 = 4;
 /// How many of the coarsest octaves are warped. In finer ones the warp would show as a grain, drawn out all one way.
 const WARPED_OCTAVES: usize = 4;
 
+/// Height of the edge of the shelf.
+const SHELF_EDGE: f64 = -0.05;
+
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Continents {
     warp: Warp,
@@ -93,16 +96,17 @@ fn spread(count: usize) -> Vec<DVec3> {
 /// Knots of the curve: noise and height. `land` is a share of the surface, `shelf` one of the sea floor.
 fn hypsometry(sorted: &[f64], land: f64, shelf: f64) -> Vec<(f64, f64)> {
     let sea = 1.0 - land;
-    let slope = 0.75 * (1.0 - shelf) * 0.22;
+    // Continental slope and rise.
+    let slope = 0.2 * (1.0 - shelf);
     let knots = [
         (0.0, -1.0),
-        (sea * (0.45 - 0.45 * shelf), -0.97),
+        (sea * 0.45 * (1.0 - shelf), -0.97),
         (sea * (1.0 - shelf - slope), -0.86),
         (sea * (1.0 - shelf - 0.3 * slope), -0.3),
-        (sea * (1.0 - shelf), -0.035),
+        (sea * (1.0 - shelf), SHELF_EDGE),
         (sea, 0.0),
-        (sea + land * 0.25, 0.045),
-        (sea + land * 0.6, 0.17),
+        (sea + land * 0.25, 0.06),
+        (sea + land * 0.6, 0.2),
         (sea + land * 0.9, 0.5),
         (1.0, 1.0),
     ];
@@ -158,7 +162,7 @@ mod tests {
             let share = |from: f64, to: f64| {
                 heights.iter().filter(|h| (from..to).contains(*h)).count() as f64 / heights.len() as f64
             };
-            let (is_land, is_shelf) = (share(0.0, 2.0), share(-0.035, 0.0) / (1.0 - land));
+            let (is_land, is_shelf) = (share(0.0, 2.0), share(SHELF_EDGE, 0.0) / (1.0 - land));
             
             assert!((is_land - land).abs() < 0.015, "{is_land} of {land}");
             assert!((is_shelf - shelf).abs() < 0.04, "{is_shelf} of {shelf}");

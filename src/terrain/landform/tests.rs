@@ -59,7 +59,6 @@ fn gradients_match_central_differences() {
         errors.sort_by(f64::total_cmp);
         slopes.sort_by(f64::total_cmp);
         let (typical, most) = (slopes[dirs.len() * 95 / 100], dirs.len() * 97 / 100);
-        println!("{name}: {:e} {:e} {:e} of {typical}", errors[dirs.len() / 2], errors[most], errors[dirs.len() - 1]);
         // The few that straddle a crease have no slope to compare.
         assert!(errors[most] < 4e-3 * typical, "{name}: off by {:e} where slopes are {typical:e}", errors[most]);
     }
@@ -73,7 +72,6 @@ fn values_keep_within_their_bounds_and_use_them() {
         let (least, greatest) = values.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &v| (lo.min(v), hi.max(v)));
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / values.len() as f64).sqrt();
-        println!("{name}: {lo} <= {least:.3}, {mean:.3} +- {deviation:.3}, {greatest:.3} <= {hi}");
         assert!(lo <= least && greatest <= hi, "{name}: {least} to {greatest} is beyond {lo} to {hi}");
         assert!(greatest - least > 0.25 * (hi - lo), "{name}: {least} to {greatest} of {lo} to {hi}");
         assert!(mean.abs() < 0.75 && (0.02..0.8).contains(&deviation), "{name}: {mean} +- {deviation}");
