@@ -1,7 +1,7 @@
 //! What must hold for every kind of layer.
 
 use super::*;
-use crate::planet::param::{ParamPath, Params, Unit, ValueMut};
+use crate::planet::param::{Domain, ParamPath, Params, Unit, ValueMut};
 use crate::terrain::field::{EXACT, Field};
 use crate::terrain::points::Points;
 
@@ -89,6 +89,30 @@ fn heights_have_the_same_bits_with_and_without_gradients_on_every_instruction_se
             assert!(exact == Field::new(&landform, simd, &points, EXACT), "{name}: {}", simd.name());
             // Bands that see some octaves, and none.
             assert_eq!(plain, Field::new(&landform, simd, &points, &[1e-3, 3e-2, 9.0]).value, "{name}");
+        }
+    }
+}
+
+#[test]
+fn every_valid_parameter_gives_finite_numbers_within_bounds() {
+    let points = Points::new(directions(64));
+    for shape in Shape::all() {
+        for (radius_km, choice) in [1.0, 6371.0, 100_000.0].into_iter().flat_map(|r| (0..32_u64).map(move |c| (r, c))) {
+            let (mut shape, mut random) = (shape.clone(), choice);
+            shape.each_param(&mut ParamPath::default(), &mut |_, param, value| {
+                random = super::super::noise::mix(random);
+                let high = if choice < 2 { choice == 1 } else { random & 1 == 1 };
+                match (value, param.domain) {
+                    (ValueMut::Number(v), Domain::Number { min, max, .. }) => *v = if high { max } else { min },
+                    (ValueMut::Count(v), Domain::Count { min, max }) => *v = if high { max } else { min },
+                    _ => {}
+                }
+            });
+            let landform = Landform::new(&shape, 3, radius_km);
+            let field = Field::new(&landform, Simd::detect(), &points, EXACT);
+            let (lo, hi) = landform.bounds();
+            assert!(field.value.iter().all(|v| (lo..=hi).contains(v)), "{shape:?} on {radius_km} km");
+            assert!(field.gradients[0].iter().flatten().all(|d| d.is_finite()), "{shape:?} on {radius_km} km");
         }
     }
 }

@@ -13,6 +13,9 @@ use crate::terrain::simd::for_each_simd;
 /// half a millimetre of 4 km.
 const PRECISE: usize = 2;
 
+/// Farthest displacement at a noise of 1, in radii.
+const MAX_REACH: f64 = 8.0;
+
 /// Root mean square of the noise's derivative along one axis of its lattice.
 const DERIVATIVE: f64 = 1.2;
 
@@ -52,6 +55,8 @@ impl Default for Displacement {
 impl Warp {
     /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells to the radius, that displaces by `reach` radii.
     pub(super) fn new(seed: u64, frequency: f64, octaves: u32, reach: f64) -> Self {
+        // The lattice must stay within what f64 can split; a few radii away is as good as anywhere.
+        let reach = reach.min(MAX_REACH);
         // Another sequence than that of the noise that is warped.
         Self { octaves: series(noise::mix(!seed), frequency, octaves, 0.5, 2.0), reach }
     }
