@@ -39,6 +39,8 @@ shapes! {
     Dunes,
     /// Eroded mountains: gullies and ridges that run down the slope and branch.
     Gullies,
+    /// Meandering valleys with flat floors, walls and tributaries.
+    Canyons,
 }
 
 params! {
@@ -175,7 +177,7 @@ params! {
         /// Share of the surface that lies above 0.
         land: f64 = 0.32, "Land", Unit::None, linear(0.02, 0.98), Stage::Field;
         /// Share of the sea floor that is shallow shelf.
-        shelf: f64 = 0.12, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
+        shelf: f64 = 0.2, "Shelf", Unit::None, linear(0.01, 0.6), Stage::Field;
     }
 }
 
@@ -216,5 +218,25 @@ params! {
         gully_octaves: u32 = 5, "Gully octaves", Unit::None, count(1, 16), Stage::Field;
         /// How deep the gullies are against their width: 1 is about as steep as the relief.
         depth: f64 = 1.0, "Depth", Unit::None, linear(0.0, 4.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Valleys along the zero lines of warped noise: 0 outside them, -1 on the floor of the largest.
+    pub struct Canyons {
+        /// Distance between the largest valleys.
+        wavelength_km: f64 = 200.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many sizes of valley there are: 1 is the largest alone, each one more adds tributaries.
+        octaves: u32 = 3, "Octaves", Unit::None, count(1, 12), Stage::Field;
+        /// Depth of tributaries against the valleys that they lead to.
+        gain: f64 = 0.6, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Smallness of tributaries, in width and distance, against the valleys that they lead to.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// Width of the largest valleys from rim to rim.
+        width_km: f64 = 8.0, "Width", Unit::Kilometres, log(0.001, 10_000.0), Stage::Field;
+        /// Share of the width that is flat floor: 0 is a valley like a V, near 1 a trench between cliffs.
+        steepness: f64 = 0.35, "Steepness", Unit::None, linear(0.0, 0.95), Stage::Field;
+        /// How far the valleys wind: 0 is nearly straight.
+        meander: f64 = 0.5, "Meander", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }

@@ -1,5 +1,6 @@
 //! Billow noise: each octave folded at zero into creases and rounded above them, `1 - (1 - |n|)^2`: what `ridged` is
-//! upside down, without its feedback.
+//! upside down, without its feedback. The creases are a little rounded too, as by sediment; sharp ones would be drawn as saw
+//! teeth.
 
 use super::octaves::{Weighted, series};
 use super::{Chunk, Evaluate, Scratch};
@@ -10,6 +11,9 @@ use crate::terrain::simd::for_each_simd;
 
 /// Points for each lattice cell from which on an octave shows in full: hills are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
+
+/// Noise below which a crease is round.
+const CREASE: f32 = 0.05;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Billow {
@@ -58,7 +62,8 @@ impl Evaluate for Billow {
 #[inline(always)]
 fn round_body<R: Real>(n: usize, noise: &Noise, hill: &mut Jets) {
     for i in 0..n.min(CHUNK) {
-        let off_top = (R::constant(1.0) - R::noise(noise, i).abs()).at_least(0.0);
+        let fold = R::noise(noise, i).square().plus(CREASE * CREASE).sqrt().plus(-CREASE);
+        let off_top = (R::constant(1.0) - fold).at_least(0.0);
         (R::constant(1.0) - off_top.square()).store(hill, i);
     }
 }

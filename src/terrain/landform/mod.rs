@@ -8,6 +8,7 @@
 //! - `damped`: octaves weaker where the ground is steep
 //! - `warped`: octaves at displaced points
 //! - `continents`: octaves at displaced points, put through a profile of land and sea floor
+//! - `canyons`: valleys along the zero lines of warped noise
 //! - `warp`: displaced points
 //! - `curve`: a smooth curve through knots
 //! - `dunes`: waves that run with the wind
@@ -70,6 +71,7 @@ landforms! {
     Continents in continents,
     Dunes in dunes,
     Gullies in gullies,
+    Canyons in canyons,
 }
 
 impl Landform {

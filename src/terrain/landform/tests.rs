@@ -1,7 +1,7 @@
 //! What must hold for every kind of layer.
 
 use super::*;
-use crate::planet::param::{ParamPath, Params, Unit, ValueMut};
+use crate::planet::param::{Domain, ParamPath, Params, Unit, ValueMut};
 use crate::terrain::field::{EXACT, Field};
 use crate::terrain::points::Points;
 use proptest::prelude::*;
@@ -61,7 +61,6 @@ fn gradients_match_central_differences() {
         errors.sort_by(f64::total_cmp);
         slopes.sort_by(f64::total_cmp);
         let (typical, most) = (slopes[dirs.len() * 95 / 100], dirs.len() * 97 / 100);
-        println!("{name}: {:e} {:e} {:e} of {typical}", errors[dirs.len() / 2], errors[most], errors[dirs.len() - 1]);
         // The few that straddle a crease have no slope to compare.
         assert!(errors[most] < 4e-3 * typical, "{name}: off by {:e} where slopes are {typical:e}", errors[most]);
     }
@@ -75,7 +74,6 @@ fn values_keep_within_their_bounds_and_use_them() {
         let (least, greatest) = values.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &v| (lo.min(v), hi.max(v)));
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / values.len() as f64).sqrt();
-        println!("{name}: {lo} <= {least:.3}, {mean:.3} +- {deviation:.3}, {greatest:.3} <= {hi}");
         assert!(lo <= least && greatest <= hi, "{name}: {least} to {greatest} is beyond {lo} to {hi}");
         assert!(greatest - least > 0.25 * (hi - lo), "{name}: {least} to {greatest} of {lo} to {hi}");
         assert!(mean.abs() < 0.75 && (0.02..0.8).contains(&deviation), "{name}: {mean} +- {deviation}");
@@ -115,6 +113,30 @@ proptest! {
             for v in Field::new(&landform, Simd::detect(), &points, &[]).value {
                 prop_assert!(lo <= v && v <= hi, "{shape:?}: {v} not in {lo}..{hi} within {angle_rad}");
             }
+        }
+    }
+}
+
+#[test]
+fn every_valid_parameter_gives_finite_numbers_within_bounds() {
+    let points = Points::new(directions(64));
+    for shape in Shape::all() {
+        for (radius_km, choice) in [1.0, 6371.0, 100_000.0].into_iter().flat_map(|r| (0..32_u64).map(move |c| (r, c))) {
+            let (mut shape, mut random) = (shape.clone(), choice);
+            shape.each_param(&mut ParamPath::default(), &mut |_, param, value| {
+                random = super::super::noise::mix(random);
+                let high = if choice < 2 { choice == 1 } else { random & 1 == 1 };
+                match (value, param.domain) {
+                    (ValueMut::Number(v), Domain::Number { min, max, .. }) => *v = if high { max } else { min },
+                    (ValueMut::Count(v), Domain::Count { min, max }) => *v = if high { max } else { min },
+                    _ => {}
+                }
+            });
+            let landform = Landform::new(&shape, 3, radius_km);
+            let field = Field::new(&landform, Simd::detect(), &points, EXACT);
+            let (lo, hi) = landform.bounds();
+            assert!(field.value.iter().all(|v| (lo..=hi).contains(v)), "{shape:?} on {radius_km} km");
+            assert!(field.gradient(0.0).unwrap().iter().flatten().all(|d| d.is_finite()), "{shape:?} on {radius_km} km");
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::terrain::simd::{Simd, for_each_simd};
 
 /// Adds to `sum` the noise of an octave at skewed points, times a weight.
 pub(crate) fn add(simd: Simd, skewed: Points3<'_>, octave: &Octave, weight: f64, sum: &mut Lane<f64>) {
-    add_one(simd, skewed, octave, [octave.seed], weight, std::array::from_mut(sum));
+    add_one(simd, skewed, octave, weight, sum);
 }
 
 /// Adds to `sums` three noises on the lattice of an octave at skewed points, times a weight; see [`components`].
@@ -25,27 +25,28 @@ pub(crate) fn components(octave: &Octave) -> [Octave; 3] {
 }
 
 #[inline(always)]
-fn add_body<const N: usize>(
-    skewed: Points3<'_>,
-    octave: &Octave,
-    seeds: [u32; N],
-    weight: f64,
-    sums: &mut [Lane<f64>; N],
-) {
+fn add_body(skewed: Points3<'_>, octave: &Octave, weight: f64, sum: &mut Lane<f64>) {
     let [x, y, z] = skewed;
     let scale = weight * f64::from(SCALE);
     for i in 0..x.len().min(y.len()).min(z.len()).min(CHUNK) {
-        let (ix, fx) = split(x[i] * octave.frequency + octave.offset[0]);
-        let (iy, fy) = split(y[i] * octave.frequency + octave.offset[1]);
-        let (iz, fz) = split(z[i] * octave.frequency + octave.offset[2]);
-        let values = unscaled([ix, iy, iz], [fx, fy, fz], seeds);
-        for k in 0..N {
-            sums[k][i] += values[k] * scale;
-        }
+        let corners = corners([x[i], y[i], z[i]], octave);
+        sum[i] += unscaled(&corners, octave.seed) * scale;
     }
 }
-for_each_simd!(fn add_one(skewed: Points3<'_>, octave: &Octave, seeds: [u32; 1], weight: f64, sums: &mut [Lane<f64>; 1]) = add_body);
-for_each_simd!(fn add_three(skewed: Points3<'_>, octave: &Octave, seeds: [u32; 3], weight: f64, sums: &mut [Lane<f64>; 3]) = add_body);
+for_each_simd!(fn add_one(skewed: Points3<'_>, octave: &Octave, weight: f64, sum: &mut Lane<f64>) = add_body);
+
+#[inline(always)]
+fn add_vector_body(skewed: Points3<'_>, octave: &Octave, seeds: [u32; 3], weight: f64, sums: &mut [Lane<f64>; 3]) {
+    let ([x, y, z], [sum_x, sum_y, sum_z]) = (skewed, sums);
+    let scale = weight * f64::from(SCALE);
+    for i in 0..x.len().min(y.len()).min(z.len()).min(CHUNK) {
+        let corners = corners([x[i], y[i], z[i]], octave);
+        sum_x[i] += unscaled(&corners, seeds[0]) * scale;
+        sum_y[i] += unscaled(&corners, seeds[1]) * scale;
+        sum_z[i] += unscaled(&corners, seeds[2]) * scale;
+    }
+}
+for_each_simd!(fn add_three(skewed: Points3<'_>, octave: &Octave, seeds: [u32; 3], weight: f64, sums: &mut [Lane<f64>; 3]) = add_vector_body);
 
 /// Cell number and position within the cell, 0 to 1.
 #[inline(always)]
@@ -54,9 +55,13 @@ fn split(q: f64) -> (u32, f64) {
     (rounded.to_bits() as u32, q - (rounded - ROUNDER))
 }
 
-/// The sums of the four corners; see `corners` and `value` of the f32 kernel.
+/// The four corners of the simplex around a skewed point: distances times weights, hashes of the cells. See `corners` of the
+/// f32 kernel.
 #[inline(always)]
-fn unscaled<const N: usize>([ix, iy, iz]: [u32; 3], [x, y, z]: [f64; 3], seeds: [u32; N]) -> [f64; N] {
+fn corners(p: [f64; 3], octave: &Octave) -> [([f64; 3], u32); 4] {
+    let (ix, x) = split(p[0] * octave.frequency + octave.offset[0]);
+    let (iy, y) = split(p[1] * octave.frequency + octave.offset[1]);
+    let (iz, z) = split(p[2] * octave.frequency + octave.offset[2]);
     let t = (x + y + z) * (1.0 / 6.0);
     let d0 = [x - t, y - t, z - t];
     let (xy, yz, zx) = (x >= y, y >= z, z > x);
@@ -66,28 +71,34 @@ fn unscaled<const N: usize>([ix, iy, iz]: [u32; 3], [x, y, z]: [f64; 3], seeds: 
     let away = |o: [bool; 3], unskew: f64| {
         [d0[0] - step(o[0]) + unskew, d0[1] - step(o[1]) + unskew, d0[2] - step(o[2]) + unskew]
     };
+    let weighted = |d: [f64; 3]| {
+        let w = (0.5 - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(0.0);
+        let w2 = w * w;
+        let w4 = w2 * w2;
+        [d[0] * w4, d[1] * w4, d[2] * w4]
+    };
     let base = [ix.wrapping_mul(PRIME[0]), iy.wrapping_mul(PRIME[1]), iz.wrapping_mul(PRIME[2])];
     let next = [base[0].wrapping_add(PRIME[0]), base[1].wrapping_add(PRIME[1]), base[2].wrapping_add(PRIME[2])];
     let pick = |on: bool, axis: usize| if on { next[axis] } else { base[axis] };
     let hash = |o: [bool; 3]| pick(o[0], 0) ^ pick(o[1], 1) ^ pick(o[2], 2);
-    let corners = [
-        (d0, base[0] ^ base[1] ^ base[2]),
-        (away(first, 1.0 / 6.0), hash(first)),
-        (away(second, 1.0 / 3.0), hash(second)),
-        ([d0[0] - 0.5, d0[1] - 0.5, d0[2] - 0.5], next[0] ^ next[1] ^ next[2]),
-    ];
-    let mut sums = [0.0; N];
-    for (d, hash) in corners {
-        let w = (0.5 - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(0.0);
-        let w2 = w * w;
-        let w4 = w2 * w2;
-        for k in 0..N {
-            let h = scramble(hash ^ seeds[k]);
-            let component = |bits: u32| f64::from((bits as i32 >> 22) | 1);
-            sums[k] += w4 * (component(h) * d[0] + component(h << 10) * d[1] + component(h << 20) * d[2]);
-        }
-    }
-    sums
+    [
+        (weighted(d0), base[0] ^ base[1] ^ base[2]),
+        (weighted(away(first, 1.0 / 6.0)), hash(first)),
+        (weighted(away(second, 1.0 / 3.0)), hash(second)),
+        (weighted([d0[0] - 0.5, d0[1] - 0.5, d0[2] - 0.5]), next[0] ^ next[1] ^ next[2]),
+    ]
+}
+
+/// The sum of the corners' contributions.
+#[inline(always)]
+fn unscaled(corners: &[([f64; 3], u32); 4], seed: u32) -> f64 {
+    let corner = |k: usize| {
+        let (d, hash) = corners[k];
+        let h = scramble(hash ^ seed);
+        let component = |bits: u32| f64::from((bits as i32 >> 22) | 1);
+        component(h) * d[0] + component(h << 10) * d[1] + component(h << 20) * d[2]
+    };
+    corner(0) + corner(1) + (corner(2) + corner(3))
 }
 
 #[cfg(test)]
