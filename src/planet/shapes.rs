@@ -44,6 +44,8 @@ shapes! {
     Craters,
     /// Dunes: crests across the wind, gentle before it and steep behind.
     Dunes,
+    /// Eroded mountains: gullies and ridges that run down the slope and branch.
+    Gullies,
 }
 
 impl Default for Shape {
@@ -171,5 +173,25 @@ params! {
         asymmetry: f64 = 0.8, "Asymmetry", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How far the crests bend to and fro.
         waviness: f64 = 0.5, "Waviness", Unit::None, linear(0.0, 2.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Mountains as running water carves them: smooth relief, and gullies that run down its slopes and branch.
+    pub struct Gullies {
+        /// Distance from crest to crest of the relief that is carved.
+        wavelength_km: f64 = 60.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves the relief has. Those much coarser than the gullies lead them; finer ones roughen the ground.
+        octaves: u32 = 2, "Octaves", Unit::None, count(1, 16), Stage::Field;
+        /// Strength of each octave, of the relief as of the gullies, against the one before.
+        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave, of the relief as of the gullies, against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+        /// Distance between neighbouring gullies of the coarsest kind.
+        gully_km: f64 = 8.0, "Gullies", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// How many octaves of gullies branch off one another.
+        gully_octaves: u32 = 5, "Gully octaves", Unit::None, count(1, 16), Stage::Field;
+        /// How deep the gullies are against their width: 1 is about as steep as the relief.
+        depth: f64 = 1.0, "Depth", Unit::None, linear(0.0, 4.0), Stage::Field;
     }
 }

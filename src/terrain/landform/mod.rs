@@ -4,6 +4,7 @@
 //! - `ridged`: octaves folded into crests
 //! - `craters`: bowls and rims of many sizes
 //! - `dunes`: waves that run with the wind
+//! - `gullies`: mountains carved by running water
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
 //! - `check`: what every kind must hold, for tests
@@ -51,6 +52,7 @@ landforms! {
     Ridged in ridged,
     Craters in craters,
     Dunes in dunes,
+    Gullies in gullies,
 }
 
 impl Landform {
