@@ -28,7 +28,7 @@ pub mod validate;
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer, Mask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
-pub use shapes::{Craters, Dunes, Fbm, Gullies, Ridged, Shape};
+pub use shapes::{CellStyle, Cells, Craters, Dunes, Fbm, Gullies, Ridged, Shape};
 pub use table::Table;
 
 use param::{Domain, ParamPath, Params, Stage, Unit, log, params};

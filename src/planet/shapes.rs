@@ -5,7 +5,7 @@
 //! the panels, the file and the messages follow from these.
 
 use super::param::{
-    Choice, Domain, Param, ParamPath, Params, Stage, Unit, ValueMut, Visit, count, linear, log, params,
+    Choice, Domain, Param, ParamPath, Params, Stage, Unit, ValueMut, Visit, choice, count, linear, log, params,
 };
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +46,8 @@ shapes! {
     Dunes,
     /// Eroded mountains: gullies and ridges that run down the slope and branch.
     Gullies,
+    /// Cells around scattered centres: plates, cracks or domes.
+    Cells,
 }
 
 impl Default for Shape {
@@ -193,5 +195,37 @@ params! {
         gully_octaves: u32 = 5, "Gully octaves", Unit::None, count(1, 16), Stage::Field;
         /// How deep the gullies are against their width: 1 is about as steep as the relief.
         depth: f64 = 1.0, "Depth", Unit::None, linear(0.0, 4.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Cells: each point of the ground belongs to the nearest of many scattered centres.
+    pub struct Cells {
+        /// Distance between neighbouring centres of the coarsest octave, on average.
+        cell_km: f64 = 800.0, "Cell size", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// What is made of the cells.
+        style: CellStyle = CellStyle::Plates, "Style", Unit::None, Domain::Choice, Stage::Field;
+        /// Width of the slopes between plates, or of the cracks, in cells. Domes have none.
+        width: f64 = 0.2, "Border width", Unit::None, log(0.005, 1.0), Stage::Field;
+        /// How irregular the cells are: at 0 the centres stand in rows.
+        jitter: f64 = 1.0, "Jitter", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How many octaves are summed, each of smaller cells.
+        octaves: u32 = 1, "Octaves", Unit::None, count(1, 12), Stage::Field;
+        /// Strength of each octave against the one before: higher is rougher.
+        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+    }
+}
+
+choice! {
+    /// What is made of cells.
+    pub enum CellStyle {
+        /// Each cell is a plain at a random level, -1 to 1, and slopes join them.
+        Plates = "Plates",
+        /// The borders are cracks, from 0 (the ground) down to -1.
+        Cracks = "Cracks",
+        /// Each cell is a dome, from 1 (its top) down to about 0 where it meets the next.
+        Bumps = "Bumps",
     }
 }

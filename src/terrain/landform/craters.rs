@@ -68,7 +68,7 @@ impl Evaluate for Craters {
 
 /// Adds the craters of one cell of the eight: one loop for each cell, as the compiler makes vectors of innermost loops alone.
 #[inline(always)]
-fn dig_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], seed: u32, density: f32, craters: &mut Jets) {
+fn dig_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], seed: u32, density: f32, craters: &mut Jets) {
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
@@ -80,8 +80,8 @@ fn dig_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], seed: u32, den
         (R::load(craters, i) + crater).store(craters, i);
     }
 }
-for_each_simd!(fn dig_values(n: usize, places: &Places, corner: [u32; 3], seed: u32, density: f32, craters: &mut Jets) = dig_body::<f32>);
-for_each_simd!(fn dig_gradients(n: usize, places: &Places, corner: [u32; 3], seed: u32, density: f32, craters: &mut Jets) = dig_body::<Jet>);
+for_each_simd!(fn dig_values(n: usize, places: &Places, corner: [i32; 3], seed: u32, density: f32, craters: &mut Jets) = dig_body::<f32>);
+for_each_simd!(fn dig_gradients(n: usize, places: &Places, corner: [i32; 3], seed: u32, density: f32, craters: &mut Jets) = dig_body::<Jet>);
 
 /// Overlapping craters dig no deeper than one; and gradients by the lattice become gradients by the direction.
 #[inline(always)]

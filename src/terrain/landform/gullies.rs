@@ -212,7 +212,7 @@ for_each_simd!(fn turn_gradients(n: usize, places: &Places, work: &mut Work) = t
 
 /// Adds the waves of one cell of the eight.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, work: &mut Work) {
+fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let Work { side, waves: [re, im, re_arm, im_arm], .. } = work;
     for i in 0..n.min(CHUNK) {
@@ -242,8 +242,8 @@ fn send_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], octave: &Octa
         (R::load(im_arm, i) + arm(sin)).store(im_arm, i);
     }
 }
-for_each_simd!(fn send_values(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
-for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
+for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
+for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
 
 /// From the sum of waves to the height of gullies, and to what leads the next octave.
 #[inline(always)]

@@ -5,6 +5,7 @@
 //! - `craters`: bowls and rims of many sizes
 //! - `dunes`: waves that run with the wind
 //! - `gullies`: mountains carved by running water
+//! - `cells`: plates, cracks and domes around scattered centres
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
 //! - `check`: what every kind must hold, for tests
@@ -53,6 +54,7 @@ landforms! {
     Craters in craters,
     Dunes in dunes,
     Gullies in gullies,
+    Cells in cells,
 }
 
 impl Landform {
