@@ -153,8 +153,23 @@ params! {
         gain: f64 = 0.55, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
         /// Smallness of each size against the one before.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// Share of the ground that has been hit, for each size.
+        /// Share of the ground that has been hit, for each size; with a power of counts, by the widest.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How much more numerous craters are the smaller they are: the power of their cumulative count, about 2.4 on moons,
+        /// until the ground is full of them. At 0 the sizes are mixed evenly.
+        power: f64 = 0.0, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
+        /// Height of the rim against the depth of the bowl.
+        rim: f64 = 0.28, "Rim", Unit::None, linear(0.0, 0.6), Stage::Field;
+        /// How far the ejecta reach, in radii of the crater.
+        ejecta: f64 = 1.6, "Ejecta", Unit::None, linear(1.1, 1.6), Stage::Field;
+        /// How much of the radius of the widest craters is flat floor; small craters are bowls.
+        floor: f64 = 0.0, "Flat floor", Unit::None, linear(0.0, 0.8), Stage::Field;
+        /// Height of the peak in the middle of the widest craters against their depth.
+        peak: f64 = 0.0, "Central peak", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How worn the oldest craters are: shallow, without a rim. Each crater has its own age up to this.
+        age: f64 = 0.0, "Age", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// Share of craters that are fresh whatever the age of the rest.
+        fresh: f64 = 0.0, "Fresh", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 

@@ -21,7 +21,7 @@ const JITTER: f32 = 0.395;
 /// Square of the distance within which all centres are known: 2 (1.5 - JITTER)^2.
 const HORIZON: f32 = 2.442;
 /// Points for each border's width, or for half a dome, from which on they show in full.
-const LEAST_POINTS: f64 = 2.0;
+const LEAST_POINTS: f64 = 1.2;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells {
