@@ -31,7 +31,7 @@ pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
-pub use shapes::{Billow, Canyons, Continents, Craters, Damped, Dunes, Fbm, Gullies, Ridged, Shape, Terraces, Warped};
+pub use shapes::{Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, Ridged, Shape, Terraces, Warped};
 pub use table::Table;
 
 use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};

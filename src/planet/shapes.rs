@@ -5,7 +5,7 @@
 //! the panels, the file and the messages follow from these.
 
 use super::kinds::kinds;
-use super::param::{Stage, Unit, count, linear, log, params};
+use super::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 
 /// Writes the enum from the list of kinds, each of which is also the name of its parameters.
 macro_rules! shapes {
@@ -41,6 +41,8 @@ shapes! {
     Gullies,
     /// Meandering valleys with flat floors, walls and tributaries.
     Canyons,
+    /// Cells around scattered centres: plates, cracks or domes.
+    Cells,
 }
 
 params! {
@@ -86,8 +88,23 @@ params! {
         gain: f64 = 0.55, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
         /// Smallness of each size against the one before.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// Share of the ground that has been hit, for each size.
+        /// Share of the ground that has been hit, for each size; with a power of counts, by the widest.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How much more numerous craters are the smaller they are: the power of their cumulative count, about 2.4 on moons,
+        /// until the ground is full of them. At 0 the sizes are mixed evenly.
+        power: f64 = 0.0, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
+        /// Height of the rim against the depth of the bowl.
+        rim: f64 = 0.28, "Rim", Unit::None, linear(0.0, 0.6), Stage::Field;
+        /// How far the ejecta reach, in radii of the crater.
+        ejecta: f64 = 1.6, "Ejecta", Unit::None, linear(1.1, 1.6), Stage::Field;
+        /// How much of the radius of the widest craters is flat floor; small craters are bowls.
+        floor: f64 = 0.0, "Flat floor", Unit::None, linear(0.0, 0.8), Stage::Field;
+        /// Height of the peak in the middle of the widest craters against their depth.
+        peak: f64 = 0.0, "Central peak", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How worn the oldest craters are: shallow, without a rim. Each crater has its own age up to this.
+        age: f64 = 0.0, "Age", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// Share of craters that are fresh whatever the age of the rest.
+        fresh: f64 = 0.0, "Fresh", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 
@@ -206,8 +223,8 @@ params! {
     pub struct Gullies {
         /// Distance from crest to crest of the relief that is carved.
         wavelength_km: f64 = 60.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves the relief has; those coarser than the gullies lead them.
-        octaves: u32 = 3, "Octaves", Unit::None, count(1, 16), Stage::Field;
+        /// How many octaves the relief has. Those much coarser than the gullies lead them; finer ones roughen the ground.
+        octaves: u32 = 2, "Octaves", Unit::None, count(1, 16), Stage::Field;
         /// Strength of each octave, of the relief as of the gullies, against the one before.
         gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
         /// Fineness of each octave, of the relief as of the gullies, against the one before.
@@ -238,5 +255,37 @@ params! {
         steepness: f64 = 0.35, "Steepness", Unit::None, linear(0.0, 0.95), Stage::Field;
         /// How far the valleys wind: 0 is nearly straight.
         meander: f64 = 0.5, "Meander", Unit::None, linear(0.0, 1.0), Stage::Field;
+    }
+}
+
+params! {
+    /// Cells: each point of the ground belongs to the nearest of many scattered centres.
+    pub struct Cells {
+        /// Distance between neighbouring centres of the coarsest octave, on average.
+        cell_km: f64 = 800.0, "Cell size", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        /// What is made of the cells.
+        style: CellStyle = CellStyle::Plates, "Style", Unit::None, Domain::Choice, Stage::Field;
+        /// Width of the slopes between plates, or of the cracks, in cells. Domes have none.
+        width: f64 = 0.2, "Border width", Unit::None, log(0.005, 1.0), Stage::Field;
+        /// How irregular the cells are: at 0 the centres stand in rows.
+        jitter: f64 = 1.0, "Jitter", Unit::None, linear(0.0, 1.0), Stage::Field;
+        /// How many octaves are summed, each of smaller cells.
+        octaves: u32 = 1, "Octaves", Unit::None, count(1, 12), Stage::Field;
+        /// Strength of each octave against the one before: higher is rougher.
+        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+        /// Fineness of each octave against the one before.
+        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+    }
+}
+
+choice! {
+    /// What is made of cells.
+    pub enum CellStyle {
+        /// Each cell is a plain at a random level, -1 to 1, and slopes join them.
+        Plates = "Plates",
+        /// The borders are cracks, from 0 (the ground) down to -1.
+        Cracks = "Cracks",
+        /// Each cell is a dome, from 1 (its top) down to about 0 where it meets the next.
+        Bumps = "Bumps",
     }
 }

@@ -128,7 +128,7 @@ impl Evaluate for Dunes {
 
 /// Adds the waves that the points of one cell of the eight send out, to the real and the imaginary part.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) {
+fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let cell_rad = (1.0 / octave.frequency) as f32;
     for i in 0..n.min(CHUNK) {
@@ -162,8 +162,8 @@ fn send_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], octave: &Octa
         (R::load(im, i) + part(sin, cos)).store(im, i);
     }
 }
-for_each_simd!(fn send_values(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<f32>);
-for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<Jet>);
+for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<f32>);
+for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<Jet>);
 
 /// The height of dunes from the sum of waves and the noise that bends them.
 #[inline(always)]

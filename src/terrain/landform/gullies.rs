@@ -21,7 +21,7 @@ use crate::terrain::simd::for_each_simd;
 use std::f32::consts::TAU;
 
 /// Gullies to a cell.
-const WAVES: f32 = 1.2;
+const WAVES: f32 = 1.0;
 /// How far a wave reaches, in cells.
 const REACH: f32 = 0.8;
 /// How far the middles of waves stand from their cells' centres along each axis, in cells. REACH + JITTER <= 1.
@@ -29,11 +29,18 @@ const JITTER: f32 = 0.2;
 /// The square of the phasor below which gullies fade; where all waves agree it is about 0.4.
 const FAINT: f32 = 0.02;
 /// Depth of a gully for each unit of its width at depth 1, against the relief for each unit of wavelength.
-const STEEPNESS: f64 = 0.16;
+const STEEPNESS: f64 = 0.4;
 /// The slope at which ground has half its gullies, in reliefs for each unit of wavelength.
-const FLAT: f32 = 0.25;
+const FLAT: f32 = 0.35;
+/// How many times coarser than the gullies an octave of the relief must be to lead them: they cannot follow a slope that turns
+/// within their own width.
+const COARSER: f64 = 2.5;
+/// How much gullies count in the slope that leads the next octave: less keeps the finer ones straighter.
+const BRANCH: f32 = 0.6;
+/// How round the crests are: the square of half the height that is taken off them.
+const ROUND: f32 = 0.004;
 /// How quickly the next octave sets in beside a crest or a valley of the one before.
-const CLEAR: f32 = 0.3;
+const CLEAR: f32 = 0.05;
 /// The height of the relief, up and down, that counts as summit and valley floor.
 const SUMMIT: f32 = 0.6;
 /// Points for each gully from which on it shows in full.
@@ -82,7 +89,7 @@ impl Gullies {
                 }
             })
             .collect();
-        let leading = relief.iter().filter(|w| w.octave.frequency * gully_km < radius_km).count().max(1);
+        let leading = relief.iter().filter(|w| COARSER * w.octave.frequency * gully_km < radius_km).count().max(1);
         Self { relief, leading, gullies, frequency }
     }
 }
@@ -211,7 +218,7 @@ for_each_simd!(fn turn_gradients(n: usize, places: &Places, work: &mut Work) = t
 
 /// Adds the waves of one cell of the eight.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, work: &mut Work) {
+fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let Work { side, waves: [re, im, re_arm, im_arm], .. } = work;
     for i in 0..n.min(CHUNK) {
@@ -241,8 +248,8 @@ fn send_body<R: Real>(n: usize, places: &Places, corner: [u32; 3], octave: &Octa
         (R::load(im_arm, i) + arm(sin)).store(im_arm, i);
     }
 }
-for_each_simd!(fn send_values(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
-for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [u32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
+for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
+for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
 
 /// From the sum of waves to the height of gullies, and to what leads the next octave.
 #[inline(always)]
@@ -264,15 +271,18 @@ fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work) {
         let shorten = (real.square() + imaginary.square()).plus(FAINT).sqrt().recip();
         let (cos, sin) = (real * shorten, imaginary * shorten);
 
+        // Sharp on the crest and round in the bed: 1 - 2 |sin of half the phase|.
+        let half = (-cos).plus(1.0).scale(0.5).plus(ROUND).sqrt();
+        let ridge = half.scale(-2.0).plus(1.0);
         let steepness = side[0].square() + side[1].square() + side[2].square();
         let share = R::load(&work.share, i) * steepness;
         let target = R::load(&work.target, i);
-        let height = target + (cos - target) * share;
+        let height = target + (ridge - target) * share;
         height.store(&mut work.gully, i);
         height.store(&mut work.target, i);
         let flank = sin.square();
         (R::load(&work.share, i) * flank * flank.plus(CLEAR).recip().scale(1.0 + CLEAR)).store(&mut work.share, i);
-        let slope = (sin * share).scale(-gully.slope);
+        let slope = (sin * half.recip() * share).scale(-0.5 * BRANCH * gully.slope);
         for (side, guide) in side.into_iter().zip(&mut work.guide) {
             (R::load(guide, i) + side * slope).store(guide, i);
         }

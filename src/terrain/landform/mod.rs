@@ -13,6 +13,7 @@
 //! - `curve`: a smooth curve through knots
 //! - `dunes`: waves that run with the wind
 //! - `gullies`: mountains carved by running water
+//! - `cells`: plates, cracks and domes around scattered centres
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
 //! - `check`: what every kind must hold, for tests
@@ -72,6 +73,7 @@ landforms! {
     Dunes in dunes,
     Gullies in gullies,
     Canyons in canyons,
+    Cells in cells,
 }
 
 impl Landform {

@@ -40,19 +40,20 @@ fn find_places_body(skewed: Points3<'_>, octave: &Octave, places: &mut Places) {
 }
 for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places) = find_places_body);
 
-/// The eight cells around a point: its own, and the nearer neighbour along each axis or not.
-pub(super) const CORNERS: [[u32; 3]; 8] =
+/// The eight cells around a point, in steps towards the nearer side: its own, and the neighbour along each axis or not.
+pub(super) const CORNERS: [[i32; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
 
-/// One of the [`CORNERS`] around the `i`th point: its cell, and how many cells it lies from the point's own.
+/// The cell so many steps from that of the `i`th point, each axis counted towards the side on which the next cell is nearer;
+/// and how many cells it lies from the point's own.
 #[inline(always)]
-pub(super) fn neighbour(places: &Places, corner: [u32; 3], i: usize) -> ([u32; 3], [f32; 3]) {
-    // The nearer neighbour is one cell down from the lower half of a cell, one up from the upper.
+pub(super) fn neighbour(places: &Places, step: [i32; 3], i: usize) -> ([u32; 3], [f32; 3]) {
+    // The next cell is nearer below for a point in the lower half of its cell, above for one in the upper.
     let side = |axis: usize| if places.fraction[axis][i] < 0.5 { (u32::MAX, -1.0) } else { (1, 1.0) };
     let ((x, dx), (y, dy), (z, dz)) = (side(0), side(1), side(2));
-    let cell = |axis: usize, step: u32| places.cell[axis][i].wrapping_add(step.wrapping_mul(corner[axis]));
-    let step = [dx * corner[0] as f32, dy * corner[1] as f32, dz * corner[2] as f32];
-    ([cell(0, x), cell(1, y), cell(2, z)], step)
+    let cell = |axis: usize, side: u32| places.cell[axis][i].wrapping_add(side.wrapping_mul(step[axis] as u32));
+    let from = [dx * step[0] as f32, dy * step[1] as f32, dz * step[2] as f32];
+    ([cell(0, x), cell(1, y), cell(2, z)], from)
 }
 
 /// A number from 0 to 1 out of the low ten bits.
