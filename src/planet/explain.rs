@@ -193,6 +193,7 @@ fn in_words(param: &Param, names: &[&str]) -> String {
         Domain::Flag => "`true` or `false`".to_owned(),
         Domain::Letter => "a letter in single quotes: `'a'`".to_owned(),
         Domain::Text { .. } => "text in double quotes: `\"text\"`".to_owned(),
+        Domain::File { .. } => "a path in double quotes: `\"maps/heights.png\"`".to_owned(),
         // A shape carries its own parameters: `Fbm(...)`.
         Domain::Choice if param.name == "shape" => format!("one of {}", list(names, "(...)")),
         Domain::Choice => format!("one of {}", list(names, "")),

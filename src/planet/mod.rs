@@ -7,6 +7,7 @@
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
 //!   `locate` knows lines and columns, `migrate` old versions
+//! - [`picture`]: pictures that a preset refers to
 //! - [`shipped`]: the presets that come with the program
 //! - [`random`]: random planets that are always valid
 
@@ -18,6 +19,7 @@ pub(crate) mod locate;
 pub(crate) mod migrate;
 pub mod param;
 pub mod parts;
+pub mod picture;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
@@ -28,7 +30,8 @@ pub mod validate;
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer, Mask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
-pub use shapes::{Craters, Fbm, Ridged, Shape};
+pub use picture::PictureLayout;
+pub use shapes::{Craters, Fbm, HeightMap, Ridged, Shape};
 pub use table::Table;
 
 use param::{Domain, ParamPath, Params, Stage, Unit, log, params};

@@ -7,6 +7,7 @@
 use super::param::{
     Choice, Domain, Param, ParamPath, Params, Stage, Unit, ValueMut, Visit, count, linear, log, params,
 };
+use super::picture::{PictureFile, PictureLayout};
 use serde::{Deserialize, Serialize};
 
 /// Writes the enum of all kinds from their list.
@@ -42,6 +43,8 @@ shapes! {
     Ridged,
     /// Impact craters of many sizes.
     Craters,
+    /// Heights from a picture.
+    HeightMap,
 }
 
 impl Default for Shape {
@@ -149,5 +152,24 @@ params! {
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// Share of the ground that has been hit, for each size.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
+    }
+}
+
+params! {
+    /// A height map: a grey picture of the whole planet, smoothed by about one of its pixels. Without a picture it is 0
+    /// everywhere.
+    pub struct HeightMap {
+        /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y or the first; numbers as they are).
+        /// The path counts from the preset's folder.
+        file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Field;
+        /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the middle.
+        /// CubeCross: 4 x 3 squares; -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X. CubeStrip: the same squares
+        /// in one row or column, in the order +X, -X, +Y, -Y, +Z, -Z. +X is at longitude 0, +Y at 90° east, +Z at the north
+        /// pole; faces are seen from outside, as flat 90° pictures.
+        layout: PictureLayout = PictureLayout::Equirectangular, "Layout", Unit::None, Domain::Choice, Stage::Field;
+        /// What black (0) means, as a value of this layer.
+        low: f64 = 0.0, "Black", Unit::None, linear(-1.0, 1.0), Stage::Field;
+        /// What white (1) means, as a value of this layer.
+        high: f64 = 1.0, "White", Unit::None, linear(-1.0, 1.0), Stage::Field;
     }
 }

@@ -3,6 +3,7 @@
 //! - `fbm`: octaves summed
 //! - `ridged`: octaves folded into crests
 //! - `craters`: bowls and rims of many sizes
+//! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
@@ -44,6 +45,7 @@ landforms! {
     Fbm in fbm,
     Ridged in ridged,
     Craters in craters,
+    HeightMap in heightmap,
 }
 
 impl Landform {
