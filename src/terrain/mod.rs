@@ -7,6 +7,7 @@
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
 //! - `height`: layers joined by amplitude, blend and masks
 //! - `climate`: temperature, moisture, the place in the biome table
+//! - `coast`: how far it is to the sea
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
 //!
@@ -14,6 +15,7 @@
 
 pub mod bench;
 pub(crate) mod climate;
+pub(crate) mod coast;
 pub(crate) mod field;
 pub(crate) mod height;
 mod jet;
@@ -25,6 +27,7 @@ pub mod simd;
 
 use crate::planet::Planet;
 use climate::CompiledClimate;
+use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
 use height::CompiledLayer;
@@ -57,8 +60,12 @@ pub struct Sample {
     pub slope_rad: f64,
     /// Temperature at the surface (of the sea, where there is sea).
     pub temperature_c: f64,
-    /// Moisture, 0 to 1.
+    /// The same between the coldest (0) and the hottest (1) that the biome table knows.
+    pub temperature: f64,
+    /// Moisture, 0 to 1: the biome table's columns.
     pub moisture: f64,
+    /// The same as rain and snow in a year.
+    pub precipitation_mm: f64,
     /// Index of the biome in the palette.
     pub biome: usize,
     /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off.
@@ -69,10 +76,32 @@ impl Terrain {
     /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid one
     /// gives is unspecified, but finite work.
     pub fn new(planet: Arc<Planet>) -> Self {
+        Self::compile(planet, None)
+    }
+
+    /// As [`Terrain::new`], but takes over from the terrain of a similar planet what is the same and took time to find.
+    pub fn after(planet: Arc<Planet>, before: &Terrain) -> Self {
+        Self::compile(planet, Some(before))
+    }
+
+    fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
         let layers = height::compile(&planet);
         let climate = CompiledClimate::new(&planet);
         let height_bounds_m = height::bounds_m(&layers, planet.radius_m());
-        Self { planet, simd: Simd::detect(), layers, climate, height_bounds_m }
+        let mut terrain = Self { planet, simd: Simd::detect(), layers, climate, height_bounds_m };
+        // Found here rather than when first asked for: asked on a worker of a thread pool, it would wait for its own pool.
+        if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
+            let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
+            terrain.climate.coast = kept.or_else(|| Some(Arc::new(Coast::new(sea_m, |dirs| terrain.heights_m(dirs)))));
+        }
+        terrain
+    }
+
+    /// Whether both have the same shores: everything that they depend on.
+    fn has_coast_of(&self, other: &Terrain) -> bool {
+        self.layers == other.layers
+            && self.planet.radius_km == other.planet.radius_km
+            && self.planet.sea_level_m() == other.planet.sea_level_m()
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The answers are the same.
@@ -102,13 +131,16 @@ impl Terrain {
         });
         let height_m = heights.height_m[0];
         let slope = tangent_slope(dir, heights.gradients[0][0], self.planet.radius_m() + height_m);
-        let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
+        let inland_rad = self.climate.inland_rad(&[dir]);
+        let climate = self.climate.field(self.simd, &points).at(&self.planet, &inland_rad, 0, dir, height_m);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
             slope_rad: libm::atan(slope.length()),
             temperature_c: climate.temperature_c,
+            temperature: climate.temperature,
             moisture: climate.moisture,
+            precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
             biome: biome_index(&self.planet, climate.moisture, climate.row),
             layers_m,
         }
