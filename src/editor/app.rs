@@ -104,6 +104,11 @@ impl EditorApp {
         &self.document
     }
 
+    /// The pictures of height maps.
+    pub fn pictures(&self) -> &Pictures {
+        &self.pictures
+    }
+
     /// The viewport.
     pub fn viewport(&self) -> &Viewport {
         &self.viewport

@@ -113,12 +113,36 @@ impl<T: Texel> Raster<T> {
         self.levels.iter().take_while(too_fine).count().min(self.levels.len() - 1)
     }
 
-    /// The number at a unit direction, and its gradient by the direction (its part in the tangent plane is what counts).
-    pub fn sample(&self, dir: DVec3, level: usize) -> (f64, DVec3) {
-        match &self.levels[level] {
-            Level::Globe(globe) => globe.sample(dir),
-            Level::Cube(cube) => cube.sample(dir),
+    /// Where a unit direction meets the raster, for samples of any level.
+    pub fn place(&self, dir: DVec3) -> Place {
+        match &self.levels[0] {
+            Level::Globe(_) => Place::on_globe(dir),
+            Level::Cube(_) => Place { dir, lon_rad: 0.0, from_pole_rad: 0.0 },
         }
+    }
+
+    /// The number at a place, and its gradient by the direction (its part in the tangent plane is what counts).
+    pub fn sample(&self, place: &Place, level: usize) -> (f64, DVec3) {
+        match &self.levels[level] {
+            Level::Globe(globe) => globe.sample(place),
+            Level::Cube(cube) => cube.sample(place.dir),
+        }
+    }
+}
+
+/// A direction, with what all levels of a raster need of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    dir: DVec3,
+    /// On a globe alone: the longitude, and the angle from the nearer pole.
+    lon_rad: f64,
+    from_pole_rad: f64,
+}
+
+impl Place {
+    fn on_globe(dir: DVec3) -> Self {
+        let flat = (dir.x * dir.x + dir.y * dir.y).sqrt();
+        Self { dir, lon_rad: libm::atan2(dir.y, dir.x), from_pole_rad: libm::atan2(flat, dir.z.abs()) }
     }
 }
 
@@ -229,7 +253,12 @@ impl<T: Texel> Globe<T> {
             row => (row, 0),
         };
         let texels = &self.texels[(row * width) as usize..][..width as usize];
-        let first = (column + turn).rem_euclid(width);
+        // At most two columns beyond either edge, and half a turn.
+        let first = match column + turn {
+            first if first < 0 => first + width,
+            first if first >= width => first - width,
+            first => first,
+        };
         if first + 4 <= width {
             let four = &texels[first as usize..][..4];
             [four[0].get(), four[1].get(), four[2].get(), four[3].get()]
@@ -238,7 +267,8 @@ impl<T: Texel> Globe<T> {
         }
     }
 
-    fn sample(&self, dir: DVec3) -> (f64, DVec3) {
+    fn sample(&self, place: &Place) -> (f64, DVec3) {
+        let dir = place.dir;
         let rows_per_rad = self.height as f64 / PI;
         let pole = &self.poles[usize::from(dir.z < 0.0)];
         let plane = pole.value + pole.slope_x * dir.x + pole.slope_y * dir.y;
@@ -248,9 +278,9 @@ impl<T: Texel> Globe<T> {
             return (plane, plane_gradient);
         }
         let flat = flat2.sqrt();
-        let rows_from_pole = libm::atan2(flat, dir.z.abs()) * rows_per_rad;
+        let rows_from_pole = place.from_pole_rad * rows_per_rad;
         let y = if dir.z < 0.0 { self.height as f64 - rows_from_pole } else { rows_from_pole };
-        let x = (libm::atan2(dir.y, dir.x) + PI) * rows_per_rad;
+        let x = (place.lon_rad + PI) * rows_per_rad;
         let (value, by_x, by_y) = bicubic(x, y, |row, column| self.row(row, column));
         // Rows to the south and columns to the east for each step of the direction.
         let south = DVec3::new(dir.z * dir.x / flat, dir.z * dir.y / flat, -flat) * rows_per_rad;
@@ -287,14 +317,16 @@ impl Pole {
 fn average_along<T: Texel>(ring: &mut [T], width: f64) {
     let reach = ((width - 1.0) * 0.5).min((ring.len() / 2 - 1) as f64);
     let (whole, part) = (reach.floor() as usize, reach - reach.floor());
-    let old: Vec<f64> = ring.iter().map(|t| t.get()).collect();
-    let n = old.len();
-    let mut sum: f64 = (0..=2 * whole).map(|k| old[(n + k - whole) % n]).sum();
+    // The ring with its two ends repeated: texel `i` of it stands at `i + whole + 1`.
+    let n = ring.len();
+    let old: Vec<f64> =
+        ring[n - whole - 1..].iter().chain(ring.iter()).chain(&ring[..=whole]).map(|t| t.get()).collect();
+    let mut sum: f64 = old[1..2 * whole + 2].iter().sum();
     let full = 1.0 / (1.0 + 2.0 * reach);
-    for (i, texel) in ring.iter_mut().enumerate() {
-        let (before, after) = (old[(i + n - whole - 1) % n], old[(i + whole + 1) % n]);
+    for ((texel, ends), first) in ring.iter_mut().zip(old.windows(2 * whole + 3)).zip(&old[1..]) {
+        let (before, after) = (ends[0], ends[2 * whole + 2]);
         *texel = T::of((sum + part * (before + after)) * full);
-        sum += after - old[(i + n - whole) % n];
+        sum += after - first;
     }
 }
 
@@ -421,6 +453,10 @@ mod tests {
         (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
     }
 
+    fn at<T: Texel>(raster: &Raster<T>, dir: DVec3, level: usize) -> (f64, DVec3) {
+        raster.sample(&raster.place(dir), level)
+    }
+
     /// Smooth, and different everywhere.
     fn pattern(d: DVec3) -> f64 {
         libm::sin(3.0 * d.x + 1.0) + libm::cos(4.0 * d.y * d.z) + d.z * d.x
@@ -453,10 +489,10 @@ mod tests {
         for (raster, least) in [(globe(128, pattern), 0.005), (cube(64, pattern), 0.005)] {
             let (lo, hi) = raster.bounds();
             for dir in directions(4000).into_iter().chain([DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::ONE.normalize()]) {
-                let (value, _) = raster.sample(dir, 0);
+                let (value, _) = at(&raster, dir, 0);
                 assert!((value - pattern(dir)).abs() < least, "{dir}: {value} {}", pattern(dir));
                 assert!((lo..=hi).contains(&value));
-                let (coarse, _) = raster.sample(dir, 2);
+                let (coarse, _) = at(&raster, dir, 2);
                 assert!((coarse - pattern(dir)).abs() < 0.1, "{dir}: {coarse} {}", pattern(dir));
             }
         }
@@ -479,8 +515,8 @@ mod tests {
                 for k in 0..400 {
                     let along = (a * libm::cos(f64::from(k)) + b * libm::sin(f64::from(k))).normalize();
                     let middle = (start + b * (f64::from(k % 20) * 0.01)).normalize();
-                    let (lo, lo_gradient) = raster.sample((middle - along * 1e-7).normalize(), 0);
-                    let (hi, hi_gradient) = raster.sample((middle + along * 1e-7).normalize(), 0);
+                    let (lo, lo_gradient) = at(&raster, (middle - along * 1e-7).normalize(), 0);
+                    let (hi, hi_gradient) = at(&raster, (middle + along * 1e-7).normalize(), 0);
                     assert!((hi - lo).abs() < 1e-4, "{middle}: {lo} {hi}");
                     let tangent = |g: DVec3| g - middle * g.dot(middle);
                     let bend = (tangent(hi_gradient) - tangent(lo_gradient)).length();
@@ -496,10 +532,10 @@ mod tests {
             let near_pole =
                 (0..400).map(|k| DVec3::new(f64::from(k % 20) * 0.01, f64::from(k / 20) * 0.01, 1.0).normalize());
             for dir in directions(4000).into_iter().chain(near_pole) {
-                let (_, gradient) = raster.sample(dir, 0);
+                let (_, gradient) = at(&raster, dir, 0);
                 for along in <[DVec3; 2]>::from(dir.any_orthonormal_pair()) {
-                    let at = |step: f64| raster.sample((dir + along * step).normalize(), 0).0;
-                    let difference = (at(1e-6) - at(-1e-6)) / 2e-6;
+                    let value = |step: f64| at(&raster, (dir + along * step).normalize(), 0).0;
+                    let difference = (value(1e-6) - value(-1e-6)) / 2e-6;
                     assert!(
                         (difference - gradient.dot(along)).abs() < 1e-4,
                         "{dir}: {difference} {}",
@@ -516,8 +552,8 @@ mod tests {
         let cube = Raster::cube(9, vec![40_000_u16; 6 * 81]);
         for dir in directions(500) {
             for level in 0..2 {
-                assert!((globe.sample(dir, level).0 - 40_000.0).abs() < 1e-9);
-                assert!((cube.sample(dir, level).0 - 40_000.0).abs() < 1e-9);
+                assert!((at(&globe, dir, level).0 - 40_000.0).abs() < 1e-9);
+                assert!((at(&cube, dir, level).0 - 40_000.0).abs() < 1e-9);
             }
         }
         assert_eq!((globe.level_for(0.0), globe.level_for(0.15), globe.level_for(9.0)), (0, 1, 2));

@@ -92,9 +92,21 @@ impl Terrain {
         // Found here rather than when first asked for: asked on a worker of a thread pool, it would wait for its own pool.
         if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
             let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
-            terrain.climate.coast = kept.or_else(|| Some(Arc::new(Coast::new(sea_m, |dirs| terrain.heights_m(dirs)))));
+            terrain.climate.coast = kept
+                .or_else(|| Some(Arc::new(Coast::new(sea_m, |dirs| terrain.coarse(coast::CELL_RAD).heights_m(dirs)))));
         }
         terrain
+    }
+
+    /// Much the same without what is finer than an angle.
+    fn coarse(&self, feature_rad: f64) -> Terrain {
+        let mut coarse = self.clone();
+        for layer in &mut coarse.layers {
+            if let Some(landform) = layer.landform.coarse(feature_rad) {
+                layer.landform = Arc::new(landform);
+            }
+        }
+        coarse
     }
 
     /// Whether both have the same shores: everything that they depend on.

@@ -11,7 +11,7 @@ mod read;
 
 use super::param::{ParamPath, ParamValue, Segment, ValueMut, choice};
 use super::{Planet, Shape};
-use crate::sphere::raster::Raster;
+use crate::sphere::raster::{Place, Raster};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -60,14 +60,22 @@ impl Picture {
         }
     }
 
-    /// The number at a unit direction, and its gradient by the direction.
-    pub fn sample(&self, dir_planet: DVec3, level: usize) -> (f64, DVec3) {
+    /// Where a unit direction meets the picture, for samples of any level.
+    pub fn place(&self, dir_planet: DVec3) -> Place {
+        match &self.texels {
+            Texels::Grey16(raster) => raster.place(dir_planet),
+            Texels::Float(raster) => raster.place(dir_planet),
+        }
+    }
+
+    /// The number at a place, and its gradient by the direction.
+    pub fn sample(&self, place: &Place, level: usize) -> (f64, DVec3) {
         match &self.texels {
             Texels::Grey16(raster) => {
-                let (value, gradient) = raster.sample(dir_planet, level);
-                (value / 65535.0, gradient / 65535.0)
+                let (value, gradient) = raster.sample(place, level);
+                (value * (1.0 / 65535.0), gradient * (1.0 / 65535.0))
             }
-            Texels::Float(raster) => raster.sample(dir_planet, level),
+            Texels::Float(raster) => raster.sample(place, level),
         }
     }
 }

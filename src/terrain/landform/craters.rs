@@ -5,8 +5,8 @@
 //! eight cells nearest to a point: whatever point asks, it looks at every crater that reaches it.
 
 use super::fbm::LEAST_POINTS;
-use super::octaves::{Weighted, series};
-use super::{Chunk, Evaluate, Scratch};
+use super::octaves::{Weighted, coarser_than, series};
+use super::{Chunk, Evaluate, Landform, Scratch};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{self, CHUNK, Lane, Octave, Points3};
@@ -44,6 +44,10 @@ impl Evaluate for Craters {
 
     fn bounds(&self) -> (f64, f64) {
         (-1.0, 1.0)
+    }
+
+    fn coarse(&self, feature_rad: f64) -> Option<Landform> {
+        Some(Landform::Craters(Self { octaves: coarser_than(&self.octaves, feature_rad), density: self.density }))
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

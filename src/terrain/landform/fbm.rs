@@ -1,7 +1,7 @@
 //! Fractal Brownian motion: octaves of noise summed.
 
-use super::octaves::{Weighted, series};
-use super::{Chunk, Evaluate, Scratch};
+use super::octaves::{Weighted, coarser_than, series};
+use super::{Chunk, Evaluate, Landform, Scratch};
 use crate::planet;
 use crate::terrain::noise;
 
@@ -31,6 +31,10 @@ impl Evaluate for Fbm {
 
     fn bounds(&self) -> (f64, f64) {
         (-noise::BOUND, noise::BOUND)
+    }
+
+    fn coarse(&self, feature_rad: f64) -> Option<Landform> {
+        Some(Landform::Fbm(Self { octaves: coarser_than(&self.octaves, feature_rad) }))
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

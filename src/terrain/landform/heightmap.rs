@@ -39,14 +39,15 @@ impl Evaluate for HeightMap {
         let Some(picture) = &self.picture else { return };
         let span = self.high - self.low;
         for (i, &dir) in chunk.dirs.iter().enumerate() {
-            let finest = picture.sample(dir, 0);
+            let place = picture.place(dir);
+            let finest = picture.sample(&place, 0);
             scratch.sums.value[i] += self.low + span * finest.0;
             // Bands often share a level.
             let mut sampled: (usize, DVec3) = (0, finest.1);
             for (gradient, &spacing_rad) in scratch.sums.gradients.iter_mut().zip(chunk.spacings_rad) {
                 let level = picture.level_for(spacing_rad);
                 if level != sampled.0 {
-                    sampled = (level, picture.sample(dir, level).1);
+                    sampled = (level, picture.sample(&place, level).1);
                 }
                 for (lane, slope) in gradient.iter_mut().zip((sampled.1 * span).to_array()) {
                     lane[i] += slope as f32;

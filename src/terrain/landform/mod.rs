@@ -69,6 +69,11 @@ impl Landform {
         self.evaluate().bounds_near(dir_planet, angle_rad)
     }
 
+    /// Much the same without what is finer than an angle, where that is cheaper.
+    pub(crate) fn coarse(&self, feature_rad: f64) -> Option<Self> {
+        self.evaluate().coarse(feature_rad)
+    }
+
     /// Evaluates it at a chunk: the answer is in `scratch.sums`.
     pub(crate) fn chunk(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         scratch.sums.restart(chunk);
@@ -87,6 +92,11 @@ trait Evaluate {
     /// Lowest and highest value within an angle of a direction. Conservative: never tighter than the truth.
     fn bounds_near(&self, _dir_planet: DVec3, _angle_rad: f64) -> (f64, f64) {
         self.bounds()
+    }
+
+    /// Much the same without what is finer than an angle; None where that is no cheaper.
+    fn coarse(&self, _feature_rad: f64) -> Option<Landform> {
+        None
     }
 
     /// Adds its values at the chunk's points to `scratch.sums.value` (all zero before), and to each of `scratch.sums.gradients`

@@ -9,6 +9,12 @@ pub(super) struct Weighted {
     pub(super) weight: f32,
 }
 
+/// The octaves of a series that are no finer than an angle, but at least the first.
+pub(super) fn coarser_than(octaves: &[Weighted], feature_rad: f64) -> Vec<Weighted> {
+    let coarse = octaves.iter().skip(1).take_while(|w| w.octave.frequency * feature_rad <= 1.0).count();
+    octaves.iter().take(1 + coarse).cloned().collect()
+}
+
 /// A series of octaves: `count` of them, from `frequency` cells to the planet's radius on, each `lacunarity` times finer and
 /// `gain` times as strong as the one before.
 pub(super) fn series(seed: u64, frequency: f64, count: u32, gain: f64, lacunarity: f64) -> Vec<Weighted> {

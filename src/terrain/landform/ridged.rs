@@ -1,8 +1,8 @@
 //! Ridged multifractal (Musgrave, in Ebert et al. 2003): noise folded at zero into crests, `(1 - |n|)^2`, each octave strong
 //! where the one before was.
 
-use super::octaves::{Weighted, series};
-use super::{Chunk, Evaluate, Scratch};
+use super::octaves::{Weighted, coarser_than, series};
+use super::{Chunk, Evaluate, Landform, Scratch};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{CHUNK, Noise};
@@ -34,6 +34,14 @@ impl Evaluate for Ridged {
 
     fn bounds(&self) -> (f64, f64) {
         (-1.0, 1.0)
+    }
+
+    fn coarse(&self, feature_rad: f64) -> Option<Landform> {
+        let mut octaves = coarser_than(&self.octaves, feature_rad);
+        // Crests are never below zero: without the finer ones the rest stands for them, or the ground would sink.
+        let total: f32 = octaves.iter().map(|w| w.weight).sum();
+        octaves.iter_mut().for_each(|w| w.weight /= total);
+        Some(Landform::Ridged(Self { octaves, feedback: self.feedback }))
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
