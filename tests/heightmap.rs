@@ -81,7 +81,7 @@ fn planet(file: impl Into<String>, layout: PictureLayout) -> Planet {
 fn loaded(folder: &Path, file: &str, layout: PictureLayout) -> Terrain {
     let preset = folder.join(format!("{file}.ron"));
     planet(file, layout).save(&preset).unwrap();
-    Terrain::new(Arc::new(Planet::load(&preset).unwrap_or_else(|error| panic!("{error}"))))
+    Terrain::new(Arc::new(Planet::load(&preset).unwrap()))
 }
 
 fn directions(n: u64) -> Vec<DVec3> {

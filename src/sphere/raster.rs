@@ -63,7 +63,7 @@ const LEAST_SIDE: usize = 4;
 impl<T: Texel> Raster<T> {
     /// An equirectangular raster of `height` rows (at least 4), northernmost first, of `2 * height` texels each.
     pub fn globe(height: usize, texels: Vec<T>) -> Self {
-        assert!(height >= LEAST_SIDE && texels.len() == 2 * height * height, "a globe is twice as wide as high");
+        debug_assert!(height >= LEAST_SIDE && texels.len() == 2 * height * height, "a globe is twice as wide as high");
         let mut levels = vec![(height, texels)];
         while let Some((height, texels)) = levels.last()
             && height / 2 >= LEAST_SIDE
@@ -76,7 +76,7 @@ impl<T: Texel> Raster<T> {
 
     /// A cube of six faces of `side` by `side` texels (at least 4), top row first, one face behind the other.
     pub fn cube(side: usize, texels: Vec<T>) -> Self {
-        assert!(side >= LEAST_SIDE && texels.len() == 6 * side * side, "a cube has six square faces");
+        debug_assert!(side >= LEAST_SIDE && texels.len() == 6 * side * side, "a cube has six square faces");
         let mut levels = vec![(side, texels)];
         while let Some((side, texels)) = levels.last()
             && side / 2 >= LEAST_SIDE
