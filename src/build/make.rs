@@ -6,6 +6,7 @@ use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::climate::{ClimateField, PointClimate};
+use crate::terrain::coast::Coast;
 use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
 use crate::terrain::landform::Landform;
@@ -22,13 +23,16 @@ pub(crate) struct Parts {
     heights: Arc<Heights>,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
+    coast: Option<Arc<Coast>>,
+    /// Distance to the sea at each vertex, as an angle.
+    inland_rad: Arc<Vec<f64>>,
 }
 
 impl Parts {
     /// Resident size, for the cache's budget.
     pub(crate) fn bytes(&self) -> usize {
         let fields: usize = self.fields.iter().map(|(_, field)| field.bytes()).sum();
-        fields + TILE_VERTICES * (8 + 24 + 16 + size_of::<Vertex>())
+        fields + TILE_VERTICES * (8 + 24 + 16 + 8 + size_of::<Vertex>())
     }
 }
 
@@ -83,7 +87,14 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
         }
     };
 
-    let tile = mesh(terrain, id, &points, &heights, &climate);
+    // The shore is another one whenever heights change anywhere, however far from this tile.
+    let coast = terrain.climate.coast.clone();
+    let inland_rad = match before {
+        Some((parts, _)) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
+        _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
+    };
+
+    let tile = mesh(terrain, id, &points, &heights, &climate, &inland_rad);
     let fields = terrain
         .stack
         .layers
@@ -91,7 +102,15 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
         .zip(fields)
         .filter_map(|(layer, field)| Some((layer.landform.clone(), field?)))
         .collect();
-    (tile, Parts { fields, heights, climate_noises, climate }, work)
+    (tile, Parts { fields, heights, climate_noises, climate, coast, inland_rad }, work)
+}
+
+fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
 }
 
 fn directions(id: NodeId) -> Vec<DVec3> {
@@ -99,7 +118,14 @@ fn directions(id: NodeId) -> Vec<DVec3> {
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
 }
 
-fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, climate: &ClimateField) -> Tile {
+fn mesh(
+    terrain: &Terrain,
+    id: NodeId,
+    points: &Points,
+    heights: &Heights,
+    climate: &ClimateField,
+    inland_rad: &[f64],
+) -> Tile {
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let planet = terrain.planet();
     let radius_m = planet.radius_m();
@@ -117,7 +143,7 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
             let position = dir * (radius_m + height_m);
             positions.push(position);
             let normal = |gradient: DVec3| oct_snorm(dir - tangent_slope(dir, gradient, radius_m + height_m));
-            let PointClimate { temperature_c, moisture, row } = climate.at(planet, i, dir, height_m);
+            let PointClimate { temperature_c, moisture, row, .. } = climate.at(planet, inland_rad, i, dir, height_m);
             let high = position.as_vec3();
             Vertex {
                 position_high_m: high.to_array(),

@@ -194,7 +194,22 @@ impl From<Shape> for planet::Shape {
                 Self::Ridged(planet::Ridged { wavelength_km, octaves, gain, lacunarity, feedback })
             }
             Shape::Craters(Craters { diameter_km, octaves, gain, lacunarity, density }) => {
-                Self::Craters(planet::Craters { diameter_km, octaves, gain, lacunarity, density })
+                // Version 1 knew bowls of one shape.
+                let (power, rim, ejecta, floor, peak, age, fresh) = (0.0, 0.28, 1.6, 0.0, 0.0, 0.0, 0.0);
+                Self::Craters(planet::Craters {
+                    diameter_km,
+                    octaves,
+                    gain,
+                    lacunarity,
+                    density,
+                    power,
+                    rim,
+                    ejecta,
+                    floor,
+                    peak,
+                    age,
+                    fresh,
+                })
             }
         }
     }

@@ -121,6 +121,7 @@ impl Evaluate for Craters {
         (-1.0, 1.0)
     }
 
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, jets: [craters, ..], .. } = scratch;
         let n = chunk.len();

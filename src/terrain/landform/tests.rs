@@ -136,7 +136,10 @@ fn every_valid_parameter_gives_finite_numbers_within_bounds() {
             let field = Field::new(&landform, Simd::detect(), &points, EXACT);
             let (lo, hi) = landform.bounds();
             assert!(field.value.iter().all(|v| (lo..=hi).contains(v)), "{shape:?} on {radius_km} km");
-            assert!(field.gradient(0.0).unwrap().iter().flatten().all(|d| d.is_finite()), "{shape:?} on {radius_km} km");
+            assert!(
+                field.gradient(0.0).unwrap().iter().flatten().all(|d| d.is_finite()),
+                "{shape:?} on {radius_km} km"
+            );
         }
     }
 }
