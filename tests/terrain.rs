@@ -350,10 +350,10 @@ fn the_sea_makes_its_shores_moister_than_the_inland() {
         if b.moisture < 0.5 && b.moisture > 0.0 {
             // What is well below the sea's surface lies in it.
             if a.height_m < -200.0 {
-                shore.push(gained)
+                shore.push(gained);
             } else if a.height_m > 1500.0 {
-                inland.push(gained)
-            };
+                inland.push(gained);
+            }
         }
     }
     let mean = |gains: &[f64]| gains.iter().sum::<f64>() / gains.len() as f64;

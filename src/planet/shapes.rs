@@ -297,7 +297,7 @@ params! {
     /// A height map: a grey picture of the whole planet, smoothed by about one of its pixels. Without a picture it is 0
     /// everywhere.
     pub struct HeightMap {
-        /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y or the first; numbers as they are).
+        /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or the first; numbers as they are).
         /// The path counts from the preset's folder.
         file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Field;
         /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the middle.
