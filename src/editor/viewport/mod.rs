@@ -1,12 +1,12 @@
 //! The picture of the planet: asks for a surface, draws it into a texture when something changed, moves the camera.
 //!
-//! - [`camera_controller`]: where one looks from; pure mathematics
+//! - [`camera`]: where one looks from; pure mathematics
 //! - [`input`]: what the pointer and the keys do
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
 //! - [`clock`]: the time from an edit to its picture
 
-pub mod camera_controller;
+pub mod camera;
 pub mod clock;
 pub mod ground;
 pub mod input;
@@ -18,10 +18,12 @@ use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use crate::render::{DebugView, Frame, FrameStats, Renderer};
 use crate::sphere::LatLon;
-use camera_controller::{CameraController, Ground};
+use camera::pose::Pose;
+use camera::{Cameras, Ground};
 use clock::{EditClock, FrameMeter};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
+use glam::DVec3;
 use ground::PlanetGround;
 use std::sync::Arc;
 use target::Target;
@@ -98,7 +100,7 @@ pub struct Viewport {
     target: Option<Target>,
     drawn: Option<PictureKey>,
     stats: FrameStats,
-    controller: CameraController,
+    cameras: Cameras,
     ground_radius_m: f64,
     drag: input::Drag,
     under_pointer: Option<UnderPointer>,
@@ -138,7 +140,7 @@ impl Viewport {
             target: None,
             drawn: None,
             stats: FrameStats::default(),
-            controller: CameraController::new(planet.radius_m(), opening_place(planet)),
+            cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
             drag: input::Drag::None,
             under_pointer: None,
@@ -149,7 +151,9 @@ impl Viewport {
 
     /// Looks at the whole planet again.
     pub fn reset_view(&mut self, planet: &Planet) {
-        self.controller = CameraController::new(self.ground_radius_m, opening_place(planet));
+        let dive = self.cameras.dives();
+        self.cameras = Cameras::new(self.ground_radius_m, opening_place(planet));
+        self.cameras.set_dive(dive);
     }
 
     /// The newest surface.
@@ -177,11 +181,40 @@ impl Viewport {
         self.pictures
     }
 
-    /// Height of the eye above the ground, and the place under it.
+    /// Height of the eye above the ground or the sea, and the place under it.
     pub fn eye(&self, planet: &Planet) -> (f64, LatLon) {
+        self.with_ground(planet, |cameras, ground| {
+            let pose = cameras.pose(ground);
+            let altitude_m = pose.position_planet_m.length() - ground.surface_radius_m(pose.up());
+            (altitude_m, LatLon::from_direction(pose.up()))
+        })
+    }
+
+    /// Where one looks from.
+    pub fn pose(&self, planet: &Planet) -> Pose {
+        self.with_ground(planet, |cameras, ground| cameras.pose(ground))
+    }
+
+    /// Distance from the planet's centre to the ground or the sea, whichever is higher.
+    pub fn surface_radius_m(&self, planet: &Planet, dir_planet: DVec3) -> f64 {
+        self.with_ground(planet, |_, ground| ground.surface_radius_m(dir_planet))
+    }
+
+    /// The cameras: how one moves.
+    pub fn cameras(&self) -> &Cameras {
+        &self.cameras
+    }
+
+    /// Changes how or where one moves.
+    pub fn move_cameras(&mut self, planet: &Planet, change: impl FnOnce(&mut Cameras, &dyn Ground)) {
+        let mut cameras = self.cameras.clone();
+        self.with_ground(planet, |_, ground| change(&mut cameras, ground));
+        self.cameras = cameras;
+    }
+
+    fn with_ground<R>(&self, planet: &Planet, ask: impl FnOnce(&Cameras, &dyn Ground) -> R) -> R {
         let surface = self.builder.surface();
-        let ground = PlanetGround::new(planet, surface.as_deref().map(|surface| &*surface.terrain));
-        (self.controller.altitude_m(&ground), self.controller.place())
+        ask(&self.cameras, &PlanetGround::new(planet, surface.as_deref().map(|surface| &*surface.terrain)))
     }
 
     /// Why nothing or something old is drawn.
@@ -206,11 +239,11 @@ impl Viewport {
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
         if ground.radius_m() != self.ground_radius_m {
-            self.controller.rescale(self.ground_radius_m, ground.radius_m());
+            self.cameras.rescale(self.ground_radius_m, ground.radius_m(), &ground);
             self.ground_radius_m = ground.radius_m();
         }
-        self.controller.keep_above(&ground);
-        let moved = input::handle(ui, &response, &mut self.drag, &mut self.controller, &ground, draft);
+        self.cameras.keep_above(&ground);
+        let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, draft);
 
         let settings = &mut self.settings;
         if settings.playing {
@@ -223,7 +256,7 @@ impl Viewport {
         let pixels_per_point = ui.ctx().pixels_per_point();
         let side_px = |points: f32| (points * pixels_per_point).round().max(1.0) as u32;
         let view = View {
-            camera: self.controller.camera(&ground),
+            camera: self.cameras.camera(&ground),
             size_px: [side_px(rect.width()), side_px(rect.height())],
             quality: self.settings.quality,
         };
