@@ -1,6 +1,5 @@
 //! How evenly the cube mapping spreads its cells over the sphere, against the mappings it was chosen from. The figures stand
 //! in the README's design notes.
-#![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
 use tellus::sphere::{Face, cube};
@@ -9,28 +8,30 @@ use tellus::sphere::{Face, cube};
 const SIDE: i32 = 128;
 const HALVINGS: u32 = 6;
 
-/// Over all cells: largest area over smallest, largest ratio of the two principal stretches of a cell, and longest over shortest
-/// of those stretches (the spacing of vertices).
-#[derive(Debug, PartialEq)]
+/// Over all cells: largest area over smallest; worst and mean ratio of the two principal stretches of a cell; longest over
+/// shortest of those stretches (the spacing of vertices).
 struct Distortion {
     area: f64,
-    stretch: f64,
+    worst_stretch: f64,
+    mean_stretch: f64,
     spacing: f64,
 }
 
 /// Of cells given by the images of two unit vectors at right angles.
 fn distortion(cells: impl Iterator<Item = (DVec3, DVec3)>) -> Distortion {
-    let (mut areas, mut stretch, mut spacings) = ((f64::MAX, 0.0_f64), 0.0_f64, (f64::MAX, 0.0_f64));
+    let (mut areas, mut spacings) = ((f64::MAX, 0.0_f64), (f64::MAX, 0.0_f64));
+    let (mut worst_stretch, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
     for (a, b) in cells {
         // Principal stretches: square roots of the eigenvalues of the first fundamental form.
         let (e, f, g) = (a.length_squared(), a.dot(b), b.length_squared());
-        let (mean, half) = (0.5 * (e + g), (0.25 * (e - g) * (e - g) + f * f).sqrt());
-        let (least, most) = ((mean - half).sqrt(), (mean + half).sqrt());
+        let (middle, half) = (0.5 * (e + g), (0.25 * (e - g) * (e - g) + f * f).sqrt());
+        let (least, most) = ((middle - half).sqrt(), (middle + half).sqrt());
         areas = (areas.0.min(least * most), areas.1.max(least * most));
         spacings = (spacings.0.min(least), spacings.1.max(most));
-        stretch = stretch.max(most / least);
+        worst_stretch = worst_stretch.max(most / least);
+        (sum, count) = (sum + most / least, count + 1.0);
     }
-    Distortion { area: areas.1 / areas.0, stretch, spacing: spacings.1 / spacings.0 }
+    Distortion { area: areas.1 / areas.0, worst_stretch, mean_stretch: sum / count, spacing: spacings.1 / spacings.0 }
 }
 
 /// Of a mapping from a face's square, -1..1, to the sphere.
@@ -76,17 +77,16 @@ fn icosphere() -> Distortion {
 }
 
 #[test]
-fn our_mapping_spreads_its_cells_as_evenly_as_the_table_says() {
-    let rounded = |d: Distortion| [d.area, d.stretch, d.spacing].map(|x| (x * 1000.0).round() / 1000.0);
+fn the_mappings_distort_as_much_as_the_table_says() {
     let table = [
-        ("ours", rounded(of_cube(|s, t| cube::direction(Face::PosX, s, t))), [0.0, 0.0, 0.0]),
-        ("normalise", rounded(of_cube(normalise)), [0.0, 0.0, 0.0]),
-        ("Nowell", rounded(of_cube(nowell)), [0.0, 0.0, 0.0]),
-        ("icosphere", rounded(icosphere()), [0.0, 0.0, 0.0]),
+        ("ours", of_cube(|s, t| cube::direction(Face::PosX, s, t)), [1.268, 1.732, 1.277, 1.901]),
+        ("normalise", of_cube(normalise), [5.196, 1.732, 1.285, 3.0]),
+        ("Nowell", of_cube(nowell), [1.333, 1.732, 1.241, 2.0]),
+        ("icosphere", icosphere(), [1.300, 1.258, 1.152, 1.279]),
     ];
     for (name, measured, stated) in table {
-        assert_eq!(measured, stated, "{name}: area, stretch, spacing");
+        let Distortion { area, worst_stretch, mean_stretch, spacing } = measured;
+        let measured = [area, worst_stretch, mean_stretch, spacing].map(|x| (x * 1000.0).round() / 1000.0);
+        assert_eq!(measured, stated, "{name}: area, worst stretch, mean stretch, spacing");
     }
-    let stretch = |i: usize| table[i].1[1];
-    let _ = stretch;
 }
