@@ -5,11 +5,14 @@
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
 //! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
+//! - [`bookmarks`]: views kept in the preset
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
-//! - [`menus`], [`status`], [`look`]: the rest of the window
+//! - [`menus`], [`status`], [`controls`], [`look`]: the rest of the window
 
 pub mod app;
+pub mod bookmarks;
 pub mod command;
+pub mod controls;
 pub mod describe;
 pub mod dialogs;
 pub mod document;

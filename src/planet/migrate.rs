@@ -6,7 +6,7 @@
 //! and never migrate text.
 
 use super::explain::parse;
-use super::{Atmosphere, Biomes, Climate, Clouds, Layer, Planet, Problem, Star, VERSION, Version, Water};
+use super::{Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Problem, Star, VERSION, Version, Water};
 use serde::{Deserialize, Serialize};
 
 /// Reads the text of a preset that says it is of `version`.
@@ -37,6 +37,8 @@ pub(crate) struct FileV1 {
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    editor: Option<EditorNotes>,
 }
 
 impl Default for FileV1 {
@@ -47,16 +49,28 @@ impl Default for FileV1 {
 
 impl From<Planet> for FileV1 {
     fn from(planet: Planet) -> Self {
-        let Planet { name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds } = planet;
+        let Planet { name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds, editor } = planet;
         let version = Version(VERSION);
-        Self { version, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds }
+        Self { version, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds, editor }
     }
 }
 
 impl From<FileV1> for Planet {
     fn from(file: FileV1) -> Self {
-        let FileV1 { version: _, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds } =
-            file;
-        Self { name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds }
+        let FileV1 {
+            version: _,
+            name,
+            seed,
+            radius_km,
+            star,
+            layers,
+            climate,
+            biomes,
+            water,
+            atmosphere,
+            clouds,
+            editor,
+        } = file;
+        Self { name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds, editor }
     }
 }

@@ -8,6 +8,7 @@
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
 //!   `locate` knows lines and columns, `migrate` old versions
 //! - [`shipped`]: the presets that come with the program
+//! - [`notes`]: what the editor keeps in a preset for itself
 //! - [`random`]: random planets that are always valid
 
 pub mod diff;
@@ -16,6 +17,7 @@ pub mod file;
 pub mod layers;
 pub(crate) mod locate;
 pub(crate) mod migrate;
+pub mod notes;
 pub mod param;
 pub mod parts;
 pub mod random;
@@ -27,6 +29,7 @@ pub mod validate;
 
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer, Mask};
+pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use shapes::{Craters, Fbm, Ridged, Shape};
 pub use table::Table;
@@ -71,6 +74,8 @@ params! {
         atmosphere: Option<Atmosphere> = None;
         /// The clouds, or None.
         clouds: Option<Clouds> = None;
+        /// What only the editor reads, or None.
+        editor: Option<EditorNotes> = None;
     }
 }
 

@@ -10,6 +10,7 @@
 mod dice;
 mod grounds;
 
+use super::param::Stage;
 use super::{Atmosphere, Blend, Climate, Clouds, Fbm, Layer, Mask, Planet, Ridged, Shape, Star, Water, validate};
 use dice::{Dice, three_digits};
 
@@ -51,6 +52,7 @@ pub fn random(seed: u64) -> Planet {
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,
+        editor: None,
     };
     debug_assert!(validate::problems(&planet).is_empty());
     planet
@@ -64,7 +66,8 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     let mut dice = Dice(seed);
     let mut varied = planet.clone();
     varied.each(&mut |_, param, mut value| {
-        if let Some(new) = dice.moved(param, &value.get(), strength) {
+        let shown = param.stage != Stage::Label;
+        if let Some(new) = dice.moved(param, &value.get(), strength).filter(|_| shown) {
             value.set(&new);
         }
     });

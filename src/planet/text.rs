@@ -6,7 +6,7 @@
 use super::explain::options;
 use super::migrate::FileV1;
 use super::param::{Domain, Param, ValueMut};
-use super::{Biomes, Layer, Planet, VERSION, locate};
+use super::{Biomes, EditorNotes, Layer, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -55,7 +55,7 @@ fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
         params.insert(path.to_string(), comment(param, &value));
     });
     let parts: HashMap<&str, &str> =
-        [Planet::PARTS, Layer::PARTS, Biomes::PARTS].into_iter().flatten().copied().collect();
+        [Planet::PARTS, Layer::PARTS, Biomes::PARTS, EditorNotes::PARTS].into_iter().flatten().copied().collect();
     let mut written = HashSet::new();
     let mut found = Vec::new();
     locate::walk(bare, |steps, place| {

@@ -4,12 +4,14 @@
 //! - [`input`]: what the pointer and the keys do
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
+//! - `outline`: what a frozen view sees, drawn into another
 //! - [`clock`]: the time from an edit to its picture
 
 pub mod camera;
 pub mod clock;
 pub mod ground;
 pub mod input;
+mod outline;
 pub mod target;
 
 use crate::build::{Builder, Surface};
@@ -50,6 +52,8 @@ pub struct ViewSettings {
     pub debug_view: DebugView,
     /// How well things are drawn.
     pub quality: Quality,
+    /// Whether the tiles stay those of the view in which they were frozen.
+    pub freeze_detail: bool,
     /// Exposure in stops.
     pub exposure_ev: f64,
     /// Seconds since time zero.
@@ -65,6 +69,7 @@ struct PictureKey {
     surface: Arc<Surface>,
     planet: Arc<Planet>,
     view: View,
+    frozen: Option<View>,
     time_secs: f64,
     exposure_ev: f64,
     debug_view: DebugView,
@@ -75,6 +80,7 @@ impl PictureKey {
         Arc::ptr_eq(&self.surface, &other.surface)
             && Arc::ptr_eq(&self.planet, &other.planet)
             && self.view == other.view
+            && self.frozen == other.frozen
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
             && self.debug_view == other.debug_view
@@ -102,6 +108,10 @@ pub struct Viewport {
     stats: FrameStats,
     cameras: Cameras,
     ground_radius_m: f64,
+    /// The view whose tiles are kept.
+    frozen: Option<View>,
+    wants_focus: bool,
+    moving: bool,
     drag: input::Drag,
     under_pointer: Option<UnderPointer>,
     under_pointer_key: Option<(egui::Pos2, View, Arc<Surface>)>,
@@ -128,6 +138,7 @@ impl Viewport {
             settings: ViewSettings {
                 debug_view: DebugView::default(),
                 quality,
+                freeze_detail: false,
                 exposure_ev: 0.0,
                 time_secs: 0.0,
                 playing: false,
@@ -142,6 +153,9 @@ impl Viewport {
             stats: FrameStats::default(),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
+            frozen: None,
+            wants_focus: false,
+            moving: false,
             drag: input::Drag::None,
             under_pointer: None,
             under_pointer_key: None,
@@ -205,16 +219,27 @@ impl Viewport {
         &self.cameras
     }
 
+    /// Whether the camera goes on moving by itself.
+    pub fn is_moving(&self) -> bool {
+        self.moving
+    }
+
     /// Changes how or where one moves.
     pub fn move_cameras(&mut self, planet: &Planet, change: impl FnOnce(&mut Cameras, &dyn Ground)) {
         let mut cameras = self.cameras.clone();
         self.with_ground(planet, |_, ground| change(&mut cameras, ground));
         self.cameras = cameras;
+        self.moving = true;
     }
 
     fn with_ground<R>(&self, planet: &Planet, ask: impl FnOnce(&Cameras, &dyn Ground) -> R) -> R {
         let surface = self.builder.surface();
         ask(&self.cameras, &PlanetGround::new(planet, surface.as_deref().map(|surface| &*surface.terrain)))
+    }
+
+    /// Gives the keys to the picture.
+    pub fn take_focus(&mut self) {
+        self.wants_focus = true;
     }
 
     /// Why nothing or something old is drawn.
@@ -229,6 +254,9 @@ impl Viewport {
     /// the label of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
+        if std::mem::take(&mut self.wants_focus) {
+            response.request_focus();
+        }
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "View of the planet"));
         ui.painter().rect_filled(rect, 0.0, egui::Color32::BLACK);
         if rect.width() < 1.0 || rect.height() < 1.0 {
@@ -240,6 +268,9 @@ impl Viewport {
         let ground = PlanetGround::new(valid, terrain);
         if ground.radius_m() != self.ground_radius_m {
             self.cameras.rescale(self.ground_radius_m, ground.radius_m(), &ground);
+            if let Some(frozen) = &mut self.frozen {
+                frozen.camera.position_planet_m *= ground.radius_m() / self.ground_radius_m;
+            }
             self.ground_radius_m = ground.radius_m();
         }
         self.cameras.keep_above(&ground);
@@ -249,6 +280,7 @@ impl Viewport {
         if settings.playing {
             settings.time_secs += f64::from(ui.input(|i| i.stable_dt).min(0.1)) * settings.time_speed;
         }
+        self.moving = moved.animating;
         if moved.animating || settings.playing {
             ui.ctx().request_repaint();
         }
@@ -261,7 +293,8 @@ impl Viewport {
             quality: self.settings.quality,
         };
         // The camera stands over the surface that is shown; a planet of another size is asked for from as far in its radii.
-        let mut wanted = view;
+        self.frozen = self.settings.freeze_detail.then(|| self.frozen.unwrap_or(view));
+        let mut wanted = self.frozen.unwrap_or(view);
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
@@ -275,6 +308,9 @@ impl Viewport {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
             ui.painter().image(target.id(), rect, uv, egui::Color32::WHITE);
         }
+        if let Some(frozen) = &self.frozen {
+            outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);
+        }
         moved.sun.then_some(input::SUN_STEP)
     }
 
@@ -285,6 +321,7 @@ impl Viewport {
             surface,
             planet: planet.clone(),
             view,
+            frozen: self.frozen,
             time_secs: self.settings.time_secs,
             exposure_ev: self.settings.exposure_ev,
             debug_view: self.settings.debug_view,
@@ -303,6 +340,7 @@ impl Viewport {
                 surface: &key.surface,
                 planet,
                 view,
+                frozen: key.frozen,
                 sun_dir_planet: LatLon::from_degrees(star.latitude_deg, star.longitude_deg).direction(),
                 time_secs: key.time_secs,
                 exposure_ev: key.exposure_ev,

@@ -75,7 +75,7 @@ impl Controls {
 }
 
 /// The ways to move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Mode {
     Orbit,
