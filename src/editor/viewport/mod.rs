@@ -5,6 +5,7 @@
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
 //! - `outline`: what a frozen view sees, drawn into another
+//! - [`pointer`]: what lies under the pointer
 //! - [`clock`]: the time from an edit to its picture
 
 pub mod camera;
@@ -12,6 +13,7 @@ pub mod clock;
 pub mod ground;
 pub mod input;
 mod outline;
+pub mod pointer;
 pub mod target;
 
 use crate::build::{Builder, Surface};
@@ -27,23 +29,9 @@ use eframe::egui;
 use eframe::egui_wgpu::RenderState;
 use glam::DVec3;
 use ground::PlanetGround;
+use pointer::{Probe, UnderPointer};
 use std::sync::Arc;
 use target::Target;
-
-/// What lies under the pointer.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct UnderPointer {
-    pub place: LatLon,
-    pub height_m: f64,
-    pub temperature_c: f64,
-    pub moisture: f64,
-    pub biome: String,
-    /// Angle of the ground against the horizontal.
-    pub slope_deg: f64,
-    /// What each layer changes there.
-    pub layers_m: Vec<f64>,
-}
 
 /// What is looked at and how; no part of the document.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,8 +101,7 @@ pub struct Viewport {
     wants_focus: bool,
     moving: bool,
     drag: input::Drag,
-    under_pointer: Option<UnderPointer>,
-    under_pointer_key: Option<(egui::Pos2, View, Arc<Surface>)>,
+    pointer: Probe,
     pictures: u64,
 }
 
@@ -133,7 +120,7 @@ impl Viewport {
             wgpu::DeviceType::DiscreteGpu => Quality::High,
             _ => Quality::Medium,
         });
-        let ctx = ctx.clone();
+        let (ctx, pointer_ctx) = (ctx.clone(), ctx.clone());
         Self {
             settings: ViewSettings {
                 debug_view: DebugView::default(),
@@ -157,8 +144,7 @@ impl Viewport {
             wants_focus: false,
             moving: false,
             drag: input::Drag::None,
-            under_pointer: None,
-            under_pointer_key: None,
+            pointer: Probe::new(move || pointer_ctx.request_repaint()),
             pictures: 0,
         }
     }
@@ -182,7 +168,7 @@ impl Viewport {
 
     /// What lies under the pointer, if it is over the globe.
     pub fn under_pointer(&self) -> Option<&UnderPointer> {
-        self.under_pointer.as_ref()
+        self.pointer.answer()
     }
 
     /// What the newest picture took.
@@ -353,36 +339,15 @@ impl Viewport {
         self.drawn = Some(key);
     }
 
-    /// Asks the evaluator what lies under the pointer, unless the answer is known.
+    /// Asks what lies under the pointer.
     fn look_under_pointer(&mut self, response: &egui::Response, view: &View, surface: Option<&Arc<Surface>>) {
-        let (Some(pos), Some(surface)) = (response.hover_pos(), surface) else {
-            self.under_pointer = None;
-            self.under_pointer_key = None;
-            return;
-        };
-        let known = self.under_pointer_key.as_ref();
-        if known.is_some_and(|(p, v, s)| *p == pos && v == view && Arc::ptr_eq(s, surface)) {
-            return;
+        if let (Some(pos), Some(surface)) = (response.hover_pos(), surface) {
+            let rect = response.rect;
+            let x = f64::from((pos.x - rect.center().x) / (0.5 * rect.width()));
+            let y = f64::from((rect.center().y - pos.y) / (0.5 * rect.height()));
+            self.pointer.ask(x, y, view, surface);
+        } else {
+            self.pointer.leave();
         }
-        self.under_pointer_key = Some((pos, *view, surface.clone()));
-        let rect = response.rect;
-        let x = f64::from((pos.x - rect.center().x) / (0.5 * rect.width()));
-        let y = f64::from((rect.center().y - pos.y) / (0.5 * rect.height()));
-        let camera = &view.camera;
-        let ray = camera.ray_dir_planet(x, y, view.aspect());
-        self.under_pointer = surface.terrain.raycast(camera.position_planet_m, ray).map(|distance_m| {
-            let dir = camera.position_planet_m + ray * distance_m;
-            let sample = surface.terrain.sample(dir);
-            let palette = &surface.terrain.planet().biomes.palette;
-            UnderPointer {
-                place: LatLon::from_direction(dir),
-                height_m: sample.height_m,
-                temperature_c: sample.temperature_c,
-                moisture: sample.moisture,
-                biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
-                slope_deg: sample.slope_rad.to_degrees(),
-                layers_m: sample.layers_m,
-            }
-        });
     }
 }
