@@ -130,6 +130,12 @@ fn temperature_color(x: f32) -> vec3f {
     return mix(c, vec3f(0.35, 0.01, 0.02), saturate1(k - 3.0));
 }
 
+// Sand, grass, deep water.
+fn moisture_color(x: f32) -> vec3f {
+    let c = mix(vec3f(0.75, 0.55, 0.25), vec3f(0.10, 0.45, 0.10), saturate1(x * 2.0));
+    return mix(c, vec3f(0.01, 0.08, 0.55), saturate1(x * 2.0 - 1.0));
+}
+
 // Blue, green, yellow, red: a step for each factor of four from 1 on.
 fn spacing_color(pixels: f32) -> vec3f {
     let k = log2(max(pixels, 1.0)) * 0.5;
@@ -168,7 +174,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
             return textureLoad(biome_albedo, vec2i(cell), 0).rgb;
         }
         case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
-        case 6u: { return mix(vec3f(0.55, 0.38, 0.16), vec3f(0.02, 0.20, 0.45), in.climate.x) * lit; }
+        case 6u: { return moisture_color(in.climate.x) * lit; }
         case 7u: { return level_color(in.level) * lit; }
         case 8u: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
         case 9u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }

@@ -104,7 +104,7 @@ pub fn handle(
     } else {
         Controls::default()
     };
-    let duration_secs = f64::from(ui.input(|i| i.stable_dt).min(0.1));
+    let duration_secs = f64::from(ui.input(|i| i.stable_dt).min(0.25));
     moved.animating |= cameras.advance(duration_secs, &controls, ground);
     moved
 }
