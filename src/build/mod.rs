@@ -1,21 +1,28 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
 //! - `make`: one tile from one node, stage by stage
+//! - `kept`: the layer fields of one tile, present and past
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
+//! - `stats`: what it took
 pub mod builder;
 mod cache;
+mod kept;
 mod make;
 mod refine;
+mod stats;
 
 pub use builder::Builder;
+pub use cache::DEFAULT_BUDGET_BYTES;
 pub use refine::lowest_radius_m;
+pub use stats::{BuildStats, Memory, StageWork, TILE_STAGES};
 
 use crate::lod::{Tile, View};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A complete set of tiles that covers the whole planet without a gap; what the renderer draws.
 pub struct Surface {
@@ -38,22 +45,9 @@ pub struct Leaf {
     pub coarser_edges: u8,
 }
 
-/// What building a surface took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BuildStats {
-    /// Tiles in the surface.
-    pub tiles: usize,
-    /// Vertices in the surface.
-    pub vertices: usize,
-    /// Tiles (re)built for it.
-    pub tiles_built: usize,
-    /// Octaves of noise times points that were evaluated.
-    pub octave_samples: usize,
-    /// Seconds from the request to the finished surface.
-    pub duration_secs: f64,
-}
-
 /// Builds the complete surface for a view and waits for it.
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
-    refine::refine(&Arc::new(Terrain::new(planet.clone())), view, &cache::Cache::default(), &|| true)
+    let terrain = Arc::new(Terrain::new(planet.clone()));
+    let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
+    refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
 }

@@ -5,7 +5,7 @@
 //! the panels, the file and the messages follow from these.
 
 use super::param::{
-    Choice, Domain, Param, ParamPath, Params, Stage, Unit, ValueMut, Visit, count, linear, log, params,
+    Choice, Domain, Param, ParamPath, Params, Stage, Stages, Unit, ValueMut, Visit, count, linear, log, params,
 };
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +57,7 @@ impl Shape {
         doc: "The kind of noise this layer is made of.",
         unit: Unit::None,
         domain: Domain::Choice,
-        stage: Stage::Field,
+        stages: Stages::of(&[Stage::Field]),
     };
 
     /// Takes over what both kinds have: parameters of the same name, and the size of the largest feature, which is the
