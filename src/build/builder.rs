@@ -234,7 +234,7 @@ impl Worker {
     }
 }
 
-/// Which stages differ between two planets.
+/// Which stages that tiles hold differ between two planets.
 fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
     let touched = diff::touched_stages(before.planet(), after.planet());
     // Heights depend on both more and less than single parameters say: on the order of the layers and on which one a mask's
@@ -244,7 +244,7 @@ fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
         && before.layers.iter().zip(&after.layers).all(|(a, b)| a == b || !(a.needed || b.needed));
     let height = Stages::of(&[Stage::Height]);
     let touched = if same { touched.without(height.and(Stages::of(&[Stage::Field]))) } else { touched.and(height) };
-    touched.with_consequences()
+    touched.with_consequences().within(Stages::OF_TILES)
 }
 
 /// What a panic said.

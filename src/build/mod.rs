@@ -16,7 +16,7 @@ mod stats;
 pub use builder::Builder;
 pub use cache::DEFAULT_BUDGET_BYTES;
 pub use refine::lowest_radius_m;
-pub use stats::{BuildStats, Memory, StageWork, TILE_STAGES};
+pub use stats::{BuildStats, Memory, StageWork};
 
 use crate::lod::{Tile, View};
 use crate::planet::Planet;

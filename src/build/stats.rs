@@ -1,6 +1,6 @@
 //! What building took: how often each stage ran, when and for how long, and what is kept in memory.
 
-use crate::planet::param::Stage;
+use crate::planet::param::{Stage, Stages};
 use std::time::Instant;
 
 /// What building a surface took, over all slices of its request.
@@ -22,11 +22,11 @@ pub struct BuildStats {
     pub select_secs: f64,
     /// Slices that the work was done in; each ended in a complete surface.
     pub slices: usize,
-    stages: [StageWork; TILE_STAGES.len()],
+    stages: PerStage,
 }
 
-/// The stages whose results are kept in tiles.
-pub const TILE_STAGES: [Stage; 4] = [Stage::Field, Stage::Height, Stage::ClimateNoise, Stage::Climate];
+/// One for each stage of [`Stage::ALL`]; only those of [`Stages::OF_TILES`] ever run here.
+type PerStage = [StageWork; Stage::ALL.len()];
 
 /// What one stage took, on all threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,9 +42,15 @@ pub struct StageWork {
 }
 
 impl BuildStats {
-    /// What one of [`TILE_STAGES`] took; nothing for other stages.
+    /// What one stage took.
     pub fn stage(&self, stage: Stage) -> StageWork {
-        TILE_STAGES.iter().position(|known| *known == stage).map_or(StageWork::default(), |i| self.stages[i])
+        self.stages[stage as usize]
+    }
+
+    /// The stages that ran.
+    pub fn ran(&self) -> Stages {
+        let ran = |stage: &Stage| self.stage(*stage).runs > 0;
+        Stage::ALL.into_iter().filter(ran).fold(Stages::NONE, |all, stage| all.and(Stages::of(&[stage])))
     }
 
     /// Takes over what was done for it.
@@ -78,7 +84,7 @@ pub(crate) struct Work {
     pub(crate) tiles: usize,
     /// Octaves times points that were evaluated.
     pub(crate) octave_samples: usize,
-    stages: [StageWork; TILE_STAGES.len()],
+    stages: PerStage,
 }
 
 impl Work {
@@ -91,11 +97,9 @@ impl Work {
     pub(crate) fn run<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
         let begun = Instant::now();
         let result = work();
-        if let Some(i) = TILE_STAGES.iter().position(|known| *known == stage) {
-            let secs = |at: Instant| at.duration_since(self.origin).as_secs_f64();
-            let (begin_secs, end_secs) = (secs(begun), secs(Instant::now()));
-            self.stages[i].add(StageWork { runs: 1, busy_secs: end_secs - begin_secs, begin_secs, end_secs });
-        }
+        let secs = |at: Instant| at.duration_since(self.origin).as_secs_f64();
+        let (begin_secs, end_secs) = (secs(begun), secs(Instant::now()));
+        self.stages[stage as usize].add(StageWork { runs: 1, busy_secs: end_secs - begin_secs, begin_secs, end_secs });
         result
     }
 }

@@ -1,7 +1,6 @@
 //! How long things take, measured truthfully: from an edit to its picture, and from frame to frame.
 
 use crate::build::Surface;
-use crate::planet::param::Stage;
 use crate::planet::{Planet, diff};
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -93,7 +92,7 @@ impl EditClock {
 }
 
 fn same_tiles(before: &Planet, after: &Planet) -> bool {
-    !diff::first_stale_stage(before, after).is_some_and(Stage::touches_tiles)
+    !diff::touched_stages(before, after).touches_tiles()
 }
 
 /// The time from frame to frame while frames follow each other.
