@@ -1,9 +1,10 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
 
 use super::gpu;
-use super::pool::{Place, TilePool};
+use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
+use crate::build::Surface;
 use crate::lod::tile::{Tile, Vertex};
 use crate::lod::{self, Culling, stitch};
 use std::collections::HashSet;
@@ -141,17 +142,49 @@ impl TerrainResources {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         Self {
             indices: Indices::new(device),
-            pool: TilePool::default(),
+            pool: TilePool::new(device),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
     }
 
-    /// Chooses the tiles to draw, uploads what is new.
-    pub(crate) fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &Frame<'_>, lowest_m: f64) {
+    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
+    /// there now.
+    pub(crate) fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        surface: &Surface,
+        budget_bytes: u64,
+    ) -> bool {
+        self.pool.begin_round();
+        let missing: Vec<&Tile> =
+            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
+        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
+        for tile in missing.iter().take(affordable) {
+            self.pool.place(device, encoder, tile);
+        }
+        self.pool.end_round(encoder);
+        missing.len() <= affordable
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.pool.uploaded_bytes()
+    }
+
+    /// Chooses the tiles to draw, uploads those that are not there yet.
+    pub(crate) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame<'_>,
+        lowest_m: f64,
+    ) {
         let radius_m = frame.surface.terrain.planet().radius_m();
         let culling = Culling::new(&frame.view, (radius_m + lowest_m).max(0.0));
-        self.pool.begin_frame();
+        self.pool.begin_round();
         self.draws.clear();
         let mut instances: Vec<[f32; 3]> = Vec::new();
         // Near tiles first: what they hide is not shaded.
@@ -160,7 +193,7 @@ impl TerrainResources {
         let mut seen: Vec<_> = frame.surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).collect();
         seen.sort_by(|a, b| away_m(&a.tile).total_cmp(&away_m(&b.tile)));
         for leaf in seen {
-            let Some(place) = self.pool.place(device, queue, &leaf.tile) else { continue };
+            let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, &frame.view);
             instances.push([start as f32, end as f32, f32::from(level)]);
@@ -171,6 +204,7 @@ impl TerrainResources {
             self.instances = instance_buffer(device, instances.len().next_power_of_two());
         }
         queue.write_buffer(&self.instances, 0, bytes);
+        self.pool.end_round(encoder);
     }
 
     /// Draws the tiles chosen by [`TerrainResources::prepare`].
