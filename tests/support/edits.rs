@@ -31,8 +31,8 @@ pub fn full_planet() -> Planet {
     }
     let first = planet.layers[0].name.clone();
     planet.layers[1].masks.push(Mask { layer: first, ..Mask::default() });
-    planet.biomes.palette =
-        ["a", "b"].map(|key| Biome { key: key.chars().next().unwrap(), ..Biome::default() }).to_vec();
+    let biome = |key, color| Biome { key, color, ..Biome::default() };
+    planet.biomes.palette = vec![biome('a', [0.1, 0.3, 0.1]), biome('b', [0.4, 0.4, 0.2])];
     planet.biomes.table = Table::uniform('a', 4, 3);
     planet.biomes.table.set_key(1, 1, 'b');
     planet.biomes.rows = TableRows::Temperature;
