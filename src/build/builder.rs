@@ -253,3 +253,36 @@ fn text_of(panic: &(dyn Any + Send)) -> String {
     text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
         .unwrap_or_else(|| "an unknown error".to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::{Quality, opening};
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn a_panic_gives_up_one_planet_and_is_told() {
+        static BROKEN: AtomicBool = AtomicBool::new(true);
+        let refine_or_panic: Refine = |terrain, view, cache, asked, stats, keep_going| {
+            assert!(!BROKEN.load(Ordering::Relaxed), "the ground gave way");
+            refine(terrain, view, cache, asked, stats, keep_going)
+        };
+        let builder = Builder::start(Worker { refine: refine_or_panic, ..Worker::new(DEFAULT_BUDGET_BYTES) }, || {});
+        let planet = Arc::new(Planet::default());
+        let view = |side_px| opening::opening_view(&planet, [side_px, 64], Quality::Low);
+        let settle = || {
+            while builder.is_busy() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        };
+        builder.request(&planet, &view(64));
+        settle();
+        assert_eq!(builder.error().as_deref(), Some("This planet could not be built: the ground gave way"));
+        assert!(builder.surface().is_none());
+        BROKEN.store(false, Ordering::Relaxed);
+        builder.request(&planet, &view(65));
+        settle();
+        assert_eq!(builder.error(), None);
+        assert!(builder.surface().is_some_and(|surface| surface.complete));
+    }
+}

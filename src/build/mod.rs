@@ -32,6 +32,8 @@ pub struct Surface {
     pub leaves: Vec<Leaf>,
     /// Whether every tile is as fine as the view asks; if not, a finer surface follows.
     pub complete: bool,
+    /// When it was asked for; the times in `stats` count from there.
+    pub asked: Instant,
     /// What it took.
     pub stats: BuildStats,
 }

@@ -71,7 +71,7 @@ pub(crate) fn refine(
     stats.select_secs += begun.elapsed().as_secs_f64() - building_secs;
     stats.duration_secs = asked.elapsed().as_secs_f64();
     stats.slices += 1;
-    Surface { terrain: terrain.clone(), leaves, complete, stats }
+    Surface { terrain: terrain.clone(), leaves, complete, asked, stats }
 }
 
 /// Distance from the planet's centre of the lowest ground or sea that can hide what is behind it.

@@ -11,6 +11,7 @@ use super::handle::Action;
 use super::look;
 use super::menus;
 use super::panels::{Draft, PanelState};
+use super::performance;
 use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
 use super::status;
@@ -33,6 +34,7 @@ pub struct EditorApp {
     pub(super) messages: Vec<Message>,
     pub(super) show_panel: bool,
     pub(super) show_controls: bool,
+    pub(super) show_performance: bool,
     /// What the user asked for in this frame.
     pub(super) actions: Vec<Action>,
     /// Commands that wait until a half-typed value has been taken over.
@@ -64,6 +66,7 @@ impl EditorApp {
             messages: Vec::new(),
             show_panel: !panel_hidden,
             show_controls: false,
+            show_performance: false,
             actions: Vec::new(),
             deferred: Vec::new(),
             orphans: Vec::new(),
@@ -168,12 +171,13 @@ impl EditorApp {
 
     fn show_problems(&self, ui: &mut egui::Ui) {
         let problems = self.document.problems();
-        if problems.is_empty() && self.viewport.error().is_none() {
+        let error = self.viewport.error();
+        if problems.is_empty() && error.is_none() {
             return;
         }
         egui::Panel::top("problems").resizable(false).show(ui, |ui| {
             let color = ui.visuals().error_fg_color;
-            if let Some(error) = self.viewport.error() {
+            if let Some(error) = error {
                 ui.colored_label(color, error);
             }
             if !problems.is_empty() {
@@ -197,7 +201,9 @@ pub(super) fn default_planet() -> Planet {
 
 impl eframe::App for EditorApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        profiling::finish_frame!();
         self.frame_start = Instant::now();
+        self.viewport.frames.begin(self.frame_start);
         if let Some(state) = frame.wgpu_render_state() {
             let waker = ctx.clone();
             self.viewport.edit_clock.frame_began(&state.device, move || waker.request_repaint());
@@ -237,6 +243,7 @@ impl eframe::App for EditorApp {
             }
         });
         prompts::show(&ctx, self);
+        performance::show(&ctx, self);
         self.settle(&ctx);
         if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
             ctx.request_repaint_after(wait);
@@ -248,6 +255,7 @@ impl eframe::App for EditorApp {
             // One more frame after the last movement, to say that all is still.
             ctx.request_repaint_after_secs(0.5);
         }
+        self.viewport.frames.end();
     }
 
     fn on_exit(&mut self) {

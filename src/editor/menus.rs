@@ -89,7 +89,7 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
     });
     ui.separator();
     entry(ui, app, Command::ResetView, true, None);
-    for command in [Command::TogglePanel, Command::ToggleFullscreen, Command::ToggleTheme] {
+    for command in [Command::TogglePanel, Command::TogglePerformance, Command::ToggleFullscreen, Command::ToggleTheme] {
         entry(ui, app, command, true, None);
     }
 }

@@ -6,7 +6,7 @@
 //! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
-//! - [`menus`], [`status`], [`look`]: the rest of the window
+//! - [`menus`], [`status`], [`performance`], [`look`]: the rest of the window
 
 pub mod app;
 pub mod command;
@@ -19,6 +19,7 @@ pub mod history;
 pub mod look;
 pub mod menus;
 pub mod panels;
+pub mod performance;
 pub mod prompts;
 pub mod recovery;
 pub mod status;
