@@ -169,6 +169,38 @@ fn memory_keeps_to_its_budget_whatever_it_is() {
     }
 }
 
+#[test]
+fn every_surface_on_the_way_is_whole_and_of_one_planet() {
+    let mut planet = full_planet();
+    // Too much for one slice: coarser surfaces come first.
+    for layer in &mut planet.layers {
+        if let Shape::Craters(craters) = &mut layer.shape {
+            craters.octaves = 20;
+        }
+    }
+    let view = view(30.0, 1.2);
+    let builder = Builder::new(|| {});
+    let mut seen: Vec<Arc<Surface>> = Vec::new();
+    for step in 0..60 {
+        // A slider is held for a while, then let go.
+        planet.layers[2].seed = step.min(20);
+        builder.request(&Arc::new(planet.clone()), &view);
+        std::thread::sleep(Duration::from_millis(15));
+        seen.extend(builder.surface().filter(|new| !seen.last().is_some_and(|old| Arc::ptr_eq(old, new))));
+    }
+    settled(&builder);
+    seen.extend(builder.surface());
+    assert!(seen.iter().any(|surface| !surface.complete), "nothing was ever cut short");
+    for surface in &seen {
+        let area: f64 = surface.leaves.iter().map(|leaf| 0.25_f64.powi(i32::from(leaf.tile.id.level))).sum();
+        assert_eq!(area, 6.0);
+        for leaf in &surface.leaves {
+            let height_m = surface.terrain.height_m(leaf.tile.id.direction(0.5, 0.5));
+            assert_eq!(leaf.tile.vertices[16 * 33 + 16].height_m, height_m as f32);
+        }
+    }
+}
+
 /// What may happen to a builder.
 #[derive(Clone, Debug)]
 enum Event {

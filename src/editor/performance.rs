@@ -45,7 +45,7 @@ fn last_edit(ui: &mut egui::Ui, timeline: &Timeline) {
     let build = &timeline.build;
     let samples = build.octave_samples as f64 * 1e-6;
     ui.label(format!(
-        "{} tiles rebuilt, {} reused, in {} slices; {samples:.2} million octave samples; {:.1} MB uploaded",
+        "{} tiles rebuilt, {} reused; slices: {}; {samples:.2} million octave samples; {:.1} MB uploaded",
         build.tiles_built,
         timeline.tiles_reused,
         build.slices,
@@ -106,7 +106,7 @@ fn frames(ui: &mut egui::Ui, app: &EditorApp) {
     let newest: Vec<&FrameTime> = log.frames().skip(log.frames().len().saturating_sub(GRAPH_FRAMES)).collect();
     for (i, frame) in newest.into_iter().enumerate() {
         let left = rect.left() + i as f32 * width;
-        let mut column = |time: Duration, color: Color32| {
+        let column = |time: Duration, color: Color32| {
             let top = rect.bottom() - height(time);
             let column = Rect::from_min_max(pos2(left, top), pos2(left + width, rect.bottom()));
             painter.rect_filled(column, 0.0, color);

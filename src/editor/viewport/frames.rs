@@ -9,7 +9,8 @@ const MOST: usize = 600;
 /// One frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTime {
-    /// From the start of the frame to the start of the next, with egui's painting and the wait for the screen.
+    /// From the start of the frame to the start of the next: with egui's painting, the wait for the screen, and however long
+    /// nothing had to be drawn.
     pub whole: Duration,
     /// What the editor itself took.
     pub editor: Duration,
@@ -28,19 +29,14 @@ pub struct FrameLog {
 }
 
 impl FrameLog {
-    /// A frame begins; the one before has been shown. Gaps in which nothing had to be drawn are no frames.
+    /// A frame begins; the one before has been shown.
     pub fn begin(&mut self, now: Instant) {
-        /// Longer than any frame that is not idle.
-        const IDLE: Duration = Duration::from_millis(400);
         if let Some(begun) = self.begun.replace(now) {
-            let whole = now.duration_since(begun);
-            if whole < IDLE || self.current.editor >= IDLE {
-                let frame = FrameTime { whole, ..self.current };
-                log::trace!(target: "tellus::frame", "{frame:?}");
-                self.frames.push_back(frame);
-                if self.frames.len() > MOST {
-                    self.frames.pop_front();
-                }
+            let frame = FrameTime { whole: now.duration_since(begun), ..self.current };
+            log::trace!(target: "tellus::frame", "{frame:?}");
+            self.frames.push_back(frame);
+            if self.frames.len() > MOST {
+                self.frames.pop_front();
             }
         }
         self.current = FrameTime::default();
