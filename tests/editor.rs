@@ -122,6 +122,57 @@ fn layers_are_added_edited_and_masked() {
 }
 
 #[test]
+fn a_layer_is_dragged_to_another_place_in_one_step() {
+    let mut harness = editor(vec![]);
+    let names =
+        |harness: &Editor| -> Vec<String> { planet(harness).layers.iter().map(|layer| layer.name.clone()).collect() };
+    let before = names(&harness);
+    let steps = undo_len(&harness);
+    let row = |harness: &Editor, index: usize| harness.get_by_label(&format!("Layer {}", before[index])).rect();
+    let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(to);
+    harness.run_steps(2);
+    harness.drop_at(to);
+    harness.run_steps(3);
+    let mut expected = before.clone();
+    let moved = expected.remove(0);
+    expected.insert(2, moved);
+    assert_eq!(names(&harness), expected);
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Move layer".to_owned()));
+    send(&mut harness, Command::Undo);
+    assert_eq!(names(&harness), before);
+}
+
+#[test]
+fn a_curve_is_bent_by_its_points() {
+    let mut harness = editor(vec![]);
+    let name = planet(&harness).layers[0].name.clone();
+    let curve = |harness: &Editor| planet(harness).layers[0].curve.clone();
+    click(&mut harness, &format!("Layer {name}"));
+    click(&mut harness, &format!("Bend Curve of {name}"));
+    assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
+
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
+    let middle = rect.center();
+    harness.drag_at(middle);
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 20.0));
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    harness.drop_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    let [x, y] = curve(&harness)[1];
+    assert!(x.abs() < 0.1 && (0.3..0.9).contains(&y), "{x} {y}");
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, &format!("Reset Curve of {name}"));
+    assert!(curve(&harness).is_empty());
+}
+
+#[test]
 fn a_stroke_on_the_biome_table_paints_cells_in_one_step() {
     let mut harness = editor(vec![]);
     click(&mut harness, "Biomes");

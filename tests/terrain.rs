@@ -8,12 +8,17 @@ use std::sync::Arc;
 use tellus::build::{Builder, Surface, build_now};
 use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Atmosphere, Blend, Craters, Fbm, Layer, Mask, Planet, Ridged, Shape, Water};
+use tellus::planet::{Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, Water};
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
 
-/// A planet with every kind of layer, every blend, and masks.
+/// A mask by the noise of another layer.
+fn mask(layer: &str, from: f64, to: f64) -> Mask {
+    Mask::Layer(LayerMask { layer: layer.to_owned(), from, to, invert: false })
+}
+
+/// A planet of version 1: with its kinds of layer, its blends and masks.
 fn planet() -> Planet {
     let fbm = |wavelength_km, octaves| Shape::Fbm(Fbm { wavelength_km, octaves, gain: 0.5, lacunarity: 2.0 });
     let ridged = Shape::Ridged(Ridged { wavelength_km: 700.0, octaves: 14, ..Ridged::default() });
@@ -24,11 +29,8 @@ fn planet() -> Planet {
         blend,
         ..Layer::default()
     };
-    let mountains = Layer {
-        masks: vec![Mask { layer: "continents".to_owned(), from: 0.0, to: 0.3, invert: false }],
-        seed: 5,
-        ..layer("mountains", ridged, 5000.0, Blend::Add)
-    };
+    let mountains =
+        Layer { masks: vec![mask("continents", 0.0, 0.3)], seed: 5, ..layer("mountains", ridged, 5000.0, Blend::Add) };
     Planet {
         layers: vec![
             layer("continents", fbm(5000.0, 12), 3000.0, Blend::Add),
@@ -232,7 +234,7 @@ fn edit(planet: &mut Planet, which: usize, amount: f64) {
         5 => planet.climate.octaves = 1 + (amount * 5.0) as u32,
         6 => planet.water.as_mut().unwrap().level_m = amount * 500.0,
         7 => planet.water.as_mut().unwrap().color = [amount; 3],
-        8 => planet.layers[1].masks[0].from = amount - 0.9,
+        8 => planet.layers[1].masks[0] = mask("continents", amount - 0.9, 0.3),
         _ => {
             planet.layers.remove(planet.layers.len() - 1);
         }

@@ -90,7 +90,7 @@ impl Cache {
         };
         let before = Before { parent: parent.as_deref(), parts: parts.as_deref(), fields: &fields, stale };
         let (found, made) = make_tile(terrain, id, &before, work, keep_going);
-        fields.adopt(&terrain.layers, &found, Instant::now());
+        fields.adopt(&terrain.stack.layers, &found, Instant::now());
 
         let mut state = self.lock();
         let request = state.request;

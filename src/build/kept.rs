@@ -31,14 +31,16 @@ impl Kept {
     }
 }
 
-/// See the module. Equal landforms have equal fields, so a field is found by its landform wherever it stands in the list.
+/// See the module. Equal landforms have equal fields, so a field is found by its landform (and the spacings at which its
+/// gradients are wanted) wherever it stands in the list.
 #[derive(Clone, Default)]
 pub(crate) struct KeptFields(Vec<Kept>);
 
 impl KeptFields {
-    /// The field of a landform.
-    pub(crate) fn find(&self, landform: &Landform) -> Option<Arc<Field>> {
-        self.0.iter().find(|kept| *kept.landform == *landform).map(|kept| kept.field.clone())
+    /// The field of a landform with gradients for these spacings.
+    pub(crate) fn find(&self, landform: &Landform, spacings_rad: &[f64]) -> Option<Arc<Field>> {
+        let fits = |kept: &&Kept| *kept.landform == *landform && kept.field.has(spacings_rad);
+        self.0.iter().find(fits).map(|kept| kept.field.clone())
     }
 
     /// The tile now belongs to a planet of these layers, with these fields as far as they are known. Those of other layers
@@ -46,14 +48,14 @@ impl KeptFields {
     pub(crate) fn adopt(&mut self, layers: &[CompiledLayer], fields: &[Option<Arc<Field>>], now: Instant) {
         for (layer, field) in layers.iter().zip(fields) {
             if let Some(field) = field
-                && self.find(&layer.landform).is_none()
+                && !self.0.iter().any(|kept| Arc::ptr_eq(&kept.field, field))
             {
                 let (landform, field) = (layer.landform.clone(), field.clone());
                 self.0.push(Kept { landform, field, since: None, shown: Duration::ZERO, until: now });
             }
         }
         for kept in &mut self.0 {
-            if layers.iter().any(|layer| *layer.landform == *kept.landform) {
+            if fields.iter().flatten().any(|field| Arc::ptr_eq(&kept.field, field)) {
                 kept.since.get_or_insert(now);
             } else if let Some(since) = kept.since.take() {
                 kept.shown += now.duration_since(since);
@@ -68,7 +70,7 @@ impl KeptFields {
 
     /// Worth and bytes of each field of the past.
     pub(crate) fn past(&self, now: Instant) -> impl Iterator<Item = (f64, usize)> {
-        self.0.iter().filter(|kept| kept.since.is_none()).map(move |kept| (kept.worth(now), bytes(&kept.field)))
+        self.0.iter().filter(|kept| kept.since.is_none()).map(move |kept| (kept.worth(now), kept.field.bytes()))
     }
 
     /// Forgets the past that is worth less.
@@ -88,11 +90,6 @@ impl KeptFields {
 
     /// Resident size.
     pub(crate) fn bytes(&self) -> usize {
-        self.0.iter().map(|kept| bytes(&kept.field)).sum()
+        self.0.iter().map(|kept| kept.field.bytes()).sum()
     }
-}
-
-fn bytes(field: &Field) -> usize {
-    let gradients: usize = field.gradients.iter().flatten().map(|lane| std::mem::size_of_val(&lane[..])).sum();
-    std::mem::size_of_val(&field.value[..]) + gradients
 }

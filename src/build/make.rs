@@ -29,9 +29,8 @@ pub(crate) struct Parts {
 impl Parts {
     /// Resident size, for the cache's budget.
     pub(crate) fn bytes(&self) -> usize {
-        let bands = self.heights.gradients.len();
         let point = size_of::<DVec3>() + 3 * size_of::<f64>();
-        let height = size_of::<f64>() + bands * size_of::<DVec3>();
+        let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
         TILE_VERTICES * (point + height + 2 * size_of::<f64>())
     }
 }
@@ -61,17 +60,18 @@ pub(crate) fn make_tile(
     let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
     let simd = terrain.simd();
 
-    let mut fields = vec![None; terrain.layers.len()];
-    for (layer, slot) in terrain.layers.iter().zip(&mut fields) {
-        *slot = before.fields.find(&layer.landform);
+    let own_spacing_rad = spacing_rad(id.level);
+    let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
+    let mut fields = vec![None; terrain.stack.layers.len()];
+    for (layer, slot) in terrain.stack.layers.iter().zip(&mut fields) {
+        let spacings_rad = layer.spacings_rad(&spacings_rad);
+        *slot = before.fields.find(&layer.landform, &spacings_rad);
         if slot.is_none() && layer.needed {
             if !keep_going() {
                 return (fields, None);
             }
             profiling::scope!("field");
             work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
-            let own_spacing_rad = spacing_rad(id.level);
-            let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
             let field = work.run(Stage::Field, || Field::new(&layer.landform, simd, &points, &spacings_rad));
             *slot = Some(Arc::new(field));
         }
@@ -81,8 +81,7 @@ pub(crate) fn make_tile(
         Some(parts) if !before.stale.contains(Stage::Height) => parts.heights.clone(),
         _ => work.run(Stage::Height, || {
             profiling::scope!("height");
-            let radius_m = terrain.planet().radius_m();
-            Arc::new(height::combine(&terrain.layers, radius_m, &fields, TILE_VERTICES, 2, |_, _, _| {}))
+            Arc::new(height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {}))
         }),
     };
 
@@ -156,6 +155,10 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let planet = terrain.planet();
     let radius_m = planet.radius_m();
+    let gradient = |band: usize, i: usize| {
+        let [x, y, z] = &heights.gradients[band];
+        DVec3::new(f64::from(x[i]), f64::from(y[i]), f64::from(z[i]))
+    };
     let mut positions = Vec::with_capacity(TILE_VERTICES);
     let vertices = points
         .dirs
@@ -174,8 +177,8 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
                 position_low_m: (position - high.as_dvec3()).as_vec3().to_array(),
                 temperature_c: temperature_c as f32,
                 climate_unorm: [unorm(moisture), unorm(row)],
-                normal_oct: normal(heights.gradients[0][i]),
-                parent_normal_oct: normal(heights.gradients[1][i]),
+                normal_oct: normal(gradient(0, i)),
+                parent_normal_oct: normal(gradient(1, i)),
             }
         })
         .collect();

@@ -2,6 +2,7 @@
 //!
 //! - `make`: one tile from one node, stage by stage
 //! - `kept`: the layer fields of one tile, present and past
+//! - `normals`: the normal tile of one node
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
@@ -10,6 +11,7 @@ pub mod builder;
 mod cache;
 mod kept;
 mod make;
+mod normals;
 mod refine;
 mod stats;
 
@@ -18,9 +20,11 @@ pub use cache::DEFAULT_BUDGET_BYTES;
 pub use refine::lowest_radius_m;
 pub use stats::{BuildStats, Memory, StageWork};
 
-use crate::lod::{Tile, View};
+use crate::lod::tile::NormalTile;
+use crate::lod::{Culling, Tile, View};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
+use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -45,6 +49,8 @@ pub struct Leaf {
     pub tile: Arc<Tile>,
     /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
+    /// Slopes finer than the mesh, once they are there.
+    pub normals: Option<Arc<NormalTile>>,
 }
 
 /// Builds the complete surface for a view and waits for it.
@@ -52,4 +58,13 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
     let terrain = Arc::new(Terrain::new(planet.clone()));
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
     refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
+}
+
+/// Finds the normal tiles of all that a view shows of a surface, and waits for them.
+pub fn add_normals(surface: &mut Surface, view: &View) {
+    let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
+    let terrain = &surface.terrain;
+    surface.leaves.par_iter_mut().filter(|leaf| leaf.normals.is_none() && culling.sees(&leaf.tile)).for_each(|leaf| {
+        leaf.normals = Some(Arc::new(normals::make_normal_tile(terrain, leaf.tile.id)));
+    });
 }

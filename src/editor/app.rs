@@ -228,7 +228,8 @@ impl eframe::App for EditorApp {
             let problems = self.document.problems().to_vec();
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
-                let mut draft = Draft { planet: &mut planet, label: None, problems: &problems };
+                let under_pointer = self.viewport.under_pointer();
+                let mut draft = Draft { planet: &mut planet, label: None, problems: &problems, under_pointer };
                 self.panels.show(ui, &mut draft);
                 label = draft.label;
             });

@@ -14,9 +14,10 @@ pub fn show(ui: &mut egui::Ui, app: &EditorApp) {
         let (altitude_m, place) = viewport.eye(app.document().valid_planet());
         let left = match viewport.under_pointer() {
             Some(under) => format!(
-                "{}   {}   {}   {:.1} °C   moisture {:.2}",
+                "{}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
                 place_text(under.place),
                 length_text(under.height_m),
+                under.slope_deg,
                 under.biome,
                 under.temperature_c,
                 under.moisture
@@ -29,7 +30,7 @@ pub fn show(ui: &mut egui::Ui, app: &EditorApp) {
             ui.label(format!("Eye at {}", length_text(altitude_m))).on_hover_text("Height of the eye above the ground");
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 ui.add(egui::Label::new(left).truncate())
-                    .on_hover_text("Under the pointer: place, height, biome, temperature, moisture");
+                    .on_hover_text("Under the pointer: place, height, slope, biome, temperature, moisture");
             });
         });
     });

@@ -192,6 +192,13 @@ pub enum Domain {
     Color,
     /// One of a few named values.
     Choice,
+    /// A function drawn through points `[x, y]`, from left to right; none means that it changes nothing.
+    Curve {
+        /// Farthest a point may lie from zero, along either axis.
+        most: f64,
+        /// How far apart neighbouring points must be along x.
+        least_step: f64,
+    },
     /// One letter or digit.
     Letter,
     /// A line of text of at most this many characters.
@@ -220,6 +227,12 @@ pub const fn triple(max: f64) -> Domain {
 pub const fn count(min: u32, max: u32) -> Domain {
     Domain::Count { min, max }
 }
+
+/// The points of a curve; see [`Domain::Curve`].
+pub type Curve = Vec<[f64; 2]>;
+
+/// Most points of a curve.
+pub const MAX_CURVE_POINTS: usize = 16;
 
 /// What a parameter is. Found by [`Params::each_param`]; never made at run time.
 #[derive(Clone, Copy, Debug)]
@@ -250,6 +263,9 @@ impl Param {
             Domain::Color => "0 to 1 each".to_owned(),
             Domain::Text { max_chars } => format!("at most {max_chars} characters"),
             Domain::Letter => "one letter, digit or punctuation mark".to_owned(),
+            Domain::Curve { most, .. } => {
+                format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)
+            }
             Domain::Seed | Domain::Flag | Domain::Choice => String::new(),
         }
     }
@@ -279,6 +295,8 @@ pub enum ValueMut<'a> {
     Text(&'a mut String),
     /// See [`Domain::Letter`].
     Letter(&'a mut char),
+    /// See [`Domain::Curve`].
+    Curve(&'a mut Curve),
     /// See [`Domain::Choice`].
     Choice(&'a mut dyn Choice),
 }
@@ -293,6 +311,7 @@ pub enum Value {
     Triple([f64; 3]),
     Text(String),
     Letter(char),
+    Curve(Curve),
     Choice(usize),
 }
 
@@ -306,6 +325,7 @@ impl ValueMut<'_> {
             ValueMut::Triple(v) => Value::Triple(**v),
             ValueMut::Text(v) => Value::Text((*v).clone()),
             ValueMut::Letter(v) => Value::Letter(**v),
+            ValueMut::Curve(v) => Value::Curve((*v).clone()),
             ValueMut::Choice(v) => Value::Choice(v.index()),
         }
     }
@@ -319,6 +339,7 @@ impl ValueMut<'_> {
             (ValueMut::Triple(v), Value::Triple(new)) => **v = *new,
             (ValueMut::Text(v), Value::Text(new)) => (*v).clone_from(new),
             (ValueMut::Letter(v), Value::Letter(new)) => **v = *new,
+            (ValueMut::Curve(v), Value::Curve(new)) => (*v).clone_from(new),
             (ValueMut::Choice(v), Value::Choice(new)) => v.set_index(*new),
             _ => debug_assert!(false, "a parameter never changes its type"),
         }
@@ -353,12 +374,39 @@ impl Value {
                     None
                 }
             }
+            (Value::Curve(points), Domain::Curve { most, least_step }) => {
+                curve_problem(points, most, least_step, param)
+            }
             (Value::Letter(v), Domain::Letter) if !v.is_ascii_graphic() || matches!(v, '"' | '\\') => {
                 Some(format!("{v:?} cannot be a key; use {}", param.range_text()))
             }
             _ => None,
         }
     }
+}
+
+/// What is wrong with the points of a curve; the first is number 1.
+fn curve_problem(points: &[[f64; 2]], most: f64, least_step: f64, param: &Param) -> Option<String> {
+    match points {
+        [] => return None,
+        [_] => return Some("one point makes no curve; add another, or use `[]` for none".to_owned()),
+        _ if points.len() > MAX_CURVE_POINTS => {
+            return Some(format!("{} points are too many; use at most {MAX_CURVE_POINTS}", points.len()));
+        }
+        _ => {}
+    }
+    for (i, point) in points.iter().enumerate() {
+        if let Some(bad) = point.iter().find(|v| !v.is_finite() || v.abs() > most) {
+            return Some(format!("point {} has {bad}, which is out of range; use {}", i + 1, param.range_text()));
+        }
+    }
+    points.windows(2).enumerate().find(|(_, pair)| pair[1][0] - pair[0][0] < least_step).map(|(i, pair)| {
+        let (number, x, before) = (i + 2, pair[1][0], pair[0][0]);
+        let least = format!("{least_step}{}{}", if param.unit == Unit::None { "" } else { " " }, param.unit.symbol());
+        format!(
+            "point {number} has x {x}, the one before it {before}; let x grow by at least {least} from point to point"
+        )
+    })
 }
 
 /// Where a parameter stands: `layers[2].shape.octaves`.
@@ -460,7 +508,7 @@ macro_rules! param_value {
         })*
     };
 }
-param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text);
+param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text, Curve => Curve);
 
 /// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
 ///

@@ -14,6 +14,7 @@ pub mod layers;
 pub mod masks;
 pub mod parts;
 
+use crate::editor::viewport::UnderPointer;
 use crate::planet::Planet;
 use crate::planet::param::ParamPath;
 use eframe::egui;
@@ -61,6 +62,8 @@ pub struct Draft<'a> {
     pub label: Option<String>,
     /// Everything wrong with the document's planet.
     pub problems: &'a [(ParamPath, String)],
+    /// The ground under the pointer.
+    pub under_pointer: Option<&'a UnderPointer>,
 }
 
 impl Draft<'_> {

@@ -43,6 +43,10 @@ pub struct UnderPointer {
     pub temperature_c: f64,
     pub moisture: f64,
     pub biome: String,
+    /// Angle of the ground against the horizontal.
+    pub slope_deg: f64,
+    /// What each layer changes there.
+    pub layers_m: Vec<f64>,
 }
 
 /// What is looked at and how; no part of the document.
@@ -371,6 +375,8 @@ impl Viewport {
                 temperature_c: sample.temperature_c,
                 moisture: sample.moisture,
                 biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
+                slope_deg: sample.slope_rad.to_degrees(),
+                layers_m: sample.layers_m,
             }
         });
     }

@@ -3,6 +3,7 @@
 //! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of Continents";
 //! the number beside a slider is called "Amplitude of Continents as a number".
 
+use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
 use super::number::{format_digits, parse_number, suffix};
 use super::random_seed;
@@ -56,6 +57,11 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 }
             }
         });
+        if let ValueMut::Curve(curve) = &mut value
+            && let Some(edit) = curve_edit(row.param, &name(row)).filter(|_| !curve.is_empty())
+        {
+            edit.show(ui, curve);
+        }
         if let Some(problem) = row.problem {
             ui.colored_label(ui.visuals().error_fg_color, problem);
         }
@@ -119,6 +125,8 @@ fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
         Value::Triple([r, g, b]) => format!("({r}, {g}, {b}){unit}"),
         Value::Text(v) => v.clone(),
         Value::Letter(v) => v.to_string(),
+        Value::Curve(points) if points.is_empty() => "no curve".to_owned(),
+        Value::Curve(points) => points.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(", "),
         Value::Choice(index) => match place {
             ValueMut::Choice(choice) => choice.names().get(*index).copied().unwrap_or_default().to_owned(),
             _ => index.to_string(),
@@ -171,10 +179,26 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
             ui.add(edit).accessible_name(&name);
         }
+        (Domain::Curve { .. }, ValueMut::Curve(curve)) => {
+            // The curve itself stands below the row, over its whole width.
+            if !curve.is_empty() {
+                ui.weak(format!("{} points", curve.len()));
+            } else if ui.button("Bend").on_hover_text(row.param.doc).accessible_name(format!("Bend {name}")).clicked()
+                && let Some(edit) = curve_edit(row.param, &name)
+            {
+                **curve = edit.straight();
+            }
+        }
         _ => {
             ui.weak("cannot be edited here");
         }
     }
+}
+
+/// The editor of a parameter that is a curve.
+fn curve_edit<'a>(param: &Param, name: &'a str) -> Option<CurveEdit<'a>> {
+    let Domain::Curve { most, least_step } = param.domain else { return None };
+    Some(CurveEdit { name, unit: param.unit, most, least_step })
 }
 
 /// A slider that leaves room for the number beside it.
