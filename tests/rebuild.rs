@@ -12,7 +12,7 @@ use std::time::Duration;
 use tellus::build::{BuildStats, Builder, Surface, build_now};
 use tellus::lod::{Camera, Quality, Vertex, View};
 use tellus::planet::param::{Stage, Stages};
-use tellus::planet::{Fbm, Layer, Planet, Shape};
+use tellus::planet::{Fbm, Layer, Mask, Planet, Shape};
 use tellus::sphere::{LatLon, NodeId};
 
 /// Over a place of a planet of 1500 km radius, its distance from the centre in radii.
@@ -101,7 +101,9 @@ fn layers_that_are_moved_removed_and_brought_back_evaluate_no_noise() {
 
     let mut renamed = planet.clone();
     renamed.layers[0].name = "Another".to_owned();
-    renamed.layers[1].masks[0].layer = "Another".to_owned();
+    if let Mask::Layer(mask) = &mut renamed.layers[1].masks[0] {
+        mask.layer = "Another".to_owned();
+    }
     assert_eq!(ask(&builder, &renamed, &view).tiles_built, 0, "a name that its masks follow is a name");
 
     let mut retyped = planet.clone();

@@ -222,7 +222,10 @@ impl Worker {
             Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => terrain,
             before => {
                 profiling::scope!("compile");
-                let terrain = Arc::new(Terrain::new(planet.clone()));
+                let terrain = Arc::new(match &before {
+                    Some(before) => Terrain::after(planet.clone(), before),
+                    None => Terrain::new(planet.clone()),
+                });
                 if let Some(before) = before {
                     self.cache.invalidate(stale_stages(&before, &terrain));
                 }

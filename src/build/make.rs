@@ -8,6 +8,7 @@ use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
 use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
 use crate::terrain::climate::{ClimateField, PointClimate};
+use crate::terrain::coast::Coast;
 use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
 use crate::terrain::landform::Landform;
@@ -24,6 +25,9 @@ pub(crate) struct Parts {
     heights: Arc<Heights>,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
+    coast: Option<Arc<Coast>>,
+    /// Distance to the sea at each vertex, as an angle.
+    inland_rad: Arc<Vec<f64>>,
 }
 
 impl Parts {
@@ -31,7 +35,8 @@ impl Parts {
     pub(crate) fn bytes(&self) -> usize {
         let point = size_of::<DVec3>() + 3 * size_of::<f64>();
         let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
-        TILE_VERTICES * (point + height + 2 * size_of::<f64>())
+        let climate = 3 * size_of::<f64>();
+        TILE_VERTICES * (point + height + climate)
     }
 }
 
@@ -100,11 +105,26 @@ pub(crate) fn make_tile(
         }
     };
 
+    // The shore is another one whenever heights change anywhere, however far from this tile.
+    let coast = terrain.climate.coast.clone();
+    let inland_rad = match before.parts {
+        Some(parts) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
+        _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
+    };
+
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        mesh(terrain, id, &points, &heights, &climate)
+        mesh(terrain, id, &points, &heights, &climate, &inland_rad)
     });
-    (fields, Some((tile, Parts { points, heights, climate_noises, climate })))
+    (fields, Some((tile, Parts { points, heights, climate_noises, climate, coast, inland_rad })))
+}
+
+fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
 }
 
 fn directions(id: NodeId) -> Vec<DVec3> {
@@ -151,7 +171,14 @@ fn climate_field(
     (field, octaves * own.len())
 }
 
-fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, climate: &ClimateField) -> Tile {
+fn mesh(
+    terrain: &Terrain,
+    id: NodeId,
+    points: &Points,
+    heights: &Heights,
+    climate: &ClimateField,
+    inland_rad: &[f64],
+) -> Tile {
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let planet = terrain.planet();
     let radius_m = planet.radius_m();
@@ -169,7 +196,7 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
             let position = dir * (radius_m + height_m);
             positions.push(position);
             let normal = |gradient: DVec3| oct_snorm(dir - tangent_slope(dir, gradient, radius_m + height_m));
-            let PointClimate { temperature_c, moisture, row } = climate.at(planet, i, dir, height_m);
+            let PointClimate { temperature_c, moisture, row, .. } = climate.at(planet, inland_rad, i, dir, height_m);
             let high = position.as_vec3();
             Vertex {
                 position_high_m: high.to_array(),

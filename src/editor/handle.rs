@@ -4,6 +4,7 @@ use super::app::EditorApp;
 use super::command::Command;
 use super::files::{Goal, PromptAnswer};
 use crate::lod::Quality;
+use crate::planet::param::ParamPath;
 use crate::render::DebugView;
 use eframe::egui;
 use std::path::PathBuf;
@@ -23,6 +24,8 @@ pub enum Action {
     Recover(bool),
     /// Show something else of the surface.
     View(DebugView),
+    /// Choose a file for the parameter there.
+    Browse(ParamPath),
     /// Draw better or faster.
     Quality(Quality),
 }
@@ -34,6 +37,7 @@ impl Action {
         match self {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
+            Action::Browse(_) => true,
             Action::Answer(_) | Action::Recover(_) | Action::View(_) | Action::Quality(_) => false,
         }
     }
@@ -64,6 +68,7 @@ impl EditorApp {
             Action::Answer(answer) => self.answer_prompt(ctx, answer),
             Action::Recover(keep) => self.recover(keep),
             Action::View(view) => self.viewport.settings.debug_view = view,
+            Action::Browse(path) => self.browse(ctx, path),
             Action::Quality(quality) => self.viewport.settings.quality = quality,
         }
     }

@@ -5,6 +5,7 @@
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
 //! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
+//! - [`pictures`]: pictures of height maps, read in the background
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
 //! - [`menus`], [`status`], [`performance`], [`look`]: the rest of the window
 
@@ -20,6 +21,7 @@ pub mod look;
 pub mod menus;
 pub mod panels;
 pub mod performance;
+pub mod pictures;
 pub mod prompts;
 pub mod recovery;
 pub mod status;

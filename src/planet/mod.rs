@@ -7,6 +7,7 @@
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
 //!   `locate` knows lines and columns, `migrate` old versions
+//! - [`picture`]: pictures that a preset refers to
 //! - [`shipped`]: the presets that come with the program
 //! - [`random`]: random planets that are always valid
 
@@ -20,6 +21,7 @@ pub mod masks;
 pub(crate) mod migrate;
 pub mod param;
 pub mod parts;
+pub mod picture;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
@@ -31,9 +33,10 @@ pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
+pub use picture::PictureLayout;
 pub use shapes::{
-    Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, Ridged, Shape, Terraces,
-    Warped,
+    Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
+    Terraces, Warped,
 };
 pub use table::Table;
 

@@ -28,7 +28,7 @@ pub enum Stage {
     AirTables,
     /// Uniforms: water, star, rock, drift of the clouds.
     Uniform,
-    /// Nothing that is drawn: names.
+    /// Nothing that is drawn: names, figures.
     Label,
 }
 
@@ -140,6 +140,7 @@ pub enum Unit {
     PerMetre,
     MetresPerSecond,
     KilometresPerHour,
+    Millimetres,
 }
 
 impl Unit {
@@ -156,6 +157,7 @@ impl Unit {
             Unit::PerMetre => "1/m",
             Unit::MetresPerSecond => "m/s",
             Unit::KilometresPerHour => "km/h",
+            Unit::Millimetres => "mm",
         }
     }
 }
@@ -203,6 +205,11 @@ pub enum Domain {
     Letter,
     /// A line of text of at most this many characters.
     Text {
+        /// Most characters allowed.
+        max_chars: usize,
+    },
+    /// The path of a file, from the preset's folder on or whole; at most this many characters.
+    File {
         /// Most characters allowed.
         max_chars: usize,
     },
@@ -261,7 +268,7 @@ impl Param {
             Domain::Count { min, max } => format!("{min} to {max}"),
             Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
             Domain::Color => "0 to 1 each".to_owned(),
-            Domain::Text { max_chars } => format!("at most {max_chars} characters"),
+            Domain::Text { max_chars } | Domain::File { max_chars } => format!("at most {max_chars} characters"),
             Domain::Letter => "one letter, digit or punctuation mark".to_owned(),
             Domain::Curve { most, .. } => {
                 format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)
@@ -291,7 +298,7 @@ pub enum ValueMut<'a> {
     Flag(&'a mut bool),
     /// See [`Domain::Color`] and [`Domain::Triple`].
     Triple(&'a mut [f64; 3]),
-    /// See [`Domain::Text`].
+    /// See [`Domain::Text`] and [`Domain::File`].
     Text(&'a mut String),
     /// See [`Domain::Letter`].
     Letter(&'a mut char),
@@ -365,7 +372,7 @@ impl Value {
                     Some(format!("{bad} is not a finite number; use {}", param.range_text()))
                 }
             }
-            (Value::Text(v), Domain::Text { max_chars }) => {
+            (Value::Text(v), Domain::Text { max_chars } | Domain::File { max_chars }) => {
                 if v.chars().count() > max_chars {
                     Some(format!("{} characters are too many; use {}", v.chars().count(), param.range_text()))
                 } else if v.chars().any(char::is_control) {

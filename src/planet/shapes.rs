@@ -6,6 +6,7 @@
 
 use super::kinds::kinds;
 use super::param::{Domain, Stage, Unit, choice, count, linear, log, params};
+use super::picture::{PictureFile, PictureLayout};
 
 /// Writes the enum from the list of kinds, each of which is also the name of its parameters.
 macro_rules! shapes {
@@ -43,6 +44,8 @@ shapes! {
     Canyons,
     /// Cells around scattered centres: plates, cracks or domes.
     Cells,
+    /// Heights from a picture.
+    HeightMap,
 }
 
 params! {
@@ -92,19 +95,19 @@ params! {
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How much more numerous craters are the smaller they are: the power of their cumulative count, about 2.4 on moons,
         /// until the ground is full of them. At 0 the sizes are mixed evenly.
-        power: f64 = 0.0, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
+        power: f64 = 2.4, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
         /// Height of the rim against the depth of the bowl.
         rim: f64 = 0.28, "Rim", Unit::None, linear(0.0, 0.6), Stage::Field;
         /// How far the ejecta reach, in radii of the crater.
         ejecta: f64 = 1.6, "Ejecta", Unit::None, linear(1.1, 1.6), Stage::Field;
         /// How much of the radius of the widest craters is flat floor; small craters are bowls.
-        floor: f64 = 0.0, "Flat floor", Unit::None, linear(0.0, 0.8), Stage::Field;
+        floor: f64 = 0.45, "Flat floor", Unit::None, linear(0.0, 0.8), Stage::Field;
         /// Height of the peak in the middle of the widest craters against their depth.
-        peak: f64 = 0.0, "Central peak", Unit::None, linear(0.0, 1.0), Stage::Field;
+        peak: f64 = 0.3, "Central peak", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How worn the oldest craters are: shallow, without a rim. Each crater has its own age up to this.
-        age: f64 = 0.0, "Age", Unit::None, linear(0.0, 1.0), Stage::Field;
+        age: f64 = 0.7, "Age", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Share of craters that are fresh whatever the age of the rest.
-        fresh: f64 = 0.0, "Fresh", Unit::None, linear(0.0, 1.0), Stage::Field;
+        fresh: f64 = 0.1, "Fresh", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 
@@ -287,5 +290,24 @@ choice! {
         Cracks = "Cracks",
         /// Each cell is a dome, from 1 (its top) down to about 0 where it meets the next.
         Bumps = "Bumps",
+    }
+}
+
+params! {
+    /// A height map: a grey picture of the whole planet, smoothed by about one of its pixels. Without a picture it is 0
+    /// everywhere.
+    pub struct HeightMap {
+        /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or the first; numbers as they are).
+        /// The path counts from the preset's folder.
+        file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Field;
+        /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the middle.
+        /// CubeCross: 4 x 3 squares; -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X. CubeStrip: the same squares
+        /// in one row or column, in the order +X, -X, +Y, -Y, +Z, -Z. +X is at longitude 0, +Y at 90° east, +Z at the north
+        /// pole; faces are seen from outside, as flat 90° pictures.
+        layout: PictureLayout = PictureLayout::Equirectangular, "Layout", Unit::None, Domain::Choice, Stage::Field;
+        /// What black (0) means, as a value of this layer.
+        low: f64 = 0.0, "Black", Unit::None, linear(-1.0, 1.0), Stage::Field;
+        /// What white (1) means, as a value of this layer.
+        high: f64 = 1.0, "White", Unit::None, linear(-1.0, 1.0), Stage::Field;
     }
 }

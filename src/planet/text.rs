@@ -81,7 +81,7 @@ fn comment(param: &Param, value: &ValueMut<'_>) -> String {
     let range = match (value, param.domain) {
         (ValueMut::Choice(choice), _) => choice.names().join(", "),
         // Nothing to be learnt from these.
-        (_, Domain::Text { .. } | Domain::Color) => String::new(),
+        (_, Domain::Text { .. } | Domain::File { .. } | Domain::Color) => String::new(),
         _ => param.range_text(),
     };
     if !range.is_empty() {

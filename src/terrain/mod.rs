@@ -8,6 +8,7 @@
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `climate`: temperature, moisture, the place in the biome table
+//! - `coast`: how far it is to the sea
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
 //!
@@ -16,6 +17,7 @@
 mod approx;
 pub mod bench;
 pub(crate) mod climate;
+pub(crate) mod coast;
 pub(crate) mod field;
 pub(crate) mod height;
 mod jet;
@@ -29,6 +31,7 @@ use crate::planet::Planet;
 use climate::CompiledClimate;
 pub use height::curve_at;
 
+use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
 use height::{CompiledLayer, LayerStack};
@@ -61,8 +64,12 @@ pub struct Sample {
     pub slope_rad: f64,
     /// Temperature at the surface (of the sea, where there is sea).
     pub temperature_c: f64,
-    /// Moisture, 0 to 1.
+    /// The same between the coldest (0) and the hottest (1) that the biome table knows.
+    pub temperature: f64,
+    /// Moisture, 0 to 1: the biome table's columns.
     pub moisture: f64,
+    /// The same as rain and snow in a year.
+    pub precipitation_mm: f64,
     /// Index of the biome in the palette.
     pub biome: usize,
     /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off.
@@ -73,10 +80,41 @@ impl Terrain {
     /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid one
     /// gives is unspecified, but finite work.
     pub fn new(planet: Arc<Planet>) -> Self {
+        Self::compile(planet, None)
+    }
+
+    /// As [`Terrain::new`], but takes over from the terrain of a similar planet what is the same and took time to find.
+    pub fn after(planet: Arc<Planet>, before: &Terrain) -> Self {
+        Self::compile(planet, Some(before))
+    }
+
+    fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
         let stack = LayerStack::new(&planet);
         let climate = CompiledClimate::new(&planet);
         let height_bounds_m = stack.bounds_m();
-        Self { planet, simd: Simd::detect(), stack, climate, height_bounds_m }
+        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, height_bounds_m };
+        // Found here rather than when first asked for: asked on a worker of a thread pool, it would wait for its own pool.
+        if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
+            let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
+            let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, coast::CELL_RAD));
+            terrain.climate.coast = Some(kept.unwrap_or_else(|| Arc::new(coast())));
+        }
+        terrain
+    }
+
+    /// Heights much as they are, but without what points so far apart cannot show; on all cores.
+    fn coarse_heights_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
+        let heights = |dirs: &[DVec3]| {
+            let points = Points::new(dirs.to_vec());
+            let fields = self.seen_fields(&points, &[spacing_rad]);
+            height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {}).height_m
+        };
+        dirs_planet.par_chunks(1024).flat_map_iter(heights).collect()
+    }
+
+    /// Whether both have the same shores: everything that they depend on.
+    fn has_coast_of(&self, other: &Terrain) -> bool {
+        self.stack == other.stack && self.planet.sea_level_m() == other.planet.sea_level_m()
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The answers are the same.
@@ -108,13 +146,16 @@ impl Terrain {
         let height_m = heights.height_m[0];
         let gradient = DVec3::from_array(heights.gradients[0].each_ref().map(|component| f64::from(component[0])));
         let slope = tangent_slope(dir, gradient, self.planet.radius_m() + height_m);
-        let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
+        let inland_rad = self.climate.inland_rad(&[dir]);
+        let climate = self.climate.field(self.simd, &points).at(&self.planet, &inland_rad, 0, dir, height_m);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
             slope_rad: libm::atan(slope.length()),
             temperature_c: climate.temperature_c,
+            temperature: climate.temperature,
             moisture: climate.moisture,
+            precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
             biome: biome_index(&self.planet, climate.moisture, climate.row),
             layers_m,
         }
@@ -159,15 +200,19 @@ impl Terrain {
         self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
     }
 
+    /// The same without what is seen at none of the spacings.
+    fn seen_fields(&self, points: &Points, spacings_rad: &[f64]) -> Vec<Option<Arc<Field>>> {
+        let field = |layer: &CompiledLayer| {
+            Arc::new(Field::seen_only(&layer.landform, self.simd, points, &layer.spacings_rad(spacings_rad)))
+        };
+        self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
+    }
+
     /// Slopes (see [`tangent_slope`]) at unit directions, as points so far apart can show them; one list for each spacing.
     pub(crate) fn slopes(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> [Vec<DVec3>; 2] {
         let points = Points::new(dirs_planet);
         let radius_m = self.planet.radius_m();
-        let field = |layer: &CompiledLayer| {
-            let spacings_rad = layer.spacings_rad(&spacings_rad);
-            Arc::new(Field::seen_only(&layer.landform, self.simd, &points, &spacings_rad))
-        };
-        let fields: Vec<_> = self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect();
+        let fields = self.seen_fields(&points, &spacings_rad);
         let heights = height::combine(&self.stack, self.simd, &points, &fields, &spacings_rad, |_, _| {});
         let slope = |band: usize, i: usize| {
             let gradient = heights.gradients[band].each_ref().map(|component| f64::from(component[i]));

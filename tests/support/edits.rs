@@ -29,13 +29,18 @@ pub fn full_planet() -> Planet {
             ..Layer::default()
         });
     }
-    let first = planet.layers[0].name.clone();
-    planet.layers[1].masks.push(Mask { layer: first, ..Mask::default() });
+    for (i, mut mask) in Mask::all().into_iter().enumerate() {
+        if let Mask::Layer(mask) = &mut mask {
+            mask.layer = planet.layers[0].name.clone();
+        }
+        planet.layers[1 + i].masks.push(mask);
+    }
     let biome = |key, color| Biome { key, color, ..Biome::default() };
     planet.biomes.palette = vec![biome('a', [0.1, 0.3, 0.1]), biome('b', [0.4, 0.4, 0.2])];
     planet.biomes.table = Table::uniform('a', 4, 3);
     planet.biomes.table.set_key(1, 1, 'b');
     planet.biomes.rows = TableRows::Temperature;
+    planet.climate.sea_moisture = 0.3;
     planet
 }
 
@@ -96,6 +101,9 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
             ValueMut::Choice(choice) => Value::Choice((index + 1) % choice.names().len()),
             _ => unreachable!(),
         },
+        (Value::Curve(_), Domain::Curve { most, .. }) => {
+            Value::Curve(vec![[-0.25 * most, -0.2 * most], [0.25 * most, 0.3 * most]])
+        }
         (Value::Letter(_), _) => Value::Letter('z'),
         // A mask's layer: another one. A layer that masks refer to keeps its name, or they would follow nobody.
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),

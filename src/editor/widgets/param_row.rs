@@ -30,9 +30,9 @@ const NUMBER_WIDTH: f32 = 86.0;
 const NUMBER_DIGITS: i32 = 5;
 const TRIPLE_DIGITS: i32 = 4;
 
-/// Shows the row; whether the value was changed.
+/// Shows the row; whether a file is to be chosen for it.
 pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> bool {
-    let before = value.get();
+    let mut browse = false;
     ui.push_id(row.path.to_string(), |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
@@ -45,7 +45,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 egui::Layout::left_to_right(egui::Align::Center),
                 |ui| {
                     ui.set_min_width(control_width);
-                    control(ui, row, &mut value);
+                    browse = control(ui, row, &mut value);
                 },
             );
             if let Some(default) = row.default
@@ -66,7 +66,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
             ui.colored_label(ui.visuals().error_fg_color, problem);
         }
     });
-    value.get() != before
+    browse
 }
 
 fn name(row: &Row<'_>) -> String {
@@ -134,7 +134,8 @@ fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
     }
 }
 
-fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
+/// Whether a file is to be chosen.
+fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     let name = name(row);
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
@@ -174,6 +175,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
                 **letter = typed;
             }
         }
+        (Domain::File { max_chars }, ValueMut::Text(text)) => return file_field(ui, &name, text, max_chars),
         (domain, ValueMut::Text(text)) => {
             let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
@@ -193,6 +195,18 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
             ui.weak("cannot be edited here");
         }
     }
+    false
+}
+
+/// A path, and a button that asks for another; whether it was clicked.
+fn file_field(ui: &mut egui::Ui, name: &str, path: &mut String, max_chars: usize) -> bool {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let browse = ui.button("Browse…").on_hover_text("Choose a file").clicked();
+        let edit = egui::TextEdit::singleline(path).char_limit(max_chars).desired_width(ui.available_width());
+        ui.add(edit).accessible_name(name);
+        browse
+    })
+    .inner
 }
 
 /// The editor of a parameter that is a curve.

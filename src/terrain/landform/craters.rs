@@ -13,7 +13,7 @@ use super::places::{CORNERS, Places, neighbour, unit};
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK};
+use crate::terrain::noise::{self, CHUNK, Octave};
 use crate::terrain::simd::for_each_simd;
 
 /// Most radius of a crater, in cells.
@@ -32,7 +32,16 @@ const THICKNESS: f32 = 0.34;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Craters {
-    sizes: Vec<(Weighted, Mould)>,
+    sizes: Vec<Size>,
+}
+
+/// The craters of one octave.
+#[derive(Clone, Debug, PartialEq)]
+struct Size {
+    /// One lattice, whose layers show as bands where they lie along the ground; or two, one in the gaps of the other.
+    lattices: Vec<Octave>,
+    weight: f32,
+    mould: Mould,
 }
 
 /// What the craters of one octave are like.
@@ -59,11 +68,17 @@ impl Craters {
         let octaves = series(seed, 0.9 * radius_km / diameter_km, octaves, gain, lacunarity);
         // Cells of equal density make the power 2; any other comes from the densities, until every cell is full.
         let excess = if power > 0.0 { power - 2.0 } else { 0.0 };
-        let sizes = octaves.into_iter().enumerate().map(|(i, weighted)| {
+        let sizes = octaves.into_iter().enumerate().map(|(i, Weighted { octave, weight })| {
             let density = (density * libm::pow(lacunarity, excess * i as f64)).min(1.0);
             // Large impacts collapse: all of it at half the widest diameter, none at a tenth.
             let collapse = ((libm::pow(lacunarity, -(i as f64)) - 0.1) / 0.4).clamp(0.0, 1.0);
-            (weighted, Mould::new(params, density, collapse))
+            let gaps = Octave {
+                offset: octave.offset.map(|offset| offset + 0.5),
+                seed: noise::scramble(octave.seed),
+                ..octave
+            };
+            let lattices = if power > 0.0 { vec![octave, gaps] } else { vec![octave] };
+            Size { lattices, weight, mould: Mould::new(params, density, collapse) }
         });
         Self { sizes: sizes.collect() }
     }
@@ -121,23 +136,27 @@ impl Evaluate for Craters {
         (-1.0, 1.0)
     }
 
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, jets: [craters, ..], .. } = scratch;
         let n = chunk.len();
         let mut places = Places::default();
-        for (Weighted { octave, weight }, mould) in &self.sizes {
-            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+        for Size { lattices, weight, mould } in &self.sizes {
+            let frequency = lattices[0].frequency;
+            let fades = chunk.fades(1.0 / frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
             let dig = if fades.is_unseen() { dig_values } else { dig_gradients };
             let settle = if fades.is_unseen() { settle_values } else { settle_gradients };
-            places.find(chunk.simd, chunk.skewed, octave);
             craters.fill(n, 0.0);
-            for corner in CORNERS {
-                dig(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
+            for octave in lattices {
+                places.find(chunk.simd, chunk.skewed, octave);
+                for corner in CORNERS {
+                    dig(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
+                }
             }
-            settle(chunk.simd, n, octave.frequency as f32, craters);
+            settle(chunk.simd, n, frequency as f32, craters);
             sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
         }
     }
@@ -223,18 +242,19 @@ mod tests {
     fn counts_follow_the_power_law() {
         let Craters { sizes } = Craters::new(&moon(), 7, 1740.0);
         let above = |diameter: f64| -> f64 {
-            let counts = sizes.iter().map(|(Weighted { octave, .. }, mould)| {
+            let counts = sizes.iter().map(|Size { lattices, mould, .. }| {
+                let frequency = lattices[0].frequency;
                 let wide = |i: u32| {
                     let u = (f64::from(i) + 0.5) / 1000.0;
                     let [a, b] = mould.spread.map(f64::from);
-                    1.0 / (octave.frequency * (1.0 + u * (a + b * u))) > diameter
+                    1.0 / (frequency * (1.0 + u * (a + b * u))) > diameter
                 };
                 let share = (0..1000).filter(|i| wide(*i)).count() as f64 / 1000.0;
-                share * f64::from(mould.density) * octave.frequency * octave.frequency
+                share * f64::from(mould.density) * frequency * frequency
             });
             counts.sum()
         };
-        let widest = 1.0 / sizes[0].0.octave.frequency;
+        let widest = 1.0 / sizes[0].lattices[0].frequency;
         // No crater is wider than the widest, which takes their count off the endless power law.
         for diameter in [0.8, 0.6, 0.5, 0.4, 0.25, 0.15] {
             let count = above(widest * diameter) / above(widest * 0.5);

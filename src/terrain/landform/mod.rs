@@ -14,6 +14,7 @@
 //! - `dunes`: waves that run with the wind
 //! - `gullies`: mountains carved by running water
 //! - `cells`: plates, cracks and domes around scattered centres
+//! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
 //! - `check`: what every kind must hold, for tests
@@ -74,6 +75,7 @@ landforms! {
     Gullies in gullies,
     Canyons in canyons,
     Cells in cells,
+    HeightMap in heightmap,
 }
 
 impl Landform {
