@@ -408,6 +408,34 @@ fn unsaved_work_outlives_a_crash() {
 }
 
 #[test]
+fn the_performance_panel_tells_where_an_edit_went() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    assert!(harness.query_by_label_contains("times of the next edit").is_some());
+    click(&mut harness, "Climate");
+    slide(&mut harness, "Region size of climate", 900.0);
+    for _ in 0..100 {
+        wait_for_picture(&mut harness);
+        if harness.state().viewport().edit_clock.last().is_some() {
+            break;
+        }
+    }
+    harness.run_steps(2);
+    for step in ["Compare and compile", "Choose tiles", "Climate noise", "Vertices", "Upload", "Draw", "Present"] {
+        assert!(harness.query_by_label(step).is_some(), "{step}");
+    }
+    assert!(harness.query_by_label("Layer noise").is_none(), "no layer was touched");
+    let timeline = harness.state().viewport().edit_clock.timeline().unwrap().clone();
+    let mut ends = timeline.steps.iter().map(|step| step.end_secs);
+    assert!(ends.all(|end_secs| end_secs <= timeline.total.as_secs_f64()), "{timeline:?}");
+    assert!(timeline.uploaded_bytes > 0 && timeline.build.octave_samples > 0);
+    assert!(harness.state().viewport().memory().used_bytes > 0);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    assert!(harness.query_by_label("Draw").is_none());
+}
+
+#[test]
 fn a_height_map_is_chosen_undone_saved_and_missed() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);

@@ -1,9 +1,11 @@
 //! One tile from one node: directions, layer fields, height, climate, mesh. Stages whose inputs did not change are taken
-//! from the tile that stood there before.
+//! from the tile that stood there before, and samples that the parent has from the parent.
 
+use super::kept::KeptFields;
+use super::stats::Work;
 use crate::lod::select::spacing_rad;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
-use crate::planet::param::Stage;
+use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
 use crate::terrain::climate::{ClimateField, PointClimate};
 use crate::terrain::coast::Coast;
@@ -16,10 +18,10 @@ use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a tile was made from, kept so that an edit re-runs only the stages it makes stale.
+/// What a tile was made from (the fields of its layers apart), kept so that an edit re-runs only the stages it makes stale.
 #[derive(Debug)]
 pub(crate) struct Parts {
-    fields: Vec<(Arc<Landform>, Arc<Field>)>,
+    points: Arc<Points>,
     heights: Arc<Heights>,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
@@ -31,78 +33,90 @@ pub(crate) struct Parts {
 impl Parts {
     /// Resident size, for the cache's budget.
     pub(crate) fn bytes(&self) -> usize {
-        let fields: usize = self.fields.iter().map(|(_, field)| field.bytes()).sum();
-        fields + TILE_VERTICES * (8 + 24 + 16 + 8 + size_of::<Vertex>())
+        let point = size_of::<DVec3>() + 3 * size_of::<f64>();
+        let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
+        let climate = 3 * size_of::<f64>();
+        TILE_VERTICES * (point + height + climate)
     }
 }
 
-/// What building one tile took.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Octaves times points that were evaluated.
-    pub(crate) octave_samples: usize,
+/// What is known of a node before its tile is built.
+pub(crate) struct Before<'a> {
+    /// What the parent's tile was made from, perhaps for an earlier planet.
+    pub(crate) parent: Option<&'a Parts>,
+    /// What the tile that stood there was made from.
+    pub(crate) parts: Option<&'a Parts>,
+    /// Fields of this planet's layers and of others.
+    pub(crate) fields: &'a KeptFields,
+    /// The stages in which the planet of `parts` differs from this one.
+    pub(crate) stale: Stages,
 }
 
-/// Builds the tile of a node. `before` holds the parts of the tile that stood there for an earlier planet, and `stale` the
-/// first stage in which that planet differs from this one.
-pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, Stage)>) -> (Tile, Parts, Work) {
-    let points = Points::new(directions(id));
-    let mut work = Work::default();
+/// Builds the tile of a node, and adds what that took to `work`. Gives the fields of the layers, and no tile if `keep_going`,
+/// asked before each layer, said no; then only some of the fields are there.
+pub(crate) fn make_tile(
+    terrain: &Terrain,
+    id: NodeId,
+    before: &Before<'_>,
+    work: &mut Work,
+    keep_going: &dyn Fn() -> bool,
+) -> (Vec<Option<Arc<Field>>>, Option<(Tile, Parts)>) {
+    profiling::scope!("tile");
+    let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
     let simd = terrain.simd();
 
     let own_spacing_rad = spacing_rad(id.level);
     let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
-    let fields: Vec<Option<Arc<Field>>> = terrain
-        .stack
-        .layers
-        .iter()
-        .map(|layer| {
-            let spacings_rad = layer.spacings_rad(&spacings_rad);
-            let kept = before.and_then(|(parts, _)| {
-                parts.fields.iter().find(|(landform, field)| *landform == layer.landform && field.has(&spacings_rad))
-            });
-            match kept {
-                Some((_, field)) => Some(field.clone()),
-                None if !layer.needed => None,
-                None => {
-                    work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
-                    Some(Arc::new(Field::new(&layer.landform, simd, &points, &spacings_rad)))
-                }
+    let mut fields = vec![None; terrain.stack.layers.len()];
+    for (layer, slot) in terrain.stack.layers.iter().zip(&mut fields) {
+        let spacings_rad = layer.spacings_rad(&spacings_rad);
+        *slot = before.fields.find(&layer.landform, &spacings_rad);
+        if slot.is_none() && layer.needed {
+            if !keep_going() {
+                return (fields, None);
             }
-        })
-        .collect();
+            profiling::scope!("field");
+            work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
+            let field = work.run(Stage::Field, || Field::new(&layer.landform, simd, &points, &spacings_rad));
+            *slot = Some(Arc::new(field));
+        }
+    }
 
-    let heights = match before {
-        Some((parts, stale)) if stale > Stage::Height => parts.heights.clone(),
-        _ => Arc::new(height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {})),
+    let heights = match before.parts {
+        Some(parts) if !before.stale.contains(Stage::Height) => parts.heights.clone(),
+        _ => work.run(Stage::Height, || {
+            profiling::scope!("height");
+            Arc::new(height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {}))
+        }),
     };
 
     let climate_noises = terrain.climate.noises().cloned();
-    let climate = match before {
-        Some((parts, _)) if parts.climate_noises == climate_noises => parts.climate.clone(),
-        _ => {
-            let octaves: usize = climate_noises.iter().flatten().map(Landform::octave_count).sum();
-            work.octave_samples += octaves * TILE_VERTICES;
-            Arc::new(terrain.climate.field(simd, &points))
+    let of_this_planet = |parts: &&Parts| parts.climate_noises == climate_noises;
+    let climate = match before.parts.filter(of_this_planet) {
+        Some(parts) => parts.climate.clone(),
+        None => {
+            let parent = before.parent.filter(of_this_planet).map(|parts| &*parts.climate);
+            let (climate, samples) = work.run(Stage::ClimateNoise, || {
+                profiling::scope!("climate noise");
+                climate_field(terrain, id, &points, parent)
+            });
+            work.octave_samples += samples;
+            Arc::new(climate)
         }
     };
 
     // The shore is another one whenever heights change anywhere, however far from this tile.
     let coast = terrain.climate.coast.clone();
-    let inland_rad = match before {
-        Some((parts, _)) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
+    let inland_rad = match before.parts {
+        Some(parts) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
         _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
     };
 
-    let tile = mesh(terrain, id, &points, &heights, &climate, &inland_rad);
-    let fields = terrain
-        .stack
-        .layers
-        .iter()
-        .zip(fields)
-        .filter_map(|(layer, field)| Some((layer.landform.clone(), field?)))
-        .collect();
-    (tile, Parts { fields, heights, climate_noises, climate, coast, inland_rad }, work)
+    let tile = work.run(Stage::Climate, || {
+        profiling::scope!("mesh");
+        mesh(terrain, id, &points, &heights, &climate, &inland_rad)
+    });
+    (fields, Some((tile, Parts { points, heights, climate_noises, climate, coast, inland_rad })))
 }
 
 fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
@@ -116,6 +130,45 @@ fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
 fn directions(id: NodeId) -> Vec<DVec3> {
     let step = 1.0 / TILE_QUADS as f64;
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
+}
+
+/// The climate's noise at a tile's points, and how many octave samples that took. Every second point of every second row
+/// is the parent's, where its noise is at hand.
+fn climate_field(
+    terrain: &Terrain,
+    id: NodeId,
+    points: &Points,
+    parent: Option<&ClimateField>,
+) -> (ClimateField, usize) {
+    let octaves: usize = terrain.climate.noises().into_iter().flatten().map(Landform::octave_count).sum();
+    let Some(parent) = parent else {
+        return (terrain.climate.field(terrain.simd(), points), octaves * points.len());
+    };
+    let is_shared = |i: usize| (i % TILE_SIDE) % 2 == 0 && (i / TILE_SIDE) % 2 == 0;
+    let own: Vec<usize> = (0..TILE_VERTICES).filter(|&i| !is_shared(i)).collect();
+    let pick = |all: &[f64]| own.iter().map(|&i| all[i]).collect();
+    let own_points = Points {
+        x: pick(&points.x),
+        y: pick(&points.y),
+        z: pick(&points.z),
+        dirs: own.iter().map(|&i| points.dirs[i]).collect(),
+    };
+    let found = terrain.climate.field(terrain.simd(), &own_points);
+    let (right, upper) = id.quarter();
+    let merge = |found: &[f64], parent: &[f64]| {
+        let mut found = found.iter();
+        (0..TILE_VERTICES)
+            .filter_map(|i| {
+                let (x, y) = ((i % TILE_SIDE + right * TILE_QUADS) / 2, (i / TILE_SIDE + upper * TILE_QUADS) / 2);
+                if is_shared(i) { parent.get(y * TILE_SIDE + x) } else { found.next() }.copied()
+            })
+            .collect()
+    };
+    let field = ClimateField {
+        temperature: merge(&found.temperature, &parent.temperature),
+        moisture: merge(&found.moisture, &parent.moisture),
+    };
+    (field, octaves * own.len())
 }
 
 fn mesh(

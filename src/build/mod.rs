@@ -1,18 +1,24 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
 //! - `make`: one tile from one node, stage by stage
+//! - `kept`: the layer fields of one tile, present and past
 //! - `normals`: the normal tile of one node
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
+//! - `stats`: what it took
 pub mod builder;
 mod cache;
+mod kept;
 mod make;
 mod normals;
 mod refine;
+mod stats;
 
 pub use builder::Builder;
+pub use cache::DEFAULT_BUDGET_BYTES;
 pub use refine::lowest_radius_m;
+pub use stats::{BuildStats, Memory, StageWork};
 
 use crate::lod::tile::NormalTile;
 use crate::lod::{Culling, Tile, View};
@@ -20,6 +26,7 @@ use crate::planet::Planet;
 use crate::terrain::Terrain;
 use rayon::prelude::*;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A complete set of tiles that covers the whole planet without a gap; what the renderer draws.
 pub struct Surface {
@@ -29,6 +36,8 @@ pub struct Surface {
     pub leaves: Vec<Leaf>,
     /// Whether every tile is as fine as the view asks; if not, a finer surface follows.
     pub complete: bool,
+    /// When it was asked for; the times in `stats` count from there.
+    pub asked: Instant,
     /// What it took.
     pub stats: BuildStats,
 }
@@ -44,24 +53,11 @@ pub struct Leaf {
     pub normals: Option<Arc<NormalTile>>,
 }
 
-/// What building a surface took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BuildStats {
-    /// Tiles in the surface.
-    pub tiles: usize,
-    /// Vertices in the surface.
-    pub vertices: usize,
-    /// Tiles (re)built for it.
-    pub tiles_built: usize,
-    /// Octaves of noise times points that were evaluated.
-    pub octave_samples: usize,
-    /// Seconds from the request to the finished surface.
-    pub duration_secs: f64,
-}
-
 /// Builds the complete surface for a view and waits for it.
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
-    refine::refine(&Arc::new(Terrain::new(planet.clone())), view, &cache::Cache::default(), &|| true)
+    let terrain = Arc::new(Terrain::new(planet.clone()));
+    let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
+    refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
 }
 
 /// Finds the normal tiles of all that a view shows of a surface, and waits for them.

@@ -12,6 +12,7 @@ use super::handle::Action;
 use super::look;
 use super::menus;
 use super::panels::{Draft, PanelState};
+use super::performance;
 use super::pictures::Pictures;
 use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
@@ -37,6 +38,7 @@ pub struct EditorApp {
     pub(super) show_panel: bool,
     pub(super) show_controls: bool,
     pub(super) renaming: Renaming,
+    pub(super) show_performance: bool,
     /// What the user asked for in this frame.
     pub(super) actions: Vec<Action>,
     /// Commands that wait until a half-typed value has been taken over.
@@ -70,6 +72,7 @@ impl EditorApp {
             show_panel: !panel_hidden,
             show_controls: false,
             renaming: None,
+            show_performance: false,
             actions: Vec::new(),
             deferred: Vec::new(),
             orphans: Vec::new(),
@@ -179,13 +182,14 @@ impl EditorApp {
 
     fn show_problems(&self, ui: &mut egui::Ui) {
         let problems = self.document.problems();
+        let error = self.viewport.error();
         let pictures = self.pictures.problems();
-        if problems.is_empty() && pictures.is_empty() && self.viewport.error().is_none() {
+        if problems.is_empty() && pictures.is_empty() && error.is_none() {
             return;
         }
         egui::Panel::top("problems").resizable(false).show(ui, |ui| {
             let color = ui.visuals().error_fg_color;
-            if let Some(error) = self.viewport.error() {
+            if let Some(error) = error {
                 ui.colored_label(color, error);
             }
             if !problems.is_empty() {
@@ -215,7 +219,9 @@ pub(super) fn default_planet() -> Planet {
 
 impl eframe::App for EditorApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        profiling::finish_frame!();
         self.frame_start = Instant::now();
+        self.viewport.frames.begin(self.frame_start);
         if let Some(state) = frame.wgpu_render_state() {
             let waker = ctx.clone();
             self.viewport.edit_clock.frame_began(&state.device, move || waker.request_repaint());
@@ -261,6 +267,7 @@ impl eframe::App for EditorApp {
             }
         });
         prompts::show(&ctx, self);
+        performance::show(&ctx, self);
         self.settle(&ctx);
         if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
             ctx.request_repaint_after(wait);
@@ -272,6 +279,7 @@ impl eframe::App for EditorApp {
             // One more frame after the last movement, to say that all is still.
             ctx.request_repaint_after_secs(0.5);
         }
+        self.viewport.frames.end();
     }
 
     fn on_exit(&mut self) {

@@ -96,6 +96,7 @@ impl EditorApp {
             }
             Command::PlayPause => self.viewport.settings.playing ^= true,
             Command::TogglePanel => self.show_panel ^= true,
+            Command::TogglePerformance => self.show_performance ^= true,
             Command::ToggleFullscreen => {
                 let fullscreen = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(!fullscreen));

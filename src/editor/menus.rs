@@ -115,7 +115,7 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
             .on_hover_text("Brightness of the picture in stops; not part of the planet");
     });
     ui.separator();
-    for command in [Command::TogglePanel, Command::ToggleFullscreen, Command::ToggleTheme] {
+    for command in [Command::TogglePanel, Command::TogglePerformance, Command::ToggleFullscreen, Command::ToggleTheme] {
         entry(ui, app, command, true, None);
     }
 }

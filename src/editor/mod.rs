@@ -8,7 +8,7 @@
 //! - [`pictures`]: pictures of height maps, read in the background
 //! - [`bookmarks`]: views kept in the preset
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
-//! - [`menus`], [`status`], [`controls`], [`look`]: the rest of the window
+//! - [`menus`], [`status`], [`controls`], [`performance`], [`look`]: the rest of the window
 
 pub mod app;
 pub mod bookmarks;
@@ -23,6 +23,7 @@ pub mod history;
 pub mod look;
 pub mod menus;
 pub mod panels;
+pub mod performance;
 pub mod pictures;
 pub mod prompts;
 pub mod recovery;

@@ -1,6 +1,7 @@
 //! The status bar: what lies under the pointer, and true figures of what was drawn.
 
 use super::app::EditorApp;
+use super::performance::megabytes;
 use super::widgets::number::{format_digits, length_text};
 use crate::sphere::LatLon;
 use eframe::egui;
@@ -50,6 +51,13 @@ fn figures(ui: &mut egui::Ui, app: &EditorApp) {
         ui.label(format!("edit {:.1} ms", duration.as_secs_f64() * 1000.0))
             .on_hover_text("From the last edit to its complete picture");
     }
+    let memory = viewport.memory();
+    ui.label(format!("{:.0} MB", megabytes(memory.used_bytes as u64))).on_hover_text(format!(
+        "Kept for later: {} tiles and {} layer fields, at most {:.0} MB",
+        memory.tiles,
+        memory.fields,
+        megabytes(memory.budget_bytes as u64)
+    ));
     if let Some(surface) = viewport.surface() {
         let stats = surface.stats;
         let drawn = viewport.stats();

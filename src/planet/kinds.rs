@@ -6,11 +6,11 @@ use super::param::{ParamPath, Params, Unit};
 
 /// Writes an enum of kinds from their list; its default is the first. In a file a value is written `Kind(parameter: 1.0)`.
 ///
-/// `"name", "Label", stage` describe the choice between the kinds as a parameter; the enum's documentation is its tooltip.
+/// `"name", "Label", stage | stage` describe the choice between the kinds as a parameter; the enum's documentation is its tooltip.
 macro_rules! kinds {
     (
         $(#[doc = $enum_doc:literal])+
-        pub enum $enum:ident: $name:literal, $label:literal, $stage:expr;
+        pub enum $enum:ident: $name:literal, $label:literal, $($stage:path)|+;
         $( $(#[doc = $doc:literal])+ $kind:ident($params:ident), )+
     ) => {
         $(#[doc = $enum_doc])+
@@ -31,7 +31,7 @@ macro_rules! kinds {
                 doc: concat!($($enum_doc),+).trim_ascii_start(),
                 unit: $crate::planet::param::Unit::None,
                 domain: $crate::planet::param::Domain::Choice,
-                stage: $stage,
+                stages: $crate::planet::param::Stages::of(&[$($stage),+]),
             };
 
             /// One of each kind, with its default parameters.

@@ -8,7 +8,7 @@ use super::param::{Domain, Stage, Unit, linear, log, params};
 
 kinds! {
     /// What decides where the layer acts.
-    pub enum Mask: "mask", "Kind", Stage::Height;
+    pub enum Mask: "mask", "Kind", Stage::Field | Stage::Height;
     /// The noise of another layer.
     Layer(LayerMask),
     /// The height made by the layers before.
@@ -54,7 +54,7 @@ params! {
         to_deg: f64 = 30.0, "To", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
         /// Distance over which the slope is measured: relief much finer than this does not count. A planet may use few different
         /// ones.
-        over_m: f64 = 500.0, "Over", Unit::Metres, log(1.0, 1_000_000.0), Stage::Height;
+        over_m: f64 = 500.0, "Over", Unit::Metres, log(1.0, 1_000_000.0), Stage::Field | Stage::Height;
         /// Off where it would be on, and the reverse.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
     }

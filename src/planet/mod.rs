@@ -71,9 +71,9 @@ params! {
         /// What the planet is called.
         name: String = "Unnamed".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 64 }, Stage::Label;
         /// Start of every pseudo-random sequence of this planet: each layer's own seed is mixed with it.
-        seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field;
+        seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
-        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field;
+        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
         /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it is; beyond
         /// its ends the curve goes on straight.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;

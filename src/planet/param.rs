@@ -1,23 +1,24 @@
 //! One description for each parameter, and the visitor through which everything reaches them.
 //!
-//! A [`Param`] says what a value means, its unit, range, scale and default, and which [`Stage`] of a rebuild
+//! A [`Param`] says what a value means, its unit, range, scale and default, and which [`Stages`] of a rebuild
 //! an edit to it makes stale. Sliders, tooltips, validation messages, the comments of a saved file, random
 //! planets and the diff of two planets are all written against [`Params::each_param`]; none of them knows a
 //! parameter by name. The `params!` macro writes the struct, its defaults and its description from one place.
 
 use std::fmt;
 
-/// The first stage of a rebuild that an edit makes stale; later variants are cheaper.
+/// A part of what is made from a planet; an edit makes some of them stale.
 ///
-/// Everything from [`Stage::Field`] to [`Stage::Climate`] is kept in tiles; the rest lives in small textures and
-/// uniforms and rebuilds no vertex.
+/// The first four are kept in tiles; the rest lives in small textures and uniforms and rebuilds no vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Noise values and gradients of one layer: kind, seed, wavelength, octaves, ...
     Field,
     /// How layers are combined: amplitude, order, enabled, blend, masks.
     Height,
-    /// Temperature and moisture.
+    /// Noise of temperature and moisture: seed, size of regions, octaves.
+    ClimateNoise,
+    /// Temperature and moisture at the surface, and with them the finished vertices.
     Climate,
     /// The biome table and its palette: one small texture.
     Material,
@@ -25,16 +26,103 @@ pub enum Stage {
     CloudMap,
     /// Scattering look-up tables.
     AirTables,
-    /// Uniforms only: water, star, drift of the clouds.
+    /// Uniforms: water, star, rock, drift of the clouds.
     Uniform,
     /// Nothing that is drawn: names, figures.
     Label,
 }
 
 impl Stage {
-    /// Whether an edit at this stage rebuilds tiles on the CPU.
-    pub fn touches_tiles(self) -> bool {
-        self <= Stage::Climate
+    /// All of them, in the order in which they run.
+    pub const ALL: [Stage; 9] = [
+        Stage::Field,
+        Stage::Height,
+        Stage::ClimateNoise,
+        Stage::Climate,
+        Stage::Material,
+        Stage::CloudMap,
+        Stage::AirTables,
+        Stage::Uniform,
+        Stage::Label,
+    ];
+
+    /// The stages that take what this one makes.
+    const fn consequences(self) -> Stages {
+        match self {
+            Stage::Field => Stages::of(&[Stage::Height, Stage::Climate]),
+            Stage::Height | Stage::ClimateNoise => Stages::of(&[Stage::Climate]),
+            // Drawn by shaders that read the parameters from the uniforms.
+            Stage::CloudMap | Stage::AirTables => Stages::of(&[Stage::Uniform]),
+            Stage::Climate | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
+        }
+    }
+}
+
+/// A set of stages.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub struct Stages(u16);
+
+impl Stages {
+    /// No stage.
+    pub const NONE: Stages = Stages(0);
+
+    /// The stages whose results are kept in tiles.
+    pub const OF_TILES: Stages = Stages::of(&[Stage::Field, Stage::Height, Stage::ClimateNoise, Stage::Climate]);
+
+    /// These stages.
+    pub const fn of(stages: &[Stage]) -> Self {
+        let (mut set, mut i) = (0, 0);
+        while i < stages.len() {
+            set |= 1 << stages[i] as u16;
+            i += 1;
+        }
+        Self(set)
+    }
+
+    /// Whether a stage is among them.
+    pub const fn contains(self, stage: Stage) -> bool {
+        self.0 & (1 << stage as u16) != 0
+    }
+
+    /// Whether there are none.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Those of either set.
+    pub const fn and(self, other: Stages) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those that are in both sets.
+    pub const fn within(self, other: Stages) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Those that are not in the other set.
+    pub const fn without(self, other: Stages) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// The stages in the order in which they run.
+    pub fn iter(self) -> impl Iterator<Item = Stage> {
+        Stage::ALL.into_iter().filter(move |stage| self.contains(*stage))
+    }
+
+    /// They and every stage that takes what one of them makes.
+    pub fn with_consequences(self) -> Self {
+        self.iter().fold(self, |all, stage| all.and(stage.consequences()))
+    }
+
+    /// Whether any of them rebuilds tiles on the CPU.
+    pub const fn touches_tiles(self) -> bool {
+        !self.within(Self::OF_TILES).is_empty()
+    }
+}
+
+impl fmt::Debug for Stages {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.iter()).finish()
     }
 }
 
@@ -166,8 +254,8 @@ pub struct Param {
     pub unit: Unit,
     /// The values it may take.
     pub domain: Domain,
-    /// The first stage an edit makes stale.
-    pub stage: Stage,
+    /// The stages an edit makes stale by itself; what takes their results follows ([`Stages::with_consequences`]).
+    pub stages: Stages,
 }
 
 impl Param {
@@ -431,7 +519,7 @@ param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3]
 
 /// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
 ///
-/// Each line is `name: type = default, "Label", unit, domain, stage;`, its doc comment being the tooltip and the comment
+/// Each line is `name: type = default, "Label", unit, domain, stage | stage;`, its doc comment being the tooltip and the comment
 /// in the saved file. `with { .. }` adds fields that hold parameters of their own.
 macro_rules! params {
     (
@@ -439,7 +527,7 @@ macro_rules! params {
         pub struct $struct:ident {
             $(
                 $(#[doc = $doc:literal])+
-                $name:ident: $type:ty = $default:expr, $label:literal, $unit:expr, $domain:expr, $stage:expr;
+                $name:ident: $type:ty = $default:expr, $label:literal, $unit:expr, $domain:expr, $($stage:path)|+;
             )*
         }
         $(with {
@@ -475,7 +563,7 @@ macro_rules! params {
                     doc: concat!($($doc),+).trim_ascii_start(),
                     unit: $unit,
                     domain: $domain,
-                    stage: $stage,
+                    stages: $crate::planet::param::Stages::of(&[$($stage),+]),
                 }, )*
             ];
 

@@ -69,7 +69,7 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     let mut dice = Dice(seed);
     let mut varied = planet.clone();
     varied.each(&mut |_, param, mut value| {
-        let shown = param.stage != Stage::Label;
+        let shown = !param.stages.contains(Stage::Label);
         if let Some(new) = dice.moved(param, &value.get(), strength).filter(|_| shown) {
             value.set(&new);
         }

@@ -69,6 +69,8 @@ pub(crate) struct GlobalsBuffer {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
     buffer: wgpu::Buffer,
+    written: Option<Globals>,
+    writes: u64,
 }
 
 impl GlobalsBuffer {
@@ -103,12 +105,23 @@ impl GlobalsBuffer {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
             ],
         });
-        Self { layout, group, buffer }
+        Self { layout, group, buffer, written: None, writes: 0 }
     }
 
     /// Sets the frame that the passes submitted next will see.
-    pub(crate) fn write(&self, queue: &wgpu::Queue, frame: &Frame<'_>, setup: &Setup) {
-        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&globals(frame, setup)));
+    pub(crate) fn write(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>, setup: &Setup) {
+        let globals = globals(frame, setup);
+        let same = |written: &Globals| bytemuck::bytes_of(written) == bytemuck::bytes_of(&globals);
+        if !self.written.as_ref().is_some_and(same) {
+            queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&globals));
+            self.written = Some(globals);
+            self.writes += 1;
+        }
+    }
+
+    /// How often it was written because something in it had changed.
+    pub(crate) fn writes(&self) -> u64 {
+        self.writes
     }
 }
 

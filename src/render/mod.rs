@@ -30,6 +30,8 @@ mod terrain;
 mod tonemap;
 mod water;
 
+pub use tables::TableRuns;
+
 use crate::build::Surface;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
@@ -168,13 +170,33 @@ impl Passes {
     }
 }
 
+/// What the full-screen passes read, bound once for as long as targets and passes stay; each for either radiance target as
+/// the scene.
+struct Inputs {
+    water: [wgpu::BindGroup; 2],
+    clouds: [wgpu::BindGroup; 2],
+    air: [wgpu::BindGroup; 2],
+    tonemap: [wgpu::BindGroup; 2],
+}
+
+impl Inputs {
+    fn new(device: &wgpu::Device, passes: &Passes, targets: &targets::Targets) -> Self {
+        Self {
+            water: [0, 1].map(|scene| passes.water.bind(device, targets, scene)),
+            clouds: [0, 1].map(|scene| passes.clouds.bind(device, targets, scene)),
+            air: [0, 1].map(|scene| passes.air.bind(device, targets, scene)),
+            tonemap: [0, 1].map(|scene| passes.tonemap.bind(device, &targets.hdr[scene])),
+        }
+    }
+}
+
 /// All GPU state of one viewport.
 pub struct Renderer {
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
     terrain: terrain::TerrainResources,
-    targets: Option<targets::Targets>,
+    targets: Option<(targets::Targets, Inputs)>,
     passes: Passes,
     watch: shaders::Watch,
     shader_error: Option<String>,
@@ -199,6 +221,23 @@ impl Renderer {
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
         Ok(Self { target_format, globals, tables, terrain, targets, passes, watch, shader_error })
     }
+    /// Uploads tiles of a surface ahead of the frame that will draw it, at most so many bytes (but at least one tile). Whether
+    /// all are there now. Without it [`Renderer::render`] uploads what it needs at once.
+    pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, surface: &Surface, budget_bytes: u64) -> bool {
+        profiling::scope!("upload");
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("upload") });
+        let done = self.terrain.upload(device, &mut encoder, surface, budget_bytes);
+        queue.submit([encoder.finish()]);
+        done
+    }
+    /// Bytes of tiles uploaded since the start.
+    pub fn uploaded_bytes(&self) -> u64 {
+        self.terrain.uploaded_bytes()
+    }
+    /// How often each table has been made since the start.
+    pub fn table_runs(&self) -> TableRuns {
+        TableRuns { uniforms: self.globals.writes(), ..self.tables.runs() }
+    }
     /// Draws one frame and submits it.
     pub fn render(
         &mut self,
@@ -207,11 +246,16 @@ impl Renderer {
         target: &wgpu::TextureView,
         frame: &Frame<'_>,
     ) -> FrameStats {
+        profiling::scope!("render");
         self.reload_shaders(device);
         let (size_px, scale) = drawn_size(frame, device.limits().max_texture_dimension_2d);
-        let targets = match self.targets.take().filter(|targets| targets.size_px == size_px) {
-            Some(targets) => targets,
-            None => targets::Targets::new(device, size_px),
+        let (targets, inputs) = match self.targets.take().filter(|(targets, _)| targets.size_px == size_px) {
+            Some(kept) => kept,
+            None => {
+                let targets = targets::Targets::new(device, size_px);
+                let inputs = Inputs::new(device, &self.passes, &targets);
+                (targets, inputs)
+            }
         };
         let height_range_m = height_range_m(frame.surface);
         let setup = globals::Setup {
@@ -222,8 +266,8 @@ impl Renderer {
             srgb_target: self.target_format.is_srgb(),
         };
         self.globals.write(queue, frame, &setup);
-        self.terrain.prepare(device, queue, frame, height_range_m.0);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
         let globals = &self.globals.group;
         self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
         let groups = [globals, self.tables.group()];
@@ -232,18 +276,18 @@ impl Renderer {
         let mut scene = 0;
         if frame.debug_view == DebugView::Shaded {
             if frame.planet.water.is_some() {
-                self.passes.water.draw(device, &mut encoder, groups, &targets, scene);
+                self.passes.water.draw(&mut encoder, groups, &inputs.water[scene], &targets, scene);
                 scene = 1 - scene;
             }
             if frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) {
-                self.passes.clouds.draw(device, &mut encoder, groups, &targets, scene);
+                self.passes.clouds.draw(&mut encoder, groups, &inputs.clouds[scene], &targets);
             }
-            self.passes.air.draw(device, &mut encoder, groups, &targets, scene);
+            self.passes.air.draw(&mut encoder, groups, &inputs.air[scene], &targets, scene);
             scene = 1 - scene;
         }
-        self.passes.tonemap.draw(device, &mut encoder, globals, &targets.hdr[scene], target);
+        self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], target);
         queue.submit([encoder.finish()]);
-        self.targets = Some(targets);
+        self.targets = Some((targets, inputs));
         stats
     }
     /// What is wrong with a shader that was just edited on disk (debug builds); the last good one goes on drawing.
@@ -258,6 +302,7 @@ impl Renderer {
         match Passes::new(device, &self.globals.layout, &self.tables.layout, self.target_format) {
             Ok(passes) => {
                 self.passes = passes;
+                self.targets = None;
                 self.tables.forget();
                 self.shader_error = None;
             }

@@ -2,9 +2,10 @@
 
 use super::gpu;
 use super::normal_pool::NormalPool;
-use super::pool::{Place, TilePool};
+use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
+use crate::build::Surface;
 use crate::lod::tile::{Tile, Vertex, slope_axis};
 use crate::lod::{self, Culling, stitch};
 use std::collections::HashSet;
@@ -155,19 +156,51 @@ impl TerrainResources {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         Self {
             indices: Indices::new(device),
-            pool: TilePool::default(),
+            pool: TilePool::new(device),
             normals: NormalPool::new(device),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
     }
 
-    /// Chooses the tiles to draw, uploads what is new.
-    pub(crate) fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &Frame<'_>, lowest_m: f64) {
+    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
+    /// there now.
+    pub(crate) fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        surface: &Surface,
+        budget_bytes: u64,
+    ) -> bool {
+        self.pool.begin_round();
+        let missing: Vec<&Tile> =
+            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
+        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
+        for tile in missing.iter().take(affordable) {
+            self.pool.place(device, encoder, tile);
+        }
+        self.pool.end_round(encoder);
+        missing.len() <= affordable
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.pool.uploaded_bytes()
+    }
+
+    /// Chooses the tiles to draw, uploads those that are not there yet.
+    pub(crate) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame<'_>,
+        lowest_m: f64,
+    ) {
         let radius_m = frame.surface.terrain.planet().radius_m();
         let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
         let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
-        self.pool.begin_frame();
+        self.pool.begin_round();
         self.normals.begin_frame();
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
@@ -177,7 +210,7 @@ impl TerrainResources {
         let mut seen: Vec<_> = frame.surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).collect();
         seen.sort_by(|a, b| away_m(&a.tile).total_cmp(&away_m(&b.tile)));
         for leaf in seen {
-            let Some(place) = self.pool.place(device, queue, &leaf.tile) else { continue };
+            let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, chosen);
             let normals = leaf.normals.as_ref().and_then(|tile| self.normals.place(device, queue, tile));
@@ -194,6 +227,7 @@ impl TerrainResources {
             self.instances = instance_buffer(device, instances.len().next_power_of_two());
         }
         queue.write_buffer(&self.instances, 0, bytes);
+        self.pool.end_round(encoder);
     }
 
     /// Draws the tiles chosen by [`TerrainResources::prepare`].

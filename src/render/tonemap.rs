@@ -20,16 +20,19 @@ impl TonemapPass {
         Ok(Self { pipeline, layout })
     }
 
-    /// Shows `hdr` in `target`.
+    /// Binds the radiance it is to show.
+    pub(crate) fn bind(&self, device: &wgpu::Device, hdr: &wgpu::TextureView) -> wgpu::BindGroup {
+        gpu::texture_group(device, "tonemap", &self.layout, &[hdr])
+    }
+
+    /// Shows what [`Self::bind`] bound in `target`.
     pub(crate) fn draw(
         &self,
-        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         globals: &wgpu::BindGroup,
-        hdr: &wgpu::TextureView,
+        input: &wgpu::BindGroup,
         target: &wgpu::TextureView,
     ) {
-        let input = gpu::texture_group(device, "tonemap", &self.layout, &[hdr]);
-        gpu::draw_screen(encoder, "tonemap", &self.pipeline, &[globals, &input], &[target]);
+        gpu::draw_screen(encoder, "tonemap", &self.pipeline, &[globals, input], &[target]);
     }
 }

@@ -1,6 +1,8 @@
 //! A planet to draw in tests, a device to draw it on, and how to read the picture.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod edits;
+
 use std::sync::Arc;
 use tellus::build::{Surface, build_now};
 use tellus::lod::{Camera, Quality, View};

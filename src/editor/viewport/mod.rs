@@ -6,32 +6,40 @@
 //! - [`target`]: the offscreen texture and its colour encoding
 //! - `outline`: what a frozen view sees, drawn into another
 //! - [`pointer`]: what lies under the pointer
-//! - [`clock`]: the time from an edit to its picture
+//! - [`swap`]: the surface on screen, and the next one while it is uploaded
+//! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, where it went, the time of each frame
 
 pub mod camera;
 pub mod clock;
+pub mod frames;
 pub mod ground;
 pub mod input;
 mod outline;
 pub mod pointer;
+pub mod swap;
 pub mod target;
+pub mod timeline;
 
-use crate::build::{Builder, Surface};
+use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, FrameStats, Renderer};
+use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns};
 use crate::sphere::LatLon;
 use camera::pose::Pose;
 use camera::{Cameras, Ground};
-use clock::{EditClock, FrameMeter};
+use clock::{EditClock, FrameMeter, same_tiles};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
+use frames::FrameLog;
 use glam::DVec3;
 use ground::PlanetGround;
 use pointer::{Probe, UnderPointer};
 use std::sync::Arc;
+use std::time::Instant;
+use swap::{Swap, UPLOAD_BUDGET_BYTES};
 use target::Target;
+use timeline::Span;
 
 /// What is looked at and how; no part of the document.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +73,7 @@ struct PictureKey {
 
 impl PictureKey {
     fn same(&self, other: &PictureKey) -> bool {
-        Arc::ptr_eq(&self.surface, &other.surface)
+        same_leaves(&self.surface, &other.surface)
             && Arc::ptr_eq(&self.planet, &other.planet)
             && self.view == other.view
             && self.frozen == other.frozen
@@ -73,6 +81,13 @@ impl PictureKey {
             && self.exposure_ev == other.exposure_ev
             && self.debug_view == other.debug_view
     }
+}
+
+/// Whether two surfaces are made of the same tiles and stand for as much.
+fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
+    let same = |(a, b): (&Leaf, &Leaf)| a.tile.serial == b.tile.serial && a.coarser_edges == b.coarser_edges;
+    let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
+    Arc::ptr_eq(a, b) || (a.complete == b.complete && all())
 }
 
 /// What can be drawn with, or why nothing can.
@@ -89,7 +104,12 @@ pub struct Viewport {
     pub edit_clock: EditClock,
     /// Time from frame to frame.
     pub frame_meter: FrameMeter,
+    /// How long each frame took.
+    pub frames: FrameLog,
     builder: Builder,
+    swap: Swap,
+    /// The upload under way or just done: when, and how many bytes were uploaded before it.
+    upload: Option<(Span, u64)>,
     drawing: Drawing,
     target: Option<Target>,
     drawn: Option<PictureKey>,
@@ -133,7 +153,10 @@ impl Viewport {
             },
             edit_clock: EditClock::default(),
             frame_meter: FrameMeter::default(),
+            frames: FrameLog::default(),
             builder: Builder::new(move || ctx.request_repaint()),
+            swap: Swap::default(),
+            upload: None,
             drawing,
             target: None,
             drawn: None,
@@ -156,14 +179,27 @@ impl Viewport {
         self.cameras.set_dive(dive);
     }
 
-    /// The newest surface.
+    /// The surface on screen.
     pub fn surface(&self) -> Option<Arc<Surface>> {
-        self.builder.surface()
+        self.swap.shown().cloned()
     }
 
-    /// Whether a finer surface is being built.
+    /// Whether a finer surface is being built, or on its way to the screen.
     pub fn is_busy(&self) -> bool {
-        self.builder.is_busy()
+        self.builder.is_busy() || self.swap.is_under_way(self.builder.surface().as_ref())
+    }
+
+    /// What is kept of tiles and their noise.
+    pub fn memory(&self) -> Memory {
+        self.builder.memory()
+    }
+
+    /// How often each table has been made since the start.
+    pub fn table_runs(&self) -> Option<TableRuns> {
+        match &self.drawing {
+            Drawing::Ready(renderer, _) => Some(renderer.table_runs()),
+            Drawing::Failed(_) => None,
+        }
     }
 
     /// What lies under the pointer, if it is over the globe.
@@ -219,7 +255,7 @@ impl Viewport {
     }
 
     fn with_ground<R>(&self, planet: &Planet, ask: impl FnOnce(&Cameras, &dyn Ground) -> R) -> R {
-        let surface = self.builder.surface();
+        let surface = self.surface();
         ask(&self.cameras, &PlanetGround::new(planet, surface.as_deref().map(|surface| &*surface.terrain)))
     }
 
@@ -229,11 +265,12 @@ impl Viewport {
     }
 
     /// Why nothing or something old is drawn.
-    pub fn error(&self) -> Option<&str> {
-        match &self.drawing {
+    pub fn error(&self) -> Option<String> {
+        let drawing = match &self.drawing {
             Drawing::Ready(renderer, _) => renderer.shader_error(),
-            Drawing::Failed(error) => Some(error),
-        }
+            Drawing::Failed(error) => Some(error.as_str()),
+        };
+        drawing.map(str::to_owned).or_else(|| self.builder.error())
     }
 
     /// Shows the picture in all of the room there is. `valid` is what is drawn; a drag of the sun changes `draft`, and gives
@@ -249,7 +286,8 @@ impl Viewport {
             return None;
         }
 
-        let surface = self.builder.surface();
+        self.advance(ui.ctx());
+        let surface = self.surface();
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
         if ground.radius_m() != self.ground_radius_m {
@@ -285,9 +323,9 @@ impl Viewport {
         self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
         if let Some(surface) = surface {
-            // Sea and air of one size over ground of another would flash until the new tiles are there.
+            // Sea, air and light of one planet over the ground of another would flash until the new tiles are there.
             let shown = surface.terrain.planet().clone();
-            let planet = if shown.radius_km == valid.radius_km { valid } else { &shown };
+            let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&shown, valid) { valid } else { &shown };
             self.draw(surface, planet, view);
         }
         if let Some(target) = &self.target {
@@ -298,6 +336,25 @@ impl Viewport {
             outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);
         }
         moved.sun.then_some(input::SUN_STEP)
+    }
+
+    /// Brings the newest surface nearer to the screen: uploads a frame's worth of it, and swaps it in when that was all.
+    fn advance(&mut self, ctx: &egui::Context) {
+        let newest = self.builder.surface();
+        let (drawing, frames, span) = (&mut self.drawing, &mut self.frames, &mut self.upload);
+        self.swap.advance(newest.clone(), |surface| {
+            let Drawing::Ready(renderer, state) = drawing else { return true };
+            let (begin, before) = (Instant::now(), renderer.uploaded_bytes());
+            let done = renderer.upload(&state.device, &state.queue, surface, UPLOAD_BUDGET_BYTES);
+            let now = Span::since(begin);
+            frames.uploaded(now.end - now.begin);
+            let (first, before) = span.map_or((now, before), |(span, before)| (span, before));
+            *span = Some((Span { end: now.end, ..first }, before));
+            done
+        });
+        if self.swap.is_under_way(newest.as_ref()) {
+            ctx.request_repaint();
+        }
     }
 
     /// Draws, unless the picture of just that is there already.
@@ -315,9 +372,13 @@ impl Viewport {
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
         let resized = target.resize(view.size_px);
         if !resized && self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key)) {
+            if !self.swap.is_uploading() {
+                self.upload = None;
+            }
             return;
         }
         let star = &planet.star;
+        let begin = Instant::now();
         self.stats = renderer.render(
             &state.device,
             &state.queue,
@@ -335,7 +396,12 @@ impl Viewport {
         );
         self.pictures += 1;
         self.frame_meter.drawn();
-        self.edit_clock.drawn(&key.surface, planet);
+        let draw = Span::since(begin);
+        self.frames.drew(draw.end - draw.begin);
+        let upload = if self.swap.is_uploading() { None } else { self.upload.take() };
+        let (upload, before) = upload.unzip();
+        let uploaded_bytes = before.map_or(0, |before| renderer.uploaded_bytes() - before);
+        self.edit_clock.drawn(&key.surface, planet, &timeline::Drawing { upload, uploaded_bytes, draw });
         self.drawn = Some(key);
     }
 

@@ -116,6 +116,16 @@ impl LayerStack {
         stack
     }
 
+    /// Whether it makes the same heights, whatever the layers that it does not need are like.
+    pub(crate) fn joins_like(&self, other: &Self) -> bool {
+        let same = |(a, b): (&CompiledLayer, &CompiledLayer)| a == b || !(a.needed || b.needed);
+        self.radius_m == other.radius_m
+            && self.height_curve == other.height_curve
+            && self.slope_bands == other.slope_bands
+            && self.layers.len() == other.layers.len()
+            && self.layers.iter().zip(&other.layers).all(same)
+    }
+
     /// For each distance over which slopes are measured, the layers that make the ground it is measured on.
     fn find_slope_bands(&mut self) {
         for (until, layer) in self.layers.iter().enumerate().filter(|(_, layer)| layer.enabled) {
