@@ -1,12 +1,13 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
-//! - `make`: one tile from one node, stage by stage
+//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
 pub mod builder;
 mod cache;
 mod make;
+mod mesh;
 mod refine;
 
 pub use builder::Builder;

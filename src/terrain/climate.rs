@@ -5,7 +5,6 @@ use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
 use crate::planet::{Planet, TableRows};
-use glam::DVec3;
 
 /// The climate of a planet, compiled.
 #[derive(Clone, Debug)]
@@ -58,34 +57,68 @@ impl CompiledClimate {
     }
 }
 
-impl ClimateField {
-    /// The climate at one of the field's points, of this direction and height of the ground.
-    pub(crate) fn at(&self, planet: &Planet, point: usize, dir_planet: DVec3, height_m: f64) -> PointClimate {
-        let climate = &planet.climate;
-        let sea_m = planet.sea_level_m();
+/// How climate follows from place, height and noise: the parameters of a planet, as numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rules {
+    equator_c: f64,
+    /// From the equator to a pole.
+    warmer_c: f64,
+    lapse_c_per_km: f64,
+    temperature_variation_c: f64,
+    moisture: f64,
+    belts: f64,
+    moisture_variation: f64,
+    drying_per_km: f64,
+    /// From which heights count: the sea's surface.
+    sea_m: f64,
+    /// Whether the table's rows go by temperature, not by height.
+    by_temperature: bool,
+    /// What the last row begins with, and from there to the end of the first.
+    lowest: f64,
+    span: f64,
+}
+
+impl Rules {
+    pub(crate) fn new(planet: &Planet) -> Self {
+        let (climate, biomes) = (&planet.climate, &planet.biomes);
+        let by_temperature = biomes.rows == TableRows::Temperature;
+        let (lowest, highest) =
+            if by_temperature { (biomes.coldest_c, biomes.hottest_c) } else { (biomes.lowest_m, biomes.highest_m) };
+        Self {
+            equator_c: climate.equator_c,
+            warmer_c: climate.pole_c - climate.equator_c,
+            lapse_c_per_km: climate.lapse_c_per_km,
+            temperature_variation_c: climate.temperature_variation_c,
+            moisture: climate.moisture,
+            belts: climate.belts * 0.5,
+            moisture_variation: climate.moisture_variation,
+            drying_per_km: climate.drying_per_km,
+            sea_m: planet.sea_level_m().unwrap_or(0.0),
+            by_temperature,
+            lowest,
+            span: highest - lowest,
+        }
+    }
+
+    /// The climate at a place whose latitude has this sine, at this height of the ground, with this noise for temperature and
+    /// moisture.
+    #[inline(always)]
+    pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2]) -> PointClimate {
         // Over a sea the surface is the sea's.
-        let above_m = sea_m.map_or(height_m, |sea| (height_m - sea).max(0.0));
+        let above_m = height_m - self.sea_m;
         let above_km = above_m.max(0.0) / 1000.0;
-        let sin2_lat = dir_planet.z * dir_planet.z;
-        let temperature_c = climate.equator_c + (climate.pole_c - climate.equator_c) * sin2_lat
-            - climate.lapse_c_per_km * above_km
-            + climate.temperature_variation_c * self.temperature[point];
-        let moisture =
-            climate.moisture + climate.belts * 0.5 * belt(sin2_lat) + climate.moisture_variation * self.moisture[point]
-                - climate.drying_per_km * above_km;
-        let biomes = &planet.biomes;
-        let row = match biomes.rows {
-            TableRows::Temperature => (temperature_c - biomes.coldest_c) / (biomes.hottest_c - biomes.coldest_c),
-            TableRows::Elevation => {
-                let height_m = sea_m.map_or(height_m, |sea| height_m - sea);
-                (height_m - biomes.lowest_m) / (biomes.highest_m - biomes.lowest_m)
-            }
-        };
-        PointClimate { temperature_c, moisture: moisture.clamp(0.0, 1.0), row: row.clamp(0.0, 1.0) }
+        let sin2_lat = sin_lat * sin_lat;
+        let temperature_c = self.equator_c + self.warmer_c * sin2_lat - self.lapse_c_per_km * above_km
+            + self.temperature_variation_c * noise[0];
+        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1]
+            - self.drying_per_km * above_km;
+        let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
+        PointClimate { temperature_c, moisture: moisture.max(0.0).min(1.0), row: row.max(0.0).min(1.0) }
     }
 }
 
 /// Wet at the equator (1) and at 50° (0.6), dry at 25° and at the poles (-1): the cubic in sin² latitude through those.
+#[inline(always)]
 fn belt(sin2_lat: f64) -> f64 {
     1.0 + sin2_lat * (-19.404_782 + sin2_lat * (52.369_621 + sin2_lat * -34.964_839))
 }

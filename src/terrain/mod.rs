@@ -24,7 +24,7 @@ mod raycast;
 pub mod simd;
 
 use crate::planet::Planet;
-use climate::CompiledClimate;
+use climate::{CompiledClimate, Rules};
 use field::{EXACT, Field};
 use glam::DVec3;
 use height::{CompiledLayer, LayerStack};
@@ -104,7 +104,8 @@ impl Terrain {
         let height_m = heights.height_m[0];
         let gradient = DVec3::from_array(heights.gradients[0].each_ref().map(|component| f64::from(component[0])));
         let slope = tangent_slope(dir, gradient, self.planet.radius_m() + height_m);
-        let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
+        let noise = self.climate.field(self.simd, &points);
+        let climate = Rules::new(&self.planet).at(dir.z, height_m, [noise.temperature[0], noise.moisture[0]]);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
@@ -169,7 +170,7 @@ fn unit(dir: DVec3) -> DVec3 {
 
 /// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a vector in the
 /// tangent plane. The surface's normal is along `dir - slope`.
-pub(crate) fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
+fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
     (gradient - dir * dir.dot(gradient)) / radius_m
 }
 
