@@ -138,7 +138,9 @@ impl Terrain {
 
     /// The same for the ground within an angle of a direction: narrower, or equal.
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.stack.bounds_near_m(unit(dir_planet), angle_rad)
+        let ((lo, hi), (lowest, highest)) =
+            (self.stack.bounds_near_m(unit(dir_planet), angle_rad), self.height_bounds_m);
+        (lo.max(lowest), hi.min(highest))
     }
 
     /// How many octaves of noise one point takes.
