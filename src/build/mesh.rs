@@ -135,7 +135,7 @@ fn face_body(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32];
         let (a, b) = (v[0] * shrink, v[1] * shrink);
         let fold = |a: f32, b: f32| (1.0 - b.abs()) * if a < 0.0 { -1.0 } else { 1.0 };
         let below = v[2] < 0.0;
-        let snorm = |w: f32| (w.max(-1.0).min(1.0) * 32767.0 + ROUNDER_F32).to_bits() as i16;
+        let snorm = |w: f32| (w.clamp(-1.0, 1.0) * 32767.0 + ROUNDER_F32).to_bits() as i16;
         oct_x[i] = snorm(if below { fold(a, b) } else { a });
         oct_y[i] = snorm(if below { fold(b, a) } else { b });
     }

@@ -113,7 +113,7 @@ impl Rules {
         let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1]
             - self.drying_per_km * above_km;
         let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
-        PointClimate { temperature_c, moisture: moisture.max(0.0).min(1.0), row: row.max(0.0).min(1.0) }
+        PointClimate { temperature_c, moisture: moisture.clamp(0.0, 1.0), row: row.clamp(0.0, 1.0) }
     }
 }
 

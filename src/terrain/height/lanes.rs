@@ -80,7 +80,7 @@ fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, n
     let scaled = |v: f64| (v + bias) * a + 0.0;
     // Polynomial smooth maximum: beyond `soft` apart it is the greater.
     let soft = blend.softness_m;
-    let share = |y: f64, h: f64| (0.5 + 0.5 * (y - h) / soft).max(0.0).min(1.0);
+    let share = |y: f64, h: f64| (0.5 + 0.5 * (y - h) / soft).clamp(0.0, 1.0);
     use crate::planet::Blend as Kind;
     match blend.kind {
         Kind::Add => each::<SLOPES>(n, height, noise, output, |h, v| (h + scaled(v), 1.0, a)),
@@ -124,9 +124,9 @@ fn cut_body<const SLOPES: bool>(
     let (per_metre, riser) = (1.0 / steps.height_m, 0.5 - 0.4 * steps.sharpness);
     let (start, per_riser) = (0.5 - riser, 0.5 / riser);
     for i in 0..n.min(CHUNK) {
-        let place = (height[i] * per_metre + steps.waviness * noise[i]).max(-1e12).min(1e12);
+        let place = (height[i] * per_metre + steps.waviness * noise[i]).clamp(-1e12, 1e12);
         let t = place - ((place - 0.5 + ROUNDER) - ROUNDER);
-        let s = ((t - start) * per_riser).max(0.0).min(1.0);
+        let s = ((t - start) * per_riser).clamp(0.0, 1.0);
         noise[i] = steps.sharpness * (s * s * (3.0 - 2.0 * s) - t);
         if SLOPES {
             let slope = steps.sharpness * (6.0 * s * (1.0 - s) * per_riser - 1.0);
@@ -145,7 +145,7 @@ fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &
     let Masking { mask, step, by_source } = masking;
     let (before, own) = by_source.split_at_mut(number.min(MAX_MASKS - 1));
     for (i, x) in source.iter().enumerate().take(n.min(CHUNK)) {
-        let t = ((x - edge.from) / span).max(0.0).min(1.0);
+        let t = ((x - edge.from) / span).clamp(0.0, 1.0);
         step[i] = t * t * (3.0 - 2.0 * t) * sign + shift;
         if SLOPES {
             own[0][i] = (6.0 * t * (1.0 - t) / span * sign * mask[i]) as f32;
@@ -259,9 +259,9 @@ for_each_simd!(pub(super) fn through(n: usize, shaped: &Shaped, output: &mut Out
 /// The slopes of something reshaped once more, by a function of this derivative.
 #[inline(always)]
 fn reshape_body(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) {
-    for i in 0..n.min(CHUNK) {
-        shaped.by_noise[i] *= derivative[i];
-        shaped.by_height[i] *= derivative[i];
+    for (i, d) in derivative.iter().enumerate().take(n.min(CHUNK)) {
+        shaped.by_noise[i] *= d;
+        shaped.by_height[i] *= d;
     }
 }
 for_each_simd!(pub(super) fn reshape(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) = reshape_body);
