@@ -45,6 +45,23 @@ fn presets_of_version_1_load_to_the_same_values_for_ever() {
     }
 }
 
+/// What a preset of version 1 says, a preset of version 2 can say too.
+#[test]
+fn presets_of_version_1_become_presets_of_version_2() {
+    let text = |version: u32, mask: &str| {
+        let mask = format!("{mask}(layer: \"B\", from: -0.5, to: 0.75, invert: true)");
+        let a = format!("(name: \"A\", blend: Replace, shape: Ridged(gain: 0.4), masks: [{mask}])");
+        format!(
+            "(version: {version}, layers: [{a}, (name: \"B\", shape: Craters(density: 0.3)), (name: \"C\", shape: Fbm())])"
+        )
+    };
+    let old = Planet::from_text("f.ron", &text(1, "")).unwrap_or_else(|error| panic!("{error}"));
+    let new = Planet::from_text("f.ron", &text(2, "Layer")).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(old, new);
+    assert_eq!(Planet::from_text("f.ron", &old.to_text()).unwrap(), old);
+    assert!(old.to_text().contains("version: 2,"));
+}
+
 #[test]
 fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
     let cases = [
@@ -162,6 +179,76 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
             "f.ron:1:43: layers[0].masks[0].layer: there is no layer called \"\"; there is no other layer: remove the mask \
              or add a layer\n\
              f.ron:1:62: layers[0].masks[0].to: `to` equals `from` (1); use two different numbers",
+        ),
+        (
+            "(version: 2, layers: [(name: \"A\", masks: [Height(from_m: 5, to_m: 5)])])",
+            "f.ron:1:67: layers[0].masks[0].to_m: `to_m` equals `from_m` (5); use two different numbers",
+        ),
+        (
+            "(version: 2, layers: [(masks: [Slope(from_deg: -1)])])",
+            "f.ron:1:48: layers[0].masks[0].from_deg: -1 is out of range; use 0 to 90°",
+        ),
+        (
+            "(version: 2, layers: [(name: \"A\", masks: [Slope(over_m: 1), Slope(over_m: 2), Slope(over_m: 3), Slope(over_m: 4), \
+             Slope(over_m: 5), Slope(over_m: 6), Slope(over_m: 7)])])",
+            "f.ron:1:165: layers[0].masks[6].over_m: 7 is one distance too many for this planet's slope masks; use one of the \
+             others: 1, 2, 3, 4, 5, 6 m",
+        ),
+        // --- kinds of mask
+        (
+            "(version: 2, layers: [(masks: [Hight()])])",
+            "f.ron:1:32: layers[0].masks[0]: there is no value `Hight` here; did you mean `Height`? use `Layer`, `Height`, \
+             `Slope`, `Latitude`",
+        ),
+        (
+            "(version: 2, layers: [(masks: [Latitude(from: 3)])])",
+            "f.ron:1:41: layers[0].masks[0].from: there is no field `from` here; use `from_deg`, `to_deg`, `both`, `invert`",
+        ),
+        (
+            "(version: 2, layers: [(masks: [Slope])])",
+            "f.ron:1:32: layers[0].masks[0]: `Slope` is not what belongs here; use one of `Layer(...)`, `Height(...)`, \
+             `Slope(...)`, `Latitude(...)`",
+        ),
+        (
+            "(version: 2, layers: [(masks: 3)])",
+            "f.ron:1:31: layers[0].masks: `3` is not what belongs here; use a list: `[(...), (...)]`",
+        ),
+        // --- curves
+        (
+            "(version: 2, height_curve: [(0, 0)])",
+            "f.ron:1:28: height_curve: one point makes no curve; add another, or use `[]` for none",
+        ),
+        (
+            "(version: 2, height_curve: [(0, 0), (10, 5), (10, 7)])",
+            "f.ron:1:28: height_curve: point 3 has x 10, the one before it 10; let x grow by at least 1 m from point to point",
+        ),
+        (
+            "(version: 2, layers: [(curve: [(0, 0), (9, 5)])])",
+            "f.ron:1:31: layers[0].curve: point 2 has 9, which is out of range; use 2 to 16 points, each from -4 to 4",
+        ),
+        (
+            "(version: 2, layers: [(curve: [(0, 0, 1), (1, 5)])])",
+            "f.ron:1:39: layers[0].curve[0]: too many numbers; use two for each point: `(from, to)`",
+        ),
+        (
+            "(version: 2, layers: [(curve: [(0)])])",
+            "f.ron:1:32: layers[0].curve[0]: 1 numbers are too few; use two for each point: `(from, to)`",
+        ),
+        (
+            "(version: 2, layers: [(curve: 3)])",
+            "f.ron:1:31: layers[0].curve: `3` is not what belongs here; use a list of points: `[(-1, 0), (1, 2)]`, 2 to 16 points, \
+             each from -4 to 4",
+        ),
+        // --- version 1 stays what it was
+        (
+            "(version: 1, layers: [(softness_m: 3)])",
+            "f.ron:1:24: layers[0].softness_m: there is no field `softness_m` here; use `name`, `enabled`, `seed`, `amplitude_m`, \
+             `bias`, `blend`, `shape`, `masks`",
+        ),
+        (
+            "(version: 1, layers: [(blend: SmoothMax)])",
+            "f.ron:1:31: layers[0].blend: there is no value `SmoothMax` here; use `Add`, `Subtract`, `Multiply`, `Max`, `Min`, \
+             `Replace`",
         ),
         (
             "(version: 2, biomes: (table: [\"aa\", \"aaa\"]))",

@@ -8,7 +8,9 @@ use std::sync::Arc;
 use tellus::build::{Builder, Surface, build_now};
 use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, Water};
+use tellus::planet::{
+    Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, SlopeMask, Water,
+};
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
@@ -239,7 +241,12 @@ fn edit(planet: &mut Planet, which: usize, amount: f64) {
         5 => planet.climate.octaves = 1 + (amount * 5.0) as u32,
         6 => planet.water.as_mut().unwrap().level_m = amount * 500.0,
         7 => planet.water.as_mut().unwrap().color = [amount; 3],
-        8 => planet.layers[1].masks[0] = mask("continents", amount - 0.9, 0.3),
+        8 => {
+            let slope = SlopeMask { over_m: 1000.0 + 9000.0 * amount, ..SlopeMask::default() };
+            planet.layers[2].masks.insert(0, Mask::Slope(slope));
+        }
+        9 => planet.layers[2].masks.clear(),
+        10 => planet.layers[1].masks[0] = mask("continents", amount - 0.9, 0.3),
         _ => {
             planet.layers.remove(planet.layers.len() - 1);
         }
@@ -250,7 +257,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
     #[test]
     fn any_sequence_of_edits_ends_in_what_a_rebuild_from_nothing_gives(
-        edits in prop::collection::vec((0_usize..9, 0.0..1.0_f64, prop::bool::ANY), 1..6),
+        edits in prop::collection::vec((0_usize..12, 0.0..1.0_f64, prop::bool::ANY), 1..6),
     ) {
         let builder = Builder::new(|| {});
         let mut planet = planet();
@@ -280,12 +287,33 @@ fn edits_rebuild_no_more_than_they_must() {
     };
     assert!(ask(&planet).octave_samples > 0);
     for (which, tiles, octaves) in
-        [(7, false, false), (0, true, false), (8, true, false), (4, true, false), (1, true, true)]
+        [(7, false, false), (0, true, false), (10, true, false), (4, true, false), (1, true, true)]
     {
         edit(&mut planet, which, 0.37);
         let stats = ask(&planet);
         assert_eq!((stats.tiles_built > 0, stats.octave_samples > 0), (tiles, octaves), "edit {which}");
     }
+}
+
+#[test]
+fn a_mask_by_slope_asks_only_the_layers_below_it() {
+    let builder = Builder::new(|| {});
+    let mut planet = planet();
+    let view = view(3_000_000.0, -80.0);
+    let octaves_a_tile = |planet: &Planet| {
+        builder.request(&Arc::new(planet.clone()), &view);
+        let stats = settled(&builder).stats;
+        stats.octave_samples as f64 / (stats.tiles_built * TILE_SIDE * TILE_SIDE) as f64
+    };
+    octaves_a_tile(&planet);
+    // On the third layer: continents have 12 octaves, mountains 14.
+    edit(&mut planet, 8, 0.2);
+    assert_eq!(octaves_a_tile(&planet), 26.0);
+    // What is there by now is enough for less.
+    edit(&mut planet, 9, 0.0);
+    assert_eq!(octaves_a_tile(&planet), 0.0);
+    edit(&mut planet, 8, 0.2);
+    assert_eq!(octaves_a_tile(&planet), 0.0);
 }
 
 #[test]

@@ -1,22 +1,22 @@
-//! One tile from one node: directions, layer fields, height, climate, mesh. Stages whose inputs did not change are taken
-//! from the tile that stood there before, and samples that the parent has from the parent.
+//! One tile from one node: directions, layer fields, height, climate, mesh (see `mesh`). Stages whose inputs did not change are
+//! taken from the tile that stood there before, and samples that the parent has from the parent.
 
 use super::kept::KeptFields;
+use super::mesh::mesh;
 use super::stats::Work;
 use crate::lod::select::spacing_rad;
-use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
+use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile};
 use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
-use crate::terrain::climate::{ClimateField, PointClimate};
+use crate::terrain::Terrain;
+use crate::terrain::climate::ClimateField;
 use crate::terrain::coast::Coast;
 use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
-use crate::terrain::{Terrain, tangent_slope};
 use glam::DVec3;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a tile was made from (the fields of its layers apart), kept so that an edit re-runs only the stages it makes stale.
 #[derive(Debug)]
@@ -114,7 +114,7 @@ pub(crate) fn make_tile(
 
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        mesh(terrain, id, &points, &heights, &climate, &inland_rad)
+        mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad)
     });
     (fields, Some((tile, Parts { points, heights, climate_noises, climate, coast, inland_rad })))
 }
@@ -169,70 +169,4 @@ fn climate_field(
         moisture: merge(&found.moisture, &parent.moisture),
     };
     (field, octaves * own.len())
-}
-
-fn mesh(
-    terrain: &Terrain,
-    id: NodeId,
-    points: &Points,
-    heights: &Heights,
-    climate: &ClimateField,
-    inland_rad: &[f64],
-) -> Tile {
-    static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
-    let planet = terrain.planet();
-    let radius_m = planet.radius_m();
-    let gradient = |band: usize, i: usize| {
-        let [x, y, z] = &heights.gradients[band];
-        DVec3::new(f64::from(x[i]), f64::from(y[i]), f64::from(z[i]))
-    };
-    let mut positions = Vec::with_capacity(TILE_VERTICES);
-    let vertices = points
-        .dirs
-        .iter()
-        .enumerate()
-        .map(|(i, &dir)| {
-            let height_m = heights.height_m[i];
-            let position = dir * (radius_m + height_m);
-            positions.push(position);
-            let normal = |gradient: DVec3| oct_snorm(dir - tangent_slope(dir, gradient, radius_m + height_m));
-            let PointClimate { temperature_c, moisture, row, .. } = climate.at(planet, inland_rad, i, dir, height_m);
-            let high = position.as_vec3();
-            Vertex {
-                position_high_m: high.to_array(),
-                height_m: height_m as f32,
-                position_low_m: (position - high.as_dvec3()).as_vec3().to_array(),
-                temperature_c: temperature_c as f32,
-                climate_unorm: [unorm(moisture), unorm(row)],
-                normal_oct: normal(gradient(0, i)),
-                parent_normal_oct: normal(gradient(1, i)),
-            }
-        })
-        .collect();
-    let (min_height_m, max_height_m) =
-        heights.height_m.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &h| (lo.min(h), hi.max(h)));
-    let center_planet_m = id.direction(0.5, 0.5) * (radius_m + 0.5 * (min_height_m + max_height_m));
-    let bounding_radius_m = positions.iter().map(|p| p.distance(center_planet_m)).fold(0.0, f64::max);
-    Tile {
-        id,
-        serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
-        vertices,
-        min_height_m,
-        max_height_m,
-        center_planet_m,
-        bounding_radius_m,
-    }
-}
-
-fn unorm(value: f64) -> u16 {
-    (value.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16
-}
-
-/// A direction on the octahedron, unfolded (Cigolle et al. 2014), as two snorm numbers.
-fn oct_snorm(v: DVec3) -> [i16; 2] {
-    let v = v / (v.x.abs() + v.y.abs() + v.z.abs());
-    let fold = |a: f64, b: f64| (1.0 - b.abs()) * if a < 0.0 { -1.0 } else { 1.0 };
-    let (x, y) = if v.z < 0.0 { (fold(v.x, v.y), fold(v.y, v.x)) } else { (v.x, v.y) };
-    let snorm = |w: f64| (w.clamp(-1.0, 1.0) * 32767.0).round() as i16;
-    [snorm(x), snorm(y)]
 }

@@ -1,6 +1,6 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
-//! - `make`: one tile from one node, stage by stage
+//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices
 //! - `kept`: the layer fields of one tile, present and past
 //! - `normals`: the normal tile of one node
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
@@ -11,6 +11,7 @@ pub mod builder;
 mod cache;
 mod kept;
 mod make;
+mod mesh;
 mod normals;
 mod refine;
 mod stats;

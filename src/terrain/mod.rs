@@ -28,9 +28,9 @@ mod raycast;
 pub mod simd;
 
 use crate::planet::Planet;
-use climate::CompiledClimate;
 pub use height::curve_at;
 
+use climate::{CompiledClimate, NO_SEA, Rules};
 use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
@@ -146,8 +146,10 @@ impl Terrain {
         let height_m = heights.height_m[0];
         let gradient = DVec3::from_array(heights.gradients[0].each_ref().map(|component| f64::from(component[0])));
         let slope = tangent_slope(dir, gradient, self.planet.radius_m() + height_m);
-        let inland_rad = self.climate.inland_rad(&[dir]);
-        let climate = self.climate.field(self.simd, &points).at(&self.planet, &inland_rad, 0, dir, height_m);
+        let noise = self.climate.field(self.simd, &points);
+        let inland_rad = self.climate.inland_rad(&[dir]).first().copied().unwrap_or(NO_SEA);
+        let noise = [noise.temperature[0], noise.moisture[0]];
+        let climate = Rules::new(&self.planet).at(dir.z, height_m, noise, inland_rad);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
@@ -182,7 +184,9 @@ impl Terrain {
 
     /// The same for the ground within an angle of a direction: narrower, or equal.
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.stack.bounds_near_m(unit(dir_planet), angle_rad)
+        let ((lo, hi), (lowest, highest)) =
+            (self.stack.bounds_near_m(unit(dir_planet), angle_rad), self.height_bounds_m);
+        (lo.max(lowest), hi.min(highest))
     }
 
     /// How many octaves of noise one point takes.
@@ -235,7 +239,7 @@ fn unit(dir: DVec3) -> DVec3 {
 
 /// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a vector in the
 /// tangent plane. The surface's normal is along `dir - slope`.
-pub(crate) fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
+fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
     (gradient - dir * dir.dot(gradient)) / radius_m
 }
 

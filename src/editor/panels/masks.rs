@@ -4,7 +4,7 @@ use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::layers::layer_path;
 use crate::planet::param::{Choice, ParamPath, Segment};
-use crate::planet::{Layer, MAX_MASKS, Mask};
+use crate::planet::{HeightMask, Layer, LayerMask, MAX_MASKS, Mask};
 use eframe::egui;
 
 /// Shows the masks of the layer at `index`; gives the label of an edit that is more than a parameter.
@@ -20,23 +20,14 @@ pub fn show(
     ui.horizontal(|ui| {
         ui.strong("Masks");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let possible = layer.masks.len() < MAX_MASKS;
-            ui.add_enabled_ui(possible, |ui| {
-                ui.menu_button("Add mask", |ui| {
-                    for (mut mask, doc) in Mask::all().into_iter().zip(Mask::DOCS) {
-                        let other = others.first().map(|name| name.as_str());
-                        mask.set_layer(other.unwrap_or_default());
-                        let name = Mask::NAMES.get(mask.index()).copied().unwrap_or_default();
-                        let button = ui.add_enabled(mask.layer().is_none() || other.is_some(), egui::Button::new(name));
-                        let button = button.on_hover_text(*doc).on_disabled_hover_text("This mask needs another layer");
-                        if button.clicked() {
-                            layer.masks.push(mask);
-                            label = Some("Add mask".to_owned());
-                            ui.close();
-                        }
-                    }
+            let button = ui.add_enabled(layer.masks.len() < MAX_MASKS, egui::Button::new("Add mask"));
+            if button.on_hover_text("Let this layer act only in some places").clicked() {
+                layer.masks.push(match others.first() {
+                    Some(other) => Mask::Layer(LayerMask { layer: (*other).clone(), ..LayerMask::default() }),
+                    None => Mask::Height(HeightMask::default()),
                 });
-            });
+                label = Some("Add mask".to_owned());
+            }
         });
     });
     let mut removed = None;

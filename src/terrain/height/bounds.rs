@@ -142,7 +142,7 @@ impl CompiledLayer {
 
 /// The sine of the latitude.
 fn sine_of_latitude(near: Near) -> Interval {
-    let Some((dir_planet, angle_rad)) = near else { return Interval { lo: -1.0, hi: 1.0 } };
+    let Some((dir_planet, angle_rad)) = near else { return Interval { lo: -1.0, hi: 1.0 }.widened() };
     let latitude_rad = libm::asin(dir_planet.z.clamp(-1.0, 1.0));
     let quarter = std::f64::consts::FRAC_PI_2;
     let sine = |latitude_rad: f64| libm::sin(latitude_rad.clamp(-quarter, quarter));

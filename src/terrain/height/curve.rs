@@ -2,7 +2,7 @@
 //!
 //! Between two points the curve never leaves the range of their values, so that it has no wiggles that nobody drew.
 
-use crate::terrain::noise::{CHUNK, Lane};
+use super::lanes::{CHUNK, Lane};
 use crate::terrain::simd::for_each_simd;
 
 /// What a curve makes of a number; one without points leaves it as it is.
@@ -89,10 +89,9 @@ fn slopes(secants: &[f64]) -> Vec<f64> {
     slopes
 }
 
-/// Replaces each number by its place on the curve, and `slope` by the derivative there.
+/// The place of each number on the curve, and the derivative there.
 #[inline(always)]
-fn bend_body(n: usize, curve: &CompiledCurve, x: &mut Lane<f64>, slope: &mut Lane<f64>) {
-    let mut y = [0.0; CHUNK];
+fn bend_body(n: usize, curve: &CompiledCurve, x: &Lane<f64>, y: &mut Lane<f64>, slope: &mut Lane<f64>) {
     for (number, piece) in curve.pieces.iter().enumerate() {
         // Later pieces take over from where they start.
         let from = if number == 0 { f64::MIN } else { piece.x };
@@ -103,6 +102,5 @@ fn bend_body(n: usize, curve: &CompiledCurve, x: &mut Lane<f64>, slope: &mut Lan
             slope[i] = if here { derivative } else { slope[i] };
         }
     }
-    x[..n.min(CHUNK)].copy_from_slice(&y[..n.min(CHUNK)]);
 }
-for_each_simd!(pub(super) fn bend(n: usize, curve: &CompiledCurve, x: &mut Lane<f64>, slope: &mut Lane<f64>) = bend_body);
+for_each_simd!(pub(super) fn bend(n: usize, curve: &CompiledCurve, x: &Lane<f64>, y: &mut Lane<f64>, slope: &mut Lane<f64>) = bend_body);

@@ -1,15 +1,15 @@
-//! Joins the layers at a batch of points, in chunks that stay in the first-level cache.
+//! Joins the layers at a batch of points, chunk by chunk.
 //!
 //! A joined height depends on the height below, on the layer's noise and on what its masks look at. Its partial derivatives by
 //! these are found once for each point, and mix the gradients of each band. A mask by slope counts as the same all around a
 //! point: how fast the slope itself changes would take second derivatives of everything below.
 
 use super::lanes::{self, Masking, Output, Shaped};
+use super::lanes::{CHUNK, Lane};
 use super::{Band, CompiledLayer, CompiledMask, LayerStack, Source, curve};
 use crate::planet;
 use crate::terrain::field::{Components, Field};
 use crate::terrain::landform::MAX_BANDS;
-use crate::terrain::noise::{CHUNK, Lane};
 use crate::terrain::points::Points;
 use crate::terrain::simd::Simd;
 use std::cell::RefCell;
@@ -23,6 +23,15 @@ pub(crate) struct Heights {
     pub(crate) height_m: Vec<f64>,
     /// One for each of the spacings asked for.
     pub(crate) gradients: Vec<Components>,
+}
+
+impl Heights {
+    /// The lowest and the greatest height.
+    pub(crate) fn range_m(&self, simd: Simd) -> (f64, f64) {
+        let (mut lowest_m, mut greatest_m) = (0.0, 0.0);
+        lanes::range(simd, &self.height_m, (&mut lowest_m, &mut greatest_m));
+        (lowest_m, greatest_m)
+    }
 }
 
 /// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at `spacings_rad` and at what
@@ -72,6 +81,7 @@ struct Scratch {
     masking: Masking,
     /// What a mask looks at, where that is not kept elsewhere; the derivative of a curve.
     source: Lane<f64>,
+    bent: Lane<f64>,
     dirs: [Lane<f64>; 3],
 }
 
@@ -83,8 +93,9 @@ impl Default for Scratch {
             noise: [0.0; CHUNK],
             shaped: Shaped { by_noise: [0.0; CHUNK], by_height: [0.0; CHUNK] },
             output: Output { target: [0.0; CHUNK], by_height: [0.0; CHUNK], by_noise: [0.0; CHUNK] },
-            masking: Masking { mask: [0.0; CHUNK], by_source: [[0.0; CHUNK]; planet::MAX_MASKS] },
+            masking: Masking { mask: [0.0; CHUNK], step: [0.0; CHUNK], by_source: [[0.0; CHUNK]; planet::MAX_MASKS] },
             source: [0.0; CHUNK],
+            bent: [0.0; CHUNK],
             dirs: [[0.0; CHUNK]; 3],
         }
     }
@@ -198,7 +209,7 @@ impl Chunk<'_> {
     /// The layer's noise as terraces and the curve leave it.
     fn reshape(&self, layer: &CompiledLayer, field: &Field, slopes: bool, scratch: &mut Scratch) {
         let (simd, n) = (self.simd, self.len());
-        let Scratch { height, noise, shaped, source, .. } = scratch;
+        let Scratch { height, noise, shaped, source, bent, .. } = scratch;
         noise[..n].copy_from_slice(&field.value[self.range.clone()]);
         match &layer.steps {
             Some(steps) => lanes::cut(simd, slopes, n, steps, height, noise, shaped),
@@ -208,7 +219,8 @@ impl Chunk<'_> {
             }
         }
         if let Some(curve) = &layer.curve {
-            curve::bend(simd, n, curve, noise, source);
+            curve::bend(simd, n, curve, noise, bent, source);
+            noise[..n].copy_from_slice(&bent[..n]);
             lanes::reshape(simd, n, source, shaped);
         }
     }
@@ -245,9 +257,12 @@ impl Chunk<'_> {
     /// The curve over all, and limits; of the gradients, only the first few are wanted.
     fn finish(&self, scratch: &mut Scratch, wanted: usize) {
         let (simd, n) = (self.simd, self.len());
-        let Scratch { height, gradients, source: slope, .. } = scratch;
+        let Scratch { height, gradients, source: slope, bent, .. } = scratch;
         match &self.stack.height_curve {
-            Some(curve) => curve::bend(simd, n, curve, height, slope),
+            Some(curve) => {
+                curve::bend(simd, n, curve, height, bent, slope);
+                height[..n].copy_from_slice(&bent[..n]);
+            }
             None => slope[..n].fill(1.0),
         }
         lanes::limit(simd, n, self.stack.limits_m(), height, slope);

@@ -5,8 +5,15 @@
 
 use super::{Blend, Edge, Steps};
 use crate::planet::MAX_MASKS;
-use crate::terrain::noise::{CHUNK, Lane};
+
 use crate::terrain::simd::{Simd, for_each_simd};
+
+/// Points worked on at a time. A whole tile: what little is done with each number waits for memory more than anything, and long
+/// runs are fetched ahead.
+pub(super) const CHUNK: usize = 1152;
+
+/// One number for each point of a chunk.
+pub(super) type Lane<T> = [T; CHUNK];
 
 /// Adding and subtracting this rounds an f64 below 2^51 to a whole number.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
@@ -41,7 +48,9 @@ pub(super) struct Shaped {
 /// The product of a layer's masks.
 pub(super) struct Masking {
     pub(super) mask: Lane<f64>,
-    /// Its derivatives by the source of each mask.
+    /// The last mask alone.
+    pub(super) step: Lane<f64>,
+    /// Derivatives of the product by the source of each mask.
     pub(super) by_source: [Lane<f32>; MAX_MASKS],
 }
 
@@ -71,7 +80,7 @@ fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, n
     let scaled = |v: f64| (v + bias) * a + 0.0;
     // Polynomial smooth maximum: beyond `soft` apart it is the greater.
     let soft = blend.softness_m;
-    let share = |y: f64, h: f64| (0.5 + 0.5 * (y - h) / soft).max(0.0).min(1.0);
+    let share = |y: f64, h: f64| (0.5 + 0.5 * (y - h) / soft).clamp(0.0, 1.0);
     use crate::planet::Blend as Kind;
     match blend.kind {
         Kind::Add => each::<SLOPES>(n, height, noise, output, |h, v| (h + scaled(v), 1.0, a)),
@@ -115,9 +124,9 @@ fn cut_body<const SLOPES: bool>(
     let (per_metre, riser) = (1.0 / steps.height_m, 0.5 - 0.4 * steps.sharpness);
     let (start, per_riser) = (0.5 - riser, 0.5 / riser);
     for i in 0..n.min(CHUNK) {
-        let place = (height[i] * per_metre + steps.waviness * noise[i]).max(-1e12).min(1e12);
+        let place = (height[i] * per_metre + steps.waviness * noise[i]).clamp(-1e12, 1e12);
         let t = place - ((place - 0.5 + ROUNDER) - ROUNDER);
-        let s = ((t - start) * per_riser).max(0.0).min(1.0);
+        let s = ((t - start) * per_riser).clamp(0.0, 1.0);
         noise[i] = steps.sharpness * (s * s * (3.0 - 2.0 * s) - t);
         if SLOPES {
             let slope = steps.sharpness * (6.0 * s * (1.0 - s) * per_riser - 1.0);
@@ -132,28 +141,25 @@ joining!(fn cut(n: usize, steps: &Steps, height: &Lane<f64>, noise: &mut Lane<f6
 #[inline(always)]
 fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) {
     let span = edge.to - edge.from;
-    let (mut step, mut slope) = ([0.0; CHUNK], [0.0_f32; CHUNK]);
     let (sign, shift) = if edge.invert { (-1.0, 1.0) } else { (1.0, 0.0) };
+    let Masking { mask, step, by_source } = masking;
+    let (before, own) = by_source.split_at_mut(number.min(MAX_MASKS - 1));
     for (i, x) in source.iter().enumerate().take(n.min(CHUNK)) {
-        let t = ((x - edge.from) / span).max(0.0).min(1.0);
+        let t = ((x - edge.from) / span).clamp(0.0, 1.0);
         step[i] = t * t * (3.0 - 2.0 * t) * sign + shift;
         if SLOPES {
-            slope[i] = (6.0 * t * (1.0 - t) / span * sign * masking.mask[i]) as f32;
+            own[0][i] = (6.0 * t * (1.0 - t) / span * sign * mask[i]) as f32;
         }
     }
-    for i in 0..n.min(CHUNK) {
-        masking.mask[i] *= step[i];
-    }
     if SLOPES {
-        let (before, after) = masking.by_source.split_at_mut(number);
         for lane in before {
             for i in 0..n.min(CHUNK) {
                 lane[i] *= step[i] as f32;
             }
         }
-        if let Some(own) = after.first_mut() {
-            *own = slope;
-        }
+    }
+    for i in 0..n.min(CHUNK) {
+        mask[i] *= step[i];
     }
 }
 joining!(fn mask(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) = mask_body);
@@ -167,16 +173,18 @@ fn join_body<const SLOPES: bool>(
     output: &mut Output,
     height: &mut Lane<f64>,
 ) {
-    let mut change = [0.0; CHUNK];
+    let Output { target, by_height, by_noise } = output;
+    // From here on the change, not the target.
+    let change = target;
     for i in 0..n.min(CHUNK) {
-        change[i] = output.target[i] - height[i];
+        change[i] -= height[i];
         height[i] += change[i] * masking.mask[i];
     }
     if SLOPES {
         for i in 0..n.min(CHUNK) {
             let mask = masking.mask[i] as f32;
-            output.by_height[i] = output.by_height[i] * mask + (1.0 - mask);
-            output.by_noise[i] *= mask;
+            by_height[i] = by_height[i] * mask + (1.0 - mask);
+            by_noise[i] *= mask;
         }
         for lane in masking.by_source.iter_mut().take(masks) {
             for i in 0..n.min(CHUNK) {
@@ -251,9 +259,9 @@ for_each_simd!(pub(super) fn through(n: usize, shaped: &Shaped, output: &mut Out
 /// The slopes of something reshaped once more, by a function of this derivative.
 #[inline(always)]
 fn reshape_body(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) {
-    for i in 0..n.min(CHUNK) {
-        shaped.by_noise[i] *= derivative[i];
-        shaped.by_height[i] *= derivative[i];
+    for (i, d) in derivative.iter().enumerate().take(n.min(CHUNK)) {
+        shaped.by_noise[i] *= d;
+        shaped.by_height[i] *= d;
     }
 }
 for_each_simd!(pub(super) fn reshape(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) = reshape_body);
@@ -299,3 +307,19 @@ fn finish_body(n: usize, slope: &Lane<f64>, gradient: &mut [Lane<f32>; 3]) {
     }
 }
 for_each_simd!(pub(super) fn finish(n: usize, slope: &Lane<f64>, gradient: &mut [Lane<f32>; 3]) = finish_body);
+
+/// Lowest and greatest of some numbers.
+#[inline(always)]
+fn range_body(values: &[f64], (lowest, greatest): (&mut f64, &mut f64)) {
+    // Many at once, for one after the other takes its time.
+    let (mut lo, mut hi) = ([f64::MAX; 32], [f64::MIN; 32]);
+    for some in values.chunks(32) {
+        for ((v, lo), hi) in some.iter().zip(&mut lo).zip(&mut hi) {
+            *lo = if *v < *lo { *v } else { *lo };
+            *hi = if *v > *hi { *v } else { *hi };
+        }
+    }
+    *lowest = lo.into_iter().fold(f64::MAX, f64::min);
+    *greatest = hi.into_iter().fold(f64::MIN, f64::max);
+}
+for_each_simd!(pub(super) fn range(values: &[f64], bounds: (&mut f64, &mut f64)) = range_body);

@@ -12,8 +12,6 @@ mod bounds;
 mod curve;
 mod join;
 mod lanes;
-#[cfg(test)]
-mod tests;
 
 pub use curve::curve_at;
 pub(crate) use join::{Heights, combine};
