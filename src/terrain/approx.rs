@@ -19,7 +19,7 @@ pub(crate) fn wrap(turns: f32) -> f32 {
 /// Sine of an angle of at most a quarter turn either way.
 #[inline(always)]
 fn sin_quarter(turns: f32) -> f32 {
-    const C: [f32; 5] = [6.283_185_3, -41.341_68, 81.602_48, -76.581_17, 39.759_827];
+    const C: [f32; 5] = [TAU, -41.341_68, 81.602_48, -76.581_17, 39.759_827];
     let square = turns * turns;
     turns * (C[0] + square * (C[1] + square * (C[2] + square * (C[3] + square * C[4]))))
 }
@@ -43,11 +43,11 @@ pub(crate) fn atan2<R: Real>(y: R, x: R) -> R {
         0.159_154_92,
         -0.053_049_23,
         0.031_778_407,
-        -0.022_286_929,
+        -0.022_286_93,
         0.015_706_787,
         -0.009_363_046,
         0.003_784_787,
-        -0.000_725_713_4,
+        -0.000_725_713,
     ];
     let (height, width) = (y.value().abs(), x.value().abs());
     let steep = height > width;

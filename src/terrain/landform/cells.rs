@@ -150,6 +150,7 @@ for_each_simd!(fn begin_values(n: usize, width: f32, first: &Jets, steepness: &m
 for_each_simd!(fn begin_gradients(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<Jet>);
 
 /// Adds the share that the plate of a cell has in the ground at each point, and its level as much.
+#[allow(clippy::too_many_arguments)]
 #[inline(always)]
 fn share_body<R: Real>(
     n: usize,

@@ -7,7 +7,12 @@ use crate::terrain::simd::Simd;
 use glam::DVec3;
 
 /// Values, and gradients where wanted, of a kind at points.
-fn evaluate(kind: &dyn Evaluate, simd: Simd, dirs: &[DVec3], spacings_rad: &[f64]) -> (Vec<f64>, Vec<DVec3>) {
+pub(super) fn evaluate(
+    kind: &dyn Evaluate,
+    simd: Simd,
+    dirs: &[DVec3],
+    spacings_rad: &[f64],
+) -> (Vec<f64>, Vec<DVec3>) {
     let mut scratch = Box::<Scratch>::default();
     let (mut values, mut gradients) = (Vec::new(), Vec::new());
     for dirs in dirs.chunks(CHUNK) {

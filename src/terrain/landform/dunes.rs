@@ -200,7 +200,7 @@ impl Profile {
         let t = if wrapped < 0.0 { wrapped + 1.0 } else { wrapped };
         let up = t < self.windward;
         let run = if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) };
-        let s = (if up { t * run } else { (t - 1.0) * run }).max(0.0).min(1.0);
+        let s = (if up { t * run } else { (t - 1.0) * run }).clamp(0.0, 1.0);
         let brink = if up { 0.0 } else { self.brink };
         // From round, s^2 (3 - 2 s), to broken off, s^2.
         let height = 2.0 * s * s * (1.0 + (1.0 - brink) * 2.0 * (1.0 - s));
@@ -213,6 +213,9 @@ impl Profile {
 mod tests {
     use super::super::check;
     use super::*;
+    use crate::sphere::geo::east_north;
+    use crate::terrain::field::EXACT;
+    use crate::terrain::simd::Simd;
 
     fn dunes() -> Dunes {
         Dunes::new(&planet::Dunes { wavelength_km: 400.0, ..Default::default() }, 7, 6371.0)
@@ -223,6 +226,27 @@ mod tests {
         check::kind(&dunes(), 0.02);
         let (mean, deviation) = check::statistics(&dunes());
         assert!((-0.5..0.1).contains(&mean) && (0.4..0.8).contains(&deviation), "{mean} {deviation}");
+    }
+
+    /// With the wind the ground rises gently for most of the way and falls steeply.
+    #[test]
+    fn the_lee_is_steep_and_lies_where_the_wind_blows_to() {
+        for heading_deg in [0.0, 90.0, 200.0] {
+            let params = planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
+            let dirs = check::directions(4000);
+            let (_, gradients) = check::evaluate(&Dunes::new(&params, 7, 6371.0), Simd::detect(), &dirs, EXACT);
+            let (mut rising, mut steepest_rise, mut steepest_fall) = (0, 0.0_f64, 0.0_f64);
+            for (dir, gradient) in dirs.iter().zip(&gradients).filter(|(dir, _)| dir.z.abs() < 0.9) {
+                let (east, north) = east_north(*dir);
+                let (sin, cos) = f64::to_radians(heading_deg).sin_cos();
+                let rise = gradient.dot(east * sin + north * cos);
+                rising += u32::from(rise > 0.0);
+                steepest_rise = steepest_rise.max(rise);
+                steepest_fall = steepest_fall.max(-rise);
+            }
+            assert!(rising > 2300, "{heading_deg}: {rising}");
+            assert!(steepest_fall > 1.5 * steepest_rise, "{heading_deg}: {steepest_fall} {steepest_rise}");
+        }
     }
 
     #[test]

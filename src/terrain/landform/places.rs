@@ -27,8 +27,7 @@ impl Places {
 fn find_places_body(skewed: Points3<'_>, octave: &Octave, places: &mut Places) {
     let [x, y, z] = skewed;
     let n = x.len().min(y.len()).min(z.len()).min(CHUNK);
-    for axis in 0..3 {
-        let p = skewed[axis];
+    for (axis, p) in skewed.into_iter().enumerate() {
         for i in 0..n {
             let unskewed = p[i] - (x[i] + y[i] + z[i]) * (1.0 / 6.0);
             let (cell, fraction) = noise::split(unskewed * octave.frequency + octave.offset[axis]);
