@@ -6,7 +6,6 @@
 @group(2) @binding(0) var normal_tiles: texture_2d_array<f32>;
 
 struct Vertex {
-    @builtin(vertex_index) index: u32,
     @location(0) high_m: vec3f,
     @location(1) height_m: f32,
     @location(2) low_m: vec3f,
@@ -28,12 +27,16 @@ struct Ground {
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
     @location(5) temperature_c: f32,
-    // Place in the tile, 0 to 1; how far the parent has taken over; layer of the normal tile.
+    // Place in the tile, 0 to 1; how far the parent has taken over.
     @location(6) place: vec3f,
-    @location(7) @interpolate(flat) layer: f32,
-    @location(8) @interpolate(flat) slope_axis: vec3f,
+    // From the eye that the tile was chosen for
+    @location(7) chosen_distance_m: f32,
+    // Layer of the normal tile.
+    @location(8) @interpolate(flat) layer: f32,
+    @location(9) @interpolate(flat) slope_axis: vec3f,
 }
 
+// Vertices along the side of a tile, and texels along that of a normal tile; must match src/lod/tile.rs.
 const TILE_SIDE: u32 = 33u;
 const NORMAL_SIDE: f32 = 129.0;
 
@@ -48,20 +51,22 @@ fn from_octahedral(e: vec2f) -> vec3f {
 }
 
 @vertex
-fn vertex(in: Vertex) -> Ground {
+fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     var out: Ground;
     // High and low parts apart: equal points give equal bits in every tile.
     out.rel_m = (in.high_m - globals.eye_high_m.xyz) + (in.low_m - globals.eye_low_m.xyz);
     out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
-    let far = saturate1((length(out.rel_m) - in.tile.x) / max(in.tile.y - in.tile.x, 1e-3));
+    let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
+    out.chosen_distance_m = length(chosen_rel_m);
+    let far = saturate1((out.chosen_distance_m - in.tile.x) / max(in.tile.y - in.tile.x, 1e-3));
     out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), far);
     out.climate = in.climate;
     out.height_m = in.height_m;
     out.level = in.tile.z;
     out.temperature_c = in.temperature_c;
     // Each tile's vertices are a whole number of tiles from the buffer's start.
-    let vertex = in.index % (TILE_SIDE * TILE_SIDE);
-    out.place = vec3f(vec2f(vec2u(vertex % TILE_SIDE, vertex / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
+    let number = index % (TILE_SIDE * TILE_SIDE);
+    out.place = vec3f(vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
     out.layer = in.tile.w;
     out.slope_axis = in.slope_axis;
     return out;
@@ -137,22 +142,64 @@ fn level_color(level: f32) -> vec3f {
     return 0.15 + 0.75 * saturate(abs(fract(hue + vec3f(0.0, 0.6667, 0.3333)) * 6.0 - 3.0) - 1.0);
 }
 
+// Cold to hot, white in the middle.
+fn temperature_color(x: f32) -> vec3f {
+    let k = saturate1(x) * 4.0;
+    var c = mix(vec3f(0.05, 0.03, 0.35), vec3f(0.10, 0.40, 0.80), saturate1(k));
+    c = mix(c, vec3f(0.85), saturate1(k - 1.0));
+    c = mix(c, vec3f(0.85, 0.40, 0.06), saturate1(k - 2.0));
+    return mix(c, vec3f(0.35, 0.01, 0.02), saturate1(k - 3.0));
+}
+
+// Sand, grass, deep water.
+fn moisture_color(x: f32) -> vec3f {
+    let c = mix(vec3f(0.75, 0.55, 0.25), vec3f(0.10, 0.45, 0.10), saturate1(x * 2.0));
+    return mix(c, vec3f(0.01, 0.08, 0.55), saturate1(x * 2.0 - 1.0));
+}
+
+// Blue, green, yellow, red: a step for each factor of four from 1 on.
+fn spacing_color(pixels: f32) -> vec3f {
+    let k = log2(max(pixels, 1.0)) * 0.5;
+    var c = mix(vec3f(0.03, 0.08, 0.60), vec3f(0.05, 0.50, 0.10), saturate1(k));
+    c = mix(c, vec3f(0.80, 0.65, 0.05), saturate1(k - 1.0));
+    return mix(c, vec3f(0.65, 0.02, 0.02), saturate1(k - 2.0));
+}
+
+// Pixels from one vertex to the next, where the ground is seen head on from the eye that the tile was chosen for.
+fn spacing_pixels(in: Ground) -> f32 {
+    let spacing_m = 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(in.level));
+    return spacing_m / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
+}
+
+// 1 at the tile's border, over about one and a half pixels on its own side.
+fn border(in: Ground) -> f32 {
+    let pixel = max(fwidth(in.place.xy), vec2f(1e-6));
+    let away = min(in.place.xy, 1.0 - in.place.xy) / pixel;
+    return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
+}
+
 fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
-    let shade = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
+    let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
+    // Here, where all pixels of a quad pass: derivatives need that.
+    let edge = border(in);
     switch globals.modes.x {
         case 1u: {
             let span = max(globals.misc.z - globals.misc.y, 1.0);
-            return ramp((in.height_m - globals.misc.y) / span) * shade;
+            return ramp((in.height_m - globals.misc.y) / span) * lit;
         }
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
-        case 3u: {
+        case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
+        case 4u: {
             let cells = vec2f(textureDimensions(biome_albedo));
             let cell = clamp(vec2f(in.climate.x, 1.0 - in.climate.y) * cells, vec2f(0.0), cells - 1.0);
             return textureLoad(biome_albedo, vec2i(cell), 0).rgb;
         }
-        case 4u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
-        case 5u: { return level_color(in.level) * shade; }
-        case 6u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
+        case 6u: { return moisture_color(in.climate.x) * lit; }
+        case 7u: { return level_color(in.level) * lit; }
+        case 8u: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
+        case 9u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        case 10u: { return spacing_color(spacing_pixels(in)) * lit; }
         default: { return vec3f(1.0); }
     }
 }

@@ -75,7 +75,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         (
             "(\n    version: 2,\n    sead: 2,\n)",
             "f.ron:3:5: sead: there is no field `sead` here; did you mean `seed`? use `version`, `name`, `seed`, `radius_km`, \
-             `height_curve`, `star`, `layers`, `climate`, `biomes`, `water`, `atmosphere`, `clouds`",
+             `height_curve`, `star`, `layers`, `climate`, `biomes`, `water`, `atmosphere`, `clouds`, `editor`",
         ),
         (
             "(version: 2, layers: [(), (shape: Fbm(ocataves: 3))])",

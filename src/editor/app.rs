@@ -3,6 +3,7 @@
 //! `logic` takes in what came from outside (shortcuts, dropped files, dialogs, the close button) and carries out commands;
 //! `ui` shows everything, lets the panels change a draft of the planet, and turns a changed draft into an undo step.
 
+use super::bookmarks::Renaming;
 use super::command::Command;
 use super::dialogs::{FileDialogs, NativeDialogs};
 use super::document::Document;
@@ -36,6 +37,7 @@ pub struct EditorApp {
     pub(super) messages: Vec<Message>,
     pub(super) show_panel: bool,
     pub(super) show_controls: bool,
+    pub(super) renaming: Renaming,
     pub(super) show_performance: bool,
     /// What the user asked for in this frame.
     pub(super) actions: Vec<Action>,
@@ -69,6 +71,7 @@ impl EditorApp {
             messages: Vec::new(),
             show_panel: !panel_hidden,
             show_controls: false,
+            renaming: None,
             show_performance: false,
             actions: Vec::new(),
             deferred: Vec::new(),

@@ -226,6 +226,7 @@ impl EditorApp {
         // A dialog that is still open asked about the document before: its answer must not touch this one.
         self.files.asking = None;
         self.files.after_save = None;
+        self.renaming = None;
         let planet = self.document.valid_planet().clone();
         self.viewport.reset_view(&planet);
         self.panels.new_document();

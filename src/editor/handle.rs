@@ -1,11 +1,12 @@
 //! The one place that carries out what the user asked for.
 
 use super::app::EditorApp;
+use super::bookmarks::BookmarkAction;
 use super::command::Command;
 use super::files::{Goal, PromptAnswer};
+use super::viewport::camera::{Cameras, Ground};
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
-use crate::render::DebugView;
 use eframe::egui;
 use std::path::PathBuf;
 
@@ -22,10 +23,10 @@ pub enum Action {
     Answer(PromptAnswer),
     /// Take work over that a crash left behind, or throw it away.
     Recover(bool),
-    /// Show something else of the surface.
-    View(DebugView),
     /// Choose a file for the parameter there.
     Browse(ParamPath),
+    /// Do something with a bookmark.
+    Bookmark(BookmarkAction),
     /// Draw better or faster.
     Quality(Quality),
 }
@@ -38,7 +39,7 @@ impl Action {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
             Action::Browse(_) => true,
-            Action::Answer(_) | Action::Recover(_) | Action::View(_) | Action::Quality(_) => false,
+            Action::Answer(_) | Action::Recover(_) | Action::Bookmark(_) | Action::Quality(_) => false,
         }
     }
 }
@@ -67,8 +68,8 @@ impl EditorApp {
             Action::OpenShipped(index) => self.pursue(ctx, Goal::OpenShipped(index)),
             Action::Answer(answer) => self.answer_prompt(ctx, answer),
             Action::Recover(keep) => self.recover(keep),
-            Action::View(view) => self.viewport.settings.debug_view = view,
             Action::Browse(path) => self.browse(ctx, path),
+            Action::Bookmark(action) => self.handle_bookmark(action),
             Action::Quality(quality) => self.viewport.settings.quality = quality,
         }
     }
@@ -105,7 +106,22 @@ impl EditorApp {
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
             Command::Controls => self.show_controls ^= true,
+            Command::Move(mode) => {
+                self.move_cameras(|cameras, ground| cameras.set_mode(mode, ground));
+                self.viewport.take_focus();
+            }
+            Command::LevelView => self.move_cameras(Cameras::level),
+            Command::Dive => self.move_cameras(|cameras, _| cameras.set_dive(!cameras.dives())),
+            Command::FreezeDetail => self.viewport.settings.freeze_detail ^= true,
+            Command::Show(view) => self.viewport.settings.debug_view = view,
+            Command::AddBookmark => self.add_bookmark(),
+            Command::GoTo(index) => self.go_to_bookmark(usize::from(index)),
         }
+    }
+
+    fn move_cameras(&mut self, change: impl FnOnce(&mut Cameras, &dyn Ground)) {
+        let planet = self.document.valid_planet().clone();
+        self.viewport.move_cameras(&planet, change);
     }
 
     /// After undo and redo: measure the picture as after any edit.

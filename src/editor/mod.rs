@@ -6,11 +6,14 @@
 //! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
 //! - [`pictures`]: pictures of height maps, read in the background
+//! - [`bookmarks`]: views kept in the preset
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
-//! - [`menus`], [`status`], [`performance`], [`look`]: the rest of the window
+//! - [`menus`], [`status`], [`controls`], [`performance`], [`look`]: the rest of the window
 
 pub mod app;
+pub mod bookmarks;
 pub mod command;
+pub mod controls;
 pub mod describe;
 pub mod dialogs;
 pub mod document;

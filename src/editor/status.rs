@@ -2,7 +2,7 @@
 
 use super::app::EditorApp;
 use super::performance::megabytes;
-use super::widgets::number::length_text;
+use super::widgets::number::{format_digits, length_text};
 use crate::sphere::LatLon;
 use eframe::egui;
 
@@ -28,6 +28,7 @@ pub fn show(ui: &mut egui::Ui, app: &EditorApp) {
             figures(ui, app);
             ui.separator();
             ui.label(format!("Eye at {}", length_text(altitude_m))).on_hover_text("Height of the eye above the ground");
+            ui.label(mode_text(app)).on_hover_text("How you move: F2 around the planet, F3 in free flight, F4 on foot");
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 ui.add(egui::Label::new(left).truncate())
                     .on_hover_text("Under the pointer: place, height, slope, biome, temperature, moisture");
@@ -69,6 +70,19 @@ fn figures(ui: &mut egui::Ui, app: &EditorApp) {
             drawn.triangles
         ));
     }
+}
+
+fn mode_text(app: &EditorApp) -> String {
+    let cameras = app.viewport().cameras();
+    let mut text = cameras.mode().label().to_owned();
+    let factor = cameras.speed_factor();
+    if (factor - 1.0).abs() > 0.01 {
+        text += &format!(" ×{}", format_digits(factor, 2));
+    }
+    if app.viewport().settings.freeze_detail {
+        text += ", detail frozen";
+    }
+    text
 }
 
 fn place_text(place: LatLon) -> String {

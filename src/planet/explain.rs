@@ -4,7 +4,7 @@
 //! parameter adds what would be right.
 
 use super::param::{Domain, Param, ValueMut};
-use super::{Atmosphere, Clouds, Layer, Mask, Planet, Problem, Shape, Water, locate};
+use super::{Atmosphere, Bookmark, Clouds, EditorNotes, Layer, Mask, Planet, Problem, Shape, Water, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -171,13 +171,17 @@ fn wanted(text: &str, path: &str, offset: usize) -> String {
     let found = locate::excerpt(text, offset);
     let right = match parameter(path) {
         Some((param, names)) => in_words(param, names),
-        None if path.ends_with("layers") || path.ends_with("masks") || path.ends_with("palette") => {
+        None if path.ends_with("layers")
+            || path.ends_with("masks")
+            || path.ends_with("palette")
+            || path.ends_with("bookmarks") =>
+        {
             "a list: `[(...), (...)]`".to_owned()
         }
         None if path.ends_with("table") => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
         None if path.contains("table[") => "a row of letters: `\"aab\"`".to_owned(),
         None if path == "version" => format!("a whole number, now {}", super::VERSION),
-        None if matches!(path, "water" | "atmosphere" | "clouds") => "`(...)` or `None`".to_owned(),
+        None if matches!(path, "water" | "atmosphere" | "clouds" | "editor") => "`(...)` or `None`".to_owned(),
         None => "`(field: value, ...)`".to_owned(),
     };
     format!("{found} is not what belongs here; use {right}")
@@ -253,6 +257,7 @@ fn specimen(shape: Shape) -> Planet {
         water: Some(Water::default()),
         atmosphere: Some(Atmosphere::default()),
         clouds: Some(Clouds::default()),
+        editor: Some(EditorNotes { bookmarks: vec![Bookmark::default()] }),
         ..Planet::default()
     }
 }

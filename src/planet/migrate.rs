@@ -11,7 +11,7 @@ mod v1;
 
 use super::explain::parse;
 use super::param::Curve;
-use super::{Atmosphere, Biomes, Climate, Clouds, Layer, Planet, Problem, Star, VERSION, Version, Water};
+use super::{Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Problem, Star, VERSION, Version, Water};
 use serde::{Deserialize, Serialize};
 
 /// Reads the text of a preset that says it is of `version`.
@@ -44,6 +44,8 @@ pub(crate) struct FileV2 {
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    editor: Option<EditorNotes>,
 }
 
 impl Default for FileV2 {
@@ -54,10 +56,36 @@ impl Default for FileV2 {
 
 impl From<Planet> for FileV2 {
     fn from(planet: Planet) -> Self {
-        let Planet { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds } =
-            planet;
+        let Planet {
+            name,
+            seed,
+            radius_km,
+            height_curve,
+            star,
+            layers,
+            climate,
+            biomes,
+            water,
+            atmosphere,
+            clouds,
+            editor,
+        } = planet;
         let version = Version(VERSION);
-        Self { version, name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds }
+        Self {
+            version,
+            name,
+            seed,
+            radius_km,
+            height_curve,
+            star,
+            layers,
+            climate,
+            biomes,
+            water,
+            atmosphere,
+            clouds,
+            editor,
+        }
     }
 }
 
@@ -76,7 +104,8 @@ impl From<FileV2> for Planet {
             water,
             atmosphere,
             clouds,
+            editor,
         } = file;
-        Self { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds }
+        Self { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds, editor }
     }
 }

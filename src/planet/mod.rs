@@ -9,6 +9,7 @@
 //!   `locate` knows lines and columns, `migrate` old versions
 //! - [`picture`]: pictures that a preset refers to
 //! - [`shipped`]: the presets that come with the program
+//! - [`notes`]: what the editor keeps in a preset for itself
 //! - [`random`]: random planets that are always valid
 
 pub mod diff;
@@ -19,6 +20,7 @@ pub mod layers;
 pub(crate) mod locate;
 pub mod masks;
 pub(crate) mod migrate;
+pub mod notes;
 pub mod param;
 pub mod parts;
 pub mod picture;
@@ -32,6 +34,7 @@ pub mod validate;
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
+pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use picture::PictureLayout;
 pub use shapes::{
@@ -89,6 +92,8 @@ params! {
         atmosphere: Option<Atmosphere> = None;
         /// The clouds, or None.
         clouds: Option<Clouds> = None;
+        /// What only the editor reads, or None.
+        editor: Option<EditorNotes> = None;
     }
 }
 

@@ -10,6 +10,7 @@
 mod dice;
 mod grounds;
 
+use super::param::Stage;
 use super::{
     Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, Star, Water, validate,
 };
@@ -54,6 +55,7 @@ pub fn random(seed: u64) -> Planet {
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,
+        editor: None,
     };
     debug_assert!(validate::problems(&planet).is_empty());
     planet
@@ -67,7 +69,8 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     let mut dice = Dice(seed);
     let mut varied = planet.clone();
     varied.each(&mut |_, param, mut value| {
-        if let Some(new) = dice.moved(param, &value.get(), strength) {
+        let shown = !param.stages.contains(Stage::Label);
+        if let Some(new) = dice.moved(param, &value.get(), strength).filter(|_| shown) {
             value.set(&new);
         }
     });

@@ -6,7 +6,7 @@
 use super::explain::options;
 use super::migrate::FileV2;
 use super::param::{Domain, Param, ValueMut};
-use super::{Biomes, Layer, Mask, Planet, VERSION, locate};
+use super::{Biomes, EditorNotes, Layer, Mask, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -54,7 +54,7 @@ fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
     planet.clone().each(&mut |path, param, value| {
         params.insert(path.to_string(), comment(param, &value));
     });
-    let parts = [Planet::PARTS, Layer::PARTS, Biomes::PARTS].into_iter().flatten();
+    let parts = [Planet::PARTS, Layer::PARTS, Biomes::PARTS, EditorNotes::PARTS].into_iter().flatten();
     let mut parts: HashMap<&str, String> = parts.map(|(name, doc)| (*name, (*doc).to_owned())).collect();
     if let Some(masks) = parts.get_mut("masks") {
         // Each element says its kind, where no comment stands.

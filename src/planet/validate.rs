@@ -2,6 +2,7 @@
 //!
 //! Ranges come from the description of each parameter; what concerns several of them at once stands here.
 
+use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Table, layers, parts};
 use std::collections::HashSet;
@@ -56,6 +57,9 @@ fn limits(planet: &Planet, found: &mut Found) {
     };
     limit(ParamPath::default().join("layers"), "layers", planet.layers.len(), MAX_LAYERS);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
+    let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
+    let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
+    limit(path, "bookmarks", bookmarks, MAX_BOOKMARKS);
     for (index, layer) in planet.layers.iter().enumerate().take(MAX_LAYERS) {
         limit(layers::layer_path(index).join("masks"), "masks", layer.masks.len(), MAX_MASKS);
     }

@@ -46,6 +46,8 @@ struct Globals {
     cliff_color: [f32; 4],
     misc: [f32; 4],
     modes: [u32; 4],
+    chosen_eye_high_m: [f32; 4],
+    chosen_eye_low_m: [f32; 4],
 }
 
 /// What of a frame is not in [`Frame`].
@@ -157,7 +159,9 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         [0.0, 0.0, near_m as f32, 0.0],
     ]);
     let view_from_rel = Mat4::from_quat(camera.planet_from_view.inverse().as_quat());
-    let high = DVec3::from_array(eye.to_array().map(|x| f64::from(x as f32)));
+    let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
+    let (high, low) = high_low(eye);
+    let (chosen_high, chosen_low) = high_low(chosen.camera.position_planet_m);
     let turn = |v: DVec3| camera.planet_from_view * v;
 
     let star = &planet.star;
@@ -169,7 +173,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     let mut g: Globals = bytemuck::Zeroable::zeroed();
     g.clip_from_rel_m = (clip_from_view * view_from_rel).to_cols_array_2d();
     g.eye_high_m = vec4(high, near_m);
-    g.eye_low_m = vec4(eye - high, 2.0 * tan_y / f64::from(setup.size_px[1]));
+    g.eye_low_m = vec4(low, 2.0 * tan_y / f64::from(setup.size_px[1]));
     g.eye_km = vec4(eye * 1e-3, planet.radius_km);
     g.eye_up = vec4(up, altitude_m * 1e-3);
     g.ray_right = vec4(turn(DVec3::X * tan_x), f64::from(setup.size_px[0]));
@@ -196,7 +200,15 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
     g.modes = [view, setup.scale, u32::from(setup.srgb_target), 0];
+    g.chosen_eye_high_m = vec4(chosen_high, 0.0);
+    g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     g
+}
+
+/// A position as the sum of two that 32 bits hold.
+fn high_low(position: DVec3) -> (DVec3, DVec3) {
+    let high = position.as_vec3().as_dvec3();
+    (high, position - high)
 }
 
 fn set_air(g: &mut Globals, frame: &Frame<'_>) {

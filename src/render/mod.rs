@@ -38,41 +38,65 @@ use crate::planet::Planet;
 use glam::DVec3;
 
 /// What is drawn of the surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DebugView {
+    /// The planet.
     #[default]
     Shaded,
+    /// Height, from the lowest to the highest of the surface.
     Height,
+    /// The normal in the planet frame as a colour.
     Normal,
-    Biome,
+    /// Angle against the horizontal, 0 to 60°.
     Slope,
+    /// The biome's colour by itself.
+    Biome,
+    /// Temperature, -40 to 40 °C.
+    Temperature,
+    /// Moisture, dry to wet.
+    Moisture,
+    /// The tile's level in the quadtree.
     Lod,
+    /// Lines where tiles meet.
+    TileBorders,
+    /// The edges of the triangles.
     Wireframe,
+    /// Vertex spacing in pixels of the picture, as the level of detail sees it: blue 1, green 4, yellow 16, red 64.
+    Error,
+    /// White where there is ground, black elsewhere.
     Coverage,
 }
 
 impl DebugView {
     /// All of them.
-    pub const ALL: [DebugView; 8] = [
+    pub const ALL: [DebugView; 12] = [
         DebugView::Shaded,
         DebugView::Height,
         DebugView::Normal,
-        DebugView::Biome,
         DebugView::Slope,
+        DebugView::Biome,
+        DebugView::Temperature,
+        DebugView::Moisture,
         DebugView::Lod,
+        DebugView::TileBorders,
         DebugView::Wireframe,
+        DebugView::Error,
         DebugView::Coverage,
     ];
+
     /// The name a person reads.
     pub fn label(self) -> &'static str {
         match self {
             DebugView::Shaded => "Shaded",
             DebugView::Height => "Height",
             DebugView::Normal => "Normal",
-            DebugView::Biome => "Biome",
             DebugView::Slope => "Slope",
-            DebugView::Lod => "Level of detail",
+            DebugView::Biome => "Biome",
+            DebugView::Temperature => "Temperature",
+            DebugView::Moisture => "Moisture",
+            DebugView::Lod => "Level",
+            DebugView::TileBorders => "Tile borders",
+            DebugView::Error => "Error",
             DebugView::Wireframe => "Wireframe",
             DebugView::Coverage => "Coverage",
         }
@@ -87,6 +111,8 @@ pub struct Frame<'a> {
     pub planet: &'a Planet,
     /// Camera, size of the target, quality.
     pub view: View,
+    /// The view that the tiles were chosen for, if it is another: they are culled and blended as seen from there.
+    pub frozen: Option<View>,
     /// Unit vector from the planet to its star.
     pub sun_dir_planet: DVec3,
     /// Seconds since time zero: drift of the clouds, waves.

@@ -198,7 +198,8 @@ impl TerrainResources {
         lowest_m: f64,
     ) {
         let radius_m = frame.surface.terrain.planet().radius_m();
-        let culling = Culling::new(&frame.view, (radius_m + lowest_m).max(0.0));
+        let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
+        let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
         self.pool.begin_round();
         self.normals.begin_frame();
         self.draws.clear();
@@ -211,7 +212,7 @@ impl TerrainResources {
         for leaf in seen {
             let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
-            let (start, end) = lod::morph_range_m(level, radius_m, &frame.view);
+            let (start, end) = lod::morph_range_m(level, radius_m, chosen);
             let normals = leaf.normals.as_ref().and_then(|tile| self.normals.place(device, queue, tile));
             let layer = normals.map_or(-1.0, |place| place.layer as f32);
             instances.push(Instance {

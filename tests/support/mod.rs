@@ -145,6 +145,7 @@ pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: 
         surface,
         planet,
         view: View { camera, size_px: SIZE_PX, quality: Quality::Medium },
+        frozen: None,
         sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
         time_secs: 0.0,
         exposure_ev: 0.0,

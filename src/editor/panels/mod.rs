@@ -14,7 +14,7 @@ pub mod layers;
 pub mod masks;
 pub mod parts;
 
-use crate::editor::viewport::UnderPointer;
+use crate::editor::viewport::pointer::UnderPointer;
 use crate::planet::Planet;
 use crate::planet::param::ParamPath;
 use eframe::egui;

@@ -151,7 +151,9 @@ impl From<File> for FileV2 {
         let File { version: _, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds } = file;
         let layers = layers.into_iter().map(planet::Layer::from).collect();
         let height_curve = Vec::new();
-        Planet { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds }.into()
+        let editor = None;
+        Planet { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds, editor }
+            .into()
     }
 }
 
