@@ -6,7 +6,7 @@ use crate::terrain::landform::Landform;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Most fields of earlier planets that one tile remembers.
+/// Most fields of earlier planets that one tile remembers, besides as many as it has layers: a seed or a radius replaces all.
 const MOST_PAST: usize = 8;
 /// After so long a field of an earlier planet is worth half as much.
 const HALF_WORTH: Duration = Duration::from_secs(60);
@@ -65,7 +65,7 @@ impl KeptFields {
         // The present first, then the past by its worth.
         self.0.sort_by(|a, b| b.since.cmp(&a.since).then(b.worth(now).total_cmp(&a.worth(now))));
         let present = self.0.iter().filter(|kept| kept.since.is_some()).count();
-        self.0.truncate(present + MOST_PAST);
+        self.0.truncate(present + layers.len() + MOST_PAST);
     }
 
     /// Worth and bytes of each field of the past.

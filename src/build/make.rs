@@ -67,14 +67,15 @@ pub(crate) fn make_tile(
 
     let own_spacing_rad = spacing_rad(id.level);
     let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
-    let mut fields = vec![None; terrain.stack.layers.len()];
-    for (layer, slot) in terrain.stack.layers.iter().zip(&mut fields) {
-        let spacings_rad = layer.spacings_rad(&spacings_rad);
-        *slot = before.fields.find(&layer.landform, &spacings_rad);
+    let layers = &terrain.stack.layers;
+    let mut fields: Vec<Option<Arc<Field>>> =
+        layers.iter().map(|layer| before.fields.find(&layer.landform, &layer.spacings_rad(&spacings_rad))).collect();
+    for (layer, slot) in layers.iter().zip(&mut fields) {
         if slot.is_none() && layer.needed {
             if !keep_going() {
                 return (fields, None);
             }
+            let spacings_rad = layer.spacings_rad(&spacings_rad);
             profiling::scope!("field");
             work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
             let field = work.run(Stage::Field, || Field::new(&layer.landform, simd, &points, &spacings_rad));
