@@ -85,8 +85,9 @@ fn comment(param: &Param, value: &ValueMut<'_>) -> String {
         _ => param.range_text(),
     };
     if !range.is_empty() {
-        // The range stays on one line.
-        let _ = write!(text, " ({})", range.replace(' ', GLUE));
+        // The range stays on one line, if it can.
+        let range = if range.len() <= COMMENT_CHARS / 2 { range.replace(' ', GLUE) } else { range };
+        let _ = write!(text, " ({range})");
     }
     text
 }

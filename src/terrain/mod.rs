@@ -96,7 +96,7 @@ impl Terrain {
         // Found here rather than when first asked for: asked on a worker of a thread pool, it would wait for its own pool.
         if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
             let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
-            let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, coast::CELL_RAD));
+            let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, 0.5 * coast::CELL_RAD));
             terrain.climate.coast = Some(kept.unwrap_or_else(|| Arc::new(coast())));
         }
         terrain

@@ -40,11 +40,14 @@ impl Evaluate for Billow {
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, jets: [hill, ..], .. } = scratch;
         let n = chunk.len();
+        let mut share = 0.0;
         for Weighted { octave, weight } in &self.octaves {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
+                sums.stand_for_all(n, share);
                 break;
             }
+            share += f64::from(*weight);
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
                 round_values(chunk.simd, n, noise, hill);

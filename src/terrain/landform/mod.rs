@@ -231,6 +231,14 @@ impl Sums {
         }
     }
 
+    /// Lets the octaves summed so far, of this share of all weight, stand for those left out, in the values: for octaves whose
+    /// mean is not zero, without which the ground would sink.
+    fn stand_for_all(&mut self, n: usize, share: f64) {
+        if share > 0.0 {
+            self.value[..n].iter_mut().for_each(|v| *v /= share);
+        }
+    }
+
     /// Replaces each sum by a function of it, which gives its value and derivative.
     fn map(&mut self, n: usize, function: impl Fn(f64) -> (f64, f64)) {
         for i in 0..n {
