@@ -505,10 +505,15 @@ fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
     press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num1);
     assert!(harness.state().viewport().is_moving(), "a flight, not a jump");
     wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Fly, "nobody stands in space");
     let now = harness.state().viewport().pose(&planet(&harness));
     let off_m = now.position_planet_m.distance(here.position_planet_m);
     assert!(off_m < 1.0, "{off_m} m off");
     assert!(now.planet_from_view.angle_between(here.planet_from_view) < 1e-3);
+
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num2);
+    wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Walk, "on foot again");
 
     click(&mut harness, "Bookmarks");
     click(&mut harness, "View 2");
