@@ -2,6 +2,9 @@
 #include "cloud_model.wgsl"
 #include "mottle.wgsl"
 
+// Slopes of many tiles, four times as fine as their meshes: along both tangents, and the same as the parents have them.
+@group(2) @binding(0) var normal_tiles: texture_2d_array<f32>;
+
 struct Vertex {
     @location(0) high_m: vec3f,
     @location(1) height_m: f32,
@@ -10,8 +13,10 @@ struct Vertex {
     @location(4) climate: vec2f,
     @location(5) normal_oct: vec2f,
     @location(6) parent_normal_oct: vec2f,
-    // Distances in metres between which the parent's normal takes over, and the level.
-    @location(7) morph: vec3f,
+    // Distances in metres between which the parent's normals take over; level; layer of the normal tile, -1 without one.
+    @location(7) tile: vec4f,
+    // The axis that the first tangent of the slopes follows.
+    @location(8) slope_axis: vec3f,
 }
 
 struct Ground {
@@ -22,14 +27,18 @@ struct Ground {
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
     @location(5) temperature_c: f32,
-    // Where in the tile, 0..1
-    @location(6) place: vec2f,
+    // Place in the tile, 0 to 1; how far the parent has taken over.
+    @location(6) place: vec3f,
     // From the eye that the tile was chosen for
     @location(7) chosen_distance_m: f32,
+    // Layer of the normal tile.
+    @location(8) @interpolate(flat) layer: f32,
+    @location(9) @interpolate(flat) slope_axis: vec3f,
 }
 
-// Vertices along the side of a tile; must match src/lod/tile.rs.
+// Vertices along the side of a tile, and texels along that of a normal tile; must match src/lod/tile.rs.
 const TILE_SIDE: u32 = 33u;
+const NORMAL_SIDE: f32 = 129.0;
 
 // Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
 fn from_octahedral(e: vec2f) -> vec3f {
@@ -49,16 +58,28 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
     let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
     out.chosen_distance_m = length(chosen_rel_m);
-    let far = saturate1((out.chosen_distance_m - in.morph.x) / max(in.morph.y - in.morph.x, 1e-3));
+    let far = saturate1((out.chosen_distance_m - in.tile.x) / max(in.tile.y - in.tile.x, 1e-3));
     out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), far);
     out.climate = in.climate;
     out.height_m = in.height_m;
-    out.level = in.morph.z;
+    out.level = in.tile.z;
     out.temperature_c = in.temperature_c;
-    // Tiles stand one behind the other in their buffer.
+    // Each tile's vertices are a whole number of tiles from the buffer's start.
     let number = index % (TILE_SIDE * TILE_SIDE);
-    out.place = vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u);
+    out.place = vec3f(vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
+    out.layer = in.tile.w;
+    out.slope_axis = in.slope_axis;
     return out;
+}
+
+// The normal from the tile's slopes, or from its vertices where there are none yet.
+fn ground_normal(in: Ground, up: vec3f) -> vec3f {
+    if in.layer < 0.0 { return normalize(in.normal); }
+    let texel = (in.place.xy * (NORMAL_SIDE - 1.0) + 0.5) / NORMAL_SIDE;
+    let slopes = textureSampleLevel(normal_tiles, clamped, texel, i32(in.layer), 0.0);
+    let slope = mix(slopes.xy, slopes.zw, in.place.z);
+    let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
+    return normalize(up - slope.x * east - slope.y * cross(up, east));
 }
 
 struct Material {
@@ -152,8 +173,8 @@ fn spacing_pixels(in: Ground) -> f32 {
 
 // 1 at the tile's border, over about one and a half pixels on its own side.
 fn border(in: Ground) -> f32 {
-    let pixel = max(fwidth(in.place), vec2f(1e-6));
-    let away = min(in.place, 1.0 - in.place) / pixel;
+    let pixel = max(fwidth(in.place.xy), vec2f(1e-6));
+    let away = min(in.place.xy, 1.0 - in.place.xy) / pixel;
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
@@ -186,7 +207,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
 fn shade(in: Ground) -> vec4f {
     let rel_km = in.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
-    var n = normalize(in.normal);
+    var n = ground_normal(in, up);
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
     if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
@@ -194,7 +215,7 @@ fn shade(in: Ground) -> vec4f {
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let footprint_m = distance_m * globals.eye_low_m.w / max(dot(n, v), 0.08);
+    let footprint_m = max(max(length(dpdx(in.rel_m)), length(dpdy(in.rel_m))), 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
     let ground = material(in, dot(n, up), footprint_m, relief.x);
     n = bumped(n, dpdx(in.rel_m), dpdy(in.rel_m), dpdx(relief.y), dpdy(relief.y));

@@ -148,6 +148,33 @@ fn a_layer_is_dragged_to_another_place_in_one_step() {
 }
 
 #[test]
+fn a_curve_is_bent_by_its_points() {
+    let mut harness = editor(vec![]);
+    let name = planet(&harness).layers[0].name.clone();
+    let curve = |harness: &Editor| planet(harness).layers[0].curve.clone();
+    click(&mut harness, &format!("Layer {name}"));
+    click(&mut harness, &format!("Bend Curve of {name}"));
+    assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
+
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
+    let middle = rect.center();
+    harness.drag_at(middle);
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 20.0));
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    harness.drop_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    let [x, y] = curve(&harness)[1];
+    assert!(x.abs() < 0.1 && (0.3..0.9).contains(&y), "{x} {y}");
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, &format!("Reset Curve of {name}"));
+    assert!(curve(&harness).is_empty());
+}
+
+#[test]
 fn a_stroke_on_the_biome_table_paints_cells_in_one_step() {
     let mut harness = editor(vec![]);
     click(&mut harness, "Biomes");
@@ -378,6 +405,64 @@ fn unsaved_work_outlives_a_crash() {
     click(&mut harness, "Recover");
     assert_eq!(planet(&harness), edited);
     assert!(harness.state().document().is_dirty());
+}
+
+#[test]
+fn a_height_map_is_chosen_undone_saved_and_missed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let picture = path("maps/heights.png");
+    std::fs::create_dir(path("maps")).unwrap();
+    let pixels: Vec<u8> = (0..8 * 16).map(|i| 100 + i).collect();
+    image::save_buffer(&picture, &pixels, 16, 8, image::ExtendedColorType::L8).unwrap();
+    let preset = path("mine.ron");
+    let mut harness = editor(vec![Some(picture.clone()), Some(preset.clone()), Some(preset.clone())]);
+    let height_m = |harness: &Editor| {
+        let planet = (**harness.state().document().planet()).clone();
+        tellus::terrain::Terrain::new(planet.into()).sample(glam::DVec3::X).layers_m[1]
+    };
+    let settled = |harness: &mut Editor| {
+        for _ in 0..200 {
+            harness.run_steps(1);
+            if !harness.state().pictures().is_reading() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        harness.run_steps(2);
+    };
+    click(&mut harness, "Terrain");
+    click(&mut harness, "Add layer");
+    click(&mut harness, "HeightMap");
+    assert_eq!(height_m(&harness), 0.0);
+    click(&mut harness, "Browse…");
+    settled(&mut harness);
+    let chosen_m = height_m(&harness);
+    assert!(chosen_m > 300.0, "{chosen_m}");
+    assert_eq!(undo_label(&harness), "Choose picture");
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(height_m(&harness), 0.0);
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    settled(&mut harness);
+    assert_eq!(height_m(&harness), chosen_m);
+
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::S);
+    assert!(!harness.state().document().is_dirty());
+    assert!(std::fs::read_to_string(&preset).unwrap().contains("file: \"maps/heights.png\""));
+    assert_eq!(height_m(&harness), chosen_m);
+
+    std::fs::rename(&picture, path("away.png")).unwrap();
+    send(&mut harness, Command::New);
+    send(&mut harness, Command::Open);
+    settled(&mut harness);
+    assert_eq!(harness.state().document().path(), Some(preset.as_path()), "it opens without its picture");
+    assert!(!harness.state().document().is_dirty());
+    assert_eq!(height_m(&harness), 0.0);
+    assert!(harness.query_all_by_label_contains("put the picture there").next().is_some());
+    std::fs::rename(path("away.png"), &picture).unwrap();
+    harness.run_steps(2);
+    settled(&mut harness);
+    assert_eq!(height_m(&harness), chosen_m, "the file is back");
 }
 
 /// The same with a picture that is drawn fast: neither sky nor sea.

@@ -144,11 +144,14 @@ fn compile(current: &mut Option<Arc<Terrain>>, planet: &Arc<Planet>, cache: &Cac
         *current = Some(terrain.clone());
         return terrain.clone();
     }
-    let terrain = Arc::new(Terrain::new(planet.clone()));
+    let terrain = Arc::new(match &before {
+        Some(before) => Terrain::after(planet.clone(), before),
+        None => Terrain::new(planet.clone()),
+    });
     if let Some(before) = before {
         let edited = first_stale_stage(before.planet(), planet).filter(|stage| stage.touches_tiles());
         // Heights depend on more than single parameters say: order, number, and which layer a mask's name means.
-        let rejoined = (before.layers != terrain.layers).then_some(Stage::Height);
+        let rejoined = (before.stack != terrain.stack).then_some(Stage::Height);
         if let Some(stage) = edited.into_iter().chain(rejoined).min() {
             cache.invalidate(stage);
         }

@@ -6,6 +6,7 @@ use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::climate::{ClimateField, PointClimate};
+use crate::terrain::coast::Coast;
 use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
 use crate::terrain::landform::Landform;
@@ -22,13 +23,16 @@ pub(crate) struct Parts {
     heights: Arc<Heights>,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
+    coast: Option<Arc<Coast>>,
+    /// Distance to the sea at each vertex, as an angle.
+    inland_rad: Arc<Vec<f64>>,
 }
 
 impl Parts {
     /// Resident size, for the cache's budget.
     pub(crate) fn bytes(&self) -> usize {
-        let field = TILE_VERTICES * (8 + 6 * 4);
-        self.fields.len() * field + TILE_VERTICES * (8 + 48 + 16 + std::mem::size_of::<Vertex>())
+        let fields: usize = self.fields.iter().map(|(_, field)| field.bytes()).sum();
+        fields + TILE_VERTICES * (8 + 24 + 16 + 8 + size_of::<Vertex>())
     }
 }
 
@@ -46,19 +50,22 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
     let mut work = Work::default();
     let simd = terrain.simd();
 
+    let own_spacing_rad = spacing_rad(id.level);
+    let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
     let fields: Vec<Option<Arc<Field>>> = terrain
+        .stack
         .layers
         .iter()
         .map(|layer| {
-            let kept =
-                before.and_then(|(parts, _)| parts.fields.iter().find(|(landform, _)| *landform == layer.landform));
+            let spacings_rad = layer.spacings_rad(&spacings_rad);
+            let kept = before.and_then(|(parts, _)| {
+                parts.fields.iter().find(|(landform, field)| *landform == layer.landform && field.has(&spacings_rad))
+            });
             match kept {
-                _ if !layer.needed => kept.map(|(_, field)| field.clone()),
                 Some((_, field)) => Some(field.clone()),
+                None if !layer.needed => None,
                 None => {
                     work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
-                    let own_spacing_rad = spacing_rad(id.level);
-                    let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
                     Some(Arc::new(Field::new(&layer.landform, simd, &points, &spacings_rad)))
                 }
             }
@@ -67,14 +74,7 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
 
     let heights = match before {
         Some((parts, stale)) if stale > Stage::Height => parts.heights.clone(),
-        _ => Arc::new(height::combine(
-            &terrain.layers,
-            terrain.planet().radius_m(),
-            &fields,
-            TILE_VERTICES,
-            2,
-            |_, _, _| {},
-        )),
+        _ => Arc::new(height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {})),
     };
 
     let climate_noises = terrain.climate.noises().cloned();
@@ -87,10 +87,30 @@ pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, S
         }
     };
 
-    let tile = mesh(terrain, id, &points, &heights, &climate);
-    let fields =
-        terrain.layers.iter().zip(fields).filter_map(|(layer, field)| Some((layer.landform.clone(), field?))).collect();
-    (tile, Parts { fields, heights, climate_noises, climate }, work)
+    // The shore is another one whenever heights change anywhere, however far from this tile.
+    let coast = terrain.climate.coast.clone();
+    let inland_rad = match before {
+        Some((parts, _)) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
+        _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
+    };
+
+    let tile = mesh(terrain, id, &points, &heights, &climate, &inland_rad);
+    let fields = terrain
+        .stack
+        .layers
+        .iter()
+        .zip(fields)
+        .filter_map(|(layer, field)| Some((layer.landform.clone(), field?)))
+        .collect();
+    (tile, Parts { fields, heights, climate_noises, climate, coast, inland_rad }, work)
+}
+
+fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
 }
 
 fn directions(id: NodeId) -> Vec<DVec3> {
@@ -98,10 +118,21 @@ fn directions(id: NodeId) -> Vec<DVec3> {
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
 }
 
-fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, climate: &ClimateField) -> Tile {
+fn mesh(
+    terrain: &Terrain,
+    id: NodeId,
+    points: &Points,
+    heights: &Heights,
+    climate: &ClimateField,
+    inland_rad: &[f64],
+) -> Tile {
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let planet = terrain.planet();
     let radius_m = planet.radius_m();
+    let gradient = |band: usize, i: usize| {
+        let [x, y, z] = &heights.gradients[band];
+        DVec3::new(f64::from(x[i]), f64::from(y[i]), f64::from(z[i]))
+    };
     let mut positions = Vec::with_capacity(TILE_VERTICES);
     let vertices = points
         .dirs
@@ -112,7 +143,7 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
             let position = dir * (radius_m + height_m);
             positions.push(position);
             let normal = |gradient: DVec3| oct_snorm(dir - tangent_slope(dir, gradient, radius_m + height_m));
-            let PointClimate { temperature_c, moisture, row } = climate.at(planet, i, dir, height_m);
+            let PointClimate { temperature_c, moisture, row, .. } = climate.at(planet, inland_rad, i, dir, height_m);
             let high = position.as_vec3();
             Vertex {
                 position_high_m: high.to_array(),
@@ -120,8 +151,8 @@ fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, clima
                 position_low_m: (position - high.as_dvec3()).as_vec3().to_array(),
                 temperature_c: temperature_c as f32,
                 climate_unorm: [unorm(moisture), unorm(row)],
-                normal_oct: normal(heights.gradients[0][i]),
-                parent_normal_oct: normal(heights.gradients[1][i]),
+                normal_oct: normal(gradient(0, i)),
+                parent_normal_oct: normal(gradient(1, i)),
             }
         })
         .collect();

@@ -1,20 +1,24 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
 //! - `make`: one tile from one node, stage by stage
+//! - `normals`: the normal tile of one node
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
 pub mod builder;
 mod cache;
 mod make;
+mod normals;
 mod refine;
 
 pub use builder::Builder;
 pub use refine::lowest_radius_m;
 
-use crate::lod::{Tile, View};
+use crate::lod::tile::NormalTile;
+use crate::lod::{Culling, Tile, View};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// A complete set of tiles that covers the whole planet without a gap; what the renderer draws.
@@ -36,6 +40,8 @@ pub struct Leaf {
     pub tile: Arc<Tile>,
     /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
+    /// Slopes finer than the mesh, once they are there.
+    pub normals: Option<Arc<NormalTile>>,
 }
 
 /// What building a surface took.
@@ -56,4 +62,13 @@ pub struct BuildStats {
 /// Builds the complete surface for a view and waits for it.
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
     refine::refine(&Arc::new(Terrain::new(planet.clone())), view, &cache::Cache::default(), &|| true)
+}
+
+/// Finds the normal tiles of all that a view shows of a surface, and waits for them.
+pub fn add_normals(surface: &mut Surface, view: &View) {
+    let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
+    let terrain = &surface.terrain;
+    surface.leaves.par_iter_mut().filter(|leaf| leaf.normals.is_none() && culling.sees(&leaf.tile)).for_each(|leaf| {
+        leaf.normals = Some(Arc::new(normals::make_normal_tile(terrain, leaf.tile.id)));
+    });
 }

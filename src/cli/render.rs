@@ -1,7 +1,7 @@
 //! `tellus render`: a picture of a planet, without a window.
 
 use super::{Failure, args, headless, load};
-use crate::build::build_now;
+use crate::build::{add_normals, build_now};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
@@ -102,7 +102,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut renderer =
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
     let view = view(args, &planet);
-    let surface = build_now(&planet, &view);
+    let mut surface = build_now(&planet, &view);
+    add_normals(&mut surface, &view);
     let sun = args.sun.unwrap_or((planet.star.latitude_deg, planet.star.longitude_deg));
     let frame = Frame {
         surface: &surface,

@@ -12,6 +12,7 @@ use super::handle::Action;
 use super::look;
 use super::menus;
 use super::panels::{Draft, PanelState};
+use super::pictures::Pictures;
 use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
 use super::status;
@@ -31,6 +32,7 @@ pub struct EditorApp {
     pub(super) viewport: Viewport,
     pub(super) panels: PanelState,
     pub(super) files: FileFlow,
+    pub(super) pictures: Pictures,
     pub(super) messages: Vec<Message>,
     pub(super) show_panel: bool,
     pub(super) show_controls: bool,
@@ -63,6 +65,7 @@ impl EditorApp {
             viewport,
             panels: PanelState::default(),
             files: FileFlow::new(Box::new(NativeDialogs::default())),
+            pictures: Pictures::default(),
             messages: Vec::new(),
             show_panel: !panel_hidden,
             show_controls: false,
@@ -102,6 +105,11 @@ impl EditorApp {
     /// The document.
     pub fn document(&self) -> &Document {
         &self.document
+    }
+
+    /// The pictures of height maps.
+    pub fn pictures(&self) -> &Pictures {
+        &self.pictures
     }
 
     /// The viewport.
@@ -160,7 +168,7 @@ impl EditorApp {
     }
 
     /// Makes an undo step of a changed draft, and starts the clock that stops at its picture.
-    fn edit(&mut self, planet: Planet, label: Option<String>) {
+    pub(super) fn edit(&mut self, planet: Planet, label: Option<String>) {
         let shown_before = self.document.valid_planet().clone();
         self.document.edit(planet, label);
         let shown = self.document.valid_planet();
@@ -171,7 +179,8 @@ impl EditorApp {
 
     fn show_problems(&self, ui: &mut egui::Ui) {
         let problems = self.document.problems();
-        if problems.is_empty() && self.viewport.error().is_none() {
+        let pictures = self.pictures.problems();
+        if problems.is_empty() && pictures.is_empty() && self.viewport.error().is_none() {
             return;
         }
         egui::Panel::top("problems").resizable(false).show(ui, |ui| {
@@ -184,6 +193,12 @@ impl EditorApp {
             }
             for (path, message) in problems.iter().take(4) {
                 ui.colored_label(color, format!("{path}: {message}"));
+            }
+            for (path, message) in pictures.iter().take(4) {
+                ui.colored_label(
+                    ui.visuals().warn_fg_color,
+                    format!("{path}: {message}; until then this layer is flat"),
+                );
             }
             if problems.len() > 4 {
                 ui.weak(format!("… and {} more", problems.len() - 4));
@@ -210,6 +225,7 @@ impl eframe::App for EditorApp {
         self.take_dropped_files(ctx);
         self.poll_dialogs(ctx);
         self.handle_actions(ctx);
+        self.poll_pictures(ctx);
         self.handle_close_request(ctx);
         self.update_title(ctx);
     }
@@ -222,15 +238,19 @@ impl eframe::App for EditorApp {
         if self.show_panel {
             let mut planet = (**self.document.planet()).clone();
             let mut label = None;
-            let problems = self.document.problems().to_vec();
+            let problems = [self.document.problems(), self.pictures.problems()].concat();
+            let mut browse = None;
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
                 let under_pointer = self.viewport.under_pointer();
-                let mut draft = Draft { planet: &mut planet, label: None, problems: &problems, under_pointer };
+                let mut draft =
+                    Draft { planet: &mut planet, label: None, browse: None, problems: &problems, under_pointer };
                 self.panels.show(ui, &mut draft);
                 label = draft.label;
+                browse = draft.browse;
             });
             self.edit(planet, label);
+            self.actions.extend(browse.map(Action::Browse));
         }
         self.show_problems(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {

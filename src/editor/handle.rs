@@ -6,6 +6,7 @@ use super::command::Command;
 use super::files::{Goal, PromptAnswer};
 use super::viewport::camera::{Cameras, Ground};
 use crate::lod::Quality;
+use crate::planet::param::ParamPath;
 use eframe::egui;
 use std::path::PathBuf;
 
@@ -22,6 +23,8 @@ pub enum Action {
     Answer(PromptAnswer),
     /// Take work over that a crash left behind, or throw it away.
     Recover(bool),
+    /// Choose a file for the parameter there.
+    Browse(ParamPath),
     /// Do something with a bookmark.
     Bookmark(BookmarkAction),
     /// Draw better or faster.
@@ -35,6 +38,7 @@ impl Action {
         match self {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
+            Action::Browse(_) => true,
             Action::Answer(_) | Action::Recover(_) | Action::Bookmark(_) | Action::Quality(_) => false,
         }
     }
@@ -64,6 +68,7 @@ impl EditorApp {
             Action::OpenShipped(index) => self.pursue(ctx, Goal::OpenShipped(index)),
             Action::Answer(answer) => self.answer_prompt(ctx, answer),
             Action::Recover(keep) => self.recover(keep),
+            Action::Browse(path) => self.browse(ctx, path),
             Action::Bookmark(action) => self.handle_bookmark(action),
             Action::Quality(quality) => self.viewport.settings.quality = quality,
         }

@@ -5,6 +5,7 @@
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
 //! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
+//! - [`pictures`]: pictures of height maps, read in the background
 //! - [`bookmarks`]: views kept in the preset
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
 //! - [`menus`], [`status`], [`controls`], [`look`]: the rest of the window
@@ -22,6 +23,7 @@ pub mod history;
 pub mod look;
 pub mod menus;
 pub mod panels;
+pub mod pictures;
 pub mod prompts;
 pub mod recovery;
 pub mod status;

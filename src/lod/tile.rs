@@ -1,6 +1,6 @@
 //! A tile: the finished mesh of one node, ready for any renderer.
 
-use crate::sphere::NodeId;
+use crate::sphere::{Face, NodeId};
 use glam::DVec3;
 
 /// Quads along a tile's side.
@@ -9,6 +9,38 @@ pub const TILE_QUADS: usize = 32;
 pub const TILE_SIDE: usize = TILE_QUADS + 1;
 /// Vertices of a tile.
 pub const TILE_VERTICES: usize = TILE_SIDE * TILE_SIDE;
+
+/// Texels along a normal tile's side, one on each vertex and three between: borders are shared with the neighbours.
+pub const NORMAL_SIDE: usize = 4 * TILE_QUADS + 1;
+
+/// The ground's slope over a node, four times as fine as its mesh: what a tile's normals are too coarse to show.
+///
+/// Linear interpolation between texels, of which the first and the last lie on the node's edges, gives rise over run along two
+/// tangents of the sphere, as [`slope_basis`] has them at each point: the normal is along `up - x * east - y * north`.
+#[derive(Debug)]
+pub struct NormalTile {
+    /// Different for any two ever built.
+    pub serial: u64,
+    /// [`NORMAL_SIDE`] rows of [`NORMAL_SIDE`] texels, as half floats: the slope along both tangents, with relief finer than
+    /// twice the texel spacing faded out; and the same as the parent's would have it.
+    pub texels: Vec<[half::f16; 4]>,
+}
+
+/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's first axis
+/// as it can be, and the one to its left, seen from outside.
+pub fn slope_basis(face: Face, dir_planet: DVec3) -> [DVec3; 2] {
+    let along = slope_axis(face);
+    let east = (along - dir_planet * dir_planet.dot(along)).normalize_or_zero();
+    [east, dir_planet.cross(east)]
+}
+
+/// The axis that a face's first tangent follows.
+pub fn slope_axis(face: Face) -> DVec3 {
+    let ((axis, sign), _) = face.tangent_axes();
+    let mut along = DVec3::ZERO;
+    along[axis] = sign as f64;
+    along
+}
 
 /// One vertex, 44 bytes.
 ///

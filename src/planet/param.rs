@@ -27,7 +27,7 @@ pub enum Stage {
     AirTables,
     /// Uniforms only: water, star, drift of the clouds.
     Uniform,
-    /// Nothing that is drawn: names.
+    /// Nothing that is drawn: names, figures.
     Label,
 }
 
@@ -52,6 +52,7 @@ pub enum Unit {
     PerMetre,
     MetresPerSecond,
     KilometresPerHour,
+    Millimetres,
 }
 
 impl Unit {
@@ -68,6 +69,7 @@ impl Unit {
             Unit::PerMetre => "1/m",
             Unit::MetresPerSecond => "m/s",
             Unit::KilometresPerHour => "km/h",
+            Unit::Millimetres => "mm",
         }
     }
 }
@@ -104,10 +106,22 @@ pub enum Domain {
     Color,
     /// One of a few named values.
     Choice,
+    /// A function drawn through points `[x, y]`, from left to right; none means that it changes nothing.
+    Curve {
+        /// Farthest a point may lie from zero, along either axis.
+        most: f64,
+        /// How far apart neighbouring points must be along x.
+        least_step: f64,
+    },
     /// One letter or digit.
     Letter,
     /// A line of text of at most this many characters.
     Text {
+        /// Most characters allowed.
+        max_chars: usize,
+    },
+    /// The path of a file, from the preset's folder on or whole; at most this many characters.
+    File {
         /// Most characters allowed.
         max_chars: usize,
     },
@@ -132,6 +146,12 @@ pub const fn triple(max: f64) -> Domain {
 pub const fn count(min: u32, max: u32) -> Domain {
     Domain::Count { min, max }
 }
+
+/// The points of a curve; see [`Domain::Curve`].
+pub type Curve = Vec<[f64; 2]>;
+
+/// Most points of a curve.
+pub const MAX_CURVE_POINTS: usize = 16;
 
 /// What a parameter is. Found by [`Params::each_param`]; never made at run time.
 #[derive(Clone, Copy, Debug)]
@@ -160,8 +180,11 @@ impl Param {
             Domain::Count { min, max } => format!("{min} to {max}"),
             Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
             Domain::Color => "0 to 1 each".to_owned(),
-            Domain::Text { max_chars } => format!("at most {max_chars} characters"),
+            Domain::Text { max_chars } | Domain::File { max_chars } => format!("at most {max_chars} characters"),
             Domain::Letter => "one letter, digit or punctuation mark".to_owned(),
+            Domain::Curve { most, .. } => {
+                format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)
+            }
             Domain::Seed | Domain::Flag | Domain::Choice => String::new(),
         }
     }
@@ -187,10 +210,12 @@ pub enum ValueMut<'a> {
     Flag(&'a mut bool),
     /// See [`Domain::Color`] and [`Domain::Triple`].
     Triple(&'a mut [f64; 3]),
-    /// See [`Domain::Text`].
+    /// See [`Domain::Text`] and [`Domain::File`].
     Text(&'a mut String),
     /// See [`Domain::Letter`].
     Letter(&'a mut char),
+    /// See [`Domain::Curve`].
+    Curve(&'a mut Curve),
     /// See [`Domain::Choice`].
     Choice(&'a mut dyn Choice),
 }
@@ -205,6 +230,7 @@ pub enum Value {
     Triple([f64; 3]),
     Text(String),
     Letter(char),
+    Curve(Curve),
     Choice(usize),
 }
 
@@ -218,6 +244,7 @@ impl ValueMut<'_> {
             ValueMut::Triple(v) => Value::Triple(**v),
             ValueMut::Text(v) => Value::Text((*v).clone()),
             ValueMut::Letter(v) => Value::Letter(**v),
+            ValueMut::Curve(v) => Value::Curve((*v).clone()),
             ValueMut::Choice(v) => Value::Choice(v.index()),
         }
     }
@@ -231,6 +258,7 @@ impl ValueMut<'_> {
             (ValueMut::Triple(v), Value::Triple(new)) => **v = *new,
             (ValueMut::Text(v), Value::Text(new)) => (*v).clone_from(new),
             (ValueMut::Letter(v), Value::Letter(new)) => **v = *new,
+            (ValueMut::Curve(v), Value::Curve(new)) => (*v).clone_from(new),
             (ValueMut::Choice(v), Value::Choice(new)) => v.set_index(*new),
             _ => debug_assert!(false, "a parameter never changes its type"),
         }
@@ -256,7 +284,7 @@ impl Value {
                     Some(format!("{bad} is not a finite number; use {}", param.range_text()))
                 }
             }
-            (Value::Text(v), Domain::Text { max_chars }) => {
+            (Value::Text(v), Domain::Text { max_chars } | Domain::File { max_chars }) => {
                 if v.chars().count() > max_chars {
                     Some(format!("{} characters are too many; use {}", v.chars().count(), param.range_text()))
                 } else if v.chars().any(char::is_control) {
@@ -265,12 +293,39 @@ impl Value {
                     None
                 }
             }
+            (Value::Curve(points), Domain::Curve { most, least_step }) => {
+                curve_problem(points, most, least_step, param)
+            }
             (Value::Letter(v), Domain::Letter) if !v.is_ascii_graphic() || matches!(v, '"' | '\\') => {
                 Some(format!("{v:?} cannot be a key; use {}", param.range_text()))
             }
             _ => None,
         }
     }
+}
+
+/// What is wrong with the points of a curve; the first is number 1.
+fn curve_problem(points: &[[f64; 2]], most: f64, least_step: f64, param: &Param) -> Option<String> {
+    match points {
+        [] => return None,
+        [_] => return Some("one point makes no curve; add another, or use `[]` for none".to_owned()),
+        _ if points.len() > MAX_CURVE_POINTS => {
+            return Some(format!("{} points are too many; use at most {MAX_CURVE_POINTS}", points.len()));
+        }
+        _ => {}
+    }
+    for (i, point) in points.iter().enumerate() {
+        if let Some(bad) = point.iter().find(|v| !v.is_finite() || v.abs() > most) {
+            return Some(format!("point {} has {bad}, which is out of range; use {}", i + 1, param.range_text()));
+        }
+    }
+    points.windows(2).enumerate().find(|(_, pair)| pair[1][0] - pair[0][0] < least_step).map(|(i, pair)| {
+        let (number, x, before) = (i + 2, pair[1][0], pair[0][0]);
+        let least = format!("{least_step}{}{}", if param.unit == Unit::None { "" } else { " " }, param.unit.symbol());
+        format!(
+            "point {number} has x {x}, the one before it {before}; let x grow by at least {least} from point to point"
+        )
+    })
 }
 
 /// Where a parameter stands: `layers[2].shape.octaves`.
@@ -372,7 +427,7 @@ macro_rules! param_value {
         })*
     };
 }
-param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text);
+param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text, Curve => Curve);
 
 /// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
 ///

@@ -20,6 +20,7 @@ mod clouds;
 mod globals;
 mod gpu;
 mod noise_tile;
+mod normal_pool;
 mod pool;
 mod scene_pass;
 pub mod shaders;

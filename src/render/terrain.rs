@@ -1,10 +1,11 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
 
 use super::gpu;
+use super::normal_pool::NormalPool;
 use super::pool::{Place, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
-use crate::lod::tile::{Tile, Vertex};
+use crate::lod::tile::{Tile, Vertex, slope_axis};
 use crate::lod::{self, Culling, stitch};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -13,7 +14,17 @@ use wgpu::util::DeviceExt;
 const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Unorm16x2, 5 => Snorm16x2, 6 => Snorm16x2
 ];
-const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3];
+
+/// What the shader knows of a tile beside its vertices.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Instance {
+    /// Distances in metres between which the parent's normals take over; level; layer of the normal tile, -1 without one.
+    morph_level_layer: [f32; 4],
+    /// See [`slope_axis`].
+    slope_axis: [f32; 3],
+}
 
 /// Pipelines of the ground.
 pub(crate) struct TerrainPass {
@@ -31,7 +42,7 @@ impl TerrainPass {
         let module = shaders::module(device, ENTRY)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(ENTRY),
-            bind_group_layouts: &[Some(globals), Some(tables)],
+            bind_group_layouts: &[Some(globals), Some(tables), Some(&NormalPool::layout(device))],
             immediate_size: 0,
         });
         let make = |topology, cull_mode| {
@@ -50,7 +61,7 @@ impl TerrainPass {
                                 attributes: &VERTEX_ATTRIBUTES,
                             }),
                             Some(wgpu::VertexBufferLayout {
-                                array_stride: size_of::<[f32; 3]>() as u64,
+                                array_stride: size_of::<Instance>() as u64,
                                 step_mode: wgpu::VertexStepMode::Instance,
                                 attributes: &INSTANCE_ATTRIBUTES,
                             }),
@@ -126,6 +137,8 @@ fn edges(triangles: &[u16]) -> Vec<u16> {
 
 struct Draw {
     place: Place,
+    /// Texture array of the normal tile.
+    normals: usize,
     mask: usize,
 }
 
@@ -133,6 +146,7 @@ struct Draw {
 pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
+    normals: NormalPool,
     instances: wgpu::Buffer,
     draws: Vec<Draw>,
 }
@@ -142,6 +156,7 @@ impl TerrainResources {
         Self {
             indices: Indices::new(device),
             pool: TilePool::default(),
+            normals: NormalPool::new(device),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
@@ -153,8 +168,9 @@ impl TerrainResources {
         let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
         let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
         self.pool.begin_frame();
+        self.normals.begin_frame();
         self.draws.clear();
-        let mut instances: Vec<[f32; 3]> = Vec::new();
+        let mut instances: Vec<Instance> = Vec::new();
         // Near tiles first: what they hide is not shaded.
         let eye = frame.view.camera.position_planet_m;
         let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
@@ -164,8 +180,14 @@ impl TerrainResources {
             let Some(place) = self.pool.place(device, queue, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, chosen);
-            instances.push([start as f32, end as f32, f32::from(level)]);
-            self.draws.push(Draw { place, mask: usize::from(leaf.coarser_edges & 15) });
+            let normals = leaf.normals.as_ref().and_then(|tile| self.normals.place(device, queue, tile));
+            let layer = normals.map_or(-1.0, |place| place.layer as f32);
+            instances.push(Instance {
+                morph_level_layer: [start as f32, end as f32, f32::from(level), layer],
+                slope_axis: slope_axis(leaf.tile.id.face).as_vec3().to_array(),
+            });
+            let normals = normals.map_or(0, |place| place.array);
+            self.draws.push(Draw { place, normals, mask: usize::from(leaf.coarser_edges & 15) });
         }
         let bytes: &[u8] = bytemuck::cast_slice(&instances);
         if self.instances.size() < bytes.len() as u64 {
@@ -210,9 +232,13 @@ impl TerrainResources {
         draw.set_bind_group(1, groups[1], &[]);
         draw.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint16);
         draw.set_vertex_buffer(1, self.instances.slice(..));
-        let mut bound = None;
+        let (mut bound, mut bound_normals) = (None, None);
         let mut triangles = 0;
-        for (i, Draw { place, mask }) in (0..).zip(&self.draws) {
+        for (i, Draw { place, normals, mask }) in (0..).zip(&self.draws) {
+            if bound_normals != Some(*normals) {
+                draw.set_bind_group(2, self.normals.group(*normals), &[]);
+                bound_normals = Some(*normals);
+            }
             if bound != Some(place.buffer) {
                 draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));
                 bound = Some(place.buffer);
@@ -228,7 +254,7 @@ impl TerrainResources {
 fn instance_buffer(device: &wgpu::Device, instances: usize) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("tile instances"),
-        size: (instances * size_of::<[f32; 3]>()) as u64,
+        size: (instances * size_of::<Instance>()) as u64,
         usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     })

@@ -132,6 +132,7 @@ fn kind(value: &ValueMut<'_>) -> u8 {
         ValueMut::Text(_) => 4,
         ValueMut::Letter(_) => 5,
         ValueMut::Choice(_) => 6,
+        ValueMut::Curve(_) => 7,
     }
 }
 
@@ -163,6 +164,9 @@ fn nudged(param: &Param, value: &ValueMut<'_>, step: usize) -> Option<Value> {
             ValueMut::Choice(choice) => Value::Choice((index + 1) % choice.names().len().max(1)),
             _ => return None,
         },
+        (Value::Curve(points), _) if points.is_empty() => {
+            Value::Curve(vec![[-1.0, -1.0 - share], [0.0, share], [1.0, 1.0 + share]])
+        }
         // Other names and letters would leave masks and tables behind.
         (Value::Text(v), _) => Value::Text(format!("{v} {step}")),
         _ => return None,

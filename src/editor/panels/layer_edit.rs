@@ -21,7 +21,7 @@ pub fn remove(planet: &mut Planet, index: usize) {
     if index < planet.layers.len() {
         let removed = planet.layers.remove(index);
         for layer in &mut planet.layers {
-            layer.masks.retain(|mask| mask.layer != removed.name);
+            layer.masks.retain(|mask| mask.layer() != Some(removed.name.as_str()));
         }
     }
 }
@@ -35,8 +35,8 @@ pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
     }
     let old = std::mem::replace(&mut layer.name, name.to_owned());
     for mask in planet.layers.iter_mut().flat_map(|layer| &mut layer.masks) {
-        if mask.layer == old {
-            name.clone_into(&mut mask.layer);
+        if mask.layer() == Some(old.as_str()) {
+            mask.set_layer(name);
         }
     }
     true
@@ -83,13 +83,13 @@ fn unique_name(planet: &Planet, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::Mask;
     use crate::planet::param::Choice;
+    use crate::planet::{LayerMask, Mask};
 
     fn planet() -> Planet {
         let layer = |name: &str| Layer { name: name.to_owned(), ..Layer::default() };
         let mut planet = Planet { layers: vec![layer("A"), layer("B"), layer("C")], ..Planet::default() };
-        planet.layers[2].masks.push(Mask { layer: "A".to_owned(), ..Mask::default() });
+        planet.layers[2].masks.push(Mask::Layer(LayerMask { layer: "A".to_owned(), ..LayerMask::default() }));
         planet
     }
 
@@ -97,7 +97,7 @@ mod tests {
     fn masks_follow_a_rename_and_go_with_their_layer() {
         let mut planet = planet();
         assert!(rename(&mut planet, 0, "Land"));
-        assert_eq!(planet.layers[2].masks[0].layer, "Land");
+        assert_eq!(planet.layers[2].masks[0].layer(), Some("Land"));
         assert!(!rename(&mut planet, 0, "B") && !rename(&mut planet, 0, " "));
         remove(&mut planet, 0);
         assert!(planet.layers[1].masks.is_empty());

@@ -142,7 +142,7 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let grid = Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
     let mut default = Layer { shape, ..Layer::default() };
-    params_grid(ui, &grid, layer, &mut default);
+    draft.browse = params_grid(ui, &grid, layer, &mut default);
     ui.add_space(6.0);
     if let Some(label) = masks::show(ui, index, layer, &names, problems) {
         draft.name_edit(label);

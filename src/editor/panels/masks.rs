@@ -1,9 +1,9 @@
-//! The masks of a layer: where it acts, by the noise of other layers.
+//! The masks of a layer: where it acts.
 
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::layers::layer_path;
-use crate::planet::param::{ParamPath, Segment};
+use crate::planet::param::{Choice, ParamPath, Segment};
 use crate::planet::{Layer, MAX_MASKS, Mask};
 use eframe::egui;
 
@@ -20,15 +20,23 @@ pub fn show(
     ui.horizontal(|ui| {
         ui.strong("Masks");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let possible = !others.is_empty() && layer.masks.len() < MAX_MASKS;
-            let button = ui.add_enabled(possible, egui::Button::new("Add mask"));
-            let button = button.on_hover_text("Let this layer act only where another layer's noise is in a range");
-            if button.on_disabled_hover_text("A mask needs another layer").clicked()
-                && let Some(other) = others.first()
-            {
-                layer.masks.push(Mask { layer: (*other).clone(), ..Mask::default() });
-                label = Some("Add mask".to_owned());
-            }
+            let possible = layer.masks.len() < MAX_MASKS;
+            ui.add_enabled_ui(possible, |ui| {
+                ui.menu_button("Add mask", |ui| {
+                    for (mut mask, doc) in Mask::all().into_iter().zip(Mask::DOCS) {
+                        let other = others.first().map(|name| name.as_str());
+                        mask.set_layer(other.unwrap_or_default());
+                        let name = Mask::NAMES.get(mask.index()).copied().unwrap_or_default();
+                        let button = ui.add_enabled(mask.layer().is_none() || other.is_some(), egui::Button::new(name));
+                        let button = button.on_hover_text(*doc).on_disabled_hover_text("This mask needs another layer");
+                        if button.clicked() {
+                            layer.masks.push(mask);
+                            label = Some("Add mask".to_owned());
+                            ui.close();
+                        }
+                    }
+                });
+            });
         });
     });
     let mut removed = None;
@@ -36,18 +44,20 @@ pub fn show(
         let owner = format!("mask {} of {}", number + 1, layer.name);
         egui::Frame::group(ui.style()).show(ui, |ui| {
             ui.horizontal(|ui| {
-                ui.label("Where");
-                egui::ComboBox::from_id_salt(("mask", number))
-                    .selected_text(mask.layer.as_str())
-                    .width((ui.available_width() - 40.0).max(60.0))
-                    .truncate()
-                    .show_ui(ui, |ui| {
-                        for other in &others {
-                            ui.selectable_value(&mut mask.layer, (*other).clone(), other.as_str());
-                        }
-                    })
-                    .response
-                    .accessible_name(format!("Layer of {owner}"));
+                if let Mask::Layer(mask) = mask {
+                    ui.label("Where");
+                    egui::ComboBox::from_id_salt(("mask", number))
+                        .selected_text(mask.layer.as_str())
+                        .width((ui.available_width() - 40.0).max(60.0))
+                        .truncate()
+                        .show_ui(ui, |ui| {
+                            for other in &others {
+                                ui.selectable_value(&mut mask.layer, (*other).clone(), other.as_str());
+                            }
+                        })
+                        .response
+                        .accessible_name(format!("Layer of {owner}"));
+                }
                 if icon_button(ui, Icon::Remove, &format!("Remove {owner}"), "Remove this mask").clicked() {
                     removed = Some(number);
                 }
@@ -55,7 +65,9 @@ pub fn show(
             let mut path = layer_path(index).segments().to_vec();
             path.extend([Segment::Field("masks"), Segment::Index(number)]);
             let grid = Grid { base: ParamPath::from(path), owner: &owner, skip: &["layer"], problems };
-            params_grid(ui, &grid, mask, &mut Mask::default());
+            let mut default = Mask::default();
+            default.set_index(mask.index());
+            params_grid(ui, &grid, mask, &mut default);
         });
     }
     if let Some(number) = removed {

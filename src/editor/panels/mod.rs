@@ -60,6 +60,8 @@ pub struct Draft<'a> {
     pub planet: &'a mut Planet,
     /// What to call the edit; None names it after what changed.
     pub label: Option<String>,
+    /// The parameter for which a file is to be chosen.
+    pub browse: Option<ParamPath>,
     /// Everything wrong with the document's planet.
     pub problems: &'a [(ParamPath, String)],
     /// The ground under the pointer.
