@@ -37,7 +37,7 @@ params! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Planet, diff, random};
+    use crate::planet::{Planet, VERSION, diff, random};
 
     fn planet() -> Planet {
         let bookmark = Bookmark { name: "Beach".to_owned(), pitch_deg: -12.5, ..Bookmark::default() };
@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn what_is_wrong_with_a_bookmark_is_told() {
         let message = |bookmarks: &str| {
-            let text = format!("(version: 1, editor: (bookmarks: {bookmarks}))");
+            let text = format!("(version: {VERSION}, editor: (bookmarks: {bookmarks}))");
             Planet::from_text("f.ron", &text).unwrap_err().to_string()
         };
         assert_eq!(
