@@ -493,6 +493,14 @@ fn a_height_map_is_chosen_undone_saved_and_missed() {
     assert_eq!(height_m(&harness), chosen_m, "the file is back");
 }
 
+/// The same with a picture that is drawn fast: neither sky nor sea.
+fn plain_editor(answers: Vec<Option<PathBuf>>) -> Editor {
+    let mut harness = editor(answers);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Num8);
+    wait_for_picture(&mut harness);
+    harness
+}
+
 /// Steps until the camera is at rest.
 fn wait_for_camera(harness: &mut Editor) {
     for _ in 0..400 {
@@ -514,8 +522,7 @@ fn eye_height_m(harness: &Editor) -> f64 {
 
 #[test]
 fn keys_change_the_way_to_move_and_the_status_says_so() {
-    let mut harness = editor(vec![]);
-    wait_for_picture(&mut harness);
+    let mut harness = plain_editor(vec![]);
     assert!(harness.query_by_label("Orbit").is_some());
     let from_space_m = eye_height_m(&harness);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
@@ -576,8 +583,7 @@ fn number_keys_show_debug_views_but_not_while_one_types() {
 
 #[test]
 fn frozen_detail_stays_while_the_camera_goes_on() {
-    let mut harness = editor(vec![]);
-    wait_for_picture(&mut harness);
+    let mut harness = plain_editor(vec![]);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F6);
     let frozen = harness.state().viewport().surface().unwrap();
     let drawn = harness.state().viewport().stats().tiles_drawn;
@@ -599,8 +605,7 @@ fn frozen_detail_stays_while_the_camera_goes_on() {
 fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.ron");
-    let mut harness = editor(vec![Some(path.clone())]);
-    wait_for_picture(&mut harness);
+    let mut harness = plain_editor(vec![Some(path.clone())]);
     let names = |harness: &Editor| -> Vec<String> {
         let bookmarks = planet(harness).editor.map(|editor| editor.bookmarks).unwrap_or_default();
         bookmarks.into_iter().map(|bookmark| bookmark.name).collect()
@@ -618,10 +623,15 @@ fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
     press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num1);
     assert!(harness.state().viewport().is_moving(), "a flight, not a jump");
     wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Fly, "nobody stands in space");
     let now = harness.state().viewport().pose(&planet(&harness));
     let off_m = now.position_planet_m.distance(here.position_planet_m);
     assert!(off_m < 1.0, "{off_m} m off");
     assert!(now.planet_from_view.angle_between(here.planet_from_view) < 1e-3);
+
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num2);
+    wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Walk, "on foot again");
 
     click(&mut harness, "Bookmarks");
     click(&mut harness, "View 2");
@@ -661,4 +671,25 @@ fn every_key_stands_in_the_list_of_controls() {
     press(&mut harness, egui::Modifiers::SHIFT, egui::Key::Questionmark);
     harness.run_steps(20);
     assert!(harness.query_by_label("Walk; slower uphill").is_none());
+}
+
+#[test]
+fn what_lies_under_the_pointer_is_told_without_holding_up_the_picture() {
+    let mut harness = plain_editor(vec![]);
+    let rect = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect();
+    harness.hover_at(rect.center());
+    for _ in 0..200 {
+        harness.step();
+        if harness.state().viewport().under_pointer().is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let viewport = harness.state().viewport();
+    let below = viewport.eye(&planet(&harness)).1;
+    let under = viewport.under_pointer().unwrap().place;
+    assert!(under.direction().distance(below.direction()) < 0.02, "{under:?} {below:?}");
+    harness.hover_at(egui::pos2(rect.center().x, rect.bottom() + 10.0));
+    harness.run_steps(3);
+    assert!(harness.state().viewport().under_pointer().is_none());
 }

@@ -33,3 +33,42 @@ params! {
         roll_deg: f64 = 0.0, "Roll", Unit::Degrees, linear(-180.0, 180.0), Stage::Label;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::{Planet, VERSION, diff, random};
+
+    fn planet() -> Planet {
+        let bookmark = Bookmark { name: "Beach".to_owned(), pitch_deg: -12.5, ..Bookmark::default() };
+        Planet { editor: Some(EditorNotes { bookmarks: vec![bookmark] }), ..random::random(5) }
+    }
+
+    #[test]
+    fn notes_are_saved_but_change_nothing_that_is_drawn() {
+        let planet = planet();
+        assert_eq!(Planet::from_text("f.ron", &planet.to_text()).unwrap(), planet);
+        let bare = Planet { editor: None, ..planet.clone() };
+        assert!(!bare.to_text().contains("editor"), "a preset without notes does not mention them");
+        assert_eq!(diff::first_stale_stage(&bare, &planet), Some(Stage::Label));
+        assert_eq!(random::vary(&planet, 3, 1.0).editor, planet.editor, "a variation is seen from the same places");
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_bookmark_is_told() {
+        let message = |bookmarks: &str| {
+            let text = format!("(version: {VERSION}, editor: (bookmarks: {bookmarks}))");
+            Planet::from_text("f.ron", &text).unwrap_err().to_string()
+        };
+        assert_eq!(
+            message("[(pitch_deg: 99)]"),
+            "f.ron:1:47: editor.bookmarks[0].pitch_deg: 99 is out of range; use -90 to 90°"
+        );
+        assert_eq!(
+            message("3"),
+            "f.ron:1:34: editor.bookmarks: `3` is not what belongs here; use a list: `[(...), (...)]`"
+        );
+        let many = format!("[{}]", "(),".repeat(MAX_BOOKMARKS + 1));
+        assert_eq!(message(&many), "f.ron:1:34: editor.bookmarks: 65 bookmarks are too many; use at most 64");
+    }
+}

@@ -31,6 +31,8 @@ const FALL_M: f64 = 60.0;
 const HANDOVER_SECS: f64 = 0.6;
 /// How much a step of the wheel changes the speed of free flight, and how far.
 const SPEED_FACTORS: (f64, f64) = (0.02, 50.0);
+/// Somebody whose eyes are so near to where they would be on foot stands there.
+const STANDING_M: f64 = 0.2;
 /// Angles that a camera around the planet cannot hold; free flight can.
 const ROLLED_RAD: f64 = 0.02;
 
@@ -208,13 +210,20 @@ impl Cameras {
         }
     }
 
-    /// Flies to a pose, smoothly. A camera around the planet gives way to free flight if it could not hold the pose.
+    /// Flies to a pose, smoothly: on foot if it is one of somebody who stands there, and in free flight if a camera around the
+    /// planet could not hold it.
     pub fn fly_to_pose(&mut self, to: Pose, ground: &dyn Ground) {
         let from = self.pose(ground);
         let attitude = Attitude::of(&to);
         let over_m = to.position_planet_m.length() - ground.surface_radius_m(to.up());
-        let orbits = attitude.roll_rad.abs() < ROLLED_RAD && over_m >= orbit::MIN_ALTITUDE_M;
-        let mode = if self.mode() == Mode::Orbit && orbits { Mode::Orbit } else { Mode::Fly };
+        self.dive |= over_m < 0.0;
+        let standing_m = to.position_planet_m.length() - self.floor_m(to.up(), ground) - walk::EYE_M;
+        let mode = match self.mode() {
+            _ if attitude.roll_rad.abs() > ROLLED_RAD => Mode::Fly,
+            _ if standing_m.abs() < STANDING_M => Mode::Walk,
+            Mode::Orbit if over_m >= orbit::MIN_ALTITUDE_M => Mode::Orbit,
+            _ => Mode::Fly,
+        };
         self.fly(from, to, Rig::from_pose(mode, &to, ground), ground);
     }
 

@@ -19,6 +19,8 @@ const START_RADII: f64 = 1.0 + crate::lod::opening::OPENING_ALTITUDE_RADII;
 const MAX_PITCH_RAD: f64 = 0.9;
 /// Pitch on the ground.
 const GROUND_PITCH_RAD: f64 = -0.12;
+/// What is farther away than this many altitudes lies ahead rather than below.
+const FAR_ALTITUDES: f64 = 8.0;
 /// Latitude up to which dragging keeps the heading; nearer to the poles it turns with the globe.
 const KEEP_HEADING_LAT_RAD: f64 = 75.0 * PI / 180.0;
 
@@ -131,15 +133,22 @@ impl Orbit {
     /// Goes nearer (`steps` > 0) or farther; a step is a factor of e in altitude. Keeps what is under the pointer there.
     pub fn zoom(&mut self, steps: f64, pointer: Option<(f64, f64)>, aspect: f64, ground: &dyn Ground) {
         let camera = self.camera(ground);
-        let anchor = pointer.and_then(|(x, y)| {
-            let dir = camera.ray_dir_planet(x, y, aspect);
-            let distance_m = ground.raycast(camera.position_planet_m, dir)?;
-            let hit = camera.position_planet_m + dir * distance_m;
-            // A point at the horizon would fling the view far away.
-            (distance_m < 8.0 * self.altitude_m(ground).max(MIN_ALTITUDE_M)).then_some((hit, x, y))
-        });
         let surface_m = ground.surface_radius_m(self.place.direction());
         let altitude_m = (self.radius_m - surface_m).max(MIN_ALTITUDE_M);
+        let hit = pointer.and_then(|(x, y)| {
+            let dir = camera.ray_dir_planet(x, y, aspect);
+            Some((x, y, dir, ground.raycast(camera.position_planet_m, dir)?))
+        });
+        let far_m = FAR_ALTITUDES * altitude_m;
+        // Towards something far off the eye goes straight; its height above the ground is no measure there.
+        if let Some((_, _, dir, _)) = hit.filter(|(_, _, _, distance_m)| *distance_m > far_m) {
+            let eye = camera.position_planet_m + dir * far_m * (1.0 - libm::exp(-steps));
+            self.place = LatLon::from_direction(eye);
+            self.radius_m = eye.length();
+            self.keep_above(ground);
+            return;
+        }
+        let anchor = hit.map(|(x, y, dir, distance_m)| (camera.position_planet_m + dir * distance_m, x, y));
         self.radius_m = surface_m + altitude_m * libm::exp(-steps);
         self.keep_above(ground);
         if let Some((hit, x, y)) = anchor {
@@ -363,6 +372,23 @@ mod tests {
         }
         let miss = (under(&controller, 0.2, 0.15) - held).length() * EARTH.0;
         assert!(miss < 1e-3 * controller.altitude_m(&EARTH), "{miss} m off");
+    }
+
+    #[test]
+    fn zoom_goes_straight_to_what_is_far_ahead() {
+        let mut controller = Orbit::new(EARTH.0, LatLon::from_degrees(10.0, 20.0));
+        controller.zoom(11.0, None, 1.5, &EARTH);
+        let (x, y) = (0.1, 0.15);
+        let held = under(&controller, x, y);
+        let away_m = |controller: &Orbit| (controller.pose(&EARTH).position_planet_m - held * EARTH.0).length();
+        let (before_m, altitude_m) = (away_m(&controller), controller.altitude_m(&EARTH));
+        assert!(before_m > FAR_ALTITUDES * altitude_m, "{before_m} m away at {altitude_m} m");
+        for _ in 0..10 {
+            controller.zoom(0.1, Some((x, y)), 1.5, &EARTH);
+        }
+        assert!(away_m(&controller) < 0.75 * before_m, "{} of {before_m} m", away_m(&controller));
+        let miss_m = (under(&controller, x, y) - held).length() * EARTH.0;
+        assert!(miss_m < 0.1 * before_m, "{miss_m} m off");
     }
 
     #[test]
