@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(Planet::from_text("f.ron", &planet.to_text()).unwrap(), planet);
         let bare = Planet { editor: None, ..planet.clone() };
         assert!(!bare.to_text().contains("editor"), "a preset without notes does not mention them");
-        assert_eq!(diff::first_stale_stage(&bare, &planet), Some(Stage::Label));
+        assert_eq!(diff::touched_stages(&bare, &planet), Stages::of(&[Stage::Label]));
         assert_eq!(random::vary(&planet, 3, 1.0).editor, planet.editor, "a variation is seen from the same places");
     }
 
