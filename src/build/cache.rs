@@ -168,9 +168,9 @@ impl State {
         // The tiles of the request before are still on screen.
         let unseen = oldest.partition_point(|(used, _)| used + 1 < self.request);
         let unneeded = oldest.partition_point(|(used, _)| *used < self.request);
-        self.drop_while_over(target, &oldest[..unseen], |entry| entry.strip());
+        self.drop_while_over(target, &oldest[..unseen], Entry::strip);
         self.drop_while_over(target, &oldest[..unseen], |entry| entry.tile = None);
-        self.drop_while_over(target, &oldest, |entry| entry.strip());
+        self.drop_while_over(target, &oldest, Entry::strip);
         self.drop_while_over(target, &oldest[..unneeded], |entry| entry.tile = None);
         self.entries.retain(|_, entry| entry.tile.is_some() || entry.fields.len() > 0);
     }

@@ -52,6 +52,9 @@ pub(crate) struct Before<'a> {
     pub(crate) stale: Stages,
 }
 
+/// The fields of a planet's layers, as far as they are known.
+pub(crate) type Fields = Vec<Option<Arc<Field>>>;
+
 /// Builds the tile of a node, and adds what that took to `work`. Gives the fields of the layers, and no tile if `keep_going`,
 /// asked before each layer, said no; then only some of the fields are there.
 pub(crate) fn make_tile(
@@ -60,7 +63,7 @@ pub(crate) fn make_tile(
     before: &Before<'_>,
     work: &mut Work,
     keep_going: &dyn Fn() -> bool,
-) -> (Vec<Option<Arc<Field>>>, Option<(Tile, Parts)>) {
+) -> (Fields, Option<(Tile, Parts)>) {
     profiling::scope!("tile");
     let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
     let simd = terrain.simd();
@@ -68,7 +71,7 @@ pub(crate) fn make_tile(
     let own_spacing_rad = spacing_rad(id.level);
     let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
     let layers = &terrain.stack.layers;
-    let mut fields: Vec<Option<Arc<Field>>> =
+    let mut fields: Fields =
         layers.iter().map(|layer| before.fields.find(&layer.landform, &layer.spacings_rad(&spacings_rad))).collect();
     for (layer, slot) in layers.iter().zip(&mut fields) {
         if slot.is_none() && layer.needed {
@@ -145,7 +148,7 @@ fn climate_field(
     let Some(parent) = parent else {
         return (terrain.climate.field(terrain.simd(), points), octaves * points.len());
     };
-    let is_shared = |i: usize| (i % TILE_SIDE) % 2 == 0 && (i / TILE_SIDE) % 2 == 0;
+    let is_shared = |i: usize| (i % TILE_SIDE).is_multiple_of(2) && (i / TILE_SIDE).is_multiple_of(2);
     let own: Vec<usize> = (0..TILE_VERTICES).filter(|&i| !is_shared(i)).collect();
     let pick = |all: &[f64]| own.iter().map(|&i| all[i]).collect();
     let own_points = Points {
