@@ -2,8 +2,10 @@
 #include "cloud_model.wgsl"
 #include "mottle.wgsl"
 
-// Slopes of many tiles, four times as fine as their meshes: along both tangents, and the same as the parents have them.
-@group(2) @binding(0) var normal_tiles: texture_2d_array<f32>;
+// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents have
+// them; height above the mesh, metres.
+@group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
+@group(2) @binding(1) var detail_rise_m: texture_2d_array<f32>;
 
 struct Vertex {
     @location(0) high_m: vec3f,
@@ -13,7 +15,7 @@ struct Vertex {
     @location(4) climate: vec2f,
     @location(5) normal_oct: vec2f,
     @location(6) parent_normal_oct: vec2f,
-    // Distances in metres between which the parent's normals take over; level; layer of the normal tile, -1 without one.
+    // Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
     @location(7) tile: vec4f,
     // The axis that the first tangent of the slopes follows.
     @location(8) slope_axis: vec3f,
@@ -31,14 +33,14 @@ struct Ground {
     @location(6) place: vec3f,
     // From the eye that the tile was chosen for
     @location(7) chosen_distance_m: f32,
-    // Layer of the normal tile.
+    // Layer of the detail tile.
     @location(8) @interpolate(flat) layer: f32,
     @location(9) @interpolate(flat) slope_axis: vec3f,
 }
 
-// Vertices along the side of a tile, and texels along that of a normal tile; must match src/lod/tile.rs.
+// Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
 const TILE_SIDE: u32 = 33u;
-const NORMAL_SIDE: f32 = 129.0;
+const DETAIL_SIDE: f32 = 129.0;
 
 // Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
 fn from_octahedral(e: vec2f) -> vec3f {
@@ -72,14 +74,28 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     return out;
 }
 
-// The normal from the tile's slopes, or from its vertices where there are none yet.
-fn ground_normal(in: Ground, up: vec3f) -> vec3f {
-    if in.layer < 0.0 { return normalize(in.normal); }
-    let texel = (in.place.xy * (NORMAL_SIDE - 1.0) + 0.5) / NORMAL_SIDE;
-    let slopes = textureSampleLevel(normal_tiles, clamped, texel, i32(in.layer), 0.0);
+// The ground at a pixel: the tile's detail, or its vertices where there is none yet.
+struct Relief {
+    normal: vec3f,
+    height_m: f32,
+    climate: vec2f,
+}
+
+fn relief_of(in: Ground, up: vec3f) -> Relief {
+    if in.layer < 0.0 { return Relief(normalize(in.normal), in.height_m, in.climate); }
+    let texel = (in.place.xy * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
+    let slopes = textureSampleLevel(detail_slopes, clamped, texel, i32(in.layer), 0.0);
     let slope = mix(slopes.xy, slopes.zw, in.place.z);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
-    return normalize(up - slope.x * east - slope.y * cross(up, east));
+    var out: Relief;
+    out.normal = normalize(up - slope.x * east - slope.y * cross(up, east));
+    out.height_m = in.height_m + textureSampleLevel(detail_rise_m, clamped, texel, i32(in.layer), 0.0).r;
+    // Higher ground is colder; over the sea its surface counts.
+    let rows_per_m = globals.chosen_eye_high_m.w;
+    let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
+    let risen_m = max(out.height_m, least_m) - max(in.height_m, least_m);
+    out.climate = vec2f(in.climate.x, saturate1(in.climate.y + risen_m * rows_per_m));
+    return out;
 }
 
 struct Material {
@@ -204,10 +220,14 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
     }
 }
 
-fn shade(in: Ground) -> vec4f {
-    let rel_km = in.rel_m * 0.001;
+fn shade(on_mesh: Ground) -> vec4f {
+    let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
-    var n = ground_normal(in, up);
+    let detail = relief_of(on_mesh, up);
+    var in = on_mesh;
+    in.height_m = detail.height_m;
+    in.climate = detail.climate;
+    var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
     if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }

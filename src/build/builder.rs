@@ -7,8 +7,9 @@
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
 use super::refine::refine;
-use super::{BuildStats, Memory, Surface};
+use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
+use crate::lod::tile::{DetailTile, Tile};
 use crate::planet::param::{Stage, Stages};
 use crate::planet::{Planet, diff};
 use crate::terrain::Terrain;
@@ -178,9 +179,9 @@ impl Worker {
             let slice = catch_unwind(AssertUnwindSafe(|| self.slice(shared, &request, is_first, under_way.1)));
             let mut state = shared.lock();
             match slice {
-                Ok(surface) => {
+                Ok((surface, done)) => {
                     under_way.1 = surface.stats;
-                    if surface.complete {
+                    if done {
                         state.finished = request.number;
                     }
                     state.surface = Some(Arc::new(surface));
@@ -200,7 +201,8 @@ impl Worker {
         }
     }
 
-    fn slice(&mut self, shared: &Shared, request: &Request, is_first: bool, mut stats: BuildStats) -> Surface {
+    /// A surface, and whether it has all that the request asks for. First come all tiles, then their detail.
+    fn slice(&mut self, shared: &Shared, request: &Request, is_first: bool, mut stats: BuildStats) -> (Surface, bool) {
         let begun = Instant::now();
         let terrain = self.compile(&request.planet);
         if is_first {
@@ -212,7 +214,15 @@ impl Worker {
             let wanted = shared.is_newest(request.number);
             if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
-        (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going)
+        let mut surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+        // Where tiles had to be built, they are shown before time is spent on their detail.
+        let shown_first = surface.complete && surface.stats.tiles_built > stats.tiles_built;
+        if !surface.complete || shown_first {
+            return (surface, false);
+        }
+        let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going);
+        (surface, done)
     }
 
     /// The evaluator of a planet; tiles stay valid when nothing that they hold has changed.

@@ -7,7 +7,7 @@
 use super::kept::KeptFields;
 use super::make::{Before, Parts, make_tile};
 use super::stats::{Memory, Work};
-use crate::lod::tile::{Tile, Vertex};
+use crate::lod::tile::{DetailTile, Tile, Vertex};
 use crate::planet::param::Stages;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
@@ -24,6 +24,7 @@ struct Entry {
     /// What the tile was made from.
     parts: Option<Arc<Parts>>,
     fields: KeptFields,
+    detail: Option<Arc<DetailTile>>,
     /// The stages in which the tile's planet differs from the present one.
     stale: Stages,
     /// The request that last asked for it.
@@ -33,11 +34,13 @@ struct Entry {
 impl Entry {
     fn bytes(&self) -> usize {
         let tile = self.tile.as_ref().map_or(0, |tile| tile.vertices.len() * size_of::<Vertex>());
-        tile + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
+        let detail = self.detail.as_ref().map_or(0, |detail| detail.slopes.len() * 8 + detail.rise_m.len() * 2);
+        tile + detail + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
     }
 
     /// Keeps the tile alone.
     fn strip(&mut self) {
+        self.detail = None;
         self.parts = None;
         self.fields.clear();
     }
@@ -76,6 +79,26 @@ impl Cache {
         let tile = entry.tile.clone()?;
         entry.used = request;
         Some(tile)
+    }
+
+    /// The detail of a tile, if it is there and shows the same ground.
+    pub(crate) fn detail(&self, tile: &Tile) -> Option<Arc<DetailTile>> {
+        let state = self.lock();
+        let detail = state.entries.get(&tile.id)?.detail.clone();
+        detail.filter(|detail| detail.heights_serial == tile.heights_serial)
+    }
+
+    /// Keeps the detail of a node's tile.
+    pub(crate) fn keep_detail(&self, id: NodeId, detail: &Arc<DetailTile>) {
+        let mut state = self.lock();
+        let Some(entry) = state.entries.get_mut(&id) else { return };
+        let bytes_before = entry.bytes();
+        entry.detail = Some(detail.clone());
+        let bytes_after = entry.bytes();
+        state.bytes = state.bytes + bytes_after - bytes_before;
+        if state.bytes > self.budget_bytes {
+            state.trim(self.budget_bytes);
+        }
     }
 
     /// Builds a node's tile from what is known of it and of its parent; adds what that took to `work`. False if `keep_going` (asked

@@ -17,12 +17,15 @@ use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
 use glam::DVec3;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a tile was made from (the fields of its layers apart), kept so that an edit re-runs only the stages it makes stale.
 #[derive(Debug)]
 pub(crate) struct Parts {
     points: Arc<Points>,
     heights: Arc<Heights>,
+    /// See [`Tile::heights_serial`].
+    heights_serial: u64,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
     coast: Option<Arc<Coast>>,
@@ -86,11 +89,13 @@ pub(crate) fn make_tile(
         }
     }
 
-    let heights = match before.parts {
-        Some(parts) if !before.stale.contains(Stage::Height) => parts.heights.clone(),
+    static NEXT_HEIGHTS: AtomicU64 = AtomicU64::new(1);
+    let (heights, heights_serial) = match before.parts {
+        Some(parts) if !before.stale.contains(Stage::Height) => (parts.heights.clone(), parts.heights_serial),
         _ => work.run(Stage::Height, || {
             profiling::scope!("height");
-            Arc::new(height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {}))
+            let heights = height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {});
+            (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
         }),
     };
 
@@ -118,9 +123,10 @@ pub(crate) fn make_tile(
 
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad)
+        let tile = mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad);
+        Tile { heights_serial, ..tile }
     });
-    (fields, Some((tile, Parts { points, heights, climate_noises, climate, coast, inland_rad })))
+    (fields, Some((tile, Parts { points, heights, heights_serial, climate_noises, climate, coast, inland_rad })))
 }
 
 fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {

@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 const ROUNDER_F32: f32 = 12_582_912.0;
 const ROUNDER_F64: f64 = 6_755_399_441_055_744.0;
 
-/// Makes the mesh of a node. `dirs_planet`, `heights` (with the gradients of the tile's own spacing and of its parent's) and
+/// Makes the mesh of a node; whose heights it has is for the caller to say. `dirs_planet`, `heights` (with the gradients of the tile's own spacing and of its parent's) and
 /// `climate` are those of its vertices, and so is `inland_rad` unless it is empty.
 pub(super) fn mesh(
     terrain: &Terrain,
@@ -47,6 +47,7 @@ pub(super) fn mesh(
     Tile {
         id,
         serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
+        heights_serial: 0,
         vertices,
         min_height_m,
         max_height_m,

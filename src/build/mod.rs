@@ -2,17 +2,17 @@
 //!
 //! - `make`: one tile from one node, stage by stage; `mesh`: its vertices
 //! - `kept`: the layer fields of one tile, present and past
-//! - `normals`: the normal tile of one node
+//! - `detail`: what is finer than the mesh of one node
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
 //! - `stats`: what it took
 pub mod builder;
 mod cache;
+mod detail;
 mod kept;
 mod make;
 mod mesh;
-mod normals;
 mod refine;
 mod stats;
 
@@ -21,7 +21,7 @@ pub use cache::DEFAULT_BUDGET_BYTES;
 pub use refine::lowest_radius_m;
 pub use stats::{BuildStats, Memory, StageWork};
 
-use crate::lod::tile::NormalTile;
+use crate::lod::tile::DetailTile;
 use crate::lod::{Culling, Tile, View};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
@@ -50,8 +50,8 @@ pub struct Leaf {
     pub tile: Arc<Tile>,
     /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
-    /// Slopes finer than the mesh, once they are there.
-    pub normals: Option<Arc<NormalTile>>,
+    /// What is finer than the mesh, once it is there.
+    pub detail: Option<Arc<DetailTile>>,
 }
 
 /// Builds the complete surface for a view and waits for it.
@@ -61,11 +61,37 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
     refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
 }
 
-/// Finds the normal tiles of all that a view shows of a surface, and waits for them.
-pub fn add_normals(surface: &mut Surface, view: &View) {
+/// Finds the detail of all tiles that a view shows of a surface, and waits for it.
+pub fn add_detail(surface: &mut Surface, view: &View) {
+    find_detail(surface, view, &|_, _| {}, &|| true);
+}
+
+/// Finds the detail of what a view shows of a surface, nearest tiles first, for as long as `keep_going` says so; each is also
+/// given to `keep`. Whether all of it is there now.
+pub(crate) fn find_detail(
+    surface: &mut Surface,
+    view: &View,
+    keep: &(dyn Fn(&Tile, &Arc<DetailTile>) + Sync),
+    keep_going: &(dyn Fn() -> bool + Sync),
+) -> bool {
     let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
+    let eye = view.camera.position_planet_m;
     let terrain = &surface.terrain;
-    surface.leaves.par_iter_mut().filter(|leaf| leaf.normals.is_none() && culling.sees(&leaf.tile)).for_each(|leaf| {
-        leaf.normals = Some(Arc::new(normals::make_normal_tile(terrain, leaf.tile.id)));
-    });
+    let mut missing: Vec<&mut Leaf> =
+        surface.leaves.iter_mut().filter(|leaf| leaf.detail.is_none() && culling.sees(&leaf.tile)).collect();
+    let away_m = |leaf: &Leaf| leaf.tile.center_planet_m.distance(eye) - leaf.tile.bounding_radius_m;
+    missing.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+    // In rounds of a tile for each thread: strictly in order, and it can be stopped in between.
+    let side = rayon::current_num_threads().max(1);
+    missing.chunks_mut(side).all(|round| {
+        let wanted = keep_going();
+        if wanted {
+            round.par_iter_mut().for_each(|leaf| {
+                let detail = Arc::new(detail::make_detail(terrain, &leaf.tile));
+                keep(&leaf.tile, &detail);
+                leaf.detail = Some(detail);
+            });
+        }
+        wanted
+    })
 }

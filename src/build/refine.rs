@@ -146,7 +146,9 @@ fn leaves(split: &HashSet<NodeId>, cache: &Cache) -> Vec<Leaf> {
         .filter_map(|id| {
             let coarser = |edge: &Edge| id.neighbour(*edge).parent().is_some_and(|parent| !split.contains(&parent));
             let coarser_edges = Edge::ALL.iter().filter(|edge| coarser(edge)).fold(0, |mask, edge| mask | edge.bit());
-            Some(Leaf { tile: cache.tile(id)?, coarser_edges, normals: None })
+            let tile = cache.tile(id)?;
+            let detail = cache.detail(&tile);
+            Some(Leaf { tile, coarser_edges, detail })
         })
         .collect()
 }

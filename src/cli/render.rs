@@ -1,7 +1,7 @@
 //! `tellus render`: a picture of a planet, without a window.
 
 use super::{Failure, args, headless, load};
-use crate::build::{add_normals, build_now};
+use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
@@ -103,7 +103,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
     let view = view(args, &planet);
     let mut surface = build_now(&planet, &view);
-    add_normals(&mut surface, &view);
+    add_detail(&mut surface, &view);
     let sun = args.sun.unwrap_or((planet.star.latitude_deg, planet.star.longitude_deg));
     let frame = Frame {
         surface: &surface,

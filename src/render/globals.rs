@@ -2,7 +2,7 @@
 
 use super::{DebugView, Frame, gpu};
 use crate::lod::Quality;
-use crate::planet::Planet;
+use crate::planet::{Planet, TableRows};
 use glam::{DMat3, DVec3, Mat4};
 use std::f64::consts::{PI, TAU};
 
@@ -200,9 +200,19 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
     g.modes = [view, setup.scale, u32::from(setup.srgb_target), 0];
-    g.chosen_eye_high_m = vec4(chosen_high, 0.0);
+    g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     g
+}
+
+/// By how much the row of the biome table changes with each metre of height, 0 to 1 over the whole table. It falls where rows
+/// go by temperature; below the sea it then stays, as the climate has it.
+fn rows_per_metre(planet: &Planet) -> f64 {
+    let (climate, biomes) = (&planet.climate, &planet.biomes);
+    match biomes.rows {
+        TableRows::Temperature => -climate.lapse_c_per_km * 0.001 / (biomes.hottest_c - biomes.coldest_c),
+        TableRows::Elevation => 1.0 / (biomes.highest_m - biomes.lowest_m),
+    }
 }
 
 /// A position as the sum of two that 32 bits hold.

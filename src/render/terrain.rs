@@ -1,7 +1,7 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
 
+use super::detail_pool::DetailPool;
 use super::gpu;
-use super::normal_pool::NormalPool;
 use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
@@ -21,7 +21,7 @@ const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array!
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Instance {
-    /// Distances in metres between which the parent's normals take over; level; layer of the normal tile, -1 without one.
+    /// Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
     morph_level_layer: [f32; 4],
     /// See [`slope_axis`].
     slope_axis: [f32; 3],
@@ -43,7 +43,7 @@ impl TerrainPass {
         let module = shaders::module(device, ENTRY)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(ENTRY),
-            bind_group_layouts: &[Some(globals), Some(tables), Some(&NormalPool::layout(device))],
+            bind_group_layouts: &[Some(globals), Some(tables), Some(&DetailPool::layout(device))],
             immediate_size: 0,
         });
         let make = |topology, cull_mode| {
@@ -138,8 +138,8 @@ fn edges(triangles: &[u16]) -> Vec<u16> {
 
 struct Draw {
     place: Place,
-    /// Texture array of the normal tile.
-    normals: usize,
+    /// Texture arrays of the detail tile.
+    detail: usize,
     mask: usize,
 }
 
@@ -147,7 +147,7 @@ struct Draw {
 pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
-    normals: NormalPool,
+    details: DetailPool,
     instances: wgpu::Buffer,
     draws: Vec<Draw>,
 }
@@ -157,7 +157,7 @@ impl TerrainResources {
         Self {
             indices: Indices::new(device),
             pool: TilePool::new(device),
-            normals: NormalPool::new(device),
+            details: DetailPool::new(device),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
@@ -201,7 +201,7 @@ impl TerrainResources {
         let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
         let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
         self.pool.begin_round();
-        self.normals.begin_frame();
+        self.details.begin_frame();
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
         // Near tiles first: what they hide is not shaded.
@@ -213,14 +213,14 @@ impl TerrainResources {
             let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, chosen);
-            let normals = leaf.normals.as_ref().and_then(|tile| self.normals.place(device, queue, tile));
-            let layer = normals.map_or(-1.0, |place| place.layer as f32);
+            let detail = leaf.detail.as_ref().and_then(|tile| self.details.place(device, queue, tile));
+            let layer = detail.map_or(-1.0, |place| place.layer as f32);
             instances.push(Instance {
                 morph_level_layer: [start as f32, end as f32, f32::from(level), layer],
                 slope_axis: slope_axis(leaf.tile.id.face).as_vec3().to_array(),
             });
-            let normals = normals.map_or(0, |place| place.array);
-            self.draws.push(Draw { place, normals, mask: usize::from(leaf.coarser_edges & 15) });
+            let detail = detail.map_or(0, |place| place.array);
+            self.draws.push(Draw { place, detail, mask: usize::from(leaf.coarser_edges & 15) });
         }
         let bytes: &[u8] = bytemuck::cast_slice(&instances);
         if self.instances.size() < bytes.len() as u64 {
@@ -266,12 +266,12 @@ impl TerrainResources {
         draw.set_bind_group(1, groups[1], &[]);
         draw.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint16);
         draw.set_vertex_buffer(1, self.instances.slice(..));
-        let (mut bound, mut bound_normals) = (None, None);
+        let (mut bound, mut bound_detail) = (None, None);
         let mut triangles = 0;
-        for (i, Draw { place, normals, mask }) in (0..).zip(&self.draws) {
-            if bound_normals != Some(*normals) {
-                draw.set_bind_group(2, self.normals.group(*normals), &[]);
-                bound_normals = Some(*normals);
+        for (i, Draw { place, detail, mask }) in (0..).zip(&self.draws) {
+            if bound_detail != Some(*detail) {
+                draw.set_bind_group(2, self.details.group(*detail), &[]);
+                bound_detail = Some(*detail);
             }
             if bound != Some(place.buffer) {
                 draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));

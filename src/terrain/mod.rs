@@ -76,6 +76,13 @@ pub struct Sample {
     pub layers_m: Vec<f64>,
 }
 
+/// The ground without what is seen at neither of two spacings.
+pub(crate) struct SeenRelief {
+    pub(crate) height_m: Vec<f64>,
+    /// Slopes (see [`tangent_slope`]), for each of the spacings.
+    pub(crate) slopes: [Vec<DVec3>; 2],
+}
+
 impl Terrain {
     /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid one
     /// gives is unspecified, but finite work.
@@ -212,8 +219,8 @@ impl Terrain {
         self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
     }
 
-    /// Slopes (see [`tangent_slope`]) at unit directions, as points so far apart can show them; one list for each spacing.
-    pub(crate) fn slopes(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> [Vec<DVec3>; 2] {
+    /// The ground at unit directions as points so far apart can show it, for shading.
+    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> SeenRelief {
         let points = Points::new(dirs_planet);
         let radius_m = self.planet.radius_m();
         let fields = self.seen_fields(&points, &spacings_rad);
@@ -222,7 +229,8 @@ impl Terrain {
             let gradient = heights.gradients[band].each_ref().map(|component| f64::from(component[i]));
             tangent_slope(points.dirs[i], DVec3::from_array(gradient), radius_m + heights.height_m[i])
         };
-        [0, 1].map(|band| (0..points.len()).map(|i| slope(band, i)).collect())
+        let slopes = [0, 1].map(|band| (0..points.len()).map(|i| slope(band, i)).collect());
+        SeenRelief { height_m: heights.height_m, slopes }
     }
 
     fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {

@@ -85,7 +85,10 @@ impl PictureKey {
 
 /// Whether two surfaces are made of the same tiles and stand for as much.
 fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
-    let same = |(a, b): (&Leaf, &Leaf)| a.tile.serial == b.tile.serial && a.coarser_edges == b.coarser_edges;
+    let detail = |leaf: &Leaf| leaf.detail.as_ref().map(|detail| detail.serial);
+    let same = |(a, b): (&Leaf, &Leaf)| {
+        a.tile.serial == b.tile.serial && a.coarser_edges == b.coarser_edges && detail(a) == detail(b)
+    };
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
     Arc::ptr_eq(a, b) || (a.complete == b.complete && all())
 }
