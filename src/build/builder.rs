@@ -148,12 +148,14 @@ type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -
 struct Worker {
     cache: Cache,
     terrain: Option<Arc<Terrain>>,
+    /// All tiles of a request whose detail is being found.
+    complete: Option<(u64, Surface)>,
     refine: Refine,
 }
 
 impl Worker {
     fn new(budget_bytes: usize) -> Self {
-        Self { cache: Cache::new(budget_bytes), terrain: None, refine }
+        Self { cache: Cache::new(budget_bytes), terrain: None, complete: None, refine }
     }
 
     fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
@@ -191,6 +193,7 @@ impl Worker {
                     // What it was in the middle of is not to be trusted.
                     self.cache.clear();
                     self.terrain = None;
+                    self.complete = None;
                     state.finished = request.number;
                     state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
                 }
@@ -214,14 +217,25 @@ impl Worker {
             let wanted = shared.is_newest(request.number);
             if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
-        let mut surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
-        // Where tiles had to be built, they are shown before time is spent on their detail.
-        let shown_first = surface.complete && surface.stats.tiles_built > stats.tiles_built;
-        if !surface.complete || shown_first {
-            return (surface, false);
-        }
+        // Once all tiles are there, only their detail is left to find.
+        let mut surface = match self.complete.take().filter(|(number, _)| *number == request.number) {
+            Some((_, surface)) => surface,
+            None => {
+                let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+                let built = surface.stats.tiles_built > stats.tiles_built;
+                if surface.complete {
+                    self.complete = Some((request.number, surface.clone()));
+                }
+                // Where tiles had to be built, they are shown before time is spent on their detail.
+                if built || !surface.complete {
+                    return (surface, false);
+                }
+                surface
+            }
+        };
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
         let done = find_detail(&mut surface, &request.view, &keep, &keep_going);
+        self.complete = (!done).then(|| (request.number, surface.clone()));
         (surface, done)
     }
 

@@ -30,6 +30,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// A complete set of tiles that covers the whole planet without a gap; what the renderer draws.
+#[derive(Clone)]
 pub struct Surface {
     /// The evaluator the tiles were made with.
     pub terrain: Arc<Terrain>,
