@@ -24,7 +24,7 @@ fn view(lon_deg: f64, radii: f64) -> View {
 
 /// The surface once the builder has done all it was asked for.
 fn settled(builder: &Builder) -> Arc<Surface> {
-    while builder.is_busy() {
+    while !builder.has_all_tiles() {
         std::thread::sleep(Duration::from_millis(1));
     }
     builder.surface().unwrap()

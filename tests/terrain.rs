@@ -219,7 +219,7 @@ fn a_ray_meets_the_ground_where_the_ground_is() {
 /// The surface once the builder has done all it was asked for.
 fn settled(builder: &Builder) -> Arc<Surface> {
     loop {
-        if !builder.is_busy() {
+        if builder.has_all_tiles() {
             return builder.surface().unwrap();
         }
         std::thread::sleep(std::time::Duration::from_millis(2));

@@ -43,6 +43,8 @@ struct Shared {
 struct State {
     request: Option<Request>,
     surface: Option<Arc<Surface>>,
+    /// The newest request all of whose tiles are there.
+    tiled: u64,
     /// The newest request that is done with.
     finished: u64,
     memory: Memory,
@@ -122,6 +124,12 @@ impl Builder {
         self.shared.lock().pending().is_some()
     }
 
+    /// Whether all tiles of the newest request are there; their detail may follow.
+    pub fn has_all_tiles(&self) -> bool {
+        let state = self.shared.lock();
+        state.pending().is_none_or(|request| request.number == state.tiled)
+    }
+
     /// What is kept for later.
     pub fn memory(&self) -> Memory {
         self.shared.lock().memory
@@ -183,6 +191,9 @@ impl Worker {
             match slice {
                 Ok((surface, done)) => {
                     under_way.1 = surface.stats;
+                    if surface.complete {
+                        state.tiled = request.number;
+                    }
                     if done {
                         state.finished = request.number;
                     }

@@ -89,9 +89,9 @@ impl DetailPool {
         }
         let place = self.take_layer(device)?;
         let [slopes, rise] = self.textures.get(place.array)?;
-        let bytes = |halves: &mut dyn Iterator<Item = half::f16>| halves.flat_map(half::f16::to_le_bytes).collect();
-        write(queue, slopes, place.layer, bytes(&mut tile.slopes.iter().flatten().copied()));
-        write(queue, rise, place.layer, bytes(&mut tile.rise_m.iter().copied()));
+        let bytes = |halves: &mut dyn Iterator<Item = half::f16>| -> Vec<u8> { halves.flat_map(half::f16::to_le_bytes).collect() };
+        write(queue, slopes, place.layer, &bytes(&mut tile.slopes.iter().flatten().copied()));
+        write(queue, rise, place.layer, &bytes(&mut tile.rise_m.iter().copied()));
         self.held.insert(tile.serial, Held { place, drawn_in_frame: self.frame });
         Some(place)
     }
@@ -150,7 +150,7 @@ impl DetailPool {
 const EXTENT: wgpu::Extent3d =
     wgpu::Extent3d { width: DETAIL_SIDE as u32, height: DETAIL_SIDE as u32, depth_or_array_layers: 1 };
 
-fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, layer: u32, bytes: Vec<u8>) {
+fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, layer: u32, bytes: &[u8]) {
     let bytes_per_row = bytes.len() as u32 / EXTENT.height;
     queue.write_texture(
         wgpu::TexelCopyTextureInfo {
@@ -159,7 +159,7 @@ fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, layer: u32, bytes: Vec<u8
             origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
             aspect: wgpu::TextureAspect::All,
         },
-        &bytes,
+        bytes,
         wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(bytes_per_row),

@@ -81,7 +81,7 @@ impl Bench {
     fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<(f64, BuildStats)> {
         let start = Instant::now();
         self.builder.request(planet, view);
-        while self.builder.is_busy() {
+        while !self.builder.has_all_tiles() {
             if start.elapsed() > PATIENCE {
                 return None;
             }
