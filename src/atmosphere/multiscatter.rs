@@ -1,4 +1,5 @@
-//! Light that was scattered twice or more (Hillaire 2020, section 5.5), as a table by altitude and the star's height.
+//! Light that was scattered twice or more (Hillaire 2020, section 5.5), as a table by altitude and the star's height: the same
+//! directions and steps as in `multiscatter.wgsl`, in 64 bits.
 
 use super::depth::bilinear;
 use super::line::Line;
@@ -10,10 +11,11 @@ use std::f64::consts::PI;
 
 /// Texels along each side, as in `multiscatter.wgsl`. They crowd at the ground and about the terminator.
 const SIDE: usize = 32;
-/// Directions: rings from zenith to nadir, and points along half of each ring (the other half is its mirror image).
-const RINGS: usize = 20;
-const AROUND: usize = 8;
-const STEPS: u32 = 40;
+/// Rings of equal height from zenith to nadir.
+const RINGS: usize = 16;
+/// Points along half of each ring; the other half is its mirror image.
+const AROUND: usize = 4;
+const STEPS: u32 = 20;
 /// Most of the light that may come back: where nothing gets out, the series has no end.
 const MOST_RETURNED: f64 = 0.999;
 
@@ -23,18 +25,18 @@ pub(super) struct MultiscatterTable {
     texels: Vec<DVec3>,
 }
 
+/// Cosine to the zenith of each ring.
+fn rings() -> impl Iterator<Item = f64> {
+    (0..RINGS).map(|ring| 1.0 - 2.0 * (ring as f64 + 0.5) / RINGS as f64)
+}
+
 /// The share of isotropic light from a place that the air sends back to it: f_ms. Always less than one.
 pub(super) fn returned(medium: &Medium, radius: f64, altitude: f64) -> DVec3 {
     let mut returned = DVec3::ZERO;
-    for ring in 0..RINGS {
-        let line = Line { radius, altitude, mu: ring_mu(ring) };
-        march(medium, &line, |_, inside| returned += inside);
+    for mu in rings() {
+        march(medium, &Line { radius, altitude, mu }, |_, inside| returned += inside / RINGS as f64);
     }
-    (returned / RINGS as f64).min(DVec3::splat(MOST_RETURNED))
-}
-
-fn ring_mu(ring: usize) -> f64 {
-    1.0 - 2.0 * (ring as f64 + 0.5) / RINGS as f64
+    returned.min(DVec3::splat(MOST_RETURNED))
 }
 
 /// Calls `each` with the way along a ray and what of isotropic unit light the air there scatters to its beginning. Gives the
@@ -74,27 +76,29 @@ impl MultiscatterTable {
 
 /// Mean radiance at a place of light that was scattered once on its way there, by air or ground, as if evenly to all sides.
 fn second(lit: &Lit, altitude: f64, sun_mu: f64) -> DVec3 {
-    let sun = DVec3::new((1.0 - sun_mu * sun_mu).max(0.0).sqrt(), 0.0, sun_mu);
-    let origin = DVec3::Z * (lit.radius + altitude);
+    let (radius, sun_flat) = (lit.radius, (1.0 - sun_mu * sun_mu).max(0.0).sqrt());
     let mut sum = DVec3::ZERO;
-    for i in 0..RINGS * AROUND {
-        let mu = ring_mu(i / AROUND);
-        let angle = PI * ((i % AROUND) as f64 + 0.5) / AROUND as f64;
-        let flat = (1.0 - mu * mu).sqrt();
-        let dir = DVec3::new(flat * angle.cos(), flat * angle.sin(), mu);
-        let line = Line { radius: lit.radius, altitude, mu };
-        let cosine = dir.dot(sun);
-        let sun_mu_at = |t: f64| {
-            let along = ((lit.radius + altitude) * sun_mu + t * cosine) / (lit.radius + line.altitude_at(t));
-            along.clamp(-1.0, 1.0)
+    let share = 1.0 / (RINGS * AROUND) as f64;
+    for mu in rings() {
+        let line = Line { radius, altitude, mu };
+        let flat = (1.0 - mu * mu).max(0.0).sqrt();
+        let cosines: [f64; AROUND] = std::array::from_fn(|i| {
+            let angle = PI * (i as f64 + 0.5) / AROUND as f64;
+            mu * sun_mu + flat * sun_flat * angle.cos()
+        });
+        // Cosine between zenith and star after a way along each of the rays of the ring.
+        let sun_mus = |t: f64, altitude_there: f64| {
+            cosines.map(|c| (((radius + altitude) * sun_mu + t * c) / (radius + altitude_there)).clamp(-1.0, 1.0))
         };
         let transmittance = march(&lit.medium, &line, |t, inside| {
-            sum += inside * lit.sunlight(line.altitude_at(t), sun_mu_at(t)) / (4.0 * PI);
+            let there = line.altitude_at(t);
+            let light: DVec3 = sun_mus(t, there).into_iter().map(|mu| lit.sunlight(there, mu)).sum();
+            sum += inside * light * (share / (4.0 * PI));
         });
         if let Some(ground) = line.ground() {
-            let ground_mu = (origin + dir * ground).normalize().dot(sun);
-            sum += transmittance * lit.sunlight(0.0, ground_mu) * (ground_mu.max(0.0) / PI) * lit.medium.ground_albedo;
+            let light: DVec3 = sun_mus(ground, 0.0).into_iter().map(|mu| lit.sunlight(0.0, mu) * mu.max(0.0)).sum();
+            sum += transmittance * light * lit.medium.ground_albedo * (share / PI);
         }
     }
-    sum / (RINGS * AROUND) as f64
+    sum
 }

@@ -9,6 +9,8 @@
 //! - `air`: the air in front of everything, stars and the star's disc behind it
 //! - `tonemap`: radiance to display
 //!
+//! `sky_probe` asks the shaders of the air about single rays.
+//!
 //! Around them: `shaders` (includes, checks, hot reload), `globals` (the uniform buffer), `targets`, `gpu` (helpers),
 //! `scene_pass` (what the full-screen passes over the scene share).
 
@@ -23,11 +25,14 @@ mod noise_tile;
 mod pool;
 mod scene_pass;
 pub mod shaders;
+mod sky_probe;
 mod tables;
 mod targets;
 mod terrain;
 mod tonemap;
 mod water;
+
+pub use sky_probe::SkyAnswer;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};
@@ -100,6 +105,9 @@ pub enum RenderError {
     /// A shader does not compile: what naga or the driver says, with the file and line it comes from.
     #[error("{0}")]
     Shader(String),
+    /// The device does not answer.
+    #[error("the device: {0}")]
+    Device(String),
 }
 
 /// What one frame drew.

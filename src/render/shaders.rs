@@ -28,16 +28,17 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "math.wgsl",
     "mottle.wgsl",
     "multiscatter.wgsl",
+    "optical_depth.wgsl",
     "scattering.wgsl",
     "screen.wgsl",
     "sea.wgsl",
     "sky.wgsl",
+    "sky_probe.wgsl",
     "stars.wgsl",
     "surface.wgsl",
     "tables.wgsl",
     "terrain.wgsl",
     "tonemap.wgsl",
-    "transmittance.wgsl",
     "water.wgsl",
 ];
 
@@ -48,10 +49,11 @@ pub const ENTRIES: &[&str] = &[
     "clouds.wgsl",
     "irradiance.wgsl",
     "multiscatter.wgsl",
+    "optical_depth.wgsl",
     "sky.wgsl",
+    "sky_probe.wgsl",
     "terrain.wgsl",
     "tonemap.wgsl",
-    "transmittance.wgsl",
     "water.wgsl",
 ];
 

@@ -19,7 +19,7 @@ type WeatherKey = (f64, f64, u32, u32, f64);
 /// The textures of group 1 and their bind groups.
 pub(crate) struct Tables {
     pub(crate) layout: wgpu::BindGroupLayout,
-    transmittance: wgpu::TextureView,
+    optical_depth: wgpu::TextureView,
     multiscatter: wgpu::TextureView,
     irradiance: wgpu::TextureView,
     sky: wgpu::TextureView,
@@ -49,7 +49,7 @@ impl Tables {
                 Slot::Float2d,
             ],
         );
-        let transmittance = gpu::target(device, "transmittance", [256, 64], FORMAT);
+        let optical_depth = gpu::target(device, "optical depth", [256, 64], FORMAT);
         let multiscatter = gpu::target(device, "multiscatter", [32, 32], FORMAT);
         let irradiance = gpu::target(device, "irradiance", [64, 16], FORMAT);
         let sky = gpu::target(device, "sky", [64, 32], FORMAT);
@@ -57,7 +57,7 @@ impl Tables {
         let noise = noise_tile::upload(device, queue);
         let biomes = biome_table::BiomeTextures::new(device, queue, &Biomes::default());
         let views = [
-            &transmittance,
+            &optical_depth,
             &multiscatter,
             &irradiance,
             &sky,
@@ -69,7 +69,7 @@ impl Tables {
         let group = gpu::texture_group(device, "tables", &layout, &views);
         Self {
             layout,
-            transmittance,
+            optical_depth,
             multiscatter,
             irradiance,
             sky,
@@ -135,7 +135,7 @@ impl Tables {
         passes: &Passes,
     ) {
         let air = &passes.air_tables;
-        gpu::draw_screen(encoder, "transmittance", &air.transmittance, &[globals], &[&self.transmittance]);
+        gpu::draw_screen(encoder, "optical depth", &air.optical_depth, &[globals], &[&self.optical_depth]);
         let first = self.bind(device, Some(1));
         gpu::draw_screen(encoder, "multiscatter", &air.multiscatter, &[globals, &first], &[&self.multiscatter]);
         let second = self.bind(device, Some(2));
@@ -146,7 +146,7 @@ impl Tables {
     /// The tables as a bind group; with `ready`, only so many tables of the air, the others being filled right now.
     fn bind(&self, device: &wgpu::Device, ready: Option<usize>) -> wgpu::BindGroup {
         let mut views = [
-            &self.transmittance,
+            &self.optical_depth,
             &self.multiscatter,
             &self.irradiance,
             &self.sky,
@@ -156,7 +156,7 @@ impl Tables {
             &self.biomes.roughness,
         ];
         if let Some(ready) = ready {
-            views[ready..4].fill(&self.transmittance);
+            views[ready..4].fill(&self.optical_depth);
         }
         gpu::texture_group(device, "tables", &self.layout, &views)
     }
