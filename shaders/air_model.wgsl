@@ -67,8 +67,9 @@ fn horizon_cosine(h: f32) -> f32 {
     return -sqrt(height * (2.0 * radius + height)) / (radius + height);
 }
 
-// Share of the star's disc over the horizon of the smooth planet.
-fn sun_over_horizon(h: f32, mu: f32) -> f32 {
-    let half = max(globals.sun_dir.w, 0.0015);
-    return smoothstep(-half, half, mu - horizon_cosine(h));
+// Share of the star's disc over the horizon of the smooth planet, where its middle is `over` the horizon (difference of
+// cosines); the mean over a stretch along which that changes by `change`.
+fn disc_share(over: f32, change: f32) -> f32 {
+    let half = max(globals.sun_dir.w, 0.0015) + 0.5 * abs(change);
+    return smoothstep(-half, half, over);
 }

@@ -19,7 +19,7 @@ fn clear_transmittance(h: f32, mu: f32) -> vec3f {
 
 // Transmittance to the star, its setting behind the smooth planet included.
 fn sun_transmittance(h: f32, mu: f32) -> vec3f {
-    let visible = sun_over_horizon(h, mu);
+    let visible = disc_share(mu - horizon_cosine(h), 0.0);
     if visible <= 0.0 { return vec3f(0.0); }
     return clear_transmittance(h, mu) * visible;
 }

@@ -9,12 +9,6 @@ fn way_through_air(h: f32, mu: f32, far: f32) -> vec2f {
     return vec2f(max(shell.x, 0.0), min(shell.y, far));
 }
 
-// One stretch of air: what it scatters towards the eye for unit irradiance, per unit of its own extinction.
-fn source(h: f32, sun_mu: f32, phase_rayleigh: f32, phase_mie: f32, air: Air) -> vec3f {
-    let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
-    return direct * sun_transmittance(h, sun_mu) + (air.rayleigh + air.mie) * multiscatter(h, sun_mu);
-}
-
 struct AirLight {
     // What the air scatters towards the eye, for unit irradiance
     radiance: vec3f,
@@ -39,6 +33,7 @@ fn air_light(
     let middle = clamp(-(radius + h) * mu, way.x, way.y);
     let start = -sqrt(middle - way.x);
     let step = (sqrt(way.y - middle) - start) / steps;
+    var last_over = 0.0;
     for (var i = 0.0; i < steps; i += 1.0) {
         let w = start + i * step;
         let t0 = bent(w, middle);
@@ -48,7 +43,15 @@ fn air_light(
         let height = altitude_along(radius, h, mu, t);
         let sun_mu = clamp(((radius + h) * sun_up + t * cosine) / (radius + height), -1.0, 1.0);
         let air = air_at(height);
-        let shine = source(height, sun_mu, phase_rayleigh, phase_mie, air);
+        // The shadow of the planet begins somewhere within a stretch: the mean over it, or few steps would show as bands.
+        let over = sun_mu - horizon_cosine(height);
+        let visible = disc_share(over, select(over - last_over, 0.0, i == 0.0));
+        last_over = over;
+        var shine = (air.rayleigh + air.mie) * multiscatter(height, sun_mu);
+        if visible > 0.0 {
+            let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
+            shine += direct * clear_transmittance(height, sun_mu) * visible;
+        }
         let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
         let inside = out.transmittance * shine * shining_length(air.extinction, length_km);
         out.radiance += inside * mix(1.0, cloud_through, behind);
