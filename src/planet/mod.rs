@@ -3,6 +3,7 @@
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
 //! - [`layers`], [`shapes`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; everything else; the biome
 //!   table)
+//! - `airs`, `star_color`: atmospheres to start from; the colour of a star by its temperature
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
@@ -10,6 +11,7 @@
 //! - [`shipped`]: the presets that come with the program
 //! - [`random`]: random planets that are always valid
 
+mod airs;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
@@ -21,14 +23,17 @@ pub mod parts;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
+mod star_color;
 pub mod table;
 pub(crate) mod text;
 pub mod validate;
 
+pub use airs::{STARTING_AIRS, StartingAir};
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer, Mask};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use shapes::{Craters, Fbm, Ridged, Shape};
+pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
 
 use param::{Domain, ParamPath, Params, Stage, Unit, log, params};
