@@ -84,5 +84,8 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         scene = stars(dir, shown) * (drowned * spread) + sun_disc(dir);
     }
     light += glare(dir) + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene;
-    return vec4f(min(light, vec3f(60000.0)), 1.0);
+    // How much the pixel counts for exposure: the sky a little seen from beneath, from outer space not at all.
+    var counts = 1.0;
+    if far >= NOTHING_KM { counts = 0.3 * (1.0 - smoothstep(0.1, 0.5, globals.eye_up.w / max(globals.air.x, 1e-3))); }
+    return vec4f(min(light, vec3f(60000.0)), counts);
 }

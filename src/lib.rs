@@ -27,6 +27,7 @@
 //! - [`planet`]: what a planet is: the preset's data, its parameters, loading and saving
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
 //! - [`terrain`]: what the surface is: [`terrain::Terrain`], the evaluator that everything asks
+//! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`lod`]: which nodes are shown from where
 //! - [`build`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device

@@ -7,6 +7,7 @@
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
+//! - `exposure`: how bright the picture is, and what exposure suits it
 //! - `tonemap`: radiance to display
 //!
 //! `sky_probe` asks the shaders of the air about single rays.
@@ -19,6 +20,7 @@ mod air_tables;
 mod biome_table;
 mod cloud_map;
 mod clouds;
+mod exposure;
 mod globals;
 mod gpu;
 mod noise_tile;
@@ -32,6 +34,7 @@ mod terrain;
 mod tonemap;
 mod water;
 
+pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 
 use crate::build::Surface;
@@ -93,7 +96,7 @@ pub struct Frame<'a> {
     pub sun_dir_planet: DVec3,
     /// Seconds since time zero: drift of the clouds, waves.
     pub time_secs: f64,
-    /// Exposure in stops; 0 suits a sunlit planet.
+    /// Exposure in stops, of which 0 suits a sunlit planet; with automatic exposure ([`Renderer::metering`]) a correction to it.
     pub exposure_ev: f64,
     /// Shaded, or a debug view.
     pub debug_view: DebugView,
@@ -127,6 +130,7 @@ pub(crate) struct Passes {
     water: water::WaterPass,
     clouds: clouds::CloudsPass,
     air: air::AirPass,
+    exposure: exposure::ExposurePass,
     tonemap: tonemap::TonemapPass,
 }
 
@@ -144,6 +148,7 @@ impl Passes {
             water: water::WaterPass::new(device, globals, tables)?,
             clouds: clouds::CloudsPass::new(device, globals, tables)?,
             air: air::AirPass::new(device, globals, tables)?,
+            exposure: exposure::ExposurePass::new(device)?,
             tonemap: tonemap::TonemapPass::new(device, globals, target_format)?,
         })
     }
@@ -151,6 +156,8 @@ impl Passes {
 
 /// All GPU state of one viewport.
 pub struct Renderer {
+    /// Whether exposure is set by hand or by what there is to see.
+    pub metering: Metering,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
@@ -178,7 +185,17 @@ impl Renderer {
         let passes = Passes::new(device, &globals.layout, &tables.layout, target_format)?;
         let terrain = terrain::TerrainResources::new(device);
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
-        Ok(Self { target_format, globals, tables, terrain, targets, passes, watch, shader_error })
+        Ok(Self {
+            metering: Metering::Manual,
+            target_format,
+            globals,
+            tables,
+            terrain,
+            targets,
+            passes,
+            watch,
+            shader_error,
+        })
     }
     /// Draws one frame and submits it.
     pub fn render(
@@ -222,7 +239,10 @@ impl Renderer {
             self.passes.air.draw(device, &mut encoder, groups, &targets, scene);
             scene = 1 - scene;
         }
-        self.passes.tonemap.draw(device, &mut encoder, globals, &targets.hdr[scene], target);
+        let metering = if frame.debug_view == DebugView::Shaded { self.metering } else { Metering::Manual };
+        self.passes.exposure.draw(device, queue, &mut encoder, &targets.hdr[scene], size_px, metering);
+        let exposure = &self.passes.exposure.result;
+        self.passes.tonemap.draw(device, &mut encoder, globals, &targets.hdr[scene], target, exposure);
         queue.submit([encoder.finish()]);
         self.targets = Some(targets);
         stats

@@ -15,12 +15,12 @@ impl TonemapPass {
         globals: &wgpu::BindGroupLayout,
         format: wgpu::TextureFormat,
     ) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "tonemap", &[Slot::Float2d]);
+        let layout = gpu::layout(device, "tonemap", &[Slot::Float2d, Slot::Uniform]);
         let pipeline = gpu::screen_pipeline(device, "tonemap.wgsl", &[globals, &layout], &[format])?;
         Ok(Self { pipeline, layout })
     }
 
-    /// Shows `hdr` in `target`.
+    /// Shows `hdr` in `target`, `exposure` being what was metered.
     pub(crate) fn draw(
         &self,
         device: &wgpu::Device,
@@ -28,8 +28,16 @@ impl TonemapPass {
         globals: &wgpu::BindGroup,
         hdr: &wgpu::TextureView,
         target: &wgpu::TextureView,
+        exposure: &wgpu::Buffer,
     ) {
-        let input = gpu::texture_group(device, "tonemap", &self.layout, &[hdr]);
+        let input = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("tonemap"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(hdr) },
+                wgpu::BindGroupEntry { binding: 1, resource: exposure.as_entire_binding() },
+            ],
+        });
         gpu::draw_screen(encoder, "tonemap", &self.pipeline, &[globals, &input], &[target]);
     }
 }

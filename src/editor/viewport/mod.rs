@@ -4,8 +4,10 @@
 //! - [`input`]: what the pointer and the keys do
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
+//! - [`adaptation`]: exposure that follows what there is to see
 //! - [`clock`]: the time from an edit to its picture
 
+pub mod adaptation;
 pub mod camera_controller;
 pub mod clock;
 pub mod ground;
@@ -18,6 +20,7 @@ use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use crate::render::{DebugView, Frame, FrameStats, Renderer};
 use crate::sphere::LatLon;
+use adaptation::Adaptation;
 use camera_controller::{CameraController, Ground};
 use clock::{EditClock, FrameMeter};
 use eframe::egui;
@@ -46,6 +49,8 @@ pub struct ViewSettings {
     pub quality: Quality,
     /// Exposure in stops.
     pub exposure_ev: f64,
+    /// Whether the exposure is a correction to what suits the picture.
+    pub auto_exposure: bool,
     /// Seconds since time zero.
     pub time_secs: f64,
     /// Whether time goes on.
@@ -61,6 +66,7 @@ struct PictureKey {
     view: View,
     time_secs: f64,
     exposure_ev: f64,
+    auto_exposure: bool,
     debug_view: DebugView,
 }
 
@@ -71,6 +77,7 @@ impl PictureKey {
             && self.view == other.view
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
+            && self.auto_exposure == other.auto_exposure
             && self.debug_view == other.debug_view
     }
 }
@@ -93,6 +100,7 @@ pub struct Viewport {
     drawing: Drawing,
     target: Option<Target>,
     drawn: Option<PictureKey>,
+    adaptation: Adaptation,
     stats: FrameStats,
     controller: CameraController,
     ground_radius_m: f64,
@@ -117,12 +125,15 @@ impl Viewport {
             wgpu::DeviceType::DiscreteGpu => Quality::High,
             _ => Quality::Medium,
         });
+        // On a software adapter the pictures in between would cost more than they please.
+        let by_eye = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
         let ctx = ctx.clone();
         Self {
             settings: ViewSettings {
                 debug_view: DebugView::default(),
                 quality,
                 exposure_ev: 0.0,
+                auto_exposure: true,
                 time_secs: 0.0,
                 playing: false,
                 time_speed: 600.0,
@@ -133,6 +144,7 @@ impl Viewport {
             drawing,
             target: None,
             drawn: None,
+            adaptation: Adaptation::new(by_eye),
             stats: FrameStats::default(),
             controller: CameraController::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
@@ -214,6 +226,8 @@ impl Viewport {
         }
         if moved.animating || settings.playing {
             ui.ctx().request_repaint();
+        } else if settings.auto_exposure && self.adaptation.is_under_way() {
+            ui.ctx().request_repaint_after(adaptation::PAUSE);
         }
 
         let pixels_per_point = ui.ctx().pixels_per_point();
@@ -250,13 +264,16 @@ impl Viewport {
             view,
             time_secs: self.settings.time_secs,
             exposure_ev: self.settings.exposure_ev,
+            auto_exposure: self.settings.auto_exposure,
             debug_view: self.settings.debug_view,
         };
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
         let resized = target.resize(view.size_px);
-        if !resized && self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key)) {
+        let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
+        if !changed && !(self.settings.auto_exposure && self.adaptation.is_under_way()) {
             return;
         }
+        renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
         let star = &planet.star;
         self.stats = renderer.render(
             &state.device,
