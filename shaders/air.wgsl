@@ -76,16 +76,21 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     var light = air.radiance * globals.sun_irradiance.rgb;
     if far >= NOTHING_KM {
-        // Stars drown in a bright sky.
-        let drowned = 1.0 / (1.0 + 3000.0 * luminance(light) + 40.0 * luminance(clouds.rgb));
+        // Stars drown in a bright sky, and at dusk too, when exposure is long.
+        let drowned = 1.0 / (1.0 + 1e6 * luminance(light) + 40.0 * luminance(clouds.rgb));
         // As wide as a pixel of the display, not of this picture: as bright at every quality.
         let shown = globals.eye_low_m.w * max(f32(globals.modes.y), 1.0);
         let spread = select(1.0, 0.5, globals.modes.y == 0u);
         scene = stars(dir, shown) * (drowned * spread) + sun_disc(dir);
     }
+    let air_only = luminance(light);
     light += glare(dir) + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene;
-    // How much the pixel counts for exposure: the sky a little seen from beneath, from outer space not at all.
+    // How much the pixel counts for exposure: the sky a little seen from beneath, from outer space not at all, stars never.
     var counts = 1.0;
-    if far >= NOTHING_KM { counts = 0.3 * (1.0 - smoothstep(0.1, 0.5, globals.eye_up.w / max(globals.air.x, 1e-3))); }
+    if far >= NOTHING_KM {
+        let inside = 1.0 - smoothstep(0.1, 0.5, globals.eye_up.w / max(globals.air.x, 1e-3));
+        let shown = air_only + luminance(clouds.rgb);
+        counts = 0.3 * inside * saturate1(shown / (shown + luminance(scene) + 1e-9));
+    }
     return vec4f(min(light, vec3f(60000.0)), counts);
 }

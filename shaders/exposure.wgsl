@@ -49,7 +49,12 @@ fn compute() {
         passed += here;
     }
     var ev = 0.0;
-    if weight > 0.0 { ev = clamp((NORMAL_EV - sum / weight) * FOLLOWED, LEAST_EV, MOST_EV); }
+    if weight > 0.0 {
+        let mean = sum / weight;
+        // Where there is next to no light the eye gives up, or the end of dusk would be a sudden noon of stars.
+        let most = min(MOST_EV, (mean - DARKEST_EV) * 1.5);
+        ev = clamp((NORMAL_EV - mean) * FOLLOWED, LEAST_EV, max(most, 0.0));
+    }
     exposure.ev = mix(exposure.ev, ev, step.x);
     exposure.factor = exp2(exposure.ev);
     for (var i = 0u; i < BINS; i++) { bins[i] = 0u; }

@@ -26,7 +26,7 @@ pub const STARTING_AIRS: &[StartingAir] = &[
     StartingAir { name: "Mars", note: "Thin and dusty: butterscotch by day, a blue sunset", make: mars },
     StartingAir { name: "Titan", note: "Deep orange haze high above the ground", make: titan },
     StartingAir { name: "Venus", note: "Dense and yellow; the ground lies in an orange dusk", make: venus },
-    StartingAir { name: "Alien green", note: "Green by day, violet towards the night", make: green },
+    StartingAir { name: "Alien green", note: "Green by day, a violet sunset", make: green },
 ];
 
 /// Dust takes more red out of light than blue, and swallows blue: what is left around a low star is blue.

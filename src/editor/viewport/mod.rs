@@ -270,7 +270,8 @@ impl Viewport {
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
         let resized = target.resize(view.size_px);
         let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
-        if !changed && !(self.settings.auto_exposure && self.adaptation.is_under_way()) {
+        let adapting = self.settings.auto_exposure && self.adaptation.is_under_way();
+        if !changed && !adapting {
             return;
         }
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
