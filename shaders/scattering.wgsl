@@ -66,7 +66,8 @@ fn air_light(
 // The same down to the smooth ground or out into space, without clouds.
 fn scattered_from(h: f32, up: vec3f, dir: vec3f, sun: vec3f, steps: f32) -> vec3f {
     let radius = globals.eye_km.w;
-    let ground = ray_sphere((radius + h) * dot(dir, up), h * (2.0 * radius + h));
-    let far = select(NOTHING_KM, ground.x, ground.x > 0.0 && ground.y >= ground.x);
+    let mu = dot(dir, up);
+    let ground = ray_sphere((radius + h) * mu, h * (2.0 * radius + h));
+    let far = select(NOTHING_KM, ground.x, mu < 0.0 && ground.x >= 0.0 && ground.y >= ground.x);
     return air_light(h, up, dir, sun, far, steps, NOTHING_KM, 1.0).radiance;
 }

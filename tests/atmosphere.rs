@@ -129,6 +129,14 @@ proptest! {
 }
 
 #[test]
+fn the_ground_ends_a_ray_that_begins_on_it() {
+    let air = Air::new(&earth());
+    assert_eq!(air.radiance(&ray(0.0, 120.0, 30.0, 0.0)), [0.0; 3]);
+    let [zero, two] = [0.0, 2.0].map(|altitude_m| air.radiance(&ray(altitude_m, 60.0, 30.0, 0.0)));
+    assert!(zero.iter().zip(two).all(|(a, b)| (a / b - 1.0).abs() < 1e-3), "{zero:?} {two:?}");
+}
+
+#[test]
 fn a_planet_without_air_has_a_black_sky_and_clear_sunlight() {
     let air = Air::new(&Planet::default());
     assert_eq!(air.radiance(&ray(2.0, 30.0, 40.0, 10.0)), [0.0; 3]);

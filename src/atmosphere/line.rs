@@ -33,7 +33,7 @@ impl Line {
 
     /// Way to the ground, if the ray meets it.
     pub(super) fn ground(&self) -> Option<f64> {
-        self.meets(0.0).map(|(near, _)| near).filter(|near| *near > 0.0)
+        self.meets(0.0).map(|(near, _)| near).filter(|near| *near >= 0.0 && self.mu < 0.0)
     }
 
     /// The part within the air that ends at `top`, up to the ground.

@@ -5,7 +5,7 @@
 //! - `depth`: optical depth to the top of the air, exact and as a table
 //! - `multiscatter`: light that is scattered twice or more, as a table
 //! - `scatter`: transmittance to the star and radiance along a ray, by the method of the shaders
-//! - [`reference`]: the same radiance by path tracing, slow and without the method's approximation
+//! - [`mod@reference`]: the same radiance by path tracing, slow and without the method's approximation
 //!
 //! Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020. Inside, lengths are
 //! kilometres, because coefficients are per kilometre; colours are linear RGB; radiance is that for a star of unit
