@@ -58,6 +58,10 @@ struct Globals {
     // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: steps of
     // mottling
     modes: vec4u,
+    // The eye that the tiles were chosen for, greater part and rest, metres; w: change of the biome table's row (0 to 1) with
+    // each metre of height, below 0 where rows go by temperature; w of the rest: angle of its pixels, radians
+    chosen_eye_high_m: vec4f,
+    chosen_eye_low_m: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;

@@ -2,6 +2,11 @@
 #include "cloud_model.wgsl"
 #include "mottle.wgsl"
 
+// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents have
+// them; height above the mesh, metres.
+@group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
+@group(2) @binding(1) var detail_rise_m: texture_2d_array<f32>;
+
 struct Vertex {
     @location(0) high_m: vec3f,
     @location(1) height_m: f32,
@@ -10,8 +15,10 @@ struct Vertex {
     @location(4) climate: vec2f,
     @location(5) normal_oct: vec2f,
     @location(6) parent_normal_oct: vec2f,
-    // Distances in metres between which the parent's normal takes over, and the level.
-    @location(7) morph: vec3f,
+    // Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
+    @location(7) tile: vec4f,
+    // The axis that the first tangent of the slopes follows.
+    @location(8) slope_axis: vec3f,
 }
 
 struct Ground {
@@ -22,7 +29,18 @@ struct Ground {
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
     @location(5) temperature_c: f32,
+    // Place in the tile, 0 to 1; how far the parent has taken over.
+    @location(6) place: vec3f,
+    // From the eye that the tile was chosen for
+    @location(7) chosen_distance_m: f32,
+    // Layer of the detail tile.
+    @location(8) @interpolate(flat) layer: f32,
+    @location(9) @interpolate(flat) slope_axis: vec3f,
 }
+
+// Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
+const TILE_SIDE: u32 = 33u;
+const DETAIL_SIDE: f32 = 129.0;
 
 // Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
 fn from_octahedral(e: vec2f) -> vec3f {
@@ -35,17 +53,48 @@ fn from_octahedral(e: vec2f) -> vec3f {
 }
 
 @vertex
-fn vertex(in: Vertex) -> Ground {
+fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     var out: Ground;
     // High and low parts apart: equal points give equal bits in every tile.
     out.rel_m = (in.high_m - globals.eye_high_m.xyz) + (in.low_m - globals.eye_low_m.xyz);
     out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
-    let far = saturate1((length(out.rel_m) - in.morph.x) / max(in.morph.y - in.morph.x, 1e-3));
+    let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
+    out.chosen_distance_m = length(chosen_rel_m);
+    let far = saturate1((out.chosen_distance_m - in.tile.x) / max(in.tile.y - in.tile.x, 1e-3));
     out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), far);
     out.climate = in.climate;
     out.height_m = in.height_m;
-    out.level = in.morph.z;
+    out.level = in.tile.z;
     out.temperature_c = in.temperature_c;
+    // Each tile's vertices are a whole number of tiles from the buffer's start.
+    let number = index % (TILE_SIDE * TILE_SIDE);
+    out.place = vec3f(vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
+    out.layer = in.tile.w;
+    out.slope_axis = in.slope_axis;
+    return out;
+}
+
+// The ground at a pixel: the tile's detail, or its vertices where there is none yet.
+struct Relief {
+    normal: vec3f,
+    height_m: f32,
+    climate: vec2f,
+}
+
+fn relief_of(in: Ground, up: vec3f) -> Relief {
+    if in.layer < 0.0 { return Relief(normalize(in.normal), in.height_m, in.climate); }
+    let texel = (in.place.xy * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
+    let slopes = textureSampleLevel(detail_slopes, clamped, texel, i32(in.layer), 0.0);
+    let slope = mix(slopes.xy, slopes.zw, in.place.z);
+    let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
+    var out: Relief;
+    out.normal = normalize(up - slope.x * east - slope.y * cross(up, east));
+    out.height_m = in.height_m + textureSampleLevel(detail_rise_m, clamped, texel, i32(in.layer), 0.0).r;
+    // Higher ground is colder; over the sea its surface counts.
+    let rows_per_m = globals.chosen_eye_high_m.w;
+    let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
+    let risen_m = max(out.height_m, least_m) - max(in.height_m, least_m);
+    out.climate = vec2f(in.climate.x, saturate1(in.climate.y + risen_m * rows_per_m));
     return out;
 }
 
@@ -109,30 +158,76 @@ fn level_color(level: f32) -> vec3f {
     return 0.15 + 0.75 * saturate(abs(fract(hue + vec3f(0.0, 0.6667, 0.3333)) * 6.0 - 3.0) - 1.0);
 }
 
+// Cold to hot, white in the middle.
+fn temperature_color(x: f32) -> vec3f {
+    let k = saturate1(x) * 4.0;
+    var c = mix(vec3f(0.05, 0.03, 0.35), vec3f(0.10, 0.40, 0.80), saturate1(k));
+    c = mix(c, vec3f(0.85), saturate1(k - 1.0));
+    c = mix(c, vec3f(0.85, 0.40, 0.06), saturate1(k - 2.0));
+    return mix(c, vec3f(0.35, 0.01, 0.02), saturate1(k - 3.0));
+}
+
+// Sand, grass, deep water.
+fn moisture_color(x: f32) -> vec3f {
+    let c = mix(vec3f(0.75, 0.55, 0.25), vec3f(0.10, 0.45, 0.10), saturate1(x * 2.0));
+    return mix(c, vec3f(0.01, 0.08, 0.55), saturate1(x * 2.0 - 1.0));
+}
+
+// Blue, green, yellow, red: a step for each factor of four from 1 on.
+fn spacing_color(pixels: f32) -> vec3f {
+    let k = log2(max(pixels, 1.0)) * 0.5;
+    var c = mix(vec3f(0.03, 0.08, 0.60), vec3f(0.05, 0.50, 0.10), saturate1(k));
+    c = mix(c, vec3f(0.80, 0.65, 0.05), saturate1(k - 1.0));
+    return mix(c, vec3f(0.65, 0.02, 0.02), saturate1(k - 2.0));
+}
+
+// Pixels from one vertex to the next, where the ground is seen head on from the eye that the tile was chosen for.
+fn spacing_pixels(in: Ground) -> f32 {
+    let spacing_m = 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(in.level));
+    return spacing_m / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
+}
+
+// 1 at the tile's border, over about one and a half pixels on its own side.
+fn border(in: Ground) -> f32 {
+    let pixel = max(fwidth(in.place.xy), vec2f(1e-6));
+    let away = min(in.place.xy, 1.0 - in.place.xy) / pixel;
+    return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
+}
+
 fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
-    let shade = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
+    let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
+    // Here, where all pixels of a quad pass: derivatives need that.
+    let edge = border(in);
     switch globals.modes.x {
         case 1u: {
             let span = max(globals.misc.z - globals.misc.y, 1.0);
-            return ramp((in.height_m - globals.misc.y) / span) * shade;
+            return ramp((in.height_m - globals.misc.y) / span) * lit;
         }
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
-        case 3u: {
+        case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
+        case 4u: {
             let cells = vec2f(textureDimensions(biome_albedo));
             let cell = clamp(vec2f(in.climate.x, 1.0 - in.climate.y) * cells, vec2f(0.0), cells - 1.0);
             return textureLoad(biome_albedo, vec2i(cell), 0).rgb;
         }
-        case 4u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
-        case 5u: { return level_color(in.level) * shade; }
-        case 6u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
+        case 6u: { return moisture_color(in.climate.x) * lit; }
+        case 7u: { return level_color(in.level) * lit; }
+        case 8u: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
+        case 9u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        case 10u: { return spacing_color(spacing_pixels(in)) * lit; }
         default: { return vec3f(1.0); }
     }
 }
 
-fn shade(in: Ground) -> vec4f {
-    let rel_km = in.rel_m * 0.001;
+fn shade(on_mesh: Ground) -> vec4f {
+    let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
-    var n = normalize(in.normal);
+    let detail = relief_of(on_mesh, up);
+    var in = on_mesh;
+    in.height_m = detail.height_m;
+    in.climate = detail.climate;
+    var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
     if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
@@ -140,7 +235,7 @@ fn shade(in: Ground) -> vec4f {
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let footprint_m = distance_m * globals.eye_low_m.w / max(dot(n, v), 0.08);
+    let footprint_m = max(max(length(dpdx(in.rel_m)), length(dpdy(in.rel_m))), 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
     let ground = material(in, dot(n, up), footprint_m, relief.x);
     n = bumped(n, dpdx(in.rel_m), dpdy(in.rel_m), dpdx(relief.y), dpdy(relief.y));

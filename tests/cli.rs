@@ -110,7 +110,7 @@ fn sample_answers_people_and_machines() {
     assert_eq!((status, err.as_str()), (0, ""));
     let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
     let planet = Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join(AUREL)).unwrap();
-    for key in ["height_m", "slope_deg", "temperature", "moisture"] {
+    for key in ["height_m", "slope_deg", "temperature_c", "temperature", "precipitation_mm", "moisture"] {
         assert!(answer[key].is_number(), "{key}: {answer}");
     }
     assert_eq!(answer["normal"].as_array().unwrap().len(), 3);

@@ -10,7 +10,9 @@ use std::path::PathBuf;
 use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
 use tellus::editor::dialogs::ScriptedDialogs;
+use tellus::editor::viewport::camera::Mode;
 use tellus::planet::Planet;
+use tellus::render::DebugView;
 
 type Editor = Harness<'static, EditorApp>;
 
@@ -119,6 +121,57 @@ fn layers_are_added_edited_and_masked() {
     harness.run_steps(30);
     click(&mut harness, "Remove layer");
     assert_eq!(planet(&harness).layers.len(), count + 1);
+}
+
+#[test]
+fn a_layer_is_dragged_to_another_place_in_one_step() {
+    let mut harness = editor(vec![]);
+    let names =
+        |harness: &Editor| -> Vec<String> { planet(harness).layers.iter().map(|layer| layer.name.clone()).collect() };
+    let before = names(&harness);
+    let steps = undo_len(&harness);
+    let row = |harness: &Editor, index: usize| harness.get_by_label(&format!("Layer {}", before[index])).rect();
+    let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(to);
+    harness.run_steps(2);
+    harness.drop_at(to);
+    harness.run_steps(3);
+    let mut expected = before.clone();
+    let moved = expected.remove(0);
+    expected.insert(2, moved);
+    assert_eq!(names(&harness), expected);
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Move layer".to_owned()));
+    send(&mut harness, Command::Undo);
+    assert_eq!(names(&harness), before);
+}
+
+#[test]
+fn a_curve_is_bent_by_its_points() {
+    let mut harness = editor(vec![]);
+    let name = planet(&harness).layers[0].name.clone();
+    let curve = |harness: &Editor| planet(harness).layers[0].curve.clone();
+    click(&mut harness, &format!("Layer {name}"));
+    click(&mut harness, &format!("Bend Curve of {name}"));
+    assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
+
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
+    let middle = rect.center();
+    harness.drag_at(middle);
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 20.0));
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    harness.drop_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    let [x, y] = curve(&harness)[1];
+    assert!(x.abs() < 0.1 && (0.3..0.9).contains(&y), "{x} {y}");
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, &format!("Reset Curve of {name}"));
+    assert!(curve(&harness).is_empty());
 }
 
 #[test]
@@ -352,4 +405,291 @@ fn unsaved_work_outlives_a_crash() {
     click(&mut harness, "Recover");
     assert_eq!(planet(&harness), edited);
     assert!(harness.state().document().is_dirty());
+}
+
+#[test]
+fn the_performance_panel_tells_where_an_edit_went() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    assert!(harness.query_by_label_contains("times of the next edit").is_some());
+    click(&mut harness, "Climate");
+    slide(&mut harness, "Region size of climate", 900.0);
+    for _ in 0..100 {
+        wait_for_picture(&mut harness);
+        if harness.state().viewport().edit_clock.last().is_some() {
+            break;
+        }
+    }
+    harness.run_steps(2);
+    for step in ["Compare and compile", "Choose tiles", "Climate noise", "Vertices", "Upload", "Draw", "Present"] {
+        assert!(harness.query_by_label(step).is_some(), "{step}");
+    }
+    assert!(harness.query_by_label("Layer noise").is_none(), "no layer was touched");
+    let timeline = harness.state().viewport().edit_clock.timeline().unwrap().clone();
+    let mut ends = timeline.steps.iter().map(|step| step.end_secs);
+    assert!(ends.all(|end_secs| end_secs <= timeline.total.as_secs_f64()), "{timeline:?}");
+    assert!(timeline.uploaded_bytes > 0 && timeline.build.octave_samples > 0);
+    assert!(harness.state().viewport().memory().used_bytes > 0);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    assert!(harness.query_by_label("Draw").is_none());
+}
+
+#[test]
+fn a_height_map_is_chosen_undone_saved_and_missed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let picture = path("maps/heights.png");
+    std::fs::create_dir(path("maps")).unwrap();
+    let pixels: Vec<u8> = (0..8 * 16).map(|i| 100 + i).collect();
+    image::save_buffer(&picture, &pixels, 16, 8, image::ExtendedColorType::L8).unwrap();
+    let preset = path("mine.ron");
+    let mut harness = editor(vec![Some(picture.clone()), Some(preset.clone()), Some(preset.clone())]);
+    let height_m = |harness: &Editor| {
+        let planet = (**harness.state().document().planet()).clone();
+        tellus::terrain::Terrain::new(planet.into()).sample(glam::DVec3::X).layers_m[1]
+    };
+    let settled = |harness: &mut Editor| {
+        for _ in 0..200 {
+            harness.run_steps(1);
+            if !harness.state().pictures().is_reading() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        harness.run_steps(2);
+    };
+    click(&mut harness, "Terrain");
+    click(&mut harness, "Add layer");
+    click(&mut harness, "HeightMap");
+    assert_eq!(height_m(&harness), 0.0);
+    click(&mut harness, "Browse…");
+    settled(&mut harness);
+    let chosen_m = height_m(&harness);
+    assert!(chosen_m > 300.0, "{chosen_m}");
+    assert_eq!(undo_label(&harness), "Choose picture");
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(height_m(&harness), 0.0);
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    settled(&mut harness);
+    assert_eq!(height_m(&harness), chosen_m);
+
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::S);
+    assert!(!harness.state().document().is_dirty());
+    assert!(std::fs::read_to_string(&preset).unwrap().contains("file: \"maps/heights.png\""));
+    assert_eq!(height_m(&harness), chosen_m);
+
+    std::fs::rename(&picture, path("away.png")).unwrap();
+    send(&mut harness, Command::New);
+    send(&mut harness, Command::Open);
+    settled(&mut harness);
+    assert_eq!(harness.state().document().path(), Some(preset.as_path()), "it opens without its picture");
+    assert!(!harness.state().document().is_dirty());
+    assert_eq!(height_m(&harness), 0.0);
+    assert!(harness.query_all_by_label_contains("put the picture there").next().is_some());
+    std::fs::rename(path("away.png"), &picture).unwrap();
+    harness.run_steps(2);
+    settled(&mut harness);
+    assert_eq!(height_m(&harness), chosen_m, "the file is back");
+}
+
+/// The same with a picture that is drawn fast: neither sky nor sea.
+fn plain_editor(answers: Vec<Option<PathBuf>>) -> Editor {
+    let mut harness = editor(answers);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Num8);
+    wait_for_picture(&mut harness);
+    harness
+}
+
+/// Steps until the camera is at rest.
+fn wait_for_camera(harness: &mut Editor) {
+    for _ in 0..400 {
+        harness.step();
+        if !harness.state().viewport().is_moving() {
+            return;
+        }
+    }
+    panic!("the camera never comes to rest");
+}
+
+fn mode(harness: &Editor) -> Mode {
+    harness.state().viewport().cameras().mode()
+}
+
+fn eye_height_m(harness: &Editor) -> f64 {
+    harness.state().viewport().eye(harness.state().document().valid_planet()).0
+}
+
+#[test]
+fn keys_change_the_way_to_move_and_the_status_says_so() {
+    let mut harness = plain_editor(vec![]);
+    assert!(harness.query_by_label("Orbit").is_some());
+    let from_space_m = eye_height_m(&harness);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    assert_eq!(mode(&harness), Mode::Fly);
+    assert!(harness.query_by_label("Fly").is_some());
+    assert!((eye_height_m(&harness) / from_space_m - 1.0).abs() < 1e-9, "the eye stays where it was");
+    harness.key_down(egui::Key::W);
+    harness.run_steps(20);
+    harness.key_up(egui::Key::W);
+    wait_for_camera(&mut harness);
+    assert!(eye_height_m(&harness) < 0.9 * from_space_m, "W goes to where one looks");
+
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F4);
+    wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Walk);
+    assert!((eye_height_m(&harness) - 1.7).abs() < 1e-3, "{}", eye_height_m(&harness));
+    let start = harness.state().viewport().pose(&planet(&harness)).position_planet_m;
+    harness.key_down(egui::Key::W);
+    harness.run_steps(60);
+    harness.key_up(egui::Key::W);
+    wait_for_camera(&mut harness);
+    let way_m = start.distance(harness.state().viewport().pose(&planet(&harness)).position_planet_m);
+    assert!((0.2..20.0).contains(&way_m), "a second's walk is {way_m} m");
+    assert!((eye_height_m(&harness) - 1.7).abs() < 1e-3);
+    harness.key_press(egui::Key::Space);
+    harness.run_steps(8);
+    assert!(eye_height_m(&harness) > 1.9, "a jump: {}", eye_height_m(&harness));
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F2);
+    assert_eq!(mode(&harness), Mode::Orbit);
+    assert_eq!(undo_len(&harness), 0, "to look around is no edit");
+}
+
+#[test]
+fn number_keys_show_debug_views_but_not_while_one_types() {
+    let mut harness = editor(vec![]);
+    for (key, view) in [
+        (egui::Key::Num2, DebugView::Height),
+        (egui::Key::Num6, DebugView::Temperature),
+        (egui::Key::Num9, DebugView::TileBorders),
+        (egui::Key::Num0, DebugView::Wireframe),
+        (egui::Key::Minus, DebugView::Error),
+        (egui::Key::Equals, DebugView::Coverage),
+        (egui::Key::Num1, DebugView::Shaded),
+    ] {
+        press(&mut harness, egui::Modifiers::NONE, key);
+        assert_eq!(harness.state().viewport().settings.debug_view, view);
+    }
+    click(&mut harness, "View");
+    harness.get_by_label_contains("Moisture").click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().viewport().settings.debug_view, DebugView::Moisture);
+    click(&mut harness, "Planet");
+    harness.get_by_role_and_label(Role::TextInput, "Name of planet").focus();
+    harness.run_steps(3);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Num2);
+    assert_eq!(harness.state().viewport().settings.debug_view, DebugView::Moisture);
+}
+
+#[test]
+fn frozen_detail_stays_while_the_camera_goes_on() {
+    let mut harness = plain_editor(vec![]);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F6);
+    let frozen = harness.state().viewport().surface().unwrap();
+    let drawn = harness.state().viewport().stats().tiles_drawn;
+    assert!(harness.query_by_label_contains("detail frozen").is_some());
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    harness.key_down(egui::Key::W);
+    harness.run_steps(60);
+    harness.key_up(egui::Key::W);
+    wait_for_picture(&mut harness);
+    let viewport = harness.state().viewport();
+    assert!(std::sync::Arc::ptr_eq(&frozen, &viewport.surface().unwrap()), "no tile was built");
+    assert_eq!(viewport.stats().tiles_drawn, drawn, "culled as seen from the frozen eye");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F6);
+    wait_for_picture(&mut harness);
+    assert!(!std::sync::Arc::ptr_eq(&frozen, &harness.state().viewport().surface().unwrap()));
+}
+
+#[test]
+fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let mut harness = plain_editor(vec![Some(path.clone())]);
+    let names = |harness: &Editor| -> Vec<String> {
+        let bookmarks = planet(harness).editor.map(|editor| editor.bookmarks).unwrap_or_default();
+        bookmarks.into_iter().map(|bookmark| bookmark.name).collect()
+    };
+    let before = planet(&harness);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::B);
+    assert_eq!(names(&harness), ["View 1"]);
+    assert_eq!(undo_label(&harness), "Add bookmark");
+    let here = harness.state().viewport().pose(&planet(&harness));
+
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F4);
+    wait_for_camera(&mut harness);
+    send(&mut harness, Command::AddBookmark);
+    assert_eq!(names(&harness), ["View 1", "View 2"]);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num1);
+    assert!(harness.state().viewport().is_moving(), "a flight, not a jump");
+    wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Fly, "nobody stands in space");
+    let now = harness.state().viewport().pose(&planet(&harness));
+    let off_m = now.position_planet_m.distance(here.position_planet_m);
+    assert!(off_m < 1.0, "{off_m} m off");
+    assert!(now.planet_from_view.angle_between(here.planet_from_view) < 1e-3);
+
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num2);
+    wait_for_camera(&mut harness);
+    assert_eq!(mode(&harness), Mode::Walk, "on foot again");
+
+    click(&mut harness, "Bookmarks");
+    click(&mut harness, "View 2");
+    click(&mut harness, "Rename…");
+    let field = harness.get_by_role_and_label(Role::TextInput, "Name of the view");
+    field.focus();
+    harness.run_steps(2);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::A);
+    harness.get_by_role_and_label(Role::TextInput, "Name of the view").type_text("Beach");
+    harness.run_steps(2);
+    click(&mut harness, "Rename");
+    assert_eq!(names(&harness), ["View 1", "Beach"]);
+    assert_eq!(undo_label(&harness), "Rename bookmark");
+
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::S);
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("name: \"Beach\""), "{text}");
+    assert_eq!(Planet::load(&path).unwrap(), planet(&harness));
+
+    click(&mut harness, "Bookmarks");
+    click(&mut harness, "View 1");
+    click(&mut harness, "Delete");
+    assert_eq!(names(&harness), ["Beach"]);
+    for _ in 0..4 {
+        send(&mut harness, Command::Undo);
+    }
+    assert_eq!(planet(&harness), before);
+}
+
+#[test]
+fn every_key_stands_in_the_list_of_controls() {
+    let mut harness = editor(vec![]);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F1);
+    for text in ["Walk; slower uphill", "Keep this view in the preset", "Show where tiles meet"] {
+        assert!(harness.query_by_label(text).is_some(), "{text}");
+    }
+    press(&mut harness, egui::Modifiers::SHIFT, egui::Key::Questionmark);
+    harness.run_steps(20);
+    assert!(harness.query_by_label("Walk; slower uphill").is_none());
+}
+
+#[test]
+fn what_lies_under_the_pointer_is_told_without_holding_up_the_picture() {
+    let mut harness = plain_editor(vec![]);
+    let rect = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect();
+    harness.hover_at(rect.center());
+    for _ in 0..200 {
+        harness.step();
+        if harness.state().viewport().under_pointer().is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let viewport = harness.state().viewport();
+    let below = viewport.eye(&planet(&harness)).1;
+    let under = viewport.under_pointer().unwrap().place;
+    assert!(under.direction().distance(below.direction()) < 0.02, "{under:?} {below:?}");
+    harness.hover_at(egui::pos2(rect.center().x, rect.bottom() + 10.0));
+    harness.run_steps(3);
+    assert!(harness.state().viewport().under_pointer().is_none());
 }

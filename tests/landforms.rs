@@ -11,9 +11,10 @@ use tellus::sphere::NodeId;
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
 
-/// A planet of one layer.
+/// A planet of one layer, as high as is usual for its size.
 fn planet(shape: Shape) -> Arc<Planet> {
-    Arc::new(Planet { layers: vec![Layer { shape, ..Layer::default() }], ..Planet::default() })
+    let amplitude_m = if matches!(shape, Shape::Dunes(_)) { 10.0 } else { 1000.0 };
+    Arc::new(Planet { layers: vec![Layer { shape, amplitude_m, ..Layer::default() }], ..Planet::default() })
 }
 
 /// The name of a kind.

@@ -38,6 +38,7 @@ fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun: LatLon) 
         surface,
         planet,
         view,
+        frozen: None,
         sun_dir_planet: sun.direction(),
         time_secs: 0.0,
         exposure_ev: 0.0,

@@ -5,10 +5,13 @@
 mod support;
 
 use std::sync::Arc;
+use support::edits::{every_edit, full_planet};
 use support::{Gpu, camera, earth, frame, inside_disc, lights, surface};
+use tellus::build::Surface;
 use tellus::lod::Quality;
+use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Planet};
-use tellus::render::{DebugView, Metering};
+use tellus::render::{DebugView, Frame, Metering};
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
 const POSES: [(f64, f64, f64); 8] = [
@@ -161,4 +164,58 @@ fn exposure_lights_dusk_and_leaves_night_dark() {
     mean(0.0, Metering::Instant);
     let steps = [0.1; 60].map(|secs| mean(91.0, Metering::Adapting { secs }));
     assert!(steps[0] < steps[3] && (steps[59] - sunset).abs() < 1.0, "{steps:?} {sunset}");
+}
+
+#[test]
+fn each_parameter_makes_the_tables_it_declares_and_no_others() {
+    let planet = Arc::new(full_planet());
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 10.0, 10.0, 3e6, 40.0, -90.0);
+    let first = surface(&planet, &camera);
+    let mut draw = |surface: &Surface, planet: &Planet| {
+        let sun = (planet.star.latitude_deg, planet.star.longitude_deg);
+        let before = gpu.renderer.table_runs();
+        // Clouds that have drifted for a while: their wind shows.
+        gpu.draw(&Frame { time_secs: 1000.0, ..frame(surface, planet, camera, sun) });
+        let after = gpu.renderer.table_runs();
+        (
+            after.uniforms - before.uniforms,
+            [after.biomes - before.biomes, after.weather - before.weather, after.air - before.air],
+        )
+    };
+    draw(&first, &planet);
+    for edit in every_edit(&planet) {
+        let tiles = edit.declared.touches_tiles();
+        // The radius would need another camera; its tiles are not what this is about.
+        let edited = Arc::new(edit.planet);
+        let built = if tiles && edit.path != "radius_km" { Some(surface(&edited, &camera)) } else { None };
+        let (uniforms, tables) = draw(built.as_ref().unwrap_or(&first), &edited);
+        let declared =
+            [Stage::Material, Stage::CloudMap, Stage::AirTables].map(|s| u64::from(edit.declared.contains(s)));
+        assert_eq!(tables, declared, "biomes, weather, air: {}", edit.path);
+        // Heights move the near plane, which stands in the uniforms too.
+        if edit.declared.contains(Stage::Uniform) || !tiles {
+            assert_eq!(uniforms, u64::from(edit.declared.contains(Stage::Uniform)), "uniforms: {}", edit.path);
+        }
+        draw(&first, &planet);
+    }
+}
+
+#[test]
+fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
+    let planet = Arc::new(earth());
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let tile_bytes = (surface.leaves[0].tile.vertices.len() * size_of::<tellus::lod::Vertex>()) as u64;
+    let mut rounds = 1;
+    while !gpu.renderer.upload(&gpu.device, &gpu.queue, &surface, 5 * tile_bytes) {
+        assert_eq!(gpu.renderer.uploaded_bytes(), rounds * 5 * tile_bytes);
+        rounds += 1;
+    }
+    let all = surface.leaves.len() as u64 * tile_bytes;
+    assert_eq!((rounds, gpu.renderer.uploaded_bytes()), ((surface.leaves.len() as u64).div_ceil(5), all));
+    let ahead = gpu.draw(&frame(&surface, &planet, camera, (12.0, 0.0)));
+    assert_eq!(gpu.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
+    assert_eq!(ahead, Gpu::new().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));
 }

@@ -4,6 +4,7 @@
 
 mod support;
 
+use std::f64::consts::{PI, TAU};
 use support::Gpu;
 use tellus::atmosphere::{Air, SkyRay};
 use tellus::lod::Quality;
@@ -28,13 +29,13 @@ fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
     };
     let ray = |i: u64| {
         let altitude_m = 10_f64.powf(7.0 * dice());
-        let horizon = std::f64::consts::PI - (planet.radius_m() / (planet.radius_m() + altitude_m)).asin();
+        let horizon = PI - (planet.radius_m() / (planet.radius_m() + altitude_m)).asin();
         let anywhere = (1.0 - 2.0 * dice()).acos();
         // Nearer to the horizon, 32 bits do not tell whether a ray meets the ground.
         let off = 0.3 * (dice() - 0.5).powi(3);
         let off = off.abs().max(4e-6).copysign(off);
-        let view_zenith_rad = if i % 2 == 0 { anywhere } else { (horizon + off).clamp(0.0, 3.1) };
-        SkyRay { altitude_m, view_zenith_rad, sun_zenith_rad: dice() * 3.1416, azimuth_rad: dice() * 6.2832 }
+        let view_zenith_rad = if i.is_multiple_of(2) { anywhere } else { (horizon + off).clamp(0.0, 3.1) };
+        SkyRay { altitude_m, view_zenith_rad, sun_zenith_rad: dice() * PI, azimuth_rad: dice() * TAU }
     };
     (0..count).map(ray).collect()
 }

@@ -8,12 +8,19 @@ use std::sync::Arc;
 use tellus::build::{Builder, Surface, build_now};
 use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Atmosphere, Blend, Craters, Fbm, Layer, Mask, Planet, Ridged, Shape, Water};
+use tellus::planet::{
+    Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, SlopeMask, Water,
+};
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
 
-/// A planet with every kind of layer, every blend, and masks.
+/// A mask by the noise of another layer.
+fn mask(layer: &str, from: f64, to: f64) -> Mask {
+    Mask::Layer(LayerMask { layer: layer.to_owned(), from, to, invert: false })
+}
+
+/// A planet of version 1: with its kinds of layer, its blends and masks.
 fn planet() -> Planet {
     let fbm = |wavelength_km, octaves| Shape::Fbm(Fbm { wavelength_km, octaves, gain: 0.5, lacunarity: 2.0 });
     let ridged = Shape::Ridged(Ridged { wavelength_km: 700.0, octaves: 14, ..Ridged::default() });
@@ -24,11 +31,8 @@ fn planet() -> Planet {
         blend,
         ..Layer::default()
     };
-    let mountains = Layer {
-        masks: vec![Mask { layer: "continents".to_owned(), from: 0.0, to: 0.3, invert: false }],
-        seed: 5,
-        ..layer("mountains", ridged, 5000.0, Blend::Add)
-    };
+    let mountains =
+        Layer { masks: vec![mask("continents", 0.0, 0.3)], seed: 5, ..layer("mountains", ridged, 5000.0, Blend::Add) };
     Planet {
         layers: vec![
             layer("continents", fbm(5000.0, 12), 3000.0, Blend::Add),
@@ -36,13 +40,18 @@ fn planet() -> Planet {
             Layer { bias: 1.0, ..layer("scale", fbm(900.0, 4), 1.0, Blend::Multiply) },
             layer("floor", fbm(2000.0, 3), 800.0, Blend::Max),
             Layer { enabled: false, ..layer("off", fbm(100.0, 3), 800.0, Blend::Replace) },
-            layer("craters", Shape::Craters(Craters::default()), 3000.0, Blend::Add),
+            layer("craters", Shape::Craters(first_craters()), 3000.0, Blend::Add),
             layer("dust", fbm(30.0, 10), 60.0, Blend::Subtract),
         ],
         water: Some(Water::default()),
         atmosphere: Some(Atmosphere::default()),
         ..Planet::default()
     }
+}
+
+/// Craters as version 1 knew them.
+fn first_craters() -> Craters {
+    Craters { power: 0.0, floor: 0.0, peak: 0.0, age: 0.0, fresh: 0.0, ..Craters::default() }
 }
 
 fn view(altitude_m: f64, pitch_deg: f64) -> View {
@@ -232,7 +241,12 @@ fn edit(planet: &mut Planet, which: usize, amount: f64) {
         5 => planet.climate.octaves = 1 + (amount * 5.0) as u32,
         6 => planet.water.as_mut().unwrap().level_m = amount * 500.0,
         7 => planet.water.as_mut().unwrap().color = [amount; 3],
-        8 => planet.layers[1].masks[0].from = amount - 0.9,
+        8 => {
+            let slope = SlopeMask { over_m: 1000.0 + 9000.0 * amount, ..SlopeMask::default() };
+            planet.layers[2].masks.insert(0, Mask::Slope(slope));
+        }
+        9 => planet.layers[2].masks.clear(),
+        10 => planet.layers[1].masks[0] = mask("continents", amount - 0.9, 0.3),
         _ => {
             planet.layers.remove(planet.layers.len() - 1);
         }
@@ -243,7 +257,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
     #[test]
     fn any_sequence_of_edits_ends_in_what_a_rebuild_from_nothing_gives(
-        edits in prop::collection::vec((0_usize..9, 0.0..1.0_f64, prop::bool::ANY), 1..6),
+        edits in prop::collection::vec((0_usize..12, 0.0..1.0_f64, prop::bool::ANY), 1..6),
     ) {
         let builder = Builder::new(|| {});
         let mut planet = planet();
@@ -273,12 +287,33 @@ fn edits_rebuild_no_more_than_they_must() {
     };
     assert!(ask(&planet).octave_samples > 0);
     for (which, tiles, octaves) in
-        [(7, false, false), (0, true, false), (8, true, false), (4, true, false), (1, true, true)]
+        [(7, false, false), (0, true, false), (10, true, false), (4, true, false), (1, true, true)]
     {
         edit(&mut planet, which, 0.37);
         let stats = ask(&planet);
         assert_eq!((stats.tiles_built > 0, stats.octave_samples > 0), (tiles, octaves), "edit {which}");
     }
+}
+
+#[test]
+fn a_mask_by_slope_asks_only_the_layers_below_it() {
+    let builder = Builder::new(|| {});
+    let mut planet = planet();
+    let view = view(3_000_000.0, -80.0);
+    let octaves_a_tile = |planet: &Planet| {
+        builder.request(&Arc::new(planet.clone()), &view);
+        let stats = settled(&builder).stats;
+        stats.octave_samples as f64 / (stats.tiles_built * TILE_SIDE * TILE_SIDE) as f64
+    };
+    octaves_a_tile(&planet);
+    // On the third layer: continents have 12 octaves, mountains 14.
+    edit(&mut planet, 8, 0.2);
+    assert_eq!(octaves_a_tile(&planet), 26.0);
+    // What is there by now is enough for less.
+    edit(&mut planet, 9, 0.0);
+    assert_eq!(octaves_a_tile(&planet), 0.0);
+    edit(&mut planet, 8, 0.2);
+    assert_eq!(octaves_a_tile(&planet), 0.0);
 }
 
 #[test]
@@ -317,4 +352,59 @@ fn a_mask_follows_its_name_to_another_layer() {
     let planet = Arc::new(planet);
     builder.request(&planet, &view);
     assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)));
+}
+
+/// A planet that the sea makes moist.
+fn moist() -> Planet {
+    let mut planet = planet();
+    planet.climate.sea_moisture = 0.5;
+    planet.climate.sea_reach_km = 2000.0;
+    planet
+}
+
+#[test]
+fn the_sea_makes_its_shores_moister_than_the_inland() {
+    let with = Terrain::new(Arc::new(moist()));
+    let without = Terrain::new(Arc::new(planet()));
+    let again = Terrain::new(Arc::new(moist()));
+    let (mut shore, mut inland) = (Vec::new(), Vec::new());
+    for dir in directions(4000) {
+        let (a, b) = (with.sample(dir), without.sample(dir));
+        assert_eq!(a.moisture.to_bits(), again.sample(dir).moisture.to_bits());
+        assert_eq!((a.height_m, a.temperature_c), (b.height_m, b.temperature_c));
+        assert!((a.precipitation_mm - a.moisture * 3000.0).abs() < 1e-9 && (0.0..=1.0).contains(&a.temperature));
+        let gained = a.moisture - b.moisture;
+        assert!((0.0..=0.5 + 1e-12).contains(&gained));
+        if b.moisture < 0.5 && b.moisture > 0.0 {
+            // What is well below the sea's surface lies in it.
+            if a.height_m < -200.0 {
+                shore.push(gained);
+            } else if a.height_m > 1500.0 {
+                inland.push(gained);
+            }
+        }
+    }
+    let mean = |gains: &[f64]| gains.iter().sum::<f64>() / gains.len() as f64;
+    assert!(shore.len() > 50 && inland.len() > 50, "{} {}", shore.len(), inland.len());
+    assert!(mean(&shore) > 0.48 && mean(&inland) < 0.42, "{} {}", mean(&shore), mean(&inland));
+}
+
+#[test]
+fn a_tile_far_from_an_edit_learns_of_a_new_shore() {
+    let builder = Builder::new(|| {});
+    let view = view(3_000_000.0, -80.0);
+    let mut planet = moist();
+    builder.request(&Arc::new(planet.clone()), &view);
+    settled(&builder);
+    for step in 0..4 {
+        match step {
+            0 => planet.layers[0].bias = 0.2,
+            1 => planet.water.as_mut().unwrap().level_m = 700.0,
+            2 => planet.climate.sea_reach_km = 300.0,
+            _ => planet.water = None,
+        }
+        let planet = Arc::new(planet.clone());
+        builder.request(&planet, &view);
+        assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)), "step {step}");
+    }
 }

@@ -1,44 +1,52 @@
 //! Surfaces in the background: one thread that takes the newest request, works on all cores in slices, and hands over complete
 //! sets of tiles.
 //!
-//! A slice ends when its time is up, or, once a moment of grace has passed, as soon as a newer request is there; either way
-//! it ends with a complete, perhaps coarser, surface. So a slider that is held shows every edit at once however heavy the
-//! planet is, and no stale work is carried on.
+//! A slice ends when its time is up or as soon as a newer request is there; either way it ends with a complete, perhaps
+//! coarser, surface. Only the first slice of a request has a moment of grace, so that a slider that is held shows every edit
+//! however heavy the planet is. No stale work is carried on, and no surface is ever made of two planets.
 
-use super::Surface;
-use super::cache::Cache;
+use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
 use super::refine::refine;
+use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
-use crate::planet::Planet;
-use crate::planet::diff::first_stale_stage;
-use crate::planet::param::Stage;
+use crate::lod::tile::{DetailTile, Tile};
+use crate::planet::param::{Stage, Stages};
+use crate::planet::{Planet, diff};
 use crate::terrain::Terrain;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long a slice may take before what is there is shown.
-const SLICE: Duration = Duration::from_millis(60);
-/// How long a slice runs even if a newer request is waiting.
+/// How long the first slice of a request may take before what is there is shown: a frame or two.
+const FIRST_SLICE: Duration = Duration::from_millis(30);
+/// How long it runs even if a newer request is waiting.
 const GRACE: Duration = Duration::from_millis(25);
+/// How long each further slice may take: something is on screen by then, and fewer steps disturb less.
+const NEXT_SLICE: Duration = Duration::from_millis(80);
 
 /// Builds surfaces in the background: the newest planet and view win, stale work is dropped.
 pub struct Builder {
     shared: Arc<Shared>,
 }
 
+#[derive(Default)]
 struct Shared {
     state: Mutex<State>,
     changed: Condvar,
+    /// Grows with each request; work asks it whether it is still wanted.
+    newest: AtomicU64,
 }
 
 #[derive(Default)]
 struct State {
     request: Option<Request>,
-    /// Grows with each request.
-    requested: u64,
     surface: Option<Arc<Surface>>,
-    /// The request that `surface` answers, in full if `surface.complete`.
-    answered: u64,
+    /// The newest request that is done with.
+    finished: u64,
+    memory: Memory,
+    error: Option<String>,
     closing: bool,
 }
 
@@ -46,28 +54,48 @@ struct State {
 struct Request {
     planet: Arc<Planet>,
     view: View,
+    asked: Instant,
+    number: u64,
 }
 
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
+
+    fn is_newest(&self, number: u64) -> bool {
+        self.newest.load(Ordering::Relaxed) == number
+    }
 }
 
 impl State {
-    fn is_idle(&self) -> bool {
-        self.requested == self.answered && self.surface.as_ref().is_none_or(|surface| surface.complete)
+    /// The request that is to be worked on.
+    fn pending(&self) -> Option<&Request> {
+        self.request.as_ref().filter(|request| request.number != self.finished)
     }
 }
 
 impl Builder {
     /// Starts the worker. `wake` is called from another thread whenever a new surface is ready.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let shared = Arc::new(Shared { state: Mutex::default(), changed: Condvar::new() });
-        let worker = shared.clone();
-        let spawned = std::thread::Builder::new().name("tellus-build".to_owned()).spawn(move || work(&worker, &wake));
-        // Without a thread there is no builder; the caller sees no surface, and nothing else breaks.
-        debug_assert!(spawned.is_ok());
+        Self::with_budget(DEFAULT_BUDGET_BYTES, wake)
+    }
+
+    /// The same with another limit to what is kept for later. With zero every edit is a rebuild from nothing.
+    pub fn with_budget(budget_bytes: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self::start(Worker::new(budget_bytes), wake)
+    }
+
+    fn start(mut worker: Worker, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let shared = Arc::new(Shared::default());
+        let theirs = shared.clone();
+        let spawned = std::thread::Builder::new().name("tellus-build".to_owned()).spawn(move || {
+            profiling::register_thread!("tellus-build");
+            worker.work(&theirs, &wake);
+        });
+        if let Err(error) = spawned {
+            shared.lock().error = Some(format!("Nothing can be built: no thread could be started: {error}"));
+        }
         Self { shared }
     }
 
@@ -78,8 +106,8 @@ impl Builder {
             request.view == *view && (Arc::ptr_eq(&request.planet, planet) || request.planet == *planet)
         };
         if !state.request.as_ref().is_some_and(same) {
-            state.request = Some(Request { planet: planet.clone(), view: *view });
-            state.requested += 1;
+            let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
+            state.request = Some(Request { planet: planet.clone(), view: *view, asked: Instant::now(), number });
             self.shared.changed.notify_all();
         }
     }
@@ -91,68 +119,181 @@ impl Builder {
 
     /// Whether work is under way.
     pub fn is_busy(&self) -> bool {
-        !self.shared.lock().is_idle()
+        self.shared.lock().pending().is_some()
+    }
+
+    /// What is kept for later.
+    pub fn memory(&self) -> Memory {
+        self.shared.lock().memory
+    }
+
+    /// Why the newest request was given up. Another request is another try.
+    pub fn error(&self) -> Option<String> {
+        self.shared.lock().error.clone()
     }
 }
 
 impl Drop for Builder {
     fn drop(&mut self) {
         self.shared.lock().closing = true;
+        self.shared.newest.fetch_add(1, Ordering::Relaxed);
         self.shared.changed.notify_all();
     }
 }
 
-fn work(shared: &Shared, wake: &dyn Fn()) {
-    let cache = Cache::default();
-    let mut terrain: Option<Arc<Terrain>> = None;
-    loop {
-        let (request, number) = {
-            let mut state = shared.lock();
-            while state.is_idle() && !state.closing {
-                state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
-            }
-            if state.closing {
-                return;
-            }
-            let Some(request) = state.request.clone() else { continue };
-            (request, state.requested)
-        };
-        let terrain = compile(&mut terrain, &request.planet, &cache);
-        cache.begin_request();
-        let started = Instant::now();
-        let keep_going = || {
-            let elapsed = started.elapsed();
-            let newer = || {
-                let state = shared.lock();
-                state.requested != number || state.closing
+/// How a slice is worked off; tests put another in its place.
+type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
+
+/// What the thread has.
+struct Worker {
+    cache: Cache,
+    terrain: Option<Arc<Terrain>>,
+    refine: Refine,
+}
+
+impl Worker {
+    fn new(budget_bytes: usize) -> Self {
+        Self { cache: Cache::new(budget_bytes), terrain: None, refine }
+    }
+
+    fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
+        // The request under way, and what it has taken so far.
+        let mut under_way = (0, BuildStats::default());
+        loop {
+            let request = {
+                let mut state = shared.lock();
+                loop {
+                    if state.closing {
+                        return;
+                    }
+                    if let Some(request) = state.pending() {
+                        break request.clone();
+                    }
+                    state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+                }
             };
-            elapsed < GRACE || (elapsed < SLICE && !newer())
+            let is_first = under_way.0 != request.number;
+            if is_first {
+                under_way = (request.number, BuildStats::default());
+            }
+            let slice = catch_unwind(AssertUnwindSafe(|| self.slice(shared, &request, is_first, under_way.1)));
+            let mut state = shared.lock();
+            match slice {
+                Ok((surface, done)) => {
+                    under_way.1 = surface.stats;
+                    if done {
+                        state.finished = request.number;
+                    }
+                    state.surface = Some(Arc::new(surface));
+                    state.error = None;
+                }
+                Err(panic) => {
+                    // What it was in the middle of is not to be trusted.
+                    self.cache.clear();
+                    self.terrain = None;
+                    state.finished = request.number;
+                    state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
+                }
+            }
+            state.memory = self.cache.memory();
+            drop(state);
+            wake();
+        }
+    }
+
+    /// A surface, and whether it has all that the request asks for. First come all tiles, then their detail.
+    fn slice(&mut self, shared: &Shared, request: &Request, is_first: bool, mut stats: BuildStats) -> (Surface, bool) {
+        let begun = Instant::now();
+        let terrain = self.compile(&request.planet);
+        if is_first {
+            self.cache.begin_request();
+            stats.compile_secs = begun.elapsed().as_secs_f64();
+        }
+        let keep_going = || {
+            let elapsed = begun.elapsed();
+            let wanted = shared.is_newest(request.number);
+            if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
-        let surface = Arc::new(refine(&terrain, &request.view, &cache, &keep_going));
-        let mut state = shared.lock();
-        state.surface = Some(surface);
-        state.answered = number;
-        drop(state);
-        wake();
+        let mut surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+        // Where tiles had to be built, they are shown before time is spent on their detail.
+        let shown_first = surface.complete && surface.stats.tiles_built > stats.tiles_built;
+        if !surface.complete || shown_first {
+            return (surface, false);
+        }
+        let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going);
+        (surface, done)
+    }
+
+    /// The evaluator of a planet; tiles stay valid when nothing that they hold has changed.
+    fn compile(&mut self, planet: &Arc<Planet>) -> Arc<Terrain> {
+        let before = self.terrain.take();
+        let terrain = match before {
+            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => terrain,
+            before => {
+                profiling::scope!("compile");
+                let terrain = Arc::new(match &before {
+                    Some(before) => Terrain::after(planet.clone(), before),
+                    None => Terrain::new(planet.clone()),
+                });
+                if let Some(before) = before {
+                    self.cache.invalidate(stale_stages(&before, &terrain));
+                }
+                terrain
+            }
+        };
+        self.terrain = Some(terrain.clone());
+        terrain
     }
 }
 
-/// The evaluator of the planet; tiles stay valid when nothing that they hold has changed.
-fn compile(current: &mut Option<Arc<Terrain>>, planet: &Arc<Planet>, cache: &Cache) -> Arc<Terrain> {
-    let before = current.take();
-    if let Some(terrain) = before.as_ref().filter(|terrain| Arc::ptr_eq(terrain.planet(), planet)) {
-        *current = Some(terrain.clone());
-        return terrain.clone();
+/// Which stages that tiles hold differ between two planets.
+fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
+    let touched = diff::touched_stages(before.planet(), after.planet());
+    // Heights depend on both more and less than single parameters say: on the order of the layers and on which one a mask's
+    // name means, but on no layer that is off.
+    let same = before.stack.joins_like(&after.stack);
+    let height = Stages::of(&[Stage::Height]);
+    let touched = if same { touched.without(height.and(Stages::of(&[Stage::Field]))) } else { touched.and(height) };
+    touched.with_consequences().within(Stages::OF_TILES)
+}
+
+/// What a panic said.
+fn text_of(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().cloned();
+    text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
+        .unwrap_or_else(|| "an unknown error".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::{Quality, opening};
+    use std::sync::atomic::AtomicBool;
+
+    #[test]
+    fn a_panic_gives_up_one_planet_and_is_told() {
+        static BROKEN: AtomicBool = AtomicBool::new(true);
+        let refine_or_panic: Refine = |terrain, view, cache, asked, stats, keep_going| {
+            assert!(!BROKEN.load(Ordering::Relaxed), "the ground gave way");
+            refine(terrain, view, cache, asked, stats, keep_going)
+        };
+        let builder = Builder::start(Worker { refine: refine_or_panic, ..Worker::new(DEFAULT_BUDGET_BYTES) }, || {});
+        let planet = Arc::new(Planet::default());
+        let view = |side_px| opening::opening_view(&planet, [side_px, 64], Quality::Low);
+        let settle = || {
+            while builder.is_busy() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        };
+        builder.request(&planet, &view(64));
+        settle();
+        assert_eq!(builder.error().as_deref(), Some("This planet could not be built: the ground gave way"));
+        assert!(builder.surface().is_none());
+        BROKEN.store(false, Ordering::Relaxed);
+        builder.request(&planet, &view(65));
+        settle();
+        assert_eq!(builder.error(), None);
+        assert!(builder.surface().is_some_and(|surface| surface.complete));
     }
-    let terrain = Arc::new(Terrain::new(planet.clone()));
-    if let Some(before) = before {
-        let edited = first_stale_stage(before.planet(), planet).filter(|stage| stage.touches_tiles());
-        // Heights depend on more than single parameters say: order, number, and which layer a mask's name means.
-        let rejoined = (before.layers != terrain.layers).then_some(Stage::Height);
-        if let Some(stage) = edited.into_iter().chain(rejoined).min() {
-            cache.invalidate(stage);
-        }
-    }
-    *current = Some(terrain.clone());
-    terrain
 }

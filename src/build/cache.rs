@@ -1,88 +1,212 @@
 //! Tiles kept from one request to the next: valid ones to be shown again, stale ones for the stages that an edit left intact.
+//!
+//! One budget covers all of it. What exceeds it goes in the order of what it costs to lose: fields of earlier planets, then
+//! what unseen tiles were made from, then unseen tiles, at last what the tiles on screen were made from. The tiles that the
+//! present request needs always stay.
 
-use super::make::{Parts, Work, make_tile};
-use crate::lod::tile::Tile;
-use crate::planet::param::Stage;
+use super::kept::KeptFields;
+use super::make::{Before, Parts, make_tile};
+use super::stats::{Memory, Work};
+use crate::lod::tile::{DetailTile, Tile, Vertex};
+use crate::planet::param::Stages;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
-/// Most bytes kept in tiles and their parts.
-const BUDGET_BYTES: usize = 256 << 20;
+/// Most bytes kept unless somebody says otherwise: several screens of a planet of ten layers.
+pub const DEFAULT_BUDGET_BYTES: usize = 256 << 20;
 
+#[derive(Default)]
 struct Entry {
-    tile: Arc<Tile>,
-    parts: Arc<Parts>,
-    /// First stage in which the tile's planet differs from the present one; `None` for a tile that is valid.
-    stale: Option<Stage>,
+    tile: Option<Arc<Tile>>,
+    /// What the tile was made from.
+    parts: Option<Arc<Parts>>,
+    fields: KeptFields,
+    detail: Option<Arc<DetailTile>>,
+    /// The stages in which the tile's planet differs from the present one.
+    stale: Stages,
     /// The request that last asked for it.
     used: u64,
 }
 
-/// A map from nodes to tiles that may be shared between threads.
+impl Entry {
+    fn bytes(&self) -> usize {
+        let tile = self.tile.as_ref().map_or(0, |tile| tile.vertices.len() * size_of::<Vertex>());
+        let detail = self.detail.as_ref().map_or(0, |detail| detail.slopes.len() * 8 + detail.rise_m.len() * 2);
+        tile + detail + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
+    }
+
+    /// Keeps the tile alone.
+    fn strip(&mut self) {
+        self.detail = None;
+        self.parts = None;
+        self.fields.clear();
+    }
+}
+
 #[derive(Default)]
-pub(crate) struct Cache {
-    entries: Mutex<HashMap<NodeId, Entry>>,
+struct State {
+    entries: HashMap<NodeId, Entry>,
+    /// Size of all entries.
+    bytes: usize,
     /// Grows with each request.
-    request: AtomicU64,
+    request: u64,
+}
+
+/// A map from nodes to tiles that may be shared between threads.
+pub(crate) struct Cache {
+    state: Mutex<State>,
+    budget_bytes: usize,
 }
 
 impl Cache {
-    fn lock(&self) -> MutexGuard<'_, HashMap<NodeId, Entry>> {
-        self.entries.lock().unwrap_or_else(PoisonError::into_inner)
+    /// An empty one. With a budget of zero nothing outlives a request but the tiles that it shows.
+    pub(crate) fn new(budget_bytes: usize) -> Self {
+        Self { state: Mutex::default(), budget_bytes }
     }
 
-    fn now(&self) -> u64 {
-        self.request.load(Ordering::Relaxed)
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The valid tile of a node.
     pub(crate) fn tile(&self, id: NodeId) -> Option<Arc<Tile>> {
-        let now = self.now();
-        let mut entries = self.lock();
-        let entry = entries.get_mut(&id).filter(|entry| entry.stale.is_none())?;
-        entry.used = now;
-        Some(entry.tile.clone())
+        let mut state = self.lock();
+        let request = state.request;
+        let entry = state.entries.get_mut(&id).filter(|entry| entry.stale.is_empty())?;
+        let tile = entry.tile.clone()?;
+        entry.used = request;
+        Some(tile)
     }
 
-    /// Builds a node's tile, reusing what the stale one still has.
-    pub(crate) fn build(&self, id: NodeId, terrain: &Terrain) -> Work {
-        let before = self.lock().get(&id).map(|entry| (entry.parts.clone(), entry.stale.unwrap_or(Stage::Label)));
-        let before = before.as_ref().map(|(parts, stale)| (parts.as_ref(), *stale));
-        let (tile, parts, work) = make_tile(terrain, id, before);
-        let entry = Entry { tile: Arc::new(tile), parts: Arc::new(parts), stale: None, used: self.now() };
-        self.lock().insert(id, entry);
-        work
+    /// The detail of a tile, if it is there and shows the same ground.
+    pub(crate) fn detail(&self, tile: &Tile) -> Option<Arc<DetailTile>> {
+        let state = self.lock();
+        let detail = state.entries.get(&tile.id)?.detail.clone();
+        detail.filter(|detail| detail.heights_serial == tile.heights_serial)
     }
 
-    /// The planet changed from this stage on: no tile is valid any more.
-    pub(crate) fn invalidate(&self, stage: Stage) {
-        for entry in self.lock().values_mut() {
-            entry.stale = Some(entry.stale.map_or(stage, |before| before.min(stage)));
+    /// Keeps the detail of a node's tile.
+    pub(crate) fn keep_detail(&self, id: NodeId, detail: &Arc<DetailTile>) {
+        let mut state = self.lock();
+        let Some(entry) = state.entries.get_mut(&id) else { return };
+        let bytes_before = entry.bytes();
+        entry.detail = Some(detail.clone());
+        let bytes_after = entry.bytes();
+        state.bytes = state.bytes + bytes_after - bytes_before;
+        if state.bytes > self.budget_bytes {
+            state.trim(self.budget_bytes);
         }
     }
 
-    /// A new request begins: drops what was asked for least recently until the rest fits the budget.
+    /// Builds a node's tile from what is known of it and of its parent; adds what that took to `work`. False if `keep_going` (asked
+    /// before each layer) said no before the end; what was found until then is kept.
+    pub(crate) fn build(&self, id: NodeId, terrain: &Terrain, work: &mut Work, keep_going: &dyn Fn() -> bool) -> bool {
+        let (parent, parts, mut fields, stale) = {
+            let state = self.lock();
+            let parent = id.parent().and_then(|id| state.entries.get(&id)?.parts.clone());
+            let entry = state.entries.get(&id);
+            let fields = entry.map(|entry| entry.fields.clone()).unwrap_or_default();
+            (parent, entry.and_then(|entry| entry.parts.clone()), fields, entry.map_or(Stages::NONE, |e| e.stale))
+        };
+        let before = Before { parent: parent.as_deref(), parts: parts.as_deref(), fields: &fields, stale };
+        let (found, made) = make_tile(terrain, id, &before, work, keep_going);
+        fields.adopt(&terrain.stack.layers, &found, Instant::now());
+
+        let mut state = self.lock();
+        let request = state.request;
+        let entry = state.entries.entry(id).or_default();
+        let bytes_before = entry.bytes();
+        entry.fields = fields;
+        entry.used = request;
+        let done = made.is_some();
+        if let Some((tile, parts)) = made {
+            entry.tile = Some(Arc::new(tile));
+            entry.parts = Some(Arc::new(parts));
+            entry.stale = Stages::NONE;
+            work.tiles += 1;
+        }
+        let bytes_after = entry.bytes();
+        state.bytes = state.bytes + bytes_after - bytes_before;
+        if state.bytes > self.budget_bytes {
+            state.trim(self.budget_bytes);
+        }
+        done
+    }
+
+    /// The planet changed in these stages: no tile is valid any more that holds one of them.
+    pub(crate) fn invalidate(&self, stages: Stages) {
+        for entry in self.lock().entries.values_mut() {
+            entry.stale = entry.stale.and(stages);
+        }
+    }
+
+    /// A new request begins: what it does not ask for may be dropped.
     pub(crate) fn begin_request(&self) {
-        self.request.fetch_add(1, Ordering::Relaxed);
-        let mut entries = self.lock();
-        let mut bytes: usize = entries.values().map(|entry| entry.parts.bytes()).sum();
-        if bytes <= BUDGET_BYTES {
-            return;
+        self.lock().request += 1;
+    }
+
+    /// Forgets everything.
+    pub(crate) fn clear(&self) {
+        let mut state = self.lock();
+        state.entries.clear();
+        state.bytes = 0;
+    }
+
+    /// How much is kept.
+    pub(crate) fn memory(&self) -> Memory {
+        let state = self.lock();
+        Memory {
+            used_bytes: state.bytes,
+            budget_bytes: self.budget_bytes,
+            tiles: state.entries.values().filter(|entry| entry.tile.is_some()).count(),
+            fields: state.entries.values().map(|entry| entry.fields.len()).sum(),
         }
-        // What the last request showed stays, however much it is: it is most likely wanted again.
-        let last = self.now() - 1;
-        let mut oldest: Vec<(u64, NodeId)> =
-            entries.iter().map(|(id, entry)| (entry.used, *id)).filter(|(used, _)| *used < last).collect();
+    }
+}
+
+impl State {
+    /// Drops things until the rest fits the budget with some room, so that it need not be done for every tile.
+    fn trim(&mut self, budget_bytes: usize) {
+        let target = budget_bytes - budget_bytes / 8;
+        let now = Instant::now();
+        let mut past: Vec<(f64, usize)> = self.entries.values().flat_map(|entry| entry.fields.past(now)).collect();
+        past.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut excess = self.bytes.saturating_sub(target);
+        let kept_from = past.iter().find(|(_, bytes)| {
+            let fits = excess == 0;
+            excess = excess.saturating_sub(*bytes);
+            fits
+        });
+        let worth = kept_from.map_or(f64::INFINITY, |(worth, _)| *worth);
+        if !past.is_empty() {
+            self.entries.values_mut().for_each(|entry| entry.fields.forget_below(worth, now));
+            self.bytes = self.entries.values().map(Entry::bytes).sum();
+        }
+
+        let mut oldest: Vec<(u64, NodeId)> = self.entries.iter().map(|(id, entry)| (entry.used, *id)).collect();
         oldest.sort_unstable();
-        for (_, id) in oldest {
-            if bytes <= BUDGET_BYTES {
-                break;
+        // The tiles of the request before are still on screen.
+        let unseen = oldest.partition_point(|(used, _)| used + 1 < self.request);
+        let unneeded = oldest.partition_point(|(used, _)| *used < self.request);
+        self.drop_while_over(target, &oldest[..unseen], Entry::strip);
+        self.drop_while_over(target, &oldest[..unseen], |entry| entry.tile = None);
+        self.drop_while_over(target, &oldest, Entry::strip);
+        self.drop_while_over(target, &oldest[..unneeded], |entry| entry.tile = None);
+        self.entries.retain(|_, entry| entry.tile.is_some() || entry.fields.len() > 0);
+    }
+
+    fn drop_while_over(&mut self, target: usize, order: &[(u64, NodeId)], drop: impl Fn(&mut Entry)) {
+        for (_, id) in order {
+            if self.bytes <= target {
+                return;
             }
-            if let Some(entry) = entries.remove(&id) {
-                bytes -= entry.parts.bytes();
+            if let Some(entry) = self.entries.get_mut(id) {
+                let before = entry.bytes();
+                drop(entry);
+                self.bytes -= before - entry.bytes();
             }
         }
     }

@@ -1,96 +1,140 @@
-//! One tile from one node: directions, layer fields, height, climate, mesh. Stages whose inputs did not change are taken
-//! from the tile that stood there before.
+//! One tile from one node: directions, layer fields, height, climate, mesh (see `mesh`). Stages whose inputs did not change are
+//! taken from the tile that stood there before, and samples that the parent has from the parent.
 
+use super::kept::KeptFields;
+use super::mesh::mesh;
+use super::stats::Work;
 use crate::lod::select::spacing_rad;
-use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile, Vertex};
-use crate::planet::param::Stage;
+use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile};
+use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
-use crate::terrain::climate::{ClimateField, PointClimate};
+use crate::terrain::Terrain;
+use crate::terrain::climate::ClimateField;
+use crate::terrain::coast::Coast;
 use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
-use crate::terrain::{Terrain, tangent_slope};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a tile was made from, kept so that an edit re-runs only the stages it makes stale.
+/// What a tile was made from (the fields of its layers apart), kept so that an edit re-runs only the stages it makes stale.
 #[derive(Debug)]
 pub(crate) struct Parts {
-    fields: Vec<(Arc<Landform>, Arc<Field>)>,
+    points: Arc<Points>,
     heights: Arc<Heights>,
+    /// See [`Tile::heights_serial`].
+    heights_serial: u64,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
+    coast: Option<Arc<Coast>>,
+    /// Distance to the sea at each vertex, as an angle.
+    inland_rad: Arc<Vec<f64>>,
 }
 
 impl Parts {
     /// Resident size, for the cache's budget.
     pub(crate) fn bytes(&self) -> usize {
-        let field = TILE_VERTICES * (8 + 6 * 4);
-        self.fields.len() * field + TILE_VERTICES * (8 + 48 + 16 + std::mem::size_of::<Vertex>())
+        let point = size_of::<DVec3>() + 3 * size_of::<f64>();
+        let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
+        let climate = 3 * size_of::<f64>();
+        TILE_VERTICES * (point + height + climate)
     }
 }
 
-/// What building one tile took.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Work {
-    /// Octaves times points that were evaluated.
-    pub(crate) octave_samples: usize,
+/// What is known of a node before its tile is built.
+pub(crate) struct Before<'a> {
+    /// What the parent's tile was made from, perhaps for an earlier planet.
+    pub(crate) parent: Option<&'a Parts>,
+    /// What the tile that stood there was made from.
+    pub(crate) parts: Option<&'a Parts>,
+    /// Fields of this planet's layers and of others.
+    pub(crate) fields: &'a KeptFields,
+    /// The stages in which the planet of `parts` differs from this one.
+    pub(crate) stale: Stages,
 }
 
-/// Builds the tile of a node. `before` holds the parts of the tile that stood there for an earlier planet, and `stale` the
-/// first stage in which that planet differs from this one.
-pub(crate) fn make_tile(terrain: &Terrain, id: NodeId, before: Option<(&Parts, Stage)>) -> (Tile, Parts, Work) {
-    let points = Points::new(directions(id));
-    let mut work = Work::default();
+/// The fields of a planet's layers, as far as they are known.
+pub(crate) type Fields = Vec<Option<Arc<Field>>>;
+
+/// Builds the tile of a node, and adds what that took to `work`. Gives the fields of the layers, and no tile if `keep_going`,
+/// asked before each layer, said no; then only some of the fields are there.
+pub(crate) fn make_tile(
+    terrain: &Terrain,
+    id: NodeId,
+    before: &Before<'_>,
+    work: &mut Work,
+    keep_going: &dyn Fn() -> bool,
+) -> (Fields, Option<(Tile, Parts)>) {
+    profiling::scope!("tile");
+    let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
     let simd = terrain.simd();
 
-    let fields: Vec<Option<Arc<Field>>> = terrain
-        .layers
-        .iter()
-        .map(|layer| {
-            let kept =
-                before.and_then(|(parts, _)| parts.fields.iter().find(|(landform, _)| *landform == layer.landform));
-            match kept {
-                _ if !layer.needed => kept.map(|(_, field)| field.clone()),
-                Some((_, field)) => Some(field.clone()),
-                None => {
-                    work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
-                    let own_spacing_rad = spacing_rad(id.level);
-                    let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
-                    Some(Arc::new(Field::new(&layer.landform, simd, &points, &spacings_rad)))
-                }
+    let own_spacing_rad = spacing_rad(id.level);
+    let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
+    let layers = &terrain.stack.layers;
+    let mut fields: Fields =
+        layers.iter().map(|layer| before.fields.find(&layer.landform, &layer.spacings_rad(&spacings_rad))).collect();
+    for (layer, slot) in layers.iter().zip(&mut fields) {
+        if slot.is_none() && layer.needed {
+            if !keep_going() {
+                return (fields, None);
             }
-        })
-        .collect();
+            let spacings_rad = layer.spacings_rad(&spacings_rad);
+            profiling::scope!("field");
+            work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
+            let field = work.run(Stage::Field, || Field::new(&layer.landform, simd, &points, &spacings_rad));
+            *slot = Some(Arc::new(field));
+        }
+    }
 
-    let heights = match before {
-        Some((parts, stale)) if stale > Stage::Height => parts.heights.clone(),
-        _ => Arc::new(height::combine(
-            &terrain.layers,
-            terrain.planet().radius_m(),
-            &fields,
-            TILE_VERTICES,
-            2,
-            |_, _, _| {},
-        )),
+    static NEXT_HEIGHTS: AtomicU64 = AtomicU64::new(1);
+    let (heights, heights_serial) = match before.parts {
+        Some(parts) if !before.stale.contains(Stage::Height) => (parts.heights.clone(), parts.heights_serial),
+        _ => work.run(Stage::Height, || {
+            profiling::scope!("height");
+            let heights = height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {});
+            (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
+        }),
     };
 
     let climate_noises = terrain.climate.noises().cloned();
-    let climate = match before {
-        Some((parts, _)) if parts.climate_noises == climate_noises => parts.climate.clone(),
-        _ => {
-            let octaves: usize = climate_noises.iter().flatten().map(Landform::octave_count).sum();
-            work.octave_samples += octaves * TILE_VERTICES;
-            Arc::new(terrain.climate.field(simd, &points))
+    let of_this_planet = |parts: &&Parts| parts.climate_noises == climate_noises;
+    let climate = match before.parts.filter(of_this_planet) {
+        Some(parts) => parts.climate.clone(),
+        None => {
+            let parent = before.parent.filter(of_this_planet).map(|parts| &*parts.climate);
+            let (climate, samples) = work.run(Stage::ClimateNoise, || {
+                profiling::scope!("climate noise");
+                climate_field(terrain, id, &points, parent)
+            });
+            work.octave_samples += samples;
+            Arc::new(climate)
         }
     };
 
-    let tile = mesh(terrain, id, &points, &heights, &climate);
-    let fields =
-        terrain.layers.iter().zip(fields).filter_map(|(layer, field)| Some((layer.landform.clone(), field?))).collect();
-    (tile, Parts { fields, heights, climate_noises, climate }, work)
+    // The shore is another one whenever heights change anywhere, however far from this tile.
+    let coast = terrain.climate.coast.clone();
+    let inland_rad = match before.parts {
+        Some(parts) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
+        _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
+    };
+
+    let tile = work.run(Stage::Climate, || {
+        profiling::scope!("mesh");
+        let tile = mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad);
+        Tile { heights_serial, ..tile }
+    });
+    (fields, Some((tile, Parts { points, heights, heights_serial, climate_noises, climate, coast, inland_rad })))
+}
+
+fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
+    }
 }
 
 fn directions(id: NodeId) -> Vec<DVec3> {
@@ -98,57 +142,41 @@ fn directions(id: NodeId) -> Vec<DVec3> {
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
 }
 
-fn mesh(terrain: &Terrain, id: NodeId, points: &Points, heights: &Heights, climate: &ClimateField) -> Tile {
-    static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
-    let planet = terrain.planet();
-    let radius_m = planet.radius_m();
-    let mut positions = Vec::with_capacity(TILE_VERTICES);
-    let vertices = points
-        .dirs
-        .iter()
-        .enumerate()
-        .map(|(i, &dir)| {
-            let height_m = heights.height_m[i];
-            let position = dir * (radius_m + height_m);
-            positions.push(position);
-            let normal = |gradient: DVec3| oct_snorm(dir - tangent_slope(dir, gradient, radius_m + height_m));
-            let PointClimate { temperature_c, moisture, row } = climate.at(planet, i, dir, height_m);
-            let high = position.as_vec3();
-            Vertex {
-                position_high_m: high.to_array(),
-                height_m: height_m as f32,
-                position_low_m: (position - high.as_dvec3()).as_vec3().to_array(),
-                temperature_c: temperature_c as f32,
-                climate_unorm: [unorm(moisture), unorm(row)],
-                normal_oct: normal(heights.gradients[0][i]),
-                parent_normal_oct: normal(heights.gradients[1][i]),
-            }
-        })
-        .collect();
-    let (min_height_m, max_height_m) =
-        heights.height_m.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &h| (lo.min(h), hi.max(h)));
-    let center_planet_m = id.direction(0.5, 0.5) * (radius_m + 0.5 * (min_height_m + max_height_m));
-    let bounding_radius_m = positions.iter().map(|p| p.distance(center_planet_m)).fold(0.0, f64::max);
-    Tile {
-        id,
-        serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
-        vertices,
-        min_height_m,
-        max_height_m,
-        center_planet_m,
-        bounding_radius_m,
-    }
-}
-
-fn unorm(value: f64) -> u16 {
-    (value.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16
-}
-
-/// A direction on the octahedron, unfolded (Cigolle et al. 2014), as two snorm numbers.
-fn oct_snorm(v: DVec3) -> [i16; 2] {
-    let v = v / (v.x.abs() + v.y.abs() + v.z.abs());
-    let fold = |a: f64, b: f64| (1.0 - b.abs()) * if a < 0.0 { -1.0 } else { 1.0 };
-    let (x, y) = if v.z < 0.0 { (fold(v.x, v.y), fold(v.y, v.x)) } else { (v.x, v.y) };
-    let snorm = |w: f64| (w.clamp(-1.0, 1.0) * 32767.0).round() as i16;
-    [snorm(x), snorm(y)]
+/// The climate's noise at a tile's points, and how many octave samples that took. Every second point of every second row
+/// is the parent's, where its noise is at hand.
+fn climate_field(
+    terrain: &Terrain,
+    id: NodeId,
+    points: &Points,
+    parent: Option<&ClimateField>,
+) -> (ClimateField, usize) {
+    let octaves: usize = terrain.climate.noises().into_iter().flatten().map(Landform::octave_count).sum();
+    let Some(parent) = parent else {
+        return (terrain.climate.field(terrain.simd(), points), octaves * points.len());
+    };
+    let is_shared = |i: usize| (i % TILE_SIDE).is_multiple_of(2) && (i / TILE_SIDE).is_multiple_of(2);
+    let own: Vec<usize> = (0..TILE_VERTICES).filter(|&i| !is_shared(i)).collect();
+    let pick = |all: &[f64]| own.iter().map(|&i| all[i]).collect();
+    let own_points = Points {
+        x: pick(&points.x),
+        y: pick(&points.y),
+        z: pick(&points.z),
+        dirs: own.iter().map(|&i| points.dirs[i]).collect(),
+    };
+    let found = terrain.climate.field(terrain.simd(), &own_points);
+    let (right, upper) = id.quarter();
+    let merge = |found: &[f64], parent: &[f64]| {
+        let mut found = found.iter();
+        (0..TILE_VERTICES)
+            .filter_map(|i| {
+                let (x, y) = ((i % TILE_SIDE + right * TILE_QUADS) / 2, (i / TILE_SIDE + upper * TILE_QUADS) / 2);
+                if is_shared(i) { parent.get(y * TILE_SIDE + x) } else { found.next() }.copied()
+            })
+            .collect()
+    };
+    let field = ClimateField {
+        temperature: merge(&found.temperature, &parent.temperature),
+        moisture: merge(&found.moisture, &parent.moisture),
+    };
+    (field, octaves * own.len())
 }

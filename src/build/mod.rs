@@ -1,21 +1,33 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
-//! - `make`: one tile from one node, stage by stage
+//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices
+//! - `kept`: the layer fields of one tile, present and past
+//! - `detail`: what is finer than the mesh of one node
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
+//! - `stats`: what it took
 pub mod builder;
 mod cache;
+mod detail;
+mod kept;
 mod make;
+mod mesh;
 mod refine;
+mod stats;
 
 pub use builder::Builder;
+pub use cache::DEFAULT_BUDGET_BYTES;
 pub use refine::lowest_radius_m;
+pub use stats::{BuildStats, Memory, StageWork};
 
-use crate::lod::{Tile, View};
+use crate::lod::tile::DetailTile;
+use crate::lod::{Culling, Tile, View};
 use crate::planet::Planet;
 use crate::terrain::Terrain;
+use rayon::prelude::*;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A complete set of tiles that covers the whole planet without a gap; what the renderer draws.
 pub struct Surface {
@@ -25,6 +37,8 @@ pub struct Surface {
     pub leaves: Vec<Leaf>,
     /// Whether every tile is as fine as the view asks; if not, a finer surface follows.
     pub complete: bool,
+    /// When it was asked for; the times in `stats` count from there.
+    pub asked: Instant,
     /// What it took.
     pub stats: BuildStats,
 }
@@ -36,24 +50,48 @@ pub struct Leaf {
     pub tile: Arc<Tile>,
     /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
-}
-
-/// What building a surface took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BuildStats {
-    /// Tiles in the surface.
-    pub tiles: usize,
-    /// Vertices in the surface.
-    pub vertices: usize,
-    /// Tiles (re)built for it.
-    pub tiles_built: usize,
-    /// Octaves of noise times points that were evaluated.
-    pub octave_samples: usize,
-    /// Seconds from the request to the finished surface.
-    pub duration_secs: f64,
+    /// What is finer than the mesh, once it is there.
+    pub detail: Option<Arc<DetailTile>>,
 }
 
 /// Builds the complete surface for a view and waits for it.
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
-    refine::refine(&Arc::new(Terrain::new(planet.clone())), view, &cache::Cache::default(), &|| true)
+    let terrain = Arc::new(Terrain::new(planet.clone()));
+    let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
+    refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
+}
+
+/// Finds the detail of all tiles that a view shows of a surface, and waits for it.
+pub fn add_detail(surface: &mut Surface, view: &View) {
+    find_detail(surface, view, &|_, _| {}, &|| true);
+}
+
+/// Finds the detail of what a view shows of a surface, nearest tiles first, for as long as `keep_going` says so; each is also
+/// given to `keep`. Whether all of it is there now.
+pub(crate) fn find_detail(
+    surface: &mut Surface,
+    view: &View,
+    keep: &(dyn Fn(&Tile, &Arc<DetailTile>) + Sync),
+    keep_going: &(dyn Fn() -> bool + Sync),
+) -> bool {
+    let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
+    let eye = view.camera.position_planet_m;
+    let terrain = &surface.terrain;
+    let mut missing: Vec<&mut Leaf> =
+        surface.leaves.iter_mut().filter(|leaf| leaf.detail.is_none() && culling.sees(&leaf.tile)).collect();
+    let away_m = |leaf: &Leaf| leaf.tile.center_planet_m.distance(eye) - leaf.tile.bounding_radius_m;
+    missing.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+    // In rounds of a tile for each thread: strictly in order, and it can be stopped in between.
+    let side = rayon::current_num_threads().max(1);
+    missing.chunks_mut(side).all(|round| {
+        let wanted = keep_going();
+        if wanted {
+            round.par_iter_mut().for_each(|leaf| {
+                let detail = Arc::new(detail::make_detail(terrain, &leaf.tile));
+                keep(&leaf.tile, &detail);
+                leaf.detail = Some(detail);
+            });
+        }
+        wanted
+    })
 }

@@ -93,7 +93,8 @@ pub fn run() -> ExitCode {
 fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
     if let Some(file) = &file {
         // Said here rather than in a window: whoever gave a name on the command line reads the answer there.
-        load(file)?;
+        // A missing picture is no reason to stay out: the editor says so and goes on without.
+        Planet::open(file).map_err(|error| Failure::Message(error.to_string()))?;
     }
     Ok(crate::editor::run(file)?)
 }

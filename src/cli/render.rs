@@ -1,7 +1,7 @@
 //! `tellus render`: a picture of a planet, without a window.
 
 use super::{Failure, args, headless, load};
-use crate::build::build_now;
+use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
@@ -83,9 +83,13 @@ impl ValueEnum for DebugView {
             DebugView::Shaded => "shaded",
             DebugView::Height => "height",
             DebugView::Normal => "normal",
-            DebugView::Biome => "biome",
             DebugView::Slope => "slope",
+            DebugView::Biome => "biome",
+            DebugView::Temperature => "temperature",
+            DebugView::Moisture => "moisture",
             DebugView::Lod => "lod",
+            DebugView::TileBorders => "tiles",
+            DebugView::Error => "error",
             DebugView::Wireframe => "wireframe",
             DebugView::Coverage => "coverage",
         }))
@@ -99,12 +103,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
     renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     let view = view(args, &planet);
-    let surface = build_now(&planet, &view);
+    let mut surface = build_now(&planet, &view);
+    add_detail(&mut surface, &view);
     let sun = args.sun.unwrap_or((planet.star.latitude_deg, planet.star.longitude_deg));
     let frame = Frame {
         surface: &surface,
         planet: &planet,
         view,
+        frozen: None,
         sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
         time_secs: args.time,
         exposure_ev: args.exposure.unwrap_or(0.0),

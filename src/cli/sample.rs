@@ -19,7 +19,8 @@ pub(super) struct Args {
     /// Longitude in degrees, east positive
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: f64,
-    /// Answer as a JSON object: height_m, slope_deg, normal, temperature (°C), moisture, biome, layers
+    /// Answer as a JSON object: height_m, slope_deg, normal, temperature_c and precipitation_mm (a year), temperature and
+    /// moisture (0 to 1, the sides of the biome table), biome, layers
     #[arg(long)]
     json: bool,
 }
@@ -40,7 +41,9 @@ fn as_json(terrain: &Terrain, sample: &Sample) -> Value {
         "height_m": sample.height_m,
         "slope_deg": sample.slope_rad.to_degrees(),
         "normal": sample.normal_planet.to_array(),
-        "temperature": sample.temperature_c,
+        "temperature_c": sample.temperature_c,
+        "temperature": sample.temperature,
+        "precipitation_mm": sample.precipitation_mm,
         "moisture": sample.moisture,
         "biome": biome_name(terrain, sample),
         "layers": layers.map(|(layer, m)| json!({ "name": layer.name, "height_m": m })).collect::<Vec<_>>(),
@@ -53,8 +56,8 @@ fn as_text(terrain: &Terrain, sample: &Sample) -> String {
         format!("height       {:.3} m", sample.height_m),
         format!("slope        {:.2}°", sample.slope_rad.to_degrees()),
         format!("normal       {x:.6} {y:.6} {z:.6}"),
-        format!("temperature  {:.1} °C", sample.temperature_c),
-        format!("moisture     {:.3}", sample.moisture),
+        format!("temperature  {:.1} °C ({:.3})", sample.temperature_c, sample.temperature),
+        format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
     ];
     let layers = terrain.planet().layers.iter().zip(&sample.layers_m);

@@ -3,6 +3,7 @@
 //! `logic` takes in what came from outside (shortcuts, dropped files, dialogs, the close button) and carries out commands;
 //! `ui` shows everything, lets the panels change a draft of the planet, and turns a changed draft into an undo step.
 
+use super::bookmarks::Renaming;
 use super::command::Command;
 use super::dialogs::{FileDialogs, NativeDialogs};
 use super::document::Document;
@@ -11,6 +12,8 @@ use super::handle::Action;
 use super::look;
 use super::menus;
 use super::panels::{Draft, PanelState};
+use super::performance;
+use super::pictures::Pictures;
 use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
 use super::status;
@@ -30,9 +33,12 @@ pub struct EditorApp {
     pub(super) viewport: Viewport,
     pub(super) panels: PanelState,
     pub(super) files: FileFlow,
+    pub(super) pictures: Pictures,
     pub(super) messages: Vec<Message>,
     pub(super) show_panel: bool,
     pub(super) show_controls: bool,
+    pub(super) renaming: Renaming,
+    pub(super) show_performance: bool,
     /// What the user asked for in this frame.
     pub(super) actions: Vec<Action>,
     /// Commands that wait until a half-typed value has been taken over.
@@ -61,9 +67,12 @@ impl EditorApp {
             viewport,
             panels: PanelState::default(),
             files: FileFlow::new(Box::new(NativeDialogs::default())),
+            pictures: Pictures::default(),
             messages: Vec::new(),
             show_panel: !panel_hidden,
             show_controls: false,
+            renaming: None,
+            show_performance: false,
             actions: Vec::new(),
             deferred: Vec::new(),
             orphans: Vec::new(),
@@ -99,6 +108,11 @@ impl EditorApp {
     /// The document.
     pub fn document(&self) -> &Document {
         &self.document
+    }
+
+    /// The pictures of height maps.
+    pub fn pictures(&self) -> &Pictures {
+        &self.pictures
     }
 
     /// The viewport.
@@ -157,7 +171,7 @@ impl EditorApp {
     }
 
     /// Makes an undo step of a changed draft, and starts the clock that stops at its picture.
-    fn edit(&mut self, planet: Planet, label: Option<String>) {
+    pub(super) fn edit(&mut self, planet: Planet, label: Option<String>) {
         let shown_before = self.document.valid_planet().clone();
         self.document.edit(planet, label);
         let shown = self.document.valid_planet();
@@ -168,12 +182,14 @@ impl EditorApp {
 
     fn show_problems(&self, ui: &mut egui::Ui) {
         let problems = self.document.problems();
-        if problems.is_empty() && self.viewport.error().is_none() {
+        let error = self.viewport.error();
+        let pictures = self.pictures.problems();
+        if problems.is_empty() && pictures.is_empty() && error.is_none() {
             return;
         }
         egui::Panel::top("problems").resizable(false).show(ui, |ui| {
             let color = ui.visuals().error_fg_color;
-            if let Some(error) = self.viewport.error() {
+            if let Some(error) = error {
                 ui.colored_label(color, error);
             }
             if !problems.is_empty() {
@@ -181,6 +197,12 @@ impl EditorApp {
             }
             for (path, message) in problems.iter().take(4) {
                 ui.colored_label(color, format!("{path}: {message}"));
+            }
+            for (path, message) in pictures.iter().take(4) {
+                ui.colored_label(
+                    ui.visuals().warn_fg_color,
+                    format!("{path}: {message}; until then this layer is flat"),
+                );
             }
             if problems.len() > 4 {
                 ui.weak(format!("… and {} more", problems.len() - 4));
@@ -197,7 +219,9 @@ pub(super) fn default_planet() -> Planet {
 
 impl eframe::App for EditorApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        profiling::finish_frame!();
         self.frame_start = Instant::now();
+        self.viewport.frames.begin(self.frame_start);
         if let Some(state) = frame.wgpu_render_state() {
             let waker = ctx.clone();
             self.viewport.edit_clock.frame_began(&state.device, move || waker.request_repaint());
@@ -207,6 +231,7 @@ impl eframe::App for EditorApp {
         self.take_dropped_files(ctx);
         self.poll_dialogs(ctx);
         self.handle_actions(ctx);
+        self.poll_pictures(ctx);
         self.handle_close_request(ctx);
         self.update_title(ctx);
     }
@@ -219,14 +244,19 @@ impl eframe::App for EditorApp {
         if self.show_panel {
             let mut planet = (**self.document.planet()).clone();
             let mut label = None;
-            let problems = self.document.problems().to_vec();
+            let problems = [self.document.problems(), self.pictures.problems()].concat();
+            let mut browse = None;
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
-                let mut draft = Draft { planet: &mut planet, label: None, problems: &problems };
+                let under_pointer = self.viewport.under_pointer();
+                let mut draft =
+                    Draft { planet: &mut planet, label: None, browse: None, problems: &problems, under_pointer };
                 self.panels.show(ui, &mut draft);
                 label = draft.label;
+                browse = draft.browse;
             });
             self.edit(planet, label);
+            self.actions.extend(browse.map(Action::Browse));
         }
         self.show_problems(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {
@@ -237,6 +267,7 @@ impl eframe::App for EditorApp {
             }
         });
         prompts::show(&ctx, self);
+        performance::show(&ctx, self);
         self.settle(&ctx);
         if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
             ctx.request_repaint_after(wait);
@@ -248,6 +279,7 @@ impl eframe::App for EditorApp {
             // One more frame after the last movement, to say that all is still.
             ctx.request_repaint_after_secs(0.5);
         }
+        self.viewport.frames.end();
     }
 
     fn on_exit(&mut self) {

@@ -12,6 +12,11 @@ pub enum DialogRequest {
         /// Folder to begin in.
         folder: Option<PathBuf>,
     },
+    /// A picture for a height map.
+    Picture {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+    },
     /// A file to save to.
     SaveAs {
         /// Folder to begin in.
@@ -61,7 +66,8 @@ impl FileDialogs for NativeDialogs {
         if !can_show_dialogs() {
             return Err(NO_DIALOGS.to_owned());
         }
-        let dialog = rfd::AsyncFileDialog::new().add_filter("Planet presets", &["ron"]);
+        let presets = || rfd::AsyncFileDialog::new().add_filter("Planet presets", &["ron"]);
+        let pictures = || rfd::AsyncFileDialog::new().add_filter("Pictures", &["png", "exr"]);
         let with_folder = |dialog: rfd::AsyncFileDialog, folder: Option<PathBuf>| match folder {
             Some(folder) => dialog.set_directory(folder),
             None => dialog,
@@ -69,10 +75,13 @@ impl FileDialogs for NativeDialogs {
         // Desktops want dialogs made on the main thread; the waiting is done elsewhere.
         let future: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match request {
             DialogRequest::Open { folder } => {
-                Box::pin(with_folder(dialog, folder).set_title("Open planet").pick_file())
+                Box::pin(with_folder(presets(), folder).set_title("Open planet").pick_file())
+            }
+            DialogRequest::Picture { folder } => {
+                Box::pin(with_folder(pictures(), folder).set_title("Choose a height map").pick_file())
             }
             DialogRequest::SaveAs { folder, file_name } => {
-                Box::pin(with_folder(dialog, folder).set_title("Save planet").set_file_name(file_name).save_file())
+                Box::pin(with_folder(presets(), folder).set_title("Save planet").set_file_name(file_name).save_file())
             }
         };
         let (sender, receiver) = channel();

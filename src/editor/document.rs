@@ -3,6 +3,7 @@
 use super::describe;
 use super::history::History;
 use crate::planet::param::ParamPath;
+use crate::planet::picture::{Picture, PictureKey, folder_of};
 use crate::planet::{Planet, validate};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -70,8 +71,26 @@ impl Document {
         !Arc::ptr_eq(&self.planet, &self.saved) && self.planet != self.saved
     }
 
+    /// The folder of its file.
+    pub fn folder(&self) -> Option<PathBuf> {
+        self.path.as_deref().map(folder_of)
+    }
+
+    /// Hands over a picture that has been read. That is no edit: what the planet says stays the same.
+    pub fn give_picture(&mut self, key: &PictureKey, picture: &Arc<Picture>) {
+        let given = |planet: &Arc<Planet>| {
+            let mut planet = (**planet).clone();
+            planet.give_picture(key, picture);
+            Arc::new(planet)
+        };
+        (self.planet, self.valid, self.saved) = (given(&self.planet), given(&self.valid), given(&self.saved));
+    }
+
     /// Replaces the planet; `label` names the step, or it is named after what changed.
-    pub fn edit(&mut self, planet: Planet, label: Option<String>) {
+    pub fn edit(&mut self, mut planet: Planet, label: Option<String>) {
+        if let Some(folder) = self.folder() {
+            planet.set_folder(&folder);
+        }
         if planet == *self.planet {
             return;
         }
@@ -99,10 +118,14 @@ impl Document {
         }
     }
 
-    /// Notes that `planet` now stands in the file at `path`.
-    pub fn mark_saved(&mut self, planet: Arc<Planet>, path: PathBuf) {
-        self.saved = planet;
+    /// Notes that `planet` now stands in the file at `path`. Paths of pictures count from there from now on.
+    pub fn mark_saved(&mut self, planet: &Planet, path: PathBuf) {
+        let folder = folder_of(&path);
+        self.saved = Arc::new(planet.moved_to(&folder));
         self.path = Some(path);
+        for kept in [&mut self.planet, &mut self.valid] {
+            *kept = if **kept == *self.saved { self.saved.clone() } else { Arc::new(kept.moved_to(&folder)) };
+        }
     }
 
     /// The name of the file or of the planet, with a mark when there is unsaved work.
@@ -154,7 +177,7 @@ mod tests {
         document.undo();
         assert!(!document.is_dirty(), "undoing everything leaves nothing to save");
         document.redo();
-        document.mark_saved(document.planet().clone(), PathBuf::from("a.ron"));
+        document.mark_saved(&document.planet().clone(), PathBuf::from("a.ron"));
         assert_eq!(document.title(), "a.ron");
         document.undo();
         assert!(document.is_dirty(), "the file holds the later planet");

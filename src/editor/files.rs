@@ -8,6 +8,7 @@ use super::handle::Action;
 use super::prompts::Message;
 use super::recovery;
 use super::widgets::random_seed;
+use crate::planet::param::ParamPath;
 use crate::planet::{LoadError, Planet, random, shipped};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -28,6 +29,8 @@ pub enum Goal {
 enum Asking {
     Open,
     SaveAs,
+    /// A picture for the parameter there.
+    Picture(ParamPath),
 }
 
 /// The state of opening and saving.
@@ -79,7 +82,7 @@ impl EditorApp {
             Goal::New => self.replace(Document::new(default_planet(), None)),
             Goal::Random => self.replace(Document::unsaved(random::random(random_seed()))),
             Goal::Open => {
-                let folder = self.folder();
+                let folder = self.document.folder();
                 self.ask(ctx, Asking::Open, DialogRequest::Open { folder });
             }
             Goal::OpenPath(path) => self.load(&path),
@@ -100,7 +103,7 @@ impl EditorApp {
 
     /// Opens a file; what is wrong with it is shown in a window, and the document stays.
     pub(super) fn load(&mut self, path: &Path) {
-        match Planet::load(path) {
+        match Planet::open(path) {
             Ok(planet) => self.replace(Document::new(planet, Some(path.to_owned()))),
             Err(error) => self.messages.push(load_failed(path, &error)),
         }
@@ -121,6 +124,12 @@ impl EditorApp {
         }
     }
 
+    /// Asks for a picture for the parameter at `path`.
+    pub(super) fn browse(&mut self, ctx: &egui::Context, path: ParamPath) {
+        let folder = self.document.folder();
+        self.ask(ctx, Asking::Picture(path), DialogRequest::Picture { folder });
+    }
+
     pub(super) fn save(&mut self, ctx: &egui::Context) {
         match self.document.path().map(Path::to_owned) {
             Some(path) => self.save_to(ctx, path),
@@ -129,7 +138,8 @@ impl EditorApp {
     }
 
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
-        let request = DialogRequest::SaveAs { folder: self.folder(), file_name: self.document.suggested_file_name() };
+        let request =
+            DialogRequest::SaveAs { folder: self.document.folder(), file_name: self.document.suggested_file_name() };
         self.ask(ctx, Asking::SaveAs, request);
     }
 
@@ -156,7 +166,7 @@ impl EditorApp {
         }
         match planet.save(&path) {
             Ok(()) => {
-                self.document.mark_saved(planet, path);
+                self.document.mark_saved(&planet, path);
                 if let Some(goal) = self.files.after_save.take() {
                     self.reach(ctx, goal);
                 }
@@ -177,6 +187,7 @@ impl EditorApp {
             (Some(Asking::SaveAs), Some(path)) => {
                 self.save_to(ctx, if path.extension().is_none() { path.with_extension("ron") } else { path });
             }
+            (Some(Asking::Picture(place)), Some(file)) => self.choose_file(&place, &file),
             (_, None) => self.files.after_save = None,
             (None, Some(_)) => {}
         }
@@ -215,13 +226,10 @@ impl EditorApp {
         // A dialog that is still open asked about the document before: its answer must not touch this one.
         self.files.asking = None;
         self.files.after_save = None;
+        self.renaming = None;
         let planet = self.document.valid_planet().clone();
         self.viewport.reset_view(&planet);
         self.panels.new_document();
-    }
-
-    fn folder(&self) -> Option<PathBuf> {
-        self.document.path()?.parent().map(Path::to_owned)
     }
 }
 

@@ -1,10 +1,12 @@
 //! The one place that carries out what the user asked for.
 
 use super::app::EditorApp;
+use super::bookmarks::BookmarkAction;
 use super::command::Command;
 use super::files::{Goal, PromptAnswer};
+use super::viewport::camera::{Cameras, Ground};
 use crate::lod::Quality;
-use crate::render::DebugView;
+use crate::planet::param::ParamPath;
 use eframe::egui;
 use std::path::PathBuf;
 
@@ -21,8 +23,10 @@ pub enum Action {
     Answer(PromptAnswer),
     /// Take work over that a crash left behind, or throw it away.
     Recover(bool),
-    /// Show something else of the surface.
-    View(DebugView),
+    /// Choose a file for the parameter there.
+    Browse(ParamPath),
+    /// Do something with a bookmark.
+    Bookmark(BookmarkAction),
     /// Draw better or faster.
     Quality(Quality),
 }
@@ -34,7 +38,8 @@ impl Action {
         match self {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
-            Action::Answer(_) | Action::Recover(_) | Action::View(_) | Action::Quality(_) => false,
+            Action::Browse(_) => true,
+            Action::Answer(_) | Action::Recover(_) | Action::Bookmark(_) | Action::Quality(_) => false,
         }
     }
 }
@@ -63,7 +68,8 @@ impl EditorApp {
             Action::OpenShipped(index) => self.pursue(ctx, Goal::OpenShipped(index)),
             Action::Answer(answer) => self.answer_prompt(ctx, answer),
             Action::Recover(keep) => self.recover(keep),
-            Action::View(view) => self.viewport.settings.debug_view = view,
+            Action::Browse(path) => self.browse(ctx, path),
+            Action::Bookmark(action) => self.handle_bookmark(action),
             Action::Quality(quality) => self.viewport.settings.quality = quality,
         }
     }
@@ -90,6 +96,7 @@ impl EditorApp {
             }
             Command::PlayPause => self.viewport.settings.playing ^= true,
             Command::TogglePanel => self.show_panel ^= true,
+            Command::TogglePerformance => self.show_performance ^= true,
             Command::ToggleFullscreen => {
                 let fullscreen = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(!fullscreen));
@@ -99,7 +106,22 @@ impl EditorApp {
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
             Command::Controls => self.show_controls ^= true,
+            Command::Move(mode) => {
+                self.move_cameras(|cameras, ground| cameras.set_mode(mode, ground));
+                self.viewport.take_focus();
+            }
+            Command::LevelView => self.move_cameras(Cameras::level),
+            Command::Dive => self.move_cameras(|cameras, _| cameras.set_dive(!cameras.dives())),
+            Command::FreezeDetail => self.viewport.settings.freeze_detail ^= true,
+            Command::Show(view) => self.viewport.settings.debug_view = view,
+            Command::AddBookmark => self.add_bookmark(),
+            Command::GoTo(index) => self.go_to_bookmark(usize::from(index)),
         }
+    }
+
+    fn move_cameras(&mut self, change: impl FnOnce(&mut Cameras, &dyn Ground)) {
+        let planet = self.document.valid_planet().clone();
+        self.viewport.move_cameras(&planet, change);
     }
 
     /// After undo and redo: measure the picture as after any edit.

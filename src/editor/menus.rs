@@ -1,9 +1,11 @@
 //! The menu bar. Menus only send commands.
 
 use super::app::EditorApp;
+use super::bookmarks;
 use super::command::Command;
 use super::handle::Action;
 use super::viewport::ViewSettings;
+use super::viewport::camera::Mode;
 use super::widgets::icon::{Icon, icon_button};
 use crate::lod::Quality;
 use crate::planet::shipped;
@@ -32,6 +34,8 @@ pub fn show(ui: &mut egui::Ui, app: &mut EditorApp) {
             entry(ui, app, Command::Redo, redo.is_some(), redo);
         });
         ui.menu_button("View", |ui| view(ui, app));
+        ui.menu_button("Camera", |ui| camera(ui, app));
+        ui.menu_button("Bookmarks", |ui| bookmarks::menu(ui, app));
         ui.menu_button("Planets", |ui| {
             for (index, preset) in shipped::ALL.iter().enumerate() {
                 if ui.button(readable(preset.file)).clicked() {
@@ -51,7 +55,8 @@ pub fn show(ui: &mut egui::Ui, app: &mut EditorApp) {
     });
 }
 
-fn entry(ui: &mut egui::Ui, app: &mut EditorApp, command: Command, enabled: bool, label: Option<String>) {
+/// A button for a command, with its shortcut.
+pub(super) fn entry(ui: &mut egui::Ui, app: &mut EditorApp, command: Command, enabled: bool, label: Option<String>) {
     let label = label.unwrap_or_else(|| command.label().to_owned());
     let mut button = egui::Button::new(label);
     if let Some(shortcut) = command.shortcuts().first() {
@@ -63,14 +68,36 @@ fn entry(ui: &mut egui::Ui, app: &mut EditorApp, command: Command, enabled: bool
     }
 }
 
+/// The same for one of several commands, or for one that is on or off.
+fn choice(ui: &mut egui::Ui, app: &mut EditorApp, command: Command, chosen: bool) {
+    let mut button = egui::Button::selectable(chosen, command.label());
+    if let Some(shortcut) = command.shortcuts().first() {
+        button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+    }
+    if ui.add(button).on_hover_text(command.tooltip()).clicked() {
+        app.send(command);
+        ui.close();
+    }
+}
+
+fn camera(ui: &mut egui::Ui, app: &mut EditorApp) {
+    let (mode, dives) = (app.viewport.cameras().mode(), app.viewport.cameras().dives());
+    for other in Mode::ALL {
+        choice(ui, app, Command::Move(other), mode == other);
+    }
+    ui.separator();
+    choice(ui, app, Command::Dive, dives);
+    entry(ui, app, Command::LevelView, mode == Mode::Fly, None);
+    entry(ui, app, Command::ResetView, true, None);
+}
+
 fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
     let settings: ViewSettings = app.viewport.settings;
     for view in DebugView::ALL {
-        if ui.radio(settings.debug_view == view, view.label()).clicked() {
-            app.actions.push(Action::View(view));
-            ui.close();
-        }
+        choice(ui, app, Command::Show(view), settings.debug_view == view);
     }
+    ui.separator();
+    choice(ui, app, Command::FreezeDetail, settings.freeze_detail);
     ui.separator();
     ui.menu_button(format!("Quality: {}", settings.quality.label().to_lowercase()), |ui| {
         for quality in Quality::ALL {
@@ -91,8 +118,7 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
         );
     });
     ui.separator();
-    entry(ui, app, Command::ResetView, true, None);
-    for command in [Command::TogglePanel, Command::ToggleFullscreen, Command::ToggleTheme] {
+    for command in [Command::TogglePanel, Command::TogglePerformance, Command::ToggleFullscreen, Command::ToggleTheme] {
         entry(ui, app, command, true, None);
     }
 }

@@ -5,11 +5,15 @@
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
 //! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
 //! - [`viewport`]: the picture, the camera, the measurements
+//! - [`pictures`]: pictures of height maps, read in the background
+//! - [`bookmarks`]: views kept in the preset
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
-//! - [`menus`], [`status`], [`look`]: the rest of the window
+//! - [`menus`], [`status`], [`controls`], [`performance`], [`look`]: the rest of the window
 
 pub mod app;
+pub mod bookmarks;
 pub mod command;
+pub mod controls;
 pub mod describe;
 pub mod dialogs;
 pub mod document;
@@ -19,6 +23,8 @@ pub mod history;
 pub mod look;
 pub mod menus;
 pub mod panels;
+pub mod performance;
+pub mod pictures;
 pub mod prompts;
 pub mod recovery;
 pub mod status;

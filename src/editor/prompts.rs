@@ -1,8 +1,9 @@
-//! Windows over the window: unsaved work, messages, the controls.
+//! Windows over the window: unsaved work, messages, the name of a bookmark, the controls.
 
 use super::app::EditorApp;
 use super::files::PromptAnswer;
 use super::handle::Action;
+use super::{bookmarks, controls};
 use eframe::egui;
 
 /// Something went wrong; shown until dismissed.
@@ -33,7 +34,8 @@ pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
         app.messages.remove(0);
         ctx.request_repaint();
     }
-    controls(ctx, &mut app.show_controls);
+    bookmarks::rename_window(ctx, app);
+    controls::show(ctx, &mut app.show_controls);
 }
 
 fn unsaved(ctx: &egui::Context, title: &str) -> Option<PromptAnswer> {
@@ -103,25 +105,4 @@ fn dismissed(ctx: &egui::Context, message: &Message) -> bool {
         .inner
     });
     modal.inner || modal.should_close()
-}
-
-fn controls(ctx: &egui::Context, open: &mut bool) {
-    egui::Window::new("Controls").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
-        egui::Grid::new("controls").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-            for (input, effect) in [
-                ("Drag", "Hold the ground and turn the planet"),
-                ("Scroll, Page up, Page down", "Go nearer or farther"),
-                ("Double click", "Fly there"),
-                ("Right drag, Shift and arrow keys", "Turn the head, look at the horizon"),
-                ("Shift and drag, middle drag", "Turn the star"),
-                ("Arrow keys", "Travel (click the planet first)"),
-                ("Ctrl+0", "See the whole planet again"),
-                ("Right click on a name in the panel", "Copy or reset a value"),
-            ] {
-                ui.strong(input);
-                ui.label(effect);
-                ui.end_row();
-            }
-        });
-    });
 }

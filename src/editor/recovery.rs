@@ -54,7 +54,7 @@ impl Recovery {
             }
             if file.exists() {
                 // One that cannot be read stays where it is: somebody may still save it by hand.
-                if let Ok(planet) = Planet::load(&file) {
+                if let Ok(planet) = Planet::open(&file) {
                     orphans.push(Orphan { file, planet });
                 }
             } else {

@@ -1,7 +1,8 @@
 //! The status bar: what lies under the pointer, and true figures of what was drawn.
 
 use super::app::EditorApp;
-use super::widgets::number::length_text;
+use super::performance::megabytes;
+use super::widgets::number::{format_digits, length_text};
 use crate::sphere::LatLon;
 use eframe::egui;
 
@@ -13,9 +14,10 @@ pub fn show(ui: &mut egui::Ui, app: &EditorApp) {
         let (altitude_m, place) = viewport.eye(app.document().valid_planet());
         let left = match viewport.under_pointer() {
             Some(under) => format!(
-                "{}   {}   {}   {:.1} °C   moisture {:.2}",
+                "{}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
                 place_text(under.place),
                 length_text(under.height_m),
+                under.slope_deg,
                 under.biome,
                 under.temperature_c,
                 under.moisture
@@ -26,9 +28,10 @@ pub fn show(ui: &mut egui::Ui, app: &EditorApp) {
             figures(ui, app);
             ui.separator();
             ui.label(format!("Eye at {}", length_text(altitude_m))).on_hover_text("Height of the eye above the ground");
+            ui.label(mode_text(app)).on_hover_text("How you move: F2 around the planet, F3 in free flight, F4 on foot");
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 ui.add(egui::Label::new(left).truncate())
-                    .on_hover_text("Under the pointer: place, height, biome, temperature, moisture");
+                    .on_hover_text("Under the pointer: place, height, slope, biome, temperature, moisture");
             });
         });
     });
@@ -48,6 +51,13 @@ fn figures(ui: &mut egui::Ui, app: &EditorApp) {
         ui.label(format!("edit {:.1} ms", duration.as_secs_f64() * 1000.0))
             .on_hover_text("From the last edit to its complete picture");
     }
+    let memory = viewport.memory();
+    ui.label(format!("{:.0} MB", megabytes(memory.used_bytes as u64))).on_hover_text(format!(
+        "Kept for later: {} tiles and {} layer fields, at most {:.0} MB",
+        memory.tiles,
+        memory.fields,
+        megabytes(memory.budget_bytes as u64)
+    ));
     if let Some(surface) = viewport.surface() {
         let stats = surface.stats;
         let drawn = viewport.stats();
@@ -60,6 +70,19 @@ fn figures(ui: &mut egui::Ui, app: &EditorApp) {
             drawn.triangles
         ));
     }
+}
+
+fn mode_text(app: &EditorApp) -> String {
+    let cameras = app.viewport().cameras();
+    let mut text = cameras.mode().label().to_owned();
+    let factor = cameras.speed_factor();
+    if (factor - 1.0).abs() > 0.01 {
+        text += &format!(" ×{}", format_digits(factor, 2));
+    }
+    if app.viewport().settings.freeze_detail {
+        text += ", detail frozen";
+    }
+    text
 }
 
 fn place_text(place: LatLon) -> String {

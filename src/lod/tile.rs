@@ -1,6 +1,6 @@
 //! A tile: the finished mesh of one node, ready for any renderer.
 
-use crate::sphere::NodeId;
+use crate::sphere::{Face, NodeId};
 use glam::DVec3;
 
 /// Quads along a tile's side.
@@ -9,6 +9,42 @@ pub const TILE_QUADS: usize = 32;
 pub const TILE_SIDE: usize = TILE_QUADS + 1;
 /// Vertices of a tile.
 pub const TILE_VERTICES: usize = TILE_SIDE * TILE_SIDE;
+
+/// Texels along a detail tile's side, one on each vertex and three between: borders are shared with the neighbours.
+pub const DETAIL_SIDE: usize = 4 * TILE_QUADS + 1;
+
+/// The ground of a node four times as fine as its mesh: the relief that a tile's vertices are too coarse to show, for shading.
+///
+/// Values lie on [`DETAIL_SIDE`] rows of [`DETAIL_SIDE`] texels, the first and the last on the node's edges, with linear
+/// interpolation between. What is finer than twice the texel spacing is faded out.
+#[derive(Debug)]
+pub struct DetailTile {
+    /// Different for any two ever built.
+    pub serial: u64,
+    /// [`Tile::heights_serial`] of the tile whose ground it shows.
+    pub heights_serial: u64,
+    /// Rise over run along two tangents of the sphere, as [`slope_basis`] has them at each point (the normal is along
+    /// `up - x * east - y * north`); and the same as the parent's would have it.
+    pub slopes: Vec<[half::f16; 4]>,
+    /// Height of the ground above the mesh, metres.
+    pub rise_m: Vec<half::f16>,
+}
+
+/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's first axis
+/// as it can be, and the one to its left, seen from outside.
+pub fn slope_basis(face: Face, dir_planet: DVec3) -> [DVec3; 2] {
+    let along = slope_axis(face);
+    let east = (along - dir_planet * dir_planet.dot(along)).normalize_or_zero();
+    [east, dir_planet.cross(east)]
+}
+
+/// The axis that a face's first tangent follows.
+pub fn slope_axis(face: Face) -> DVec3 {
+    let ((axis, sign), _) = face.tangent_axes();
+    let mut along = DVec3::ZERO;
+    along[axis] = sign as f64;
+    along
+}
 
 /// One vertex, 44 bytes.
 ///
@@ -49,6 +85,8 @@ pub struct Tile {
     pub id: NodeId,
     /// Different for any two tiles ever built: the key under which a renderer keeps its copy.
     pub serial: u64,
+    /// Different for any two sets of heights: a tile rebuilt for another climate keeps it.
+    pub heights_serial: u64,
     /// [`TILE_SIDE`] rows of [`TILE_SIDE`] vertices: `u` (east on the face) runs fastest.
     pub vertices: Vec<Vertex>,
     /// Lowest height of a vertex.
@@ -59,4 +97,24 @@ pub struct Tile {
     pub center_planet_m: DVec3,
     /// Radius of the bounding sphere.
     pub bounding_radius_m: f64,
+}
+
+impl Tile {
+    /// Height of the mesh at a place within the node, 0 to 1 along both sides: on the triangle that is drawn there (see
+    /// [`crate::lod::stitch`]; stitched edges are not considered).
+    pub fn mesh_height_m(&self, u: f64, v: f64) -> f64 {
+        let quad = |w: f64| ((w * TILE_QUADS as f64) as usize).min(TILE_QUADS - 1);
+        let (x, y) = (quad(u), quad(v));
+        let (u, v) = (u * TILE_QUADS as f64 - x as f64, v * TILE_QUADS as f64 - y as f64);
+        let at = |dx: usize, dy: usize| f64::from(self.vertices[(y + dy) * TILE_SIDE + x + dx].height_m);
+        // The diagonal goes from the middle of a block of two by two quads to its corner.
+        if (x + y).is_multiple_of(2) {
+            let (corner, along, side) = if u > v { (at(1, 0), u, v) } else { (at(0, 1), v, u) };
+            at(0, 0) + along * (corner - at(0, 0)) + side * (at(1, 1) - corner)
+        } else if u + v < 1.0 {
+            at(0, 0) + u * (at(1, 0) - at(0, 0)) + v * (at(0, 1) - at(0, 0))
+        } else {
+            at(1, 1) + (1.0 - u) * (at(0, 1) - at(1, 1)) + (1.0 - v) * (at(1, 0) - at(1, 1))
+        }
+    }
 }

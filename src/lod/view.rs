@@ -92,4 +92,9 @@ impl View {
     pub fn aspect(&self) -> f64 {
         f64::from(self.size_px[0]) / f64::from(self.size_px[1])
     }
+
+    /// Angle of a pixel in the middle of the picture.
+    pub fn pixel_rad(&self) -> f64 {
+        2.0 * (self.camera.fov_y_rad * 0.5).tan() / f64::from(self.size_px[1])
+    }
 }

@@ -4,7 +4,7 @@
 //! parameter adds what would be right.
 
 use super::param::{Domain, Param, ValueMut};
-use super::{Atmosphere, Clouds, Layer, Mask, Planet, Problem, Shape, Water, locate};
+use super::{Atmosphere, Bookmark, Clouds, EditorNotes, Layer, Mask, Planet, Problem, Shape, Water, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -87,10 +87,10 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
             (at_value, wanted(text, &path, at_value))
         }
         Error::ExpectedDifferentLength { found, .. } => {
-            (at_value, format!("{found} numbers are too few; use three, for red, green and blue"))
+            (at_value, format!("{found} numbers are too few; use {}", numbers(&path)))
         }
         Error::ExpectedStructLikeEnd if place.is_some_and(|p| parameter(&path).is_some() && p.value < stop) => {
-            (stop, "too many numbers; use three, for red, green and blue".to_owned())
+            (stop, format!("too many numbers; use {}", numbers(&path)))
         }
         Error::ExpectedStructLikeEnd => (stop, "a closing `)` is missing; add it here".to_owned()),
         Error::ExpectedArrayEnd => (stop, "a closing `]` is missing; add it here".to_owned()),
@@ -112,7 +112,8 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
             (at_value, format!("`{found}` is not what belongs here; write `{expected}(...)` or only `(...)`"))
         }
         Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => {
-            (stop, format!("found {}; a preset is written `(version: 1, ...)`", locate::excerpt(text, stop)))
+            let found = locate::excerpt(text, stop);
+            (stop, format!("found {found}; a preset is written `(version: {}, ...)`", super::VERSION))
         }
         other => (stop, other.to_string()),
     };
@@ -170,13 +171,17 @@ fn wanted(text: &str, path: &str, offset: usize) -> String {
     let found = locate::excerpt(text, offset);
     let right = match parameter(path) {
         Some((param, names)) => in_words(param, names),
-        None if path.ends_with("layers") || path.ends_with("masks") || path.ends_with("palette") => {
+        None if path.ends_with("layers")
+            || path.ends_with("masks")
+            || path.ends_with("palette")
+            || path.ends_with("bookmarks") =>
+        {
             "a list: `[(...), (...)]`".to_owned()
         }
         None if path.ends_with("table") => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
         None if path.contains("table[") => "a row of letters: `\"aab\"`".to_owned(),
         None if path == "version" => format!("a whole number, now {}", super::VERSION),
-        None if matches!(path, "water" | "atmosphere" | "clouds") => "`(...)` or `None`".to_owned(),
+        None if matches!(path, "water" | "atmosphere" | "clouds" | "editor") => "`(...)` or `None`".to_owned(),
         None => "`(field: value, ...)`".to_owned(),
     };
     format!("{found} is not what belongs here; use {right}")
@@ -193,9 +198,21 @@ fn in_words(param: &Param, names: &[&str]) -> String {
         Domain::Flag => "`true` or `false`".to_owned(),
         Domain::Letter => "a letter in single quotes: `'a'`".to_owned(),
         Domain::Text { .. } => "text in double quotes: `\"text\"`".to_owned(),
-        // A shape carries its own parameters: `Fbm(...)`.
-        Domain::Choice if param.name == "shape" => format!("one of {}", list(names, "(...)")),
+        Domain::Curve { .. } => format!("a list of points: `[(-1, 0), (1, 2)]`, {}", param.range_text()),
+        Domain::File { .. } => "a path in double quotes: `\"maps/heights.png\"`".to_owned(),
+        // A kind carries its own parameters: `Fbm(...)`.
+        Domain::Choice if [Shape::KIND.name, Mask::KIND.name].contains(&param.name) => {
+            format!("one of {}", list(names, "(...)"))
+        }
         Domain::Choice => format!("one of {}", list(names, "")),
+    }
+}
+
+/// How many numbers belong in brackets at a path.
+fn numbers(path: &str) -> &'static str {
+    match parameter(path) {
+        Some((Param { domain: Domain::Curve { .. }, .. }, _)) => "two for each point: `(from, to)`",
+        _ => "three, for red, green and blue",
     }
 }
 
@@ -206,39 +223,41 @@ fn list(names: &[&str], after: &str) -> String {
 
 /// The description of the parameter at a path, if it is one, and its values if there are but a few.
 fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
-    // Any index is as good as 0, and a colour's component is described by the colour.
+    // Any index is as good as 0.
     let general = |steps: Vec<locate::Step<'_>>| -> Vec<Option<String>> {
         let name = |step: &locate::Step<'_>| match step {
             locate::Step::Field(name) => Some((*name).to_owned()),
             locate::Step::Index(_) => None,
         };
-        let mut steps: Vec<_> = steps.iter().map(name).collect();
-        while let Some(None) = steps.last() {
-            steps.pop();
-        }
-        steps
+        steps.iter().map(name).collect()
     };
-    let wanted = general(locate::steps(path));
-    let mut found = None;
-    for shape in Shape::all() {
-        specimen(shape).each(&mut |path, param, value| {
-            if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
-                let names = if let ValueMut::Choice(choice) = value { choice.names() } else { &[] };
-                found = Some((param, names));
-            }
-        });
+    let mut wanted = general(locate::steps(path));
+    loop {
+        let mut found = None;
+        for shape in Shape::all() {
+            specimen(shape).each(&mut |path, param, value| {
+                if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
+                    let names = if let ValueMut::Choice(choice) = value { choice.names() } else { &[] };
+                    found = Some((param, names));
+                }
+            });
+        }
+        // The component of a colour and the point of a curve are described by the whole.
+        if found.is_some() || wanted.pop() != Some(None) {
+            return found;
+        }
     }
-    found
 }
 
 /// A planet that has every part, so that every parameter can be found in it.
 fn specimen(shape: Shape) -> Planet {
-    let layer = Layer { shape, masks: vec![Mask::default()], ..Layer::default() };
+    let layer = Layer { shape, masks: Mask::all(), ..Layer::default() };
     Planet {
         layers: vec![layer],
         water: Some(Water::default()),
         atmosphere: Some(Atmosphere::default()),
         clouds: Some(Clouds::default()),
+        editor: Some(EditorNotes { bookmarks: vec![Bookmark::default()] }),
         ..Planet::default()
     }
 }

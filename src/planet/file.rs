@@ -2,6 +2,7 @@
 
 use super::locate::Place;
 use super::param::ParamPath;
+use super::picture::folder_of;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
 use std::collections::HashMap;
 use std::fmt;
@@ -74,31 +75,28 @@ pub struct SaveError {
 }
 
 impl Planet {
-    /// Reads and checks a preset.
+    /// Reads and checks a preset and the pictures it refers to.
     pub fn load(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
         let path = path.as_ref();
-        let file = path.display().to_string();
-        let invalid = |problem: Problem| LoadError::Invalid { file: file.clone(), problems: vec![problem] };
-        let bytes = read(path).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
-        if bytes.len() as u64 > MAX_FILE_BYTES {
-            let message = format!("the file is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
-            return Err(invalid(Problem { line: 0, column: 0, path: String::new(), message }));
-        }
-        match std::str::from_utf8(&bytes) {
-            Ok(text) => Planet::from_text(&file, text),
-            Err(error) => {
-                let readable = String::from_utf8_lossy(bytes.get(..error.valid_up_to()).unwrap_or_default());
-                let message = "the text is not UTF-8 from here on; save it as UTF-8";
-                Err(invalid(explain::at(&readable, readable.len(), message)))
-            }
-        }
+        let (file, text) = (path.display().to_string(), read_text(path)?);
+        let mut planet = Planet::from_text(&file, &text)?;
+        planet.set_folder(&folder_of(path));
+        let problems = planet.load_pictures();
+        if problems.is_empty() { Ok(planet) } else { Err(all_placed(&file, &text, problems)) }
     }
 
-    /// Reads and checks a preset from text; `file` names it in messages.
+    /// Reads and checks a preset without its pictures: their layers are flat until [`Planet::load_pictures`].
+    pub fn open(path: impl AsRef<Path>) -> Result<Planet, LoadError> {
+        let path = path.as_ref();
+        let mut planet = Planet::from_text(&path.display().to_string(), &read_text(path)?)?;
+        planet.set_folder(&folder_of(path));
+        Ok(planet)
+    }
+
+    /// Reads and checks a preset from text, without its pictures; `file` names it in messages.
     pub fn from_text(file: &str, text: &str) -> Result<Planet, LoadError> {
         let invalid = |problems| LoadError::Invalid { file: file.to_owned(), problems };
-        // Some editors put a byte-order mark in front.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = without_mark(text);
         if text.len() as u64 > MAX_FILE_BYTES {
             let message = format!("the text is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
             return Err(invalid(vec![Problem { line: 0, column: 0, path: String::new(), message }]));
@@ -106,14 +104,7 @@ impl Planet {
         let version = version(text).map_err(|problem| invalid(vec![problem]))?;
         let planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
         let problems = validate::problems(&planet);
-        if problems.is_empty() {
-            return Ok(planet);
-        }
-        let places = locate::all(text);
-        let placed = |(path, message): (ParamPath, String)| placed(text, &places, path.to_string(), message);
-        let mut problems: Vec<Problem> = problems.into_iter().map(placed).collect();
-        problems.sort_by_key(|problem| (problem.line, problem.column));
-        Err(invalid(problems))
+        if problems.is_empty() { Ok(planet) } else { Err(all_placed(file, text, problems)) }
     }
 
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.
@@ -121,16 +112,38 @@ impl Planet {
         text::write(self)
     }
 
-    /// Saves atomically: the old file stays until the new one is whole. A planet that could not be loaded again is
-    /// refused.
+    /// Saves atomically: the old file stays until the new one is whole. Paths of pictures are written as they count from the
+    /// new file. A planet that could not be loaded again is refused.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
         let path = path.as_ref();
         let failed = |message: String| SaveError { path: path.to_owned(), message };
-        if let Some((place, message)) = validate::problems(self).into_iter().next() {
+        let planet = self.moved_to(&folder_of(path));
+        if let Some((place, message)) = validate::problems(&planet).into_iter().next() {
             return Err(failed(format!("the planet is not valid and was not saved: {place}: {message}")));
         }
-        write_atomically(path, self.to_text().as_bytes()).map_err(failed)
+        write_atomically(path, planet.to_text().as_bytes()).map_err(failed)
     }
+}
+
+/// The text of a file that may be a preset.
+fn read_text(path: &Path) -> Result<String, LoadError> {
+    let file = path.display().to_string();
+    let invalid = |problem: Problem| LoadError::Invalid { file, problems: vec![problem] };
+    let bytes = read(path).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        let message = format!("the file is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
+        return Err(invalid(Problem { line: 0, column: 0, path: String::new(), message }));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let readable = String::from_utf8_lossy(&error.as_bytes()[..error.utf8_error().valid_up_to()]);
+        let message = "the text is not UTF-8 from here on; save it as UTF-8";
+        invalid(explain::at(&readable, readable.len(), message))
+    })
+}
+
+/// Some editors put a byte-order mark in front.
+fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
 /// At most one byte more than is allowed.
@@ -148,7 +161,7 @@ fn version(text: &str) -> Result<u32, Problem> {
     let field = "version";
     let Some(place) = locate::find(text, field) else {
         // A text that is no preset at all has a better explanation than a missing field.
-        let problem = match explain::parse::<migrate::FileV1>(text) {
+        let problem = match explain::parse::<migrate::FileV2>(text) {
             Err(problem) if problem.path.is_empty() && !problem.message.starts_with("there is no field") => problem,
             _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version()) },
         };
@@ -176,6 +189,16 @@ fn missing_version() -> String {
 
 fn start(text: &str) -> usize {
     locate::find(text, "").map_or(0, |place| place.value)
+}
+
+/// Problems of parameters with their places in the text, in its order.
+fn all_placed(file: &str, text: &str, problems: Vec<(ParamPath, String)>) -> LoadError {
+    let text = without_mark(text);
+    let places = locate::all(text);
+    let placed = |(path, message): (ParamPath, String)| placed(text, &places, path.to_string(), message);
+    let mut problems: Vec<Problem> = problems.into_iter().map(placed).collect();
+    problems.sort_by_key(|problem| (problem.line, problem.column));
+    LoadError::Invalid { file: file.to_owned(), problems }
 }
 
 /// A problem of a parameter, at its value or at the nearest part of the text that holds it.

@@ -1,10 +1,14 @@
 //! The terrain layers of a preset: what stands in the ordered list, not how it is evaluated (see `terrain`).
 
-use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, linear, log, params};
+use super::masks::Mask;
+use super::param::{Curve, Domain, ParamPath, Segment, Stage, Unit, choice, linear, log, params};
 use super::shapes::Shape;
 
+/// Reach of a curve over noise, and how close its points may stand.
+const NOISE_CURVE: Domain = Domain::Curve { most: 4.0, least_step: 0.01 };
+
 params! {
-    /// One layer of terrain. Its noise `v` is about -1 to 1; its output is `y = (v + bias) * amplitude_m`, which `blend`
+    /// One layer of terrain. Its noise `v`, reshaped by `curve`, is about -1 to 1; its output is `y = (v + bias) * amplitude_m`, which `blend`
     /// joins to the height made by the layers above it in the list, as far as the masks let it.
     pub struct Layer {
         /// What the layer is called; masks refer to it by this name, so it must be unique.
@@ -19,8 +23,13 @@ params! {
         bias: f64 = 0.0, "Bias", Unit::None, linear(-2.0, 2.0), Stage::Height;
         /// How the layer joins the height below it.
         blend: Blend = Blend::Add, "Blend", Unit::None, Domain::Choice, Stage::Height;
+        /// How far apart in height SmoothMax and SmoothMin begin to round the corner between the two grounds.
+        softness_m: f64 = 100.0, "Softness", Unit::Metres, log(0.0, 100_000.0), Stage::Height;
+        /// Reshapes the noise: points (noise, what it becomes), before bias and amplitude. Empty leaves it as it is; beyond its
+        /// ends the curve goes on straight.
+        curve: Curve = Curve::new(), "Curve", Unit::None, NOISE_CURVE, Stage::Height;
     } with {
-        /// The kind of noise and its parameters.
+        /// The kind of terrain and its parameters.
         shape: Shape = Shape::default();
         /// Where the layer acts; several masks multiply.
         masks: Vec<Mask> = Vec::new();
@@ -42,20 +51,10 @@ choice! {
         Min = "Min",
         /// `y` alone.
         Replace = "Replace",
-    }
-}
-
-params! {
-    /// Lets a layer act only where another layer's noise is in a range.
-    pub struct Mask {
-        /// Name of the layer whose noise decides.
-        layer: String = String::new(), "Layer", Unit::None, Domain::Text { max_chars: 48 }, Stage::Height;
-        /// Noise value at which the layer is fully off.
-        from: f64 = -0.1, "From", Unit::None, linear(-2.0, 2.0), Stage::Height;
-        /// Noise value at which the layer is fully on; between the two it fades smoothly.
-        to: f64 = 0.1, "To", Unit::None, linear(-2.0, 2.0), Stage::Height;
-        /// Off where it would be on, and the reverse.
-        invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
+        /// The greater of `h` and `y`, the corner between them rounded by `softness_m`.
+        SmoothMax = "SmoothMax",
+        /// The lesser of `h` and `y`, the corner between them rounded by `softness_m`.
+        SmoothMin = "SmoothMin",
     }
 }
 

@@ -1,25 +1,31 @@
 //! What a planet is: plain data, its description, its file.
 //!
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
-//! - [`layers`], [`shapes`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; everything else; the biome
-//!   table)
+//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; where they act;
+//!   everything else; the biome table); `kinds` writes the enums whose values carry parameters
 //! - `airs`, `star_color`: atmospheres to start from; the colour of a star by its temperature
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
 //!   `locate` knows lines and columns, `migrate` old versions
+//! - [`picture`]: pictures that a preset refers to
 //! - [`shipped`]: the presets that come with the program
+//! - [`notes`]: what the editor keeps in a preset for itself
 //! - [`random`]: random planets that are always valid
 
 mod airs;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
+pub(crate) mod kinds;
 pub mod layers;
 pub(crate) mod locate;
+pub mod masks;
 pub(crate) mod migrate;
+pub mod notes;
 pub mod param;
 pub mod parts;
+pub mod picture;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
@@ -30,24 +36,36 @@ pub mod validate;
 
 pub use airs::{STARTING_AIRS, StartingAir};
 pub use file::{LoadError, Problem, SaveError};
-pub use layers::{Blend, Layer, Mask};
+pub use layers::{Blend, Layer};
+pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
+pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
-pub use shapes::{Craters, Fbm, Ridged, Shape};
+pub use picture::PictureLayout;
+pub use shapes::{
+    Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
+    Terraces, Warped,
+};
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
 
-use param::{Domain, ParamPath, Params, Stage, Unit, log, params};
+use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};
 use serde::{Deserialize, Serialize};
 
 /// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old version
 /// is migrated when it is read, and keeps its exact heights.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Most layers a planet may have.
 pub const MAX_LAYERS: usize = 64;
 
 /// Most masks a layer may have.
 pub const MAX_MASKS: usize = 8;
+
+/// Most distances over which the slope masks of a planet may measure, all different.
+pub const MAX_SLOPE_DISTANCES: usize = 6;
+
+/// Reach of the curve over heights, and how close its points may stand.
+const HEIGHT_CURVE: Domain = Domain::Curve { most: 100_000.0, least_step: 1.0 };
 
 /// Most biomes a palette may have.
 pub const MAX_BIOMES: usize = 64;
@@ -58,9 +76,12 @@ params! {
         /// What the planet is called.
         name: String = "Unnamed".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 64 }, Stage::Label;
         /// Start of every pseudo-random sequence of this planet: each layer's own seed is mixed with it.
-        seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field;
+        seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
-        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field;
+        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
+        /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it is; beyond
+        /// its ends the curve goes on straight.
+        height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;
     } with {
         /// The star that lights the planet.
         star: Star = Star::default();
@@ -76,6 +97,8 @@ params! {
         atmosphere: Option<Atmosphere> = None;
         /// The clouds, or None.
         clouds: Option<Clouds> = None;
+        /// What only the editor reads, or None.
+        editor: Option<EditorNotes> = None;
     }
 }
 

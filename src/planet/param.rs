@@ -1,23 +1,24 @@
 //! One description for each parameter, and the visitor through which everything reaches them.
 //!
-//! A [`Param`] says what a value means, its unit, range, scale and default, and which [`Stage`] of a rebuild
+//! A [`Param`] says what a value means, its unit, range, scale and default, and which [`Stages`] of a rebuild
 //! an edit to it makes stale. Sliders, tooltips, validation messages, the comments of a saved file, random
 //! planets and the diff of two planets are all written against [`Params::each_param`]; none of them knows a
 //! parameter by name. The `params!` macro writes the struct, its defaults and its description from one place.
 
 use std::fmt;
 
-/// The first stage of a rebuild that an edit makes stale; later variants are cheaper.
+/// A part of what is made from a planet; an edit makes some of them stale.
 ///
-/// Everything from [`Stage::Field`] to [`Stage::Climate`] is kept in tiles; the rest lives in small textures and
-/// uniforms and rebuilds no vertex.
+/// The first four are kept in tiles; the rest lives in small textures and uniforms and rebuilds no vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Noise values and gradients of one layer: kind, seed, wavelength, octaves, ...
     Field,
     /// How layers are combined: amplitude, order, enabled, blend, masks.
     Height,
-    /// Temperature and moisture.
+    /// Noise of temperature and moisture: seed, size of regions, octaves.
+    ClimateNoise,
+    /// Temperature and moisture at the surface, and with them the finished vertices.
     Climate,
     /// The biome table and its palette: one small texture.
     Material,
@@ -25,16 +26,103 @@ pub enum Stage {
     CloudMap,
     /// Scattering look-up tables.
     AirTables,
-    /// Uniforms only: water, star, drift of the clouds.
+    /// Uniforms: water, star, rock, drift of the clouds.
     Uniform,
-    /// Nothing that is drawn: names.
+    /// Nothing that is drawn: names, figures.
     Label,
 }
 
 impl Stage {
-    /// Whether an edit at this stage rebuilds tiles on the CPU.
-    pub fn touches_tiles(self) -> bool {
-        self <= Stage::Climate
+    /// All of them, in the order in which they run.
+    pub const ALL: [Stage; 9] = [
+        Stage::Field,
+        Stage::Height,
+        Stage::ClimateNoise,
+        Stage::Climate,
+        Stage::Material,
+        Stage::CloudMap,
+        Stage::AirTables,
+        Stage::Uniform,
+        Stage::Label,
+    ];
+
+    /// The stages that take what this one makes.
+    const fn consequences(self) -> Stages {
+        match self {
+            Stage::Field => Stages::of(&[Stage::Height, Stage::Climate]),
+            Stage::Height | Stage::ClimateNoise => Stages::of(&[Stage::Climate]),
+            // Drawn by shaders that read the parameters from the uniforms.
+            Stage::CloudMap | Stage::AirTables => Stages::of(&[Stage::Uniform]),
+            Stage::Climate | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
+        }
+    }
+}
+
+/// A set of stages.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub struct Stages(u16);
+
+impl Stages {
+    /// No stage.
+    pub const NONE: Stages = Stages(0);
+
+    /// The stages whose results are kept in tiles.
+    pub const OF_TILES: Stages = Stages::of(&[Stage::Field, Stage::Height, Stage::ClimateNoise, Stage::Climate]);
+
+    /// These stages.
+    pub const fn of(stages: &[Stage]) -> Self {
+        let (mut set, mut i) = (0, 0);
+        while i < stages.len() {
+            set |= 1 << stages[i] as u16;
+            i += 1;
+        }
+        Self(set)
+    }
+
+    /// Whether a stage is among them.
+    pub const fn contains(self, stage: Stage) -> bool {
+        self.0 & (1 << stage as u16) != 0
+    }
+
+    /// Whether there are none.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Those of either set.
+    pub const fn and(self, other: Stages) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those that are in both sets.
+    pub const fn within(self, other: Stages) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Those that are not in the other set.
+    pub const fn without(self, other: Stages) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// The stages in the order in which they run.
+    pub fn iter(self) -> impl Iterator<Item = Stage> {
+        Stage::ALL.into_iter().filter(move |stage| self.contains(*stage))
+    }
+
+    /// They and every stage that takes what one of them makes.
+    pub fn with_consequences(self) -> Self {
+        self.iter().fold(self, |all, stage| all.and(stage.consequences()))
+    }
+
+    /// Whether any of them rebuilds tiles on the CPU.
+    pub const fn touches_tiles(self) -> bool {
+        !self.within(Self::OF_TILES).is_empty()
+    }
+}
+
+impl fmt::Debug for Stages {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.iter()).finish()
     }
 }
 
@@ -52,6 +140,7 @@ pub enum Unit {
     PerMetre,
     MetresPerSecond,
     KilometresPerHour,
+    Millimetres,
 }
 
 impl Unit {
@@ -68,6 +157,7 @@ impl Unit {
             Unit::PerMetre => "1/m",
             Unit::MetresPerSecond => "m/s",
             Unit::KilometresPerHour => "km/h",
+            Unit::Millimetres => "mm",
         }
     }
 }
@@ -104,10 +194,22 @@ pub enum Domain {
     Color,
     /// One of a few named values.
     Choice,
+    /// A function drawn through points `[x, y]`, from left to right; none means that it changes nothing.
+    Curve {
+        /// Farthest a point may lie from zero, along either axis.
+        most: f64,
+        /// How far apart neighbouring points must be along x.
+        least_step: f64,
+    },
     /// One letter or digit.
     Letter,
     /// A line of text of at most this many characters.
     Text {
+        /// Most characters allowed.
+        max_chars: usize,
+    },
+    /// The path of a file, from the preset's folder on or whole; at most this many characters.
+    File {
         /// Most characters allowed.
         max_chars: usize,
     },
@@ -133,6 +235,12 @@ pub const fn count(min: u32, max: u32) -> Domain {
     Domain::Count { min, max }
 }
 
+/// The points of a curve; see [`Domain::Curve`].
+pub type Curve = Vec<[f64; 2]>;
+
+/// Most points of a curve.
+pub const MAX_CURVE_POINTS: usize = 16;
+
 /// What a parameter is. Found by [`Params::each_param`]; never made at run time.
 #[derive(Clone, Copy, Debug)]
 pub struct Param {
@@ -146,8 +254,8 @@ pub struct Param {
     pub unit: Unit,
     /// The values it may take.
     pub domain: Domain,
-    /// The first stage an edit makes stale.
-    pub stage: Stage,
+    /// The stages an edit makes stale by itself; what takes their results follows ([`Stages::with_consequences`]).
+    pub stages: Stages,
 }
 
 impl Param {
@@ -160,8 +268,11 @@ impl Param {
             Domain::Count { min, max } => format!("{min} to {max}"),
             Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
             Domain::Color => "0 to 1 each".to_owned(),
-            Domain::Text { max_chars } => format!("at most {max_chars} characters"),
+            Domain::Text { max_chars } | Domain::File { max_chars } => format!("at most {max_chars} characters"),
             Domain::Letter => "one letter, digit or punctuation mark".to_owned(),
+            Domain::Curve { most, .. } => {
+                format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)
+            }
             Domain::Seed | Domain::Flag | Domain::Choice => String::new(),
         }
     }
@@ -187,10 +298,12 @@ pub enum ValueMut<'a> {
     Flag(&'a mut bool),
     /// See [`Domain::Color`] and [`Domain::Triple`].
     Triple(&'a mut [f64; 3]),
-    /// See [`Domain::Text`].
+    /// See [`Domain::Text`] and [`Domain::File`].
     Text(&'a mut String),
     /// See [`Domain::Letter`].
     Letter(&'a mut char),
+    /// See [`Domain::Curve`].
+    Curve(&'a mut Curve),
     /// See [`Domain::Choice`].
     Choice(&'a mut dyn Choice),
 }
@@ -205,6 +318,7 @@ pub enum Value {
     Triple([f64; 3]),
     Text(String),
     Letter(char),
+    Curve(Curve),
     Choice(usize),
 }
 
@@ -218,6 +332,7 @@ impl ValueMut<'_> {
             ValueMut::Triple(v) => Value::Triple(**v),
             ValueMut::Text(v) => Value::Text((*v).clone()),
             ValueMut::Letter(v) => Value::Letter(**v),
+            ValueMut::Curve(v) => Value::Curve((*v).clone()),
             ValueMut::Choice(v) => Value::Choice(v.index()),
         }
     }
@@ -231,6 +346,7 @@ impl ValueMut<'_> {
             (ValueMut::Triple(v), Value::Triple(new)) => **v = *new,
             (ValueMut::Text(v), Value::Text(new)) => (*v).clone_from(new),
             (ValueMut::Letter(v), Value::Letter(new)) => **v = *new,
+            (ValueMut::Curve(v), Value::Curve(new)) => (*v).clone_from(new),
             (ValueMut::Choice(v), Value::Choice(new)) => v.set_index(*new),
             _ => debug_assert!(false, "a parameter never changes its type"),
         }
@@ -256,7 +372,7 @@ impl Value {
                     Some(format!("{bad} is not a finite number; use {}", param.range_text()))
                 }
             }
-            (Value::Text(v), Domain::Text { max_chars }) => {
+            (Value::Text(v), Domain::Text { max_chars } | Domain::File { max_chars }) => {
                 if v.chars().count() > max_chars {
                     Some(format!("{} characters are too many; use {}", v.chars().count(), param.range_text()))
                 } else if v.chars().any(char::is_control) {
@@ -265,12 +381,39 @@ impl Value {
                     None
                 }
             }
+            (Value::Curve(points), Domain::Curve { most, least_step }) => {
+                curve_problem(points, most, least_step, param)
+            }
             (Value::Letter(v), Domain::Letter) if !v.is_ascii_graphic() || matches!(v, '"' | '\\') => {
                 Some(format!("{v:?} cannot be a key; use {}", param.range_text()))
             }
             _ => None,
         }
     }
+}
+
+/// What is wrong with the points of a curve; the first is number 1.
+fn curve_problem(points: &[[f64; 2]], most: f64, least_step: f64, param: &Param) -> Option<String> {
+    match points {
+        [] => return None,
+        [_] => return Some("one point makes no curve; add another, or use `[]` for none".to_owned()),
+        _ if points.len() > MAX_CURVE_POINTS => {
+            return Some(format!("{} points are too many; use at most {MAX_CURVE_POINTS}", points.len()));
+        }
+        _ => {}
+    }
+    for (i, point) in points.iter().enumerate() {
+        if let Some(bad) = point.iter().find(|v| !v.is_finite() || v.abs() > most) {
+            return Some(format!("point {} has {bad}, which is out of range; use {}", i + 1, param.range_text()));
+        }
+    }
+    points.windows(2).enumerate().find(|(_, pair)| pair[1][0] - pair[0][0] < least_step).map(|(i, pair)| {
+        let (number, x, before) = (i + 2, pair[1][0], pair[0][0]);
+        let least = format!("{least_step}{}{}", if param.unit == Unit::None { "" } else { " " }, param.unit.symbol());
+        format!(
+            "point {number} has x {x}, the one before it {before}; let x grow by at least {least} from point to point"
+        )
+    })
 }
 
 /// Where a parameter stands: `layers[2].shape.octaves`.
@@ -372,11 +515,11 @@ macro_rules! param_value {
         })*
     };
 }
-param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text);
+param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3] => Triple, String => Text, Curve => Curve);
 
 /// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
 ///
-/// Each line is `name: type = default, "Label", unit, domain, stage;`, its doc comment being the tooltip and the comment
+/// Each line is `name: type = default, "Label", unit, domain, stage | stage;`, its doc comment being the tooltip and the comment
 /// in the saved file. `with { .. }` adds fields that hold parameters of their own.
 macro_rules! params {
     (
@@ -384,7 +527,7 @@ macro_rules! params {
         pub struct $struct:ident {
             $(
                 $(#[doc = $doc:literal])+
-                $name:ident: $type:ty = $default:expr, $label:literal, $unit:expr, $domain:expr, $stage:expr;
+                $name:ident: $type:ty = $default:expr, $label:literal, $unit:expr, $domain:expr, $($stage:path)|+;
             )*
         }
         $(with {
@@ -420,7 +563,7 @@ macro_rules! params {
                     doc: concat!($($doc),+).trim_ascii_start(),
                     unit: $unit,
                     domain: $domain,
-                    stage: $stage,
+                    stages: $crate::planet::param::Stages::of(&[$($stage),+]),
                 }, )*
             ];
 

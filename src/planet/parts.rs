@@ -9,9 +9,9 @@ params! {
     /// Temperature and moisture over the globe.
     pub struct Climate {
         /// Temperature at sea level on the equator.
-        equator_c: f64 = 28.0, "Equator", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        equator_c: f64 = 28.0, "Equator", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate | Stage::Uniform;
         /// Temperature at sea level at the poles.
-        pole_c: f64 = -28.0, "Poles", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        pole_c: f64 = -28.0, "Poles", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate | Stage::Uniform;
         /// How much colder it gets for each kilometre of height.
         lapse_c_per_km: f64 = 6.5, "Lapse rate", Unit::CelsiusPerKilometre, linear(0.0, 30.0), Stage::Climate;
         /// Swing of the temperature from place to place.
@@ -24,12 +24,18 @@ params! {
         belts: f64 = 0.3, "Belts", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// How much drier it gets for each kilometre of height.
         drying_per_km: f64 = 0.06, "Drying with height", Unit::PerKilometre, linear(0.0, 1.0), Stage::Climate;
+        /// How much moister it is at the sea than far from it.
+        sea_moisture: f64 = 0.0, "Moisture from the sea", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        /// How far moisture from the sea reaches inland; on the way it fades, fastest near the shore.
+        sea_reach_km: f64 = 1500.0, "Reach of the sea", Unit::Kilometres, log(1.0, 20_000.0), Stage::Climate;
+        /// Rain and snow in a year where the moisture is 1; elsewhere in proportion. For figures alone: nothing is drawn from it.
+        wettest_mm: f64 = 3000.0, "Wettest", Unit::Millimetres, log(1.0, 30_000.0), Stage::Label;
         /// Size of the regions between which temperature and moisture vary.
-        wavelength_km: f64 = 3000.0, "Region size", Unit::Kilometres, log(0.1, 100_000.0), Stage::Climate;
+        wavelength_km: f64 = 3000.0, "Region size", Unit::Kilometres, log(0.1, 100_000.0), Stage::ClimateNoise;
         /// How many octaves the variation has.
-        octaves: u32 = 6, "Octaves", Unit::None, count(1, 16), Stage::Climate;
+        octaves: u32 = 6, "Octaves", Unit::None, count(1, 16), Stage::ClimateNoise;
         /// Start of the variation's pseudo-random sequence.
-        seed: u32 = 7, "Seed", Unit::None, Domain::Seed, Stage::Climate;
+        seed: u32 = 7, "Seed", Unit::None, Domain::Seed, Stage::ClimateNoise;
     }
 }
 
@@ -57,11 +63,11 @@ params! {
         /// Height above the sea (or the reference sphere) of the first row, when rows are elevations.
         highest_m: f64 = 6000.0, "Highest", Unit::Metres, linear(-50_000.0, 100_000.0), Stage::Climate;
         /// Slope at which bare rock begins to show through the biome.
-        cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Uniform;
         /// Slope from which there is only bare rock.
-        cliff_full_deg: f64 = 42.0, "Only rock", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        cliff_full_deg: f64 = 42.0, "Only rock", Unit::Degrees, linear(0.0, 90.0), Stage::Uniform;
         /// Colour of bare rock on steep ground.
-        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock", Unit::None, Domain::Color, Stage::Material;
+        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock", Unit::None, Domain::Color, Stage::Uniform;
     } with {
         /// The biomes that the table's letters stand for.
         palette: Vec<Biome> = vec![Biome::default()];
@@ -90,7 +96,7 @@ params! {
     /// A sea that fills everything below its level.
     pub struct Water {
         /// Height of the sea's surface above the reference sphere.
-        level_m: f64 = 0.0, "Level", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate;
+        level_m: f64 = 0.0, "Level", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate | Stage::Uniform;
         /// How fast water swallows light on its way down and back; clear sea water swallows red first.
         absorption_per_m: [f64; 3] = [0.34, 0.0325, 0.00635], "Absorption", Unit::PerMetre, triple(10.0), Stage::Uniform;
         /// Colour of the light that deep water sends back.

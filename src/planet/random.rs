@@ -10,7 +10,10 @@
 mod dice;
 mod grounds;
 
-use super::{Atmosphere, Blend, Climate, Clouds, Fbm, Layer, Mask, Planet, Ridged, Shape, Star, Water, validate};
+use super::param::Stage;
+use super::{
+    Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, Star, Water, validate,
+};
 use dice::{Dice, three_digits};
 
 /// A random planet that is always valid; the same seed gives the same planet.
@@ -40,6 +43,7 @@ pub fn random(seed: u64) -> Planet {
         name: dice.name(),
         seed: dice.seed(),
         radius_km,
+        height_curve: Vec::new(),
         star: Star {
             latitude_deg: dice.rounded(-24.0, 24.0),
             color: dice.color([0.9, 0.85, 0.75], [1.0, 0.98, 1.0]),
@@ -51,6 +55,7 @@ pub fn random(seed: u64) -> Planet {
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,
+        editor: None,
     };
     debug_assert!(validate::problems(&planet).is_empty());
     planet
@@ -64,7 +69,8 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     let mut dice = Dice(seed);
     let mut varied = planet.clone();
     varied.each(&mut |_, param, mut value| {
-        if let Some(new) = dice.moved(param, &value.get(), strength) {
+        let shown = !param.stages.contains(Stage::Label);
+        if let Some(new) = dice.moved(param, &value.get(), strength).filter(|_| shown) {
             value.set(&new);
         }
     });
@@ -81,8 +87,13 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     }
     for (layer, old) in varied.layers.iter_mut().zip(&planet.layers) {
         for (mask, old) in layer.masks.iter_mut().zip(&old.masks) {
-            if mask.from == mask.to {
+            let [from, to] = mask.ends();
+            if from.1 == to.1 {
                 *mask = old.clone();
+            }
+            // Slope masks that measure over one distance go on sharing it, for there may be only a few.
+            if let (Mask::Slope(slope), Mask::Slope(old)) = (mask, old) {
+                slope.over_m = old.over_m;
             }
         }
     }
@@ -106,7 +117,8 @@ fn layers(kind: Kind, radius_km: f64, dice: &mut Dice) -> Vec<Layer> {
     let wavelength = |dice: &mut Dice, low: f64, high: f64| three_digits(radius_km * dice.between(low, high));
     let metres = |share: f64| three_digits(relief_m * share);
     let named = |name: &str, dice: &mut Dice| Layer { name: name.to_owned(), seed: dice.seed(), ..Layer::default() };
-    let mask = |layer: &str, from: f64, to: f64| Mask { layer: layer.to_owned(), from, to, ..Mask::default() };
+    let mask =
+        |layer: &str, from: f64, to: f64| Mask::Layer(LayerMask { layer: layer.to_owned(), from, to, invert: false });
 
     let first = if kind == Kind::Bare { "Highlands" } else { "Continents" };
     let mut layers = vec![Layer {

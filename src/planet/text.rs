@@ -4,9 +4,9 @@
 //! first element of a list from the rest, nor one shape of a layer from another.
 
 use super::explain::options;
-use super::migrate::FileV1;
+use super::migrate::FileV2;
 use super::param::{Domain, Param, ValueMut};
-use super::{Biomes, Layer, Planet, VERSION, locate};
+use super::{Biomes, EditorNotes, Layer, Mask, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -23,7 +23,7 @@ pub(crate) fn write(planet: &Planet) -> String {
     let config = PrettyConfig::new().new_line("\n").escape_strings(false);
     let mut bare = String::new();
     // Writing plain data into a string cannot fail; should it, what came out is refused when it is read.
-    let _ = options().to_writer_pretty(&mut bare, &FileV1::from(planet.clone()), config);
+    let _ = options().to_writer_pretty(&mut bare, &FileV2::from(planet.clone()), config);
     let mut text = header();
     let mut done = 0;
     for (at, comment) in comments(planet, &bare) {
@@ -54,14 +54,18 @@ fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
     planet.clone().each(&mut |path, param, value| {
         params.insert(path.to_string(), comment(param, &value));
     });
-    let parts: HashMap<&str, &str> =
-        [Planet::PARTS, Layer::PARTS, Biomes::PARTS].into_iter().flatten().copied().collect();
+    let parts = [Planet::PARTS, Layer::PARTS, Biomes::PARTS, EditorNotes::PARTS].into_iter().flatten();
+    let mut parts: HashMap<&str, String> = parts.map(|(name, doc)| (*name, (*doc).to_owned())).collect();
+    if let Some(masks) = parts.get_mut("masks") {
+        // Each element says its kind, where no comment stands.
+        let _ = write!(masks, " ({})", Mask::NAMES.join(", ").replace(' ', GLUE));
+    }
     let mut written = HashSet::new();
     let mut found = Vec::new();
     locate::walk(bare, |steps, place| {
         let Some(locate::Step::Field(name)) = steps.last() else { return true };
         let param = params.get(&locate::path_text(steps)).cloned();
-        if let Some(comment) = param.or_else(|| parts.get(name).map(|doc| (*doc).to_owned()))
+        if let Some(comment) = param.or_else(|| parts.get(name).cloned())
             && written.insert((*name, comment.clone()))
         {
             found.push((place.key, comment));
@@ -77,12 +81,13 @@ fn comment(param: &Param, value: &ValueMut<'_>) -> String {
     let range = match (value, param.domain) {
         (ValueMut::Choice(choice), _) => choice.names().join(", "),
         // Nothing to be learnt from these.
-        (_, Domain::Text { .. } | Domain::Color) => String::new(),
+        (_, Domain::Text { .. } | Domain::File { .. } | Domain::Color) => String::new(),
         _ => param.range_text(),
     };
     if !range.is_empty() {
-        // The range stays on one line.
-        let _ = write!(text, " ({})", range.replace(' ', GLUE));
+        // The range stays on one line, if it can.
+        let range = if range.len() <= COMMENT_CHARS / 2 { range.replace(' ', GLUE) } else { range };
+        let _ = write!(text, " ({range})");
     }
     text
 }

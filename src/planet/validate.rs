@@ -2,8 +2,9 @@
 //!
 //! Ranges come from the description of each parameter; what concerns several of them at once stands here.
 
+use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
-use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, Planet, Table, layers, parts};
+use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Table, layers, parts};
 use std::collections::HashSet;
 
 /// Everything that is wrong with a planet: where, and what would be right. In the order of the file, as far as one
@@ -24,6 +25,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     for (index, layer) in planet.layers.iter().enumerate() {
         masks(&planet.layers, index, layer, &mut found);
     }
+    slope_distances(&planet.layers, &mut found);
     biomes(&planet.biomes, &mut found);
     found.0
 }
@@ -55,6 +57,9 @@ fn limits(planet: &Planet, found: &mut Found) {
     };
     limit(ParamPath::default().join("layers"), "layers", planet.layers.len(), MAX_LAYERS);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
+    let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
+    let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
+    limit(path, "bookmarks", bookmarks, MAX_BOOKMARKS);
     for (index, layer) in planet.layers.iter().enumerate().take(MAX_LAYERS) {
         limit(layers::layer_path(index).join("masks"), "masks", layer.masks.len(), MAX_MASKS);
     }
@@ -75,21 +80,57 @@ fn names(layers: &[Layer], found: &mut Found) {
 fn masks(layers: &[Layer], index: usize, layer: &Layer, found: &mut Found) {
     for (number, mask) in layer.masks.iter().enumerate() {
         let path = |field| item(&layers::layer_path(index).join("masks"), number, Some(field));
-        let others: Vec<&str> =
-            layers.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, l)| l.name.as_str()).collect();
-        let choice = match others.as_slice() {
-            [] => "there is no other layer: remove the mask or add a layer".to_owned(),
-            some => format!("use {}", one_of(some)),
-        };
-        if !others.contains(&mask.layer.as_str()) {
-            let wrong = match layers.get(index) {
-                Some(own) if own.name == mask.layer => "a layer cannot mask itself".to_owned(),
-                _ => format!("there is no layer called {:?}", mask.layer),
-            };
-            found.add(path("layer"), format!("{wrong}; {choice}"));
+        if let Some(name) = mask.layer()
+            && let Some(message) = stranger(layers, index, name)
+        {
+            found.add(path("layer"), message);
         }
-        if mask.from == mask.to {
-            found.add(path("to"), format!("`to` equals `from` ({}); use two different numbers", mask.to));
+        let [from, to] = mask.ends();
+        if from.1 == to.1 {
+            let message = format!("`{}` equals `{}` ({}); use two different numbers", to.0, from.0, to.1);
+            found.add(path(to.0), message);
+        }
+    }
+}
+
+/// What is wrong with the name of a layer in a mask of another one.
+fn stranger(layers: &[Layer], own: usize, name: &str) -> Option<String> {
+    let others: Vec<&str> =
+        layers.iter().enumerate().filter(|(i, _)| *i != own).map(|(_, layer)| layer.name.as_str()).collect();
+    if others.contains(&name) {
+        return None;
+    }
+    let wrong = match layers.get(own) {
+        Some(own) if own.name == name => "a layer cannot mask itself".to_owned(),
+        _ => format!("there is no layer called {name:?}"),
+    };
+    Some(match others.as_slice() {
+        [] => format!("{wrong}; there is no other layer: remove the mask or add a layer"),
+        some => format!("{wrong}; use {}", one_of(some)),
+    })
+}
+
+/// Each distance over which a slope is measured takes a gradient of its own from every layer before.
+fn slope_distances(layers: &[Layer], found: &mut Found) {
+    let mut seen: Vec<f64> = Vec::new();
+    for (index, layer) in layers.iter().enumerate() {
+        for (number, mask) in layer.masks.iter().enumerate() {
+            let Mask::Slope(slope) = mask else { continue };
+            if seen.contains(&slope.over_m) {
+                continue;
+            }
+            if seen.len() == MAX_SLOPE_DISTANCES {
+                let path = item(&layers::layer_path(index).join("masks"), number, Some("over_m"));
+                let known: Vec<String> = seen.iter().map(f64::to_string).collect();
+                let message = format!(
+                    "{} is one distance too many for this planet's slope masks; use one of the others: {} m",
+                    slope.over_m,
+                    known.join(", ")
+                );
+                found.add(path, message);
+                return;
+            }
+            seen.push(slope.over_m);
         }
     }
 }
@@ -163,10 +204,11 @@ fn table(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Biome, Mask};
+    use crate::planet::{Biome, LayerMask};
 
     fn layer(name: &str, masked_by: &[&str]) -> Layer {
-        let masks = masked_by.iter().map(|&layer| Mask { layer: layer.to_owned(), ..Mask::default() }).collect();
+        let mask = |layer: &&str| Mask::Layer(LayerMask { layer: (*layer).to_owned(), ..LayerMask::default() });
+        let masks = masked_by.iter().map(mask).collect();
         Layer { name: name.to_owned(), masks, ..Layer::default() }
     }
 
@@ -184,9 +226,9 @@ mod tests {
         let mut planet = Planet { layers: vec![layer("A", &["B"]), layer("B", &[])], ..Planet::default() };
         planet.layers[1].enabled = false;
         assert_eq!(found(&planet), Vec::<String>::new());
-        planet.layers[0].masks[0].layer = "A".to_owned();
+        planet.layers[0].masks[0].set_layer("A");
         assert_eq!(found(&planet), ["layers[0].masks[0].layer: a layer cannot mask itself; use \"B\""]);
-        planet.layers[0].masks[0].layer = "C".to_owned();
+        planet.layers[0].masks[0].set_layer("C");
         assert_eq!(found(&planet), ["layers[0].masks[0].layer: there is no layer called \"C\"; use \"B\""]);
     }
 

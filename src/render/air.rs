@@ -18,16 +18,20 @@ impl AirPass {
         ScenePass::new(device, [globals, tables], "air.wgsl", &inputs, &[HDR_FORMAT]).map(Self)
     }
 
-    /// Draws it. `scene`: which of the two radiance targets holds the scene.
+    /// Binds what it reads. `scene`: which of the two radiance targets holds the scene.
+    pub(crate) fn bind(&self, device: &wgpu::Device, targets: &Targets, scene: usize) -> wgpu::BindGroup {
+        self.0.bind(device, &[&targets.hdr[scene], &targets.depth, &targets.cloud_light, &targets.cloud_distance])
+    }
+
+    /// Draws it. `inputs`: what [`Self::bind`] made for this `scene`.
     pub(crate) fn draw(
         &self,
-        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         groups: [&wgpu::BindGroup; 2],
+        inputs: &wgpu::BindGroup,
         targets: &Targets,
         scene: usize,
     ) {
-        let inputs = [&targets.hdr[scene], &targets.depth, &targets.cloud_light, &targets.cloud_distance];
-        self.0.draw(device, encoder, groups, &inputs, &[&targets.hdr[1 - scene]]);
+        self.0.draw(encoder, groups, inputs, &[&targets.hdr[1 - scene]]);
     }
 }

@@ -16,8 +16,14 @@ const FACES: [[[f32; 4]; 3]; 6] = [
     [[0., 0., -1., 0.], [-1., 0., 0., 0.], [0., -1., 0., 0.]],
 ];
 
-/// The map and the view that shaders read.
-pub(crate) fn texture(device: &wgpu::Device) -> (wgpu::Texture, wgpu::TextureView) {
+/// The map: the view that shaders read, and each face to be drawn into.
+pub(crate) struct WeatherMap {
+    pub(crate) cube: wgpu::TextureView,
+    faces: Vec<wgpu::TextureView>,
+}
+
+/// A map with nothing in it yet.
+pub(crate) fn texture(device: &wgpu::Device) -> WeatherMap {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("weather map"),
         size: wgpu::Extent3d { width: WEATHER_SIDE_PX, height: WEATHER_SIDE_PX, depth_or_array_layers: 6 },
@@ -32,7 +38,15 @@ pub(crate) fn texture(device: &wgpu::Device) -> (wgpu::Texture, wgpu::TextureVie
         dimension: Some(wgpu::TextureViewDimension::Cube),
         ..wgpu::TextureViewDescriptor::default()
     });
-    (texture, cube)
+    let face = |layer| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..wgpu::TextureViewDescriptor::default()
+        })
+    };
+    WeatherMap { cube, faces: (0..6).map(face).collect() }
 }
 
 /// The pipeline and the orientation of each face.
@@ -64,15 +78,9 @@ impl CloudMapPass {
     }
 
     /// Fills the map.
-    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, texture: &wgpu::Texture) {
-        for (layer, face) in (0..).zip(&self.faces) {
-            let view = texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..wgpu::TextureViewDescriptor::default()
-            });
-            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[globals, face], &[&view]);
+    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, map: &WeatherMap) {
+        for (view, face) in map.faces.iter().zip(&self.faces) {
+            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[globals, face], &[view]);
         }
     }
 }

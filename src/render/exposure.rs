@@ -44,6 +44,8 @@ pub(crate) struct ExposurePass {
     /// Factor on radiance and its logarithm.
     pub(crate) result: wgpu::Buffer,
     step: wgpu::Buffer,
+    /// What `exposure` reads and writes.
+    set: wgpu::BindGroup,
 }
 
 impl ExposurePass {
@@ -53,22 +55,25 @@ impl ExposurePass {
         };
         let storage = wgpu::BufferUsages::STORAGE;
         let written = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        Ok(Self {
-            histogram: pipeline(device, "histogram.wgsl")?,
-            exposure: pipeline(device, "exposure.wgsl")?,
-            bins: buffer("histogram", HISTOGRAM_BYTES, storage),
-            result: buffer("exposure", 16, storage | written),
-            step: buffer("exposure step", 16, written),
-        })
+        let exposure = pipeline(device, "exposure.wgsl")?;
+        let bins = buffer("histogram", HISTOGRAM_BYTES, storage);
+        let result = buffer("exposure", 16, storage | written);
+        let step = buffer("exposure step", 16, written);
+        let set = group(device, &exposure, [&bins, &result, &step].map(wgpu::Buffer::as_entire_binding));
+        Ok(Self { histogram: pipeline(device, "histogram.wgsl")?, exposure, bins, result, step, set })
     }
 
-    /// Sets the exposure for the picture in `hdr`, of a size in pixels.
+    /// Binds the radiance it is to measure.
+    pub(crate) fn bind(&self, device: &wgpu::Device, hdr: &wgpu::TextureView) -> wgpu::BindGroup {
+        group(device, &self.histogram, [wgpu::BindingResource::TextureView(hdr), self.bins.as_entire_binding()])
+    }
+
+    /// Sets the exposure for the picture that [`Self::bind`] bound, of a size in pixels.
     pub(crate) fn draw(
         &self,
-        device: &wgpu::Device,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
-        hdr: &wgpu::TextureView,
+        input: &wgpu::BindGroup,
         size_px: [u32; 2],
         metering: Metering,
     ) {
@@ -77,29 +82,29 @@ impl ExposurePass {
             return;
         };
         queue.write_buffer(&self.step, 0, bytemuck::cast_slice(&[share, 0.0, 0.0, 0.0]));
-        let group = |pipeline: &wgpu::ComputePipeline, resources: &[wgpu::BindingResource<'_>]| {
-            let entries: Vec<_> = (0..)
-                .zip(resources)
-                .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
-                .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("exposure"),
-                layout: &pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            })
-        };
-        let bins = self.bins.as_entire_binding();
-        let counted = group(&self.histogram, &[wgpu::BindingResource::TextureView(hdr), bins.clone()]);
-        let (result, step) = (self.result.as_entire_binding(), self.step.as_entire_binding());
-        let set = group(&self.exposure, &[bins, result, step]);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&self.histogram);
-        pass.set_bind_group(0, &counted, &[]);
+        pass.set_bind_group(0, input, &[]);
         pass.dispatch_workgroups(size_px[0].div_ceil(GROUP_PX), size_px[1].div_ceil(GROUP_PX), 1);
         pass.set_pipeline(&self.exposure);
-        pass.set_bind_group(0, &set, &[]);
+        pass.set_bind_group(0, &self.set, &[]);
         pass.dispatch_workgroups(1, 1, 1);
     }
+}
+
+/// Resources as the one bind group of a pipeline, in the order of their bindings.
+fn group<const N: usize>(
+    device: &wgpu::Device,
+    pipeline: &wgpu::ComputePipeline,
+    resources: [wgpu::BindingResource<'_>; N],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> =
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("exposure"),
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &entries,
+    })
 }
 
 fn pipeline(device: &wgpu::Device, entry: &'static str) -> Result<wgpu::ComputePipeline, RenderError> {

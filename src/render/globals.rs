@@ -2,7 +2,7 @@
 
 use super::{DebugView, Frame, gpu};
 use crate::lod::Quality;
-use crate::planet::Planet;
+use crate::planet::{Planet, TableRows};
 use glam::{DMat3, DVec3, Mat4};
 use std::f64::consts::{PI, TAU};
 
@@ -46,6 +46,8 @@ struct Globals {
     cliff_color: [f32; 4],
     misc: [f32; 4],
     modes: [u32; 4],
+    chosen_eye_high_m: [f32; 4],
+    chosen_eye_low_m: [f32; 4],
 }
 
 /// What of a frame is not in [`Frame`].
@@ -67,6 +69,8 @@ pub(crate) struct GlobalsBuffer {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
     buffer: wgpu::Buffer,
+    written: Option<Globals>,
+    writes: u64,
 }
 
 impl GlobalsBuffer {
@@ -101,12 +105,23 @@ impl GlobalsBuffer {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
             ],
         });
-        Self { layout, group, buffer }
+        Self { layout, group, buffer, written: None, writes: 0 }
     }
 
     /// Sets the frame that the passes submitted next will see.
-    pub(crate) fn write(&self, queue: &wgpu::Queue, frame: &Frame<'_>, setup: &Setup) {
-        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&globals(frame, setup)));
+    pub(crate) fn write(&mut self, queue: &wgpu::Queue, frame: &Frame<'_>, setup: &Setup) {
+        let globals = globals(frame, setup);
+        let same = |written: &Globals| bytemuck::bytes_of(written) == bytemuck::bytes_of(&globals);
+        if !self.written.as_ref().is_some_and(same) {
+            queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&globals));
+            self.written = Some(globals);
+            self.writes += 1;
+        }
+    }
+
+    /// How often it was written because something in it had changed.
+    pub(crate) fn writes(&self) -> u64 {
+        self.writes
     }
 }
 
@@ -144,7 +159,9 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         [0.0, 0.0, near_m as f32, 0.0],
     ]);
     let view_from_rel = Mat4::from_quat(camera.planet_from_view.inverse().as_quat());
-    let high = DVec3::from_array(eye.to_array().map(|x| f64::from(x as f32)));
+    let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
+    let (high, low) = high_low(eye);
+    let (chosen_high, chosen_low) = high_low(chosen.camera.position_planet_m);
     let turn = |v: DVec3| camera.planet_from_view * v;
 
     let star = &planet.star;
@@ -156,7 +173,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     let mut g: Globals = bytemuck::Zeroable::zeroed();
     g.clip_from_rel_m = (clip_from_view * view_from_rel).to_cols_array_2d();
     g.eye_high_m = vec4(high, near_m);
-    g.eye_low_m = vec4(eye - high, 2.0 * tan_y / f64::from(setup.size_px[1]));
+    g.eye_low_m = vec4(low, 2.0 * tan_y / f64::from(setup.size_px[1]));
     g.eye_km = vec4(eye * 1e-3, planet.radius_km);
     g.eye_up = vec4(up, altitude_m * 1e-3);
     g.ray_right = vec4(turn(DVec3::X * tan_x), f64::from(setup.size_px[0]));
@@ -183,7 +200,25 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
     g.modes = [view, setup.scale, u32::from(setup.srgb_target), 0];
+    g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
+    g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     g
+}
+
+/// By how much the row of the biome table changes with each metre of height, 0 to 1 over the whole table. It falls where rows
+/// go by temperature; below the sea it then stays, as the climate has it.
+fn rows_per_metre(planet: &Planet) -> f64 {
+    let (climate, biomes) = (&planet.climate, &planet.biomes);
+    match biomes.rows {
+        TableRows::Temperature => -climate.lapse_c_per_km * 0.001 / (biomes.hottest_c - biomes.coldest_c),
+        TableRows::Elevation => 1.0 / (biomes.highest_m - biomes.lowest_m),
+    }
+}
+
+/// A position as the sum of two that 32 bits hold.
+fn high_low(position: DVec3) -> (DVec3, DVec3) {
+    let high = position.as_vec3().as_dvec3();
+    (high, position - high)
 }
 
 fn set_air(g: &mut Globals, frame: &Frame<'_>) {

@@ -20,6 +20,7 @@ mod air_tables;
 mod biome_table;
 mod cloud_map;
 mod clouds;
+mod detail_pool;
 mod exposure;
 mod globals;
 mod gpu;
@@ -36,6 +37,7 @@ mod water;
 
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
+pub use tables::TableRuns;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};
@@ -43,41 +45,65 @@ use crate::planet::Planet;
 use glam::DVec3;
 
 /// What is drawn of the surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DebugView {
+    /// The planet.
     #[default]
     Shaded,
+    /// Height, from the lowest to the highest of the surface.
     Height,
+    /// The normal in the planet frame as a colour.
     Normal,
-    Biome,
+    /// Angle against the horizontal, 0 to 60°.
     Slope,
+    /// The biome's colour by itself.
+    Biome,
+    /// Temperature, -40 to 40 °C.
+    Temperature,
+    /// Moisture, dry to wet.
+    Moisture,
+    /// The tile's level in the quadtree.
     Lod,
+    /// Lines where tiles meet.
+    TileBorders,
+    /// The edges of the triangles.
     Wireframe,
+    /// Vertex spacing in pixels of the picture, as the level of detail sees it: blue 1, green 4, yellow 16, red 64.
+    Error,
+    /// White where there is ground, black elsewhere.
     Coverage,
 }
 
 impl DebugView {
     /// All of them.
-    pub const ALL: [DebugView; 8] = [
+    pub const ALL: [DebugView; 12] = [
         DebugView::Shaded,
         DebugView::Height,
         DebugView::Normal,
-        DebugView::Biome,
         DebugView::Slope,
+        DebugView::Biome,
+        DebugView::Temperature,
+        DebugView::Moisture,
         DebugView::Lod,
+        DebugView::TileBorders,
         DebugView::Wireframe,
+        DebugView::Error,
         DebugView::Coverage,
     ];
+
     /// The name a person reads.
     pub fn label(self) -> &'static str {
         match self {
             DebugView::Shaded => "Shaded",
             DebugView::Height => "Height",
             DebugView::Normal => "Normal",
-            DebugView::Biome => "Biome",
             DebugView::Slope => "Slope",
-            DebugView::Lod => "Level of detail",
+            DebugView::Biome => "Biome",
+            DebugView::Temperature => "Temperature",
+            DebugView::Moisture => "Moisture",
+            DebugView::Lod => "Level",
+            DebugView::TileBorders => "Tile borders",
+            DebugView::Error => "Error",
             DebugView::Wireframe => "Wireframe",
             DebugView::Coverage => "Coverage",
         }
@@ -92,6 +118,8 @@ pub struct Frame<'a> {
     pub planet: &'a Planet,
     /// Camera, size of the target, quality.
     pub view: View,
+    /// The view that the tiles were chosen for, if it is another: they are culled and blended as seen from there.
+    pub frozen: Option<View>,
     /// Unit vector from the planet to its star.
     pub sun_dir_planet: DVec3,
     /// Seconds since time zero: drift of the clouds, waves.
@@ -154,6 +182,28 @@ impl Passes {
     }
 }
 
+/// What the full-screen passes read, bound once for as long as targets and passes stay; each for either radiance target as
+/// the scene.
+struct Inputs {
+    water: [wgpu::BindGroup; 2],
+    clouds: [wgpu::BindGroup; 2],
+    air: [wgpu::BindGroup; 2],
+    exposure: [wgpu::BindGroup; 2],
+    tonemap: [wgpu::BindGroup; 2],
+}
+
+impl Inputs {
+    fn new(device: &wgpu::Device, passes: &Passes, targets: &targets::Targets) -> Self {
+        Self {
+            water: [0, 1].map(|scene| passes.water.bind(device, targets, scene)),
+            clouds: [0, 1].map(|scene| passes.clouds.bind(device, targets, scene)),
+            air: [0, 1].map(|scene| passes.air.bind(device, targets, scene)),
+            exposure: [0, 1].map(|scene| passes.exposure.bind(device, &targets.hdr[scene])),
+            tonemap: [0, 1].map(|scene| passes.tonemap.bind(device, &targets.hdr[scene], &passes.exposure.result)),
+        }
+    }
+}
+
 /// All GPU state of one viewport.
 pub struct Renderer {
     /// Whether exposure is set by hand or by what there is to see.
@@ -162,7 +212,7 @@ pub struct Renderer {
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
     terrain: terrain::TerrainResources,
-    targets: Option<targets::Targets>,
+    targets: Option<(targets::Targets, Inputs)>,
     passes: Passes,
     watch: shaders::Watch,
     shader_error: Option<String>,
@@ -197,6 +247,23 @@ impl Renderer {
             shader_error,
         })
     }
+    /// Uploads tiles of a surface ahead of the frame that will draw it, at most so many bytes (but at least one tile). Whether
+    /// all are there now. Without it [`Renderer::render`] uploads what it needs at once.
+    pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, surface: &Surface, budget_bytes: u64) -> bool {
+        profiling::scope!("upload");
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("upload") });
+        let done = self.terrain.upload(device, &mut encoder, surface, budget_bytes);
+        queue.submit([encoder.finish()]);
+        done
+    }
+    /// Bytes of tiles uploaded since the start.
+    pub fn uploaded_bytes(&self) -> u64 {
+        self.terrain.uploaded_bytes()
+    }
+    /// How often each table has been made since the start.
+    pub fn table_runs(&self) -> TableRuns {
+        TableRuns { uniforms: self.globals.writes(), ..self.tables.runs() }
+    }
     /// Draws one frame and submits it.
     pub fn render(
         &mut self,
@@ -205,11 +272,16 @@ impl Renderer {
         target: &wgpu::TextureView,
         frame: &Frame<'_>,
     ) -> FrameStats {
+        profiling::scope!("render");
         self.reload_shaders(device);
         let (size_px, scale) = drawn_size(frame, device.limits().max_texture_dimension_2d);
-        let targets = match self.targets.take().filter(|targets| targets.size_px == size_px) {
-            Some(targets) => targets,
-            None => targets::Targets::new(device, size_px),
+        let (targets, inputs) = match self.targets.take().filter(|(targets, _)| targets.size_px == size_px) {
+            Some(kept) => kept,
+            None => {
+                let targets = targets::Targets::new(device, size_px);
+                let inputs = Inputs::new(device, &self.passes, &targets);
+                (targets, inputs)
+            }
         };
         let height_range_m = height_range_m(frame.surface);
         let setup = globals::Setup {
@@ -220,8 +292,8 @@ impl Renderer {
             srgb_target: self.target_format.is_srgb(),
         };
         self.globals.write(queue, frame, &setup);
-        self.terrain.prepare(device, queue, frame, height_range_m.0);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
         let globals = &self.globals.group;
         self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
         let groups = [globals, self.tables.group()];
@@ -230,21 +302,20 @@ impl Renderer {
         let mut scene = 0;
         if frame.debug_view == DebugView::Shaded {
             if frame.planet.water.is_some() {
-                self.passes.water.draw(device, &mut encoder, groups, &targets, scene);
+                self.passes.water.draw(&mut encoder, groups, &inputs.water[scene], &targets, scene);
                 scene = 1 - scene;
             }
             if frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) {
-                self.passes.clouds.draw(device, &mut encoder, groups, &targets, scene);
+                self.passes.clouds.draw(&mut encoder, groups, &inputs.clouds[scene], &targets);
             }
-            self.passes.air.draw(device, &mut encoder, groups, &targets, scene);
+            self.passes.air.draw(&mut encoder, groups, &inputs.air[scene], &targets, scene);
             scene = 1 - scene;
         }
         let metering = if frame.debug_view == DebugView::Shaded { self.metering } else { Metering::Manual };
-        self.passes.exposure.draw(device, queue, &mut encoder, &targets.hdr[scene], size_px, metering);
-        let exposure = &self.passes.exposure.result;
-        self.passes.tonemap.draw(device, &mut encoder, globals, &targets.hdr[scene], target, exposure);
+        self.passes.exposure.draw(queue, &mut encoder, &inputs.exposure[scene], size_px, metering);
+        self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], target);
         queue.submit([encoder.finish()]);
-        self.targets = Some(targets);
+        self.targets = Some((targets, inputs));
         stats
     }
     /// What is wrong with a shader that was just edited on disk (debug builds); the last good one goes on drawing.
@@ -259,6 +330,7 @@ impl Renderer {
         match Passes::new(device, &self.globals.layout, &self.tables.layout, self.target_format) {
             Ok(passes) => {
                 self.passes = passes;
+                self.targets = None;
                 self.tables.forget();
                 self.shader_error = None;
             }

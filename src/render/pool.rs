@@ -3,11 +3,17 @@
 
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
 use std::collections::HashMap;
+use std::num::NonZeroU64;
+use wgpu::util::StagingBelt;
 
 /// Tiles in one buffer: 12 MB.
 const SLOTS: u32 = 256;
-/// Frames after which a tile that is not drawn may lose its slot.
-const KEPT_FRAMES: u64 = 1;
+/// Tiles that have not been asked for in so many rounds may lose their slots. A frame that uploads ahead and draws is two.
+const KEPT_ROUNDS: u64 = 4;
+/// Bytes of one chunk of staging memory.
+const STAGING_BYTES: u64 = 4 << 20;
+/// Bytes of a tile.
+pub(crate) const TILE_BYTES: u64 = (TILE_VERTICES * size_of::<Vertex>()) as u64;
 
 /// Where a tile's vertices are.
 #[derive(Clone, Copy)]
@@ -20,22 +26,51 @@ pub(crate) struct Place {
 
 struct Held {
     place: Place,
-    drawn_in_frame: u64,
+    wanted_in_round: u64,
 }
 
 /// All slots.
-#[derive(Default)]
 pub(crate) struct TilePool {
     buffers: Vec<wgpu::Buffer>,
     free: Vec<Place>,
     held: HashMap<u64, Held>,
-    frame: u64,
+    /// Staging memory, used again and again.
+    belt: StagingBelt,
+    round: u64,
+    uploaded_bytes: u64,
 }
 
 impl TilePool {
-    /// Call once a frame, before the first [`TilePool::place`].
-    pub(crate) fn begin_frame(&mut self) {
-        self.frame += 1;
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        Self {
+            buffers: Vec::new(),
+            free: Vec::new(),
+            held: HashMap::new(),
+            belt: StagingBelt::new(device.clone(), STAGING_BYTES),
+            round: 0,
+            uploaded_bytes: 0,
+        }
+    }
+
+    /// Call before the first [`TilePool::place`] of a round.
+    pub(crate) fn begin_round(&mut self) {
+        self.round += 1;
+    }
+
+    /// Call after the last [`TilePool::place`] of a round, before the encoder is submitted.
+    pub(crate) fn end_round(&mut self, encoder: &wgpu::CommandEncoder) {
+        self.belt.finish_and_recall_on_submit(encoder);
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.uploaded_bytes
+    }
+
+    /// Whether a tile is here; if so it keeps its slot.
+    pub(crate) fn holds(&mut self, tile: &Tile) -> bool {
+        let held = self.held.get_mut(&tile.serial);
+        held.map(|held| held.wanted_in_round = self.round).is_some()
     }
 
     /// The vertex buffers.
@@ -44,9 +79,14 @@ impl TilePool {
     }
 
     /// Where a tile is; uploads it if it is new. `None` for a tile that is not a whole grid.
-    pub(crate) fn place(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, tile: &Tile) -> Option<Place> {
+    pub(crate) fn place(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        tile: &Tile,
+    ) -> Option<Place> {
         if let Some(held) = self.held.get_mut(&tile.serial) {
-            held.drawn_in_frame = self.frame;
+            held.wanted_in_round = self.round;
             return Some(held.place);
         }
         if tile.vertices.len() != TILE_VERTICES {
@@ -54,17 +94,21 @@ impl TilePool {
         }
         let place = self.take_slot(device)?;
         let offset = place.base_vertex as u64 * size_of::<Vertex>() as u64;
-        queue.write_buffer(&self.buffers[place.buffer], offset, bytemuck::cast_slice(&tile.vertices));
-        self.held.insert(tile.serial, Held { place, drawn_in_frame: self.frame });
+        let size = NonZeroU64::new(TILE_BYTES)?;
+        let mut staged = self.belt.write_buffer(encoder, &self.buffers[place.buffer], offset, size);
+        staged.copy_from_slice(bytemuck::cast_slice(&tile.vertices));
+        drop(staged);
+        self.held.insert(tile.serial, Held { place, wanted_in_round: self.round });
+        self.uploaded_bytes += TILE_BYTES;
         Some(place)
     }
 
     fn take_slot(&mut self, device: &wgpu::Device) -> Option<Place> {
         if self.free.is_empty() {
-            let frame = self.frame;
+            let round = self.round;
             let free = &mut self.free;
             self.held.retain(|_, held| {
-                let keep = held.drawn_in_frame + KEPT_FRAMES > frame;
+                let keep = held.wanted_in_round + KEPT_ROUNDS > round;
                 if !keep {
                     free.push(held.place);
                 }
@@ -75,7 +119,7 @@ impl TilePool {
             let buffer = self.buffers.len();
             self.buffers.push(device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("tiles"),
-                size: u64::from(SLOTS) * (TILE_VERTICES * size_of::<Vertex>()) as u64,
+                size: u64::from(SLOTS) * TILE_BYTES,
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }));

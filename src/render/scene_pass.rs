@@ -25,16 +25,19 @@ impl ScenePass {
         Ok(Self { entry, pipeline, layout })
     }
 
+    /// The textures it is to read, bound once for many frames.
+    pub(crate) fn bind(&self, device: &wgpu::Device, inputs: &[&wgpu::TextureView]) -> wgpu::BindGroup {
+        gpu::texture_group(device, self.entry, &self.layout, inputs)
+    }
+
     /// Draws it, reading `inputs` and writing `outputs`.
     pub(crate) fn draw(
         &self,
-        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         shared: [&wgpu::BindGroup; 2],
-        inputs: &[&wgpu::TextureView],
+        inputs: &wgpu::BindGroup,
         outputs: &[&wgpu::TextureView],
     ) {
-        let inputs = gpu::texture_group(device, self.entry, &self.layout, inputs);
-        gpu::draw_screen(encoder, self.entry, &self.pipeline, &[shared[0], shared[1], &inputs], outputs);
+        gpu::draw_screen(encoder, self.entry, &self.pipeline, &[shared[0], shared[1], inputs], outputs);
     }
 }

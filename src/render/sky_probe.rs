@@ -12,6 +12,7 @@ use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use glam::DVec3;
 use std::sync::Arc;
+use std::time::Instant;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
@@ -47,7 +48,7 @@ impl Renderer {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sky probe") });
         self.tables.update(device, queue, &mut encoder, &self.globals.group, &self.passes, planet);
         let groups = [&self.globals.group, self.tables.group()];
-        pass.draw(device, &mut encoder, groups, &[&input], &[&views[0], &views[1]]);
+        pass.draw(&mut encoder, groups, &pass.bind(device, &[&input]), &[&views[0], &views[1]]);
         let buffers = outputs.each_ref().map(|texture| copied(device, &mut encoder, texture));
         queue.submit([encoder.finish()]);
         let [radiance, transmittance] =
@@ -56,15 +57,17 @@ impl Renderer {
         Ok(answers.map(|(radiance, transmittance)| SkyAnswer { transmittance, radiance }).collect())
     }
 
-    fn write_globals(&self, queue: &wgpu::Queue, planet: &Planet, quality: Quality) {
+    fn write_globals(&mut self, queue: &wgpu::Queue, planet: &Planet, quality: Quality) {
         let terrain = Arc::new(Terrain::new(Arc::new(planet.clone())));
-        let surface = Surface { terrain, leaves: Vec::new(), complete: true, stats: BuildStats::default() };
+        let (asked, stats) = (Instant::now(), BuildStats::default());
+        let surface = Surface { terrain, leaves: Vec::new(), complete: true, asked, stats };
         let place = LatLon::from_degrees(0.0, 0.0);
         let camera = Camera::over(place, planet.radius_m() * 2.0, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
         let frame = Frame {
             surface: &surface,
             planet,
             view: View { camera, size_px: [1, 1], quality },
+            frozen: None,
             sun_dir_planet: DVec3::X,
             time_secs: 0.0,
             exposure_ev: 0.0,

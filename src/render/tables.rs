@@ -2,7 +2,7 @@
 //! only when what it depends on has changed.
 
 use super::gpu::{self, Slot};
-use super::{Passes, biome_table, noise_tile};
+use super::{Passes, biome_table, cloud_map, noise_tile};
 use crate::planet::{Atmosphere, Biomes, Planet};
 
 /// Format of the tables: filterable and wide enough for radiance.
@@ -10,27 +10,46 @@ pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Pixels along a face of the weather map.
 pub(crate) const WEATHER_SIDE_PX: u32 = 512;
 
-/// What the tables of the air depend on.
+/// What the tables of the air depend on: the air, the planet's radius, and the star's, whose width softens the terminator.
 type AirKey = (Atmosphere, f64, f64);
 
 /// What the weather map depends on: scale, curl, seeds, radius.
 type WeatherKey = (f64, f64, u32, u32, f64);
 
+/// How often each table has been made since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TableRuns {
+    /// The biome table.
+    pub biomes: u64,
+    /// The weather map.
+    pub weather: u64,
+    /// The four tables of the air.
+    pub air: u64,
+    /// The uniforms: what the planet, the camera and the clock come to.
+    pub uniforms: u64,
+}
+
 /// The textures of group 1 and their bind groups.
 pub(crate) struct Tables {
     pub(crate) layout: wgpu::BindGroupLayout,
-    optical_depth: wgpu::TextureView,
-    multiscatter: wgpu::TextureView,
-    irradiance: wgpu::TextureView,
-    sky: wgpu::TextureView,
-    weather: wgpu::Texture,
-    weather_cube: wgpu::TextureView,
+    /// Optical depth, multiple scattering, irradiance, sky.
+    air: [wgpu::TextureView; 4],
+    weather: cloud_map::WeatherMap,
     noise: wgpu::TextureView,
     biomes: biome_table::BiomeTextures,
-    group: wgpu::BindGroup,
+    groups: Groups,
     air_key: Option<AirKey>,
     weather_key: Option<WeatherKey>,
     biome_key: Option<Biomes>,
+    biome_texels: biome_table::BiomeTexels,
+    runs: TableRuns,
+}
+
+/// The tables bound for drawing, and for filling the later tables of the air while those behind them are not there yet.
+struct Groups {
+    all: wgpu::BindGroup,
+    first_of_air: wgpu::BindGroup,
+    first_two_of_air: wgpu::BindGroup,
 }
 
 impl Tables {
@@ -49,44 +68,40 @@ impl Tables {
                 Slot::Float2d,
             ],
         );
-        let optical_depth = gpu::target(device, "optical depth", [256, 64], FORMAT);
-        let multiscatter = gpu::target(device, "multiscatter", [32, 32], FORMAT);
-        let irradiance = gpu::target(device, "irradiance", [64, 16], FORMAT);
-        let sky = gpu::target(device, "sky", [64, 32], FORMAT);
-        let (weather, weather_cube) = super::cloud_map::texture(device);
-        let noise = noise_tile::upload(device, queue);
-        let biomes = biome_table::BiomeTextures::new(device, queue, &Biomes::default());
-        let views = [
-            &optical_depth,
-            &multiscatter,
-            &irradiance,
-            &sky,
-            &weather_cube,
-            &noise,
-            &biomes.albedo,
-            &biomes.roughness,
+        let air = [
+            gpu::target(device, "optical depth", [256, 64], FORMAT),
+            gpu::target(device, "multiscatter", [32, 32], FORMAT),
+            gpu::target(device, "irradiance", [64, 16], FORMAT),
+            gpu::target(device, "sky", [64, 32], FORMAT),
         ];
-        let group = gpu::texture_group(device, "tables", &layout, &views);
+        let weather = cloud_map::texture(device);
+        let noise = noise_tile::upload(device, queue);
+        let biome_texels = biome_table::BiomeTexels::new(&Biomes::default());
+        let biomes = biome_table::BiomeTextures::with(device, queue, &biome_texels);
+        let groups = Groups::new(device, &layout, &air, &weather.cube, &noise, &biomes);
         Self {
             layout,
-            optical_depth,
-            multiscatter,
-            irradiance,
-            sky,
+            air,
             weather,
-            weather_cube,
             noise,
             biomes,
-            group,
+            groups,
             air_key: None,
             weather_key: None,
             biome_key: None,
+            biome_texels,
+            runs: TableRuns::default(),
         }
     }
 
     /// The bind group for drawing.
     pub(crate) fn group(&self) -> &wgpu::BindGroup {
-        &self.group
+        &self.groups.all
+    }
+
+    /// How often each was made.
+    pub(crate) fn runs(&self) -> TableRuns {
+        self.runs
     }
 
     /// Makes everything anew at the next frame: the shaders that fill it have changed.
@@ -106,16 +121,15 @@ impl Tables {
         planet: &Planet,
     ) {
         if self.biome_key.as_ref() != Some(&planet.biomes) {
-            self.biomes = biome_table::BiomeTextures::new(device, queue, &planet.biomes);
-            self.group = self.bind(device, None);
+            self.write_biomes(device, queue, biome_table::BiomeTexels::new(&planet.biomes));
             self.biome_key = Some(planet.biomes.clone());
         }
         if let Some(air) = &planet.atmosphere {
-            // The star's width softens the terminator in the tables.
             let key = (air.clone(), planet.radius_km, planet.star.radius_deg);
             if self.air_key.as_ref() != Some(&key) {
-                self.fill_air(device, encoder, globals, passes);
+                self.fill_air(encoder, globals, passes);
                 self.air_key = Some(key);
+                self.runs.air += 1;
             }
         }
         if let Some(clouds) = planet.clouds.as_ref().filter(|clouds| clouds.coverage > 0.0) {
@@ -123,41 +137,55 @@ impl Tables {
             if self.weather_key != Some(key) {
                 passes.cloud_map.draw(encoder, globals, &self.weather);
                 self.weather_key = Some(key);
+                self.runs.weather += 1;
             }
         }
     }
 
-    fn fill_air(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        globals: &wgpu::BindGroup,
-        passes: &Passes,
-    ) {
-        let air = &passes.air_tables;
-        gpu::draw_screen(encoder, "optical depth", &air.optical_depth, &[globals], &[&self.optical_depth]);
-        let first = self.bind(device, Some(1));
-        gpu::draw_screen(encoder, "multiscatter", &air.multiscatter, &[globals, &first], &[&self.multiscatter]);
-        let second = self.bind(device, Some(2));
-        gpu::draw_screen(encoder, "irradiance", &air.irradiance, &[globals, &second], &[&self.irradiance]);
-        gpu::draw_screen(encoder, "sky", &air.sky, &[globals, &second], &[&self.sky]);
+    /// Nothing happens if what differs is not in the textures: names, or where rows begin.
+    fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, texels: biome_table::BiomeTexels) {
+        if texels == self.biome_texels {
+            return;
+        }
+        if self.biomes.fit(&texels) {
+            self.biomes.write(queue, &texels);
+        } else {
+            self.biomes = biome_table::BiomeTextures::with(device, queue, &texels);
+            self.groups = Groups::new(device, &self.layout, &self.air, &self.weather.cube, &self.noise, &self.biomes);
+        }
+        self.biome_texels = texels;
+        self.runs.biomes += 1;
     }
 
-    /// The tables as a bind group; with `ready`, only so many tables of the air, the others being filled right now.
-    fn bind(&self, device: &wgpu::Device, ready: Option<usize>) -> wgpu::BindGroup {
-        let mut views = [
-            &self.optical_depth,
-            &self.multiscatter,
-            &self.irradiance,
-            &self.sky,
-            &self.weather_cube,
-            &self.noise,
-            &self.biomes.albedo,
-            &self.biomes.roughness,
-        ];
-        if let Some(ready) = ready {
-            views[ready..4].fill(&self.optical_depth);
-        }
-        gpu::texture_group(device, "tables", &self.layout, &views)
+    fn fill_air(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, passes: &Passes) {
+        let (air, Groups { first_of_air: first, first_two_of_air: two, .. }) = (&passes.air_tables, &self.groups);
+        let [optical_depth, multiscatter, irradiance, sky] = &self.air;
+        gpu::draw_screen(encoder, "optical depth", &air.optical_depth, &[globals], &[optical_depth]);
+        gpu::draw_screen(encoder, "multiscatter", &air.multiscatter, &[globals, first], &[multiscatter]);
+        gpu::draw_screen(encoder, "irradiance", &air.irradiance, &[globals, two], &[irradiance]);
+        gpu::draw_screen(encoder, "sky", &air.sky, &[globals, two], &[sky]);
+    }
+}
+
+impl Groups {
+    fn new(
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        air: &[wgpu::TextureView; 4],
+        weather: &wgpu::TextureView,
+        noise: &wgpu::TextureView,
+        biomes: &biome_table::BiomeTextures,
+    ) -> Self {
+        // With only the first so many tables of the air, the others being filled.
+        let bind = |ready: usize| {
+            let mut air = air.each_ref();
+            let first = air[0];
+            air[ready..].fill(first);
+            let [optical_depth, multiscatter, irradiance, sky] = air;
+            let views =
+                [optical_depth, multiscatter, irradiance, sky, weather, noise, &biomes.albedo, &biomes.roughness];
+            gpu::texture_group(device, "tables", layout, &views)
+        };
+        Self { all: bind(4), first_of_air: bind(1), first_two_of_air: bind(2) }
     }
 }

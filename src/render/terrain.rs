@@ -1,10 +1,12 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
 
+use super::detail_pool::DetailPool;
 use super::gpu;
-use super::pool::{Place, TilePool};
+use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
-use crate::lod::tile::{Tile, Vertex};
+use crate::build::Surface;
+use crate::lod::tile::{Tile, Vertex, slope_axis};
 use crate::lod::{self, Culling, stitch};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -13,7 +15,17 @@ use wgpu::util::DeviceExt;
 const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Unorm16x2, 5 => Snorm16x2, 6 => Snorm16x2
 ];
-const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![7 => Float32x3];
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3];
+
+/// What the shader knows of a tile beside its vertices.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Instance {
+    /// Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
+    morph_level_layer: [f32; 4],
+    /// See [`slope_axis`].
+    slope_axis: [f32; 3],
+}
 
 /// Pipelines of the ground.
 pub(crate) struct TerrainPass {
@@ -31,7 +43,7 @@ impl TerrainPass {
         let module = shaders::module(device, ENTRY)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(ENTRY),
-            bind_group_layouts: &[Some(globals), Some(tables)],
+            bind_group_layouts: &[Some(globals), Some(tables), Some(&DetailPool::layout(device))],
             immediate_size: 0,
         });
         let make = |topology, cull_mode| {
@@ -50,7 +62,7 @@ impl TerrainPass {
                                 attributes: &VERTEX_ATTRIBUTES,
                             }),
                             Some(wgpu::VertexBufferLayout {
-                                array_stride: size_of::<[f32; 3]>() as u64,
+                                array_stride: size_of::<Instance>() as u64,
                                 step_mode: wgpu::VertexStepMode::Instance,
                                 attributes: &INSTANCE_ATTRIBUTES,
                             }),
@@ -126,6 +138,8 @@ fn edges(triangles: &[u16]) -> Vec<u16> {
 
 struct Draw {
     place: Place,
+    /// Texture arrays of the detail tile.
+    detail: usize,
     mask: usize,
 }
 
@@ -133,6 +147,7 @@ struct Draw {
 pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
+    details: DetailPool,
     instances: wgpu::Buffer,
     draws: Vec<Draw>,
 }
@@ -141,36 +156,78 @@ impl TerrainResources {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         Self {
             indices: Indices::new(device),
-            pool: TilePool::default(),
+            pool: TilePool::new(device),
+            details: DetailPool::new(device),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
     }
 
-    /// Chooses the tiles to draw, uploads what is new.
-    pub(crate) fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &Frame<'_>, lowest_m: f64) {
+    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
+    /// there now.
+    pub(crate) fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        surface: &Surface,
+        budget_bytes: u64,
+    ) -> bool {
+        self.pool.begin_round();
+        let missing: Vec<&Tile> =
+            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
+        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
+        for tile in missing.iter().take(affordable) {
+            self.pool.place(device, encoder, tile);
+        }
+        self.pool.end_round(encoder);
+        missing.len() <= affordable
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.pool.uploaded_bytes()
+    }
+
+    /// Chooses the tiles to draw, uploads those that are not there yet.
+    pub(crate) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame<'_>,
+        lowest_m: f64,
+    ) {
         let radius_m = frame.surface.terrain.planet().radius_m();
-        let culling = Culling::new(&frame.view, (radius_m + lowest_m).max(0.0));
-        self.pool.begin_frame();
+        let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
+        let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
+        self.pool.begin_round();
+        self.details.begin_frame();
         self.draws.clear();
-        let mut instances: Vec<[f32; 3]> = Vec::new();
+        let mut instances: Vec<Instance> = Vec::new();
         // Near tiles first: what they hide is not shaded.
         let eye = frame.view.camera.position_planet_m;
         let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
         let mut seen: Vec<_> = frame.surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).collect();
         seen.sort_by(|a, b| away_m(&a.tile).total_cmp(&away_m(&b.tile)));
         for leaf in seen {
-            let Some(place) = self.pool.place(device, queue, &leaf.tile) else { continue };
+            let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
-            let (start, end) = lod::morph_range_m(level, radius_m, &frame.view);
-            instances.push([start as f32, end as f32, f32::from(level)]);
-            self.draws.push(Draw { place, mask: usize::from(leaf.coarser_edges & 15) });
+            let (start, end) = lod::morph_range_m(level, radius_m, chosen);
+            let detail = leaf.detail.as_ref().and_then(|tile| self.details.place(device, queue, tile));
+            let layer = detail.map_or(-1.0, |place| place.layer as f32);
+            instances.push(Instance {
+                morph_level_layer: [start as f32, end as f32, f32::from(level), layer],
+                slope_axis: slope_axis(leaf.tile.id.face).as_vec3().to_array(),
+            });
+            let detail = detail.map_or(0, |place| place.array);
+            self.draws.push(Draw { place, detail, mask: usize::from(leaf.coarser_edges & 15) });
         }
         let bytes: &[u8] = bytemuck::cast_slice(&instances);
         if self.instances.size() < bytes.len() as u64 {
             self.instances = instance_buffer(device, instances.len().next_power_of_two());
         }
         queue.write_buffer(&self.instances, 0, bytes);
+        self.pool.end_round(encoder);
     }
 
     /// Draws the tiles chosen by [`TerrainResources::prepare`].
@@ -209,9 +266,13 @@ impl TerrainResources {
         draw.set_bind_group(1, groups[1], &[]);
         draw.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint16);
         draw.set_vertex_buffer(1, self.instances.slice(..));
-        let mut bound = None;
+        let (mut bound, mut bound_detail) = (None, None);
         let mut triangles = 0;
-        for (i, Draw { place, mask }) in (0..).zip(&self.draws) {
+        for (i, Draw { place, detail, mask }) in (0..).zip(&self.draws) {
+            if bound_detail != Some(*detail) {
+                draw.set_bind_group(2, self.details.group(*detail), &[]);
+                bound_detail = Some(*detail);
+            }
             if bound != Some(place.buffer) {
                 draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));
                 bound = Some(place.buffer);
@@ -227,7 +288,7 @@ impl TerrainResources {
 fn instance_buffer(device: &wgpu::Device, instances: usize) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("tile instances"),
-        size: (instances * size_of::<[f32; 3]>()) as u64,
+        size: (instances * size_of::<Instance>()) as u64,
         usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     })

@@ -20,24 +20,31 @@ impl TonemapPass {
         Ok(Self { pipeline, layout })
     }
 
-    /// Shows `hdr` in `target`, `exposure` being what was metered.
-    pub(crate) fn draw(
+    /// Binds the radiance it is to show and what was metered, see [`super::exposure::ExposurePass::result`].
+    pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        globals: &wgpu::BindGroup,
         hdr: &wgpu::TextureView,
-        target: &wgpu::TextureView,
         exposure: &wgpu::Buffer,
-    ) {
-        let input = device.create_bind_group(&wgpu::BindGroupDescriptor {
+    ) -> wgpu::BindGroup {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("tonemap"),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(hdr) },
                 wgpu::BindGroupEntry { binding: 1, resource: exposure.as_entire_binding() },
             ],
-        });
-        gpu::draw_screen(encoder, "tonemap", &self.pipeline, &[globals, &input], &[target]);
+        })
+    }
+
+    /// Shows what [`Self::bind`] bound in `target`.
+    pub(crate) fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        globals: &wgpu::BindGroup,
+        input: &wgpu::BindGroup,
+        target: &wgpu::TextureView,
+    ) {
+        gpu::draw_screen(encoder, "tonemap", &self.pipeline, &[globals, input], &[target]);
     }
 }

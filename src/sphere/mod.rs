@@ -6,10 +6,12 @@
 //! - [`cube`]: faces and the mapping, with its exact inverse
 //! - [`node`]: addresses of quadtree nodes and their neighbours across all face edges
 //! - [`geo`]: latitude, longitude, local north and east
+//! - [`raster`]: numbers on a grid over the sphere, sampled smoothly
 
 pub mod cube;
 pub mod geo;
 pub mod node;
+pub mod raster;
 
 pub use cube::Face;
 pub use geo::LatLon;

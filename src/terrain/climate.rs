@@ -1,16 +1,20 @@
 //! Temperature and moisture at the surface, and the place in the biome table that they make.
 
+use super::coast::Coast;
 use super::field::Field;
 use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
 use crate::planet::{Planet, TableRows};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// The climate of a planet, compiled.
 #[derive(Clone, Debug)]
 pub(crate) struct CompiledClimate {
     noises: Option<[Landform; 2]>,
+    /// Where the sea is, if it matters.
+    pub(crate) coast: Option<Arc<Coast>>,
 }
 
 /// Climate noise at a batch of points; depends on the climate's seed, region size and octaves only.
@@ -24,6 +28,8 @@ pub(crate) struct ClimateField {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PointClimate {
     pub(crate) temperature_c: f64,
+    /// 0 (as cold as the table knows) to 1.
+    pub(crate) temperature: f64,
     /// 0 to 1: the table's column.
     pub(crate) moisture: f64,
     /// 0 (last row: coldest or lowest) to 1 (first row).
@@ -39,7 +45,12 @@ impl CompiledClimate {
             let seed = super::noise::mix(u64::from(planet.seed)) ^ (u64::from(climate.seed) << 1) ^ kind;
             Landform::fbm(seed, planet.radius_km / climate.wavelength_km, climate.octaves)
         };
-        Self { noises: varies.then(|| [noise(0), noise(1)]) }
+        Self { noises: varies.then(|| [noise(0), noise(1)]), coast: None }
+    }
+
+    /// Whether the planet's moisture depends on where its sea is.
+    pub(crate) fn needs_coast(planet: &Planet) -> bool {
+        planet.water.is_some() && planet.climate.sea_moisture > 0.0
     }
 
     /// The noises, as the key under which a field may be kept.
@@ -56,36 +67,97 @@ impl CompiledClimate {
             None => ClimateField { temperature: vec![0.0; points.len()], moisture: vec![0.0; points.len()] },
         }
     }
+
+    /// Distance to the sea at each point, as an angle; nothing where it does not matter.
+    pub(crate) fn inland_rad(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
+        let coast = self.coast.iter();
+        coast.flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir))).collect()
+    }
 }
 
-impl ClimateField {
-    /// The climate at one of the field's points, of this direction and height of the ground.
-    pub(crate) fn at(&self, planet: &Planet, point: usize, dir_planet: DVec3, height_m: f64) -> PointClimate {
-        let climate = &planet.climate;
-        let sea_m = planet.sea_level_m();
+/// A distance beyond the reach of any sea.
+pub(crate) const NO_SEA: f64 = f64::INFINITY;
+
+/// How climate follows from place, height and noise: the parameters of a planet, as numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rules {
+    equator_c: f64,
+    /// From the equator to a pole.
+    warmer_c: f64,
+    lapse_c_per_km: f64,
+    temperature_variation_c: f64,
+    moisture: f64,
+    belts: f64,
+    moisture_variation: f64,
+    drying_per_km: f64,
+    /// Moisture that the sea adds at the coast, and how far it reaches, as an angle.
+    sea_moisture: f64,
+    sea_reach_rad: f64,
+    /// From which heights count: the sea's surface.
+    sea_m: f64,
+    /// Temperature of the table's last row, and from there to the end of the first.
+    coldest_c: f64,
+    range_c: f64,
+    /// Whether the table's rows go by temperature, not by height.
+    by_temperature: bool,
+    /// What the last row begins with, and from there to the end of the first.
+    lowest: f64,
+    span: f64,
+}
+
+impl Rules {
+    pub(crate) fn new(planet: &Planet) -> Self {
+        let (climate, biomes) = (&planet.climate, &planet.biomes);
+        let by_temperature = biomes.rows == TableRows::Temperature;
+        let (lowest, highest) =
+            if by_temperature { (biomes.coldest_c, biomes.hottest_c) } else { (biomes.lowest_m, biomes.highest_m) };
+        Self {
+            equator_c: climate.equator_c,
+            warmer_c: climate.pole_c - climate.equator_c,
+            lapse_c_per_km: climate.lapse_c_per_km,
+            temperature_variation_c: climate.temperature_variation_c,
+            moisture: climate.moisture,
+            belts: climate.belts * 0.5,
+            moisture_variation: climate.moisture_variation,
+            drying_per_km: climate.drying_per_km,
+            sea_moisture: climate.sea_moisture,
+            sea_reach_rad: climate.sea_reach_km / planet.radius_km,
+            sea_m: planet.sea_level_m().unwrap_or(0.0),
+            coldest_c: biomes.coldest_c,
+            range_c: biomes.hottest_c - biomes.coldest_c,
+            by_temperature,
+            lowest,
+            span: highest - lowest,
+        }
+    }
+
+    /// The climate at a place whose latitude has this sine, at this height of the ground, with this noise for temperature and
+    /// moisture, so far from the sea (as an angle; [`NO_SEA`] where there is none).
+    #[inline(always)]
+    pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> PointClimate {
         // Over a sea the surface is the sea's.
-        let above_m = sea_m.map_or(height_m, |sea| (height_m - sea).max(0.0));
+        let above_m = height_m - self.sea_m;
         let above_km = above_m.max(0.0) / 1000.0;
-        let sin2_lat = dir_planet.z * dir_planet.z;
-        let temperature_c = climate.equator_c + (climate.pole_c - climate.equator_c) * sin2_lat
-            - climate.lapse_c_per_km * above_km
-            + climate.temperature_variation_c * self.temperature[point];
-        let moisture =
-            climate.moisture + climate.belts * 0.5 * belt(sin2_lat) + climate.moisture_variation * self.moisture[point]
-                - climate.drying_per_km * above_km;
-        let biomes = &planet.biomes;
-        let row = match biomes.rows {
-            TableRows::Temperature => (temperature_c - biomes.coldest_c) / (biomes.hottest_c - biomes.coldest_c),
-            TableRows::Elevation => {
-                let height_m = sea_m.map_or(height_m, |sea| height_m - sea);
-                (height_m - biomes.lowest_m) / (biomes.highest_m - biomes.lowest_m)
-            }
-        };
-        PointClimate { temperature_c, moisture: moisture.clamp(0.0, 1.0), row: row.clamp(0.0, 1.0) }
+        let sin2_lat = sin_lat * sin_lat;
+        let temperature_c = self.equator_c + self.warmer_c * sin2_lat - self.lapse_c_per_km * above_km
+            + self.temperature_variation_c * noise[0];
+        let left = (1.0 - inland_rad / self.sea_reach_rad).max(0.0);
+        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1]
+            - self.drying_per_km * above_km
+            + self.sea_moisture * left * left;
+        let temperature = (temperature_c - self.coldest_c) / self.range_c;
+        let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
+        PointClimate {
+            temperature_c,
+            temperature: temperature.clamp(0.0, 1.0),
+            moisture: moisture.clamp(0.0, 1.0),
+            row: row.clamp(0.0, 1.0),
+        }
     }
 }
 
 /// Wet at the equator (1) and at 50° (0.6), dry at 25° and at the poles (-1): the cubic in sin² latitude through those.
+#[inline(always)]
 fn belt(sin2_lat: f64) -> f64 {
     1.0 + sin2_lat * (-19.404_782 + sin2_lat * (52.369_621 + sin2_lat * -34.964_839))
 }

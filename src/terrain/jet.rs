@@ -41,6 +41,8 @@ pub(crate) trait Real:
 {
     /// A number that is the same everywhere.
     fn constant(v: f32) -> Self;
+    /// A number whose gradient was found by hand.
+    fn of(v: f32, gradient: [f32; 3]) -> Self;
     /// The number without its gradient.
     fn value(self) -> f32;
     /// A function of this number: its value, and its derivative here.
@@ -111,6 +113,10 @@ impl Real for f32 {
         v
     }
     #[inline(always)]
+    fn of(v: f32, _gradient: [f32; 3]) -> Self {
+        v
+    }
+    #[inline(always)]
     fn value(self) -> f32 {
         self
     }
@@ -144,6 +150,10 @@ impl Real for Jet {
     #[inline(always)]
     fn constant(v: f32) -> Self {
         Jet { v, d: [0.0; 3] }
+    }
+    #[inline(always)]
+    fn of(v: f32, d: [f32; 3]) -> Self {
+        Jet { v, d }
     }
     #[inline(always)]
     fn value(self) -> f32 {

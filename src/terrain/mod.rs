@@ -2,18 +2,22 @@
 //!
 //! - [`simd`]: the instruction sets the loops are compiled for
 //! - `noise`: gradient noise of one octave; the arithmetic all else rests on
+//! - `approx`: sine, cosine and arctangent for the hot loops
 //! - `jet`: numbers that carry their gradient
 //! - `landform`: the kinds of layer, one file each
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
-//! - `height`: layers joined by amplitude, blend and masks
+//! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `climate`: temperature, moisture, the place in the biome table
+//! - `coast`: how far it is to the sea
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
 //!
 //! [`Terrain`] is the only thing outsiders need. Tiles go through the same functions as queries, in batches.
 
+mod approx;
 pub mod bench;
 pub(crate) mod climate;
+pub(crate) mod coast;
 pub(crate) mod field;
 pub(crate) mod height;
 mod jet;
@@ -24,10 +28,13 @@ mod raycast;
 pub mod simd;
 
 use crate::planet::Planet;
-use climate::CompiledClimate;
+pub use height::curve_at;
+
+use climate::{CompiledClimate, NO_SEA, Rules};
+use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
-use height::CompiledLayer;
+use height::{CompiledLayer, LayerStack};
 use landform::Landform;
 use points::Points;
 use rayon::prelude::*;
@@ -41,7 +48,7 @@ use std::sync::Arc;
 pub struct Terrain {
     planet: Arc<Planet>,
     simd: Simd,
-    pub(crate) layers: Vec<CompiledLayer>,
+    pub(crate) stack: LayerStack,
     pub(crate) climate: CompiledClimate,
     height_bounds_m: (f64, f64),
 }
@@ -57,22 +64,64 @@ pub struct Sample {
     pub slope_rad: f64,
     /// Temperature at the surface (of the sea, where there is sea).
     pub temperature_c: f64,
-    /// Moisture, 0 to 1.
+    /// The same between the coldest (0) and the hottest (1) that the biome table knows.
+    pub temperature: f64,
+    /// Moisture, 0 to 1: the biome table's columns.
     pub moisture: f64,
+    /// The same as rain and snow in a year.
+    pub precipitation_mm: f64,
     /// Index of the biome in the palette.
     pub biome: usize,
     /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off.
     pub layers_m: Vec<f64>,
 }
 
+/// The ground without what is seen at neither of two spacings.
+pub(crate) struct SeenRelief {
+    pub(crate) height_m: Vec<f64>,
+    /// Slopes (see [`tangent_slope`]), for each of the spacings.
+    pub(crate) slopes: [Vec<DVec3>; 2],
+}
+
 impl Terrain {
     /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid one
     /// gives is unspecified, but finite work.
     pub fn new(planet: Arc<Planet>) -> Self {
-        let layers = height::compile(&planet);
+        Self::compile(planet, None)
+    }
+
+    /// As [`Terrain::new`], but takes over from the terrain of a similar planet what is the same and took time to find.
+    pub fn after(planet: Arc<Planet>, before: &Terrain) -> Self {
+        Self::compile(planet, Some(before))
+    }
+
+    fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
+        let stack = LayerStack::new(&planet);
         let climate = CompiledClimate::new(&planet);
-        let height_bounds_m = height::bounds_m(&layers, planet.radius_m());
-        Self { planet, simd: Simd::detect(), layers, climate, height_bounds_m }
+        let height_bounds_m = stack.bounds_m();
+        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, height_bounds_m };
+        // Found here rather than when first asked for: asked on a worker of a thread pool, it would wait for its own pool.
+        if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
+            let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
+            let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, 0.5 * coast::CELL_RAD));
+            terrain.climate.coast = Some(kept.unwrap_or_else(|| Arc::new(coast())));
+        }
+        terrain
+    }
+
+    /// Heights much as they are, but without what points so far apart cannot show; on all cores.
+    fn coarse_heights_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
+        let heights = |dirs: &[DVec3]| {
+            let points = Points::new(dirs.to_vec());
+            let fields = self.seen_fields(&points, &[spacing_rad]);
+            height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {}).height_m
+        };
+        dirs_planet.par_chunks(1024).flat_map_iter(heights).collect()
+    }
+
+    /// Whether both have the same shores: everything that they depend on.
+    fn has_coast_of(&self, other: &Terrain) -> bool {
+        self.stack == other.stack && self.planet.sea_level_m() == other.planet.sea_level_m()
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The answers are the same.
@@ -95,20 +144,27 @@ impl Terrain {
     pub fn sample(&self, dir_planet: DVec3) -> Sample {
         let dir = unit(dir_planet);
         let points = Points::new(vec![dir]);
-        let fields = self.fields(&points, |landform| Field::new(landform, self.simd, &points, EXACT));
-        let mut layers_m = vec![0.0; self.layers.len()];
-        let heights = height::combine(&self.layers, self.planet.radius_m(), &fields, 1, 1, |layer, _, change_m| {
-            layers_m[layer] = change_m;
+        let fields = self.fields(&points, EXACT);
+        let (mut layers_m, mut before_m) = (vec![0.0; self.stack.layers.len()], 0.0);
+        let heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |layer, heights_m| {
+            layers_m[layer] = heights_m[0] - before_m;
+            before_m = heights_m[0];
         });
         let height_m = heights.height_m[0];
-        let slope = tangent_slope(dir, heights.gradients[0][0], self.planet.radius_m() + height_m);
-        let climate = self.climate.field(self.simd, &points).at(&self.planet, 0, dir, height_m);
+        let gradient = DVec3::from_array(heights.gradients[0].each_ref().map(|component| f64::from(component[0])));
+        let slope = tangent_slope(dir, gradient, self.planet.radius_m() + height_m);
+        let noise = self.climate.field(self.simd, &points);
+        let inland_rad = self.climate.inland_rad(&[dir]).first().copied().unwrap_or(NO_SEA);
+        let noise = [noise.temperature[0], noise.moisture[0]];
+        let climate = Rules::new(&self.planet).at(dir.z, height_m, noise, inland_rad);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
             slope_rad: libm::atan(slope.length()),
             temperature_c: climate.temperature_c,
+            temperature: climate.temperature,
             moisture: climate.moisture,
+            precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
             biome: biome_index(&self.planet, climate.moisture, climate.row),
             layers_m,
         }
@@ -133,23 +189,54 @@ impl Terrain {
         self.height_bounds_m
     }
 
+    /// The same for the ground within an angle of a direction: narrower, or equal.
+    pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let ((lo, hi), (lowest, highest)) =
+            (self.stack.bounds_near_m(unit(dir_planet), angle_rad), self.height_bounds_m);
+        (lo.max(lowest), hi.min(highest))
+    }
+
     /// How many octaves of noise one point takes.
     pub fn octaves_per_point(&self) -> usize {
-        let layers: usize = self.layers.iter().filter(|l| l.needed).map(|l| l.landform.octave_count()).sum();
+        let layers: usize = self.stack.layers.iter().filter(|l| l.needed).map(|l| l.landform.octave_count()).sum();
         let climate: usize = self.climate.noises().into_iter().flatten().map(Landform::octave_count).sum();
         layers + climate
     }
 
-    /// A field for each needed layer, made by `make`.
-    pub(crate) fn fields(&self, points: &Points, make: impl Fn(&Landform) -> Field) -> Vec<Option<Arc<Field>>> {
-        debug_assert!(points.len() > 0);
-        self.layers.iter().map(|layer| layer.needed.then(|| Arc::new(make(&layer.landform)))).collect()
+    /// A field for each needed layer, with gradients at the spacings asked for and at those that slopes need.
+    fn fields(&self, points: &Points, spacings_rad: &[f64]) -> Vec<Option<Arc<Field>>> {
+        let field = |layer: &CompiledLayer| {
+            Arc::new(Field::new(&layer.landform, self.simd, points, &layer.spacings_rad(spacings_rad)))
+        };
+        self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
+    }
+
+    /// The same without what is seen at none of the spacings.
+    fn seen_fields(&self, points: &Points, spacings_rad: &[f64]) -> Vec<Option<Arc<Field>>> {
+        let field = |layer: &CompiledLayer| {
+            Arc::new(Field::seen_only(&layer.landform, self.simd, points, &layer.spacings_rad(spacings_rad)))
+        };
+        self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
+    }
+
+    /// The ground at unit directions as points so far apart can show it, for shading.
+    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> SeenRelief {
+        let points = Points::new(dirs_planet);
+        let radius_m = self.planet.radius_m();
+        let fields = self.seen_fields(&points, &spacings_rad);
+        let heights = height::combine(&self.stack, self.simd, &points, &fields, &spacings_rad, |_, _| {});
+        let slope = |band: usize, i: usize| {
+            let gradient = heights.gradients[band].each_ref().map(|component| f64::from(component[i]));
+            tangent_slope(points.dirs[i], DVec3::from_array(gradient), radius_m + heights.height_m[i])
+        };
+        let slopes = [0, 1].map(|band| (0..points.len()).map(|i| slope(band, i)).collect());
+        SeenRelief { height_m: heights.height_m, slopes }
     }
 
     fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {
         let points = Points::new(dirs_planet);
-        let fields = self.fields(&points, |landform| Field::new(landform, self.simd, &points, &[]));
-        height::combine(&self.layers, self.planet.radius_m(), &fields, points.len(), 0, |_, _, _| {}).height_m
+        let fields = self.fields(&points, &[]);
+        height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {}).height_m
     }
 }
 
@@ -160,7 +247,7 @@ fn unit(dir: DVec3) -> DVec3 {
 
 /// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a vector in the
 /// tangent plane. The surface's normal is along `dir - slope`.
-pub(crate) fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
+fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
     (gradient - dir * dir.dot(gradient)) / radius_m
 }
 

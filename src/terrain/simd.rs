@@ -59,10 +59,10 @@ impl Simd {
 /// `$name`, which takes the set to use as its first argument. Sets that this machine lacks fall back to the baseline, so the
 /// call is always sound.
 macro_rules! for_each_simd {
-    ($(#[$meta:meta])* fn $name:ident($($arg:ident: $type:ty),* $(,)?) = $body:expr) => {
+    ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) = $body:expr) => {
         $(#[$meta])*
         #[allow(clippy::too_many_arguments)]
-        fn $name(simd: $crate::terrain::simd::Simd, $($arg: $type),*) {
+        $vis fn $name(simd: $crate::terrain::simd::Simd, $($arg: $type),*) {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "sse4.1")]

@@ -1,6 +1,8 @@
 //! A planet to draw in tests, a device to draw it on, and how to read the picture.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod edits;
+
 use std::sync::Arc;
 use tellus::build::{Surface, build_now};
 use tellus::lod::{Camera, Quality, View};
@@ -143,6 +145,7 @@ pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: 
         surface,
         planet,
         view: View { camera, size_px: SIZE_PX, quality: Quality::Medium },
+        frozen: None,
         sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
         time_secs: 0.0,
         exposure_ev: 0.0,

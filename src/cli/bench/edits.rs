@@ -1,51 +1,46 @@
 //! From an edit to the finished tiles, for one parameter of every kind, through the builder that the editor uses.
 
 use super::{median, opening_view, p95};
-use crate::build::{Builder, Surface};
+use crate::build::{BuildStats, Builder, DEFAULT_BUDGET_BYTES};
 use crate::lod::View;
 use crate::lod::tile::TILE_VERTICES;
-use crate::planet::param::{Domain, Param, ParamPath, Stage, Value, ValueMut};
+use crate::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
 use crate::planet::{Planet, diff, validate};
 use serde_json::json;
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Edits of one parameter, each from a different value.
 const RUNS: usize = 7;
+/// The same where nothing is kept and each takes as long as a rebuild.
+const UNCACHED_RUNS: usize = 3;
 /// After this an edit is given up.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// The `edits` list of the report.
+/// The `edits` list of the report: with the cache that the editor has, and without any.
 pub(super) fn measure(planet: &Arc<Planet>) -> Vec<serde_json::Value> {
     let view = opening_view(planet);
-    let bench = Bench::new();
-    if bench.settle(planet, &view).is_none() {
-        return Vec::new();
-    }
+    let (bench, uncached) = (Bench::new(DEFAULT_BUDGET_BYTES), Bench::new(0));
     let edits = one_of_every_kind(planet);
-    edits.iter().map(|(path, stage)| measure_one(&bench, planet, &view, path, *stage)).collect()
-}
-
-fn measure_one(bench: &Bench, planet: &Arc<Planet>, view: &View, path: &ParamPath, stage: Stage) -> serde_json::Value {
-    let (mut times, mut tiles) = (Vec::new(), 0);
-    for run in 1..=RUNS {
-        let Some(edited) = edited(planet, path, run) else { continue };
-        bench.settle(planet, view);
-        if let Some((secs, built)) = bench.settle(&Arc::new(edited), view) {
-            times.push(secs * 1000.0);
-            tiles = built;
-        }
-    }
-    times.sort_by(f64::total_cmp);
-    json!({
-        "parameter": path.to_string(),
-        "stages": stages(stage),
-        "tiles": tiles,
-        "vertices": tiles * TILE_VERTICES,
-        "ms": median(&times),
-        "ms_p95": p95(&times),
-    })
+    edits
+        .iter()
+        .filter_map(|(path, stages)| {
+            let (stats, times) = bench.measure(planet, &view, path, RUNS)?;
+            let (_, without) = uncached.measure(planet, &view, path, UNCACHED_RUNS)?;
+            let ran = stats.ran().and(stages.without(Stages::OF_TILES));
+            Some(json!({
+                "parameter": path.to_string(),
+                "stages": ran.iter().map(|stage| format!("{stage:?}")).collect::<Vec<_>>(),
+                "tiles": stats.tiles_built,
+                "vertices": stats.tiles_built * TILE_VERTICES,
+                "octave_samples": stats.octave_samples,
+                "ms": median(&times),
+                "ms_p95": p95(&times),
+                "ms_uncached": median(&without),
+            }))
+        })
+        .collect()
 }
 
 /// The builder, and a bell that it rings.
@@ -55,60 +50,57 @@ struct Bench {
 }
 
 impl Bench {
-    fn new() -> Self {
+    fn new(budget_bytes: usize) -> Self {
         let bell = Arc::new((Mutex::new(()), Condvar::new()));
         let ring = Arc::clone(&bell);
-        let builder = Builder::new(move || ring.1.notify_all());
+        let builder = Builder::with_budget(budget_bytes, move || ring.1.notify_all());
         Self { builder, bell }
     }
 
-    /// Asks for a planet and waits for its complete surface: seconds, and tiles built on the way.
-    fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<(f64, usize)> {
+    /// What the last of several edits of one parameter took, and the sorted milliseconds of all.
+    fn measure(
+        &self,
+        planet: &Arc<Planet>,
+        view: &View,
+        path: &ParamPath,
+        runs: usize,
+    ) -> Option<(BuildStats, Vec<f64>)> {
+        let (mut times, mut last) = (Vec::new(), None);
+        for run in 1..=runs {
+            let Some(edited) = edited(planet, path, run) else { continue };
+            self.settle(planet, view)?;
+            let (secs, stats) = self.settle(&Arc::new(edited), view)?;
+            times.push(secs * 1000.0);
+            last = Some(stats);
+        }
+        times.sort_by(f64::total_cmp);
+        Some((last?, times))
+    }
+
+    /// Asks for a planet and waits for its complete surface: seconds, and what it took.
+    fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<(f64, BuildStats)> {
         let start = Instant::now();
-        let mut last = self.builder.surface();
-        let mut tiles = 0;
         self.builder.request(planet, view);
-        while start.elapsed() < PATIENCE {
-            let busy = self.builder.is_busy();
-            let surface = self.builder.surface();
-            if let Some(surface) = &surface
-                && !last.as_ref().is_some_and(|last| Arc::ptr_eq(last, surface))
-            {
-                tiles += surface.stats.tiles_built;
-                last = Some(Arc::clone(surface));
-            }
-            if !busy {
-                let complete = |surface: &Arc<Surface>| surface.complete;
-                return last
-                    .as_ref()
-                    .filter(|surface| complete(surface))
-                    .map(|_| (start.elapsed().as_secs_f64(), tiles));
+        while self.builder.is_busy() {
+            if start.elapsed() > PATIENCE {
+                return None;
             }
             // The bell may ring between the question and the wait, hence the short limit.
             let guard = self.bell.0.lock().unwrap_or_else(PoisonError::into_inner);
             drop(self.bell.1.wait_timeout(guard, Duration::from_micros(200)));
         }
-        None
-    }
-}
-
-/// The stages that a change at `first` makes run.
-fn stages(first: Stage) -> Vec<String> {
-    let tiles = [Stage::Field, Stage::Height, Stage::Climate];
-    if first.touches_tiles() {
-        tiles.into_iter().filter(|stage| *stage >= first).map(|stage| format!("{stage:?}")).collect()
-    } else {
-        vec![format!("{first:?}")]
+        let surface = self.builder.surface().filter(|surface| surface.complete)?;
+        Some((start.elapsed().as_secs_f64(), surface.stats))
     }
 }
 
 /// The first parameter of every combination of part, stage and type of value.
-fn one_of_every_kind(planet: &Planet) -> Vec<(ParamPath, Stage)> {
-    let mut kinds = BTreeSet::new();
+fn one_of_every_kind(planet: &Planet) -> Vec<(ParamPath, Stages)> {
+    let mut kinds = HashSet::new();
     let mut found = Vec::new();
     planet.clone().each(&mut |path, param, value| {
         let part = path.segments().first().cloned();
-        let kind = (part, path.segments().len(), param.stage, kind(&value));
+        let kind = (part, path.segments().len(), param.stages, kind(&value));
         if nudged(param, &value, 1).is_some() && kinds.insert(kind) {
             found.push(path.clone());
         }
@@ -117,8 +109,8 @@ fn one_of_every_kind(planet: &Planet) -> Vec<(ParamPath, Stage)> {
         .into_iter()
         .filter_map(|path| {
             let after = edited(planet, &path, 1)?;
-            let stage = diff::first_stale_stage(planet, &after)?;
-            Some((path, stage))
+            let stages = diff::touched_stages(planet, &after).with_consequences();
+            Some((path, stages))
         })
         .collect()
 }
@@ -132,6 +124,7 @@ fn kind(value: &ValueMut<'_>) -> u8 {
         ValueMut::Text(_) => 4,
         ValueMut::Letter(_) => 5,
         ValueMut::Choice(_) => 6,
+        ValueMut::Curve(_) => 7,
     }
 }
 
@@ -163,6 +156,9 @@ fn nudged(param: &Param, value: &ValueMut<'_>, step: usize) -> Option<Value> {
             ValueMut::Choice(choice) => Value::Choice((index + 1) % choice.names().len().max(1)),
             _ => return None,
         },
+        (Value::Curve(points), _) if points.is_empty() => {
+            Value::Curve(vec![[-1.0, -1.0 - share], [0.0, share], [1.0, 1.0 + share]])
+        }
         // Other names and letters would leave masks and tables behind.
         (Value::Text(v), _) => Value::Text(format!("{v} {step}")),
         _ => return None,
@@ -172,24 +168,15 @@ fn nudged(param: &Param, value: &ValueMut<'_>, step: usize) -> Option<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::param::Stage;
     use crate::planet::shipped;
 
     #[test]
     fn every_stage_is_measured_with_valid_edits() {
         let planet = shipped::default_planet();
         let edits = one_of_every_kind(&planet);
-        let stages: BTreeSet<Stage> = edits.iter().map(|(_, stage)| *stage).collect();
-        let all = [
-            Stage::Field,
-            Stage::Height,
-            Stage::Climate,
-            Stage::Material,
-            Stage::CloudMap,
-            Stage::AirTables,
-            Stage::Uniform,
-            Stage::Label,
-        ];
-        assert_eq!(stages, BTreeSet::from(all));
+        let stages = edits.iter().fold(Stages::NONE, |all, (_, stages)| all.and(*stages));
+        assert_eq!(stages, Stages::of(&Stage::ALL));
         assert!(edits.iter().all(|(path, _)| !path.segments().is_empty()), "{edits:?}");
     }
 }

@@ -46,13 +46,18 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         })
         .collect::<Result<_, _>>()?;
     let Some((_, default)) = planets.first() else { return Err("no preset is shipped".to_owned().into()) };
+    let rebuilds: Vec<Value> = planets.iter().map(|(file, planet)| rebuild(file, planet)).collect();
+    let full_ms = |i: &usize| rebuilds[*i]["full_ms"].as_f64().unwrap_or(0.0);
+    let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
     let report = json!({
         "simd": Simd::detect().name(),
         "threads": rayon::current_num_threads(),
         "adapter": headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name),
         "noise": noise::measure(),
-        "rebuild": planets.iter().map(|(file, planet)| rebuild(file, planet)).collect::<Vec<_>>(),
+        "rebuild": rebuilds,
         "edits": edits::measure(default),
+        "heaviest": planets[heaviest].0,
+        "heaviest_edits": edits::measure(&planets[heaviest].1),
         "memory_mb": peak_memory_mb(),
     });
     print(&if args.json { format!("{report:#}") } else { as_text(&report) })

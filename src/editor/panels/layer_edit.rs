@@ -1,12 +1,10 @@
 //! What is done to the list of layers as a whole. Names stay unique, and masks follow the layers they refer to.
 
-use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
 
 /// Adds a layer of a kind (an index into [`Shape::NAMES`]) behind `after`; gives its place, or None when there are too many.
 pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
-    let mut shape = Shape::default();
-    shape.set_index(kind);
+    let shape = Shape::of_kind(kind)?;
     let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));
     insert(planet, Layer { name, seed, shape, ..Layer::default() }, after)
 }
@@ -23,7 +21,7 @@ pub fn remove(planet: &mut Planet, index: usize) {
     if index < planet.layers.len() {
         let removed = planet.layers.remove(index);
         for layer in &mut planet.layers {
-            layer.masks.retain(|mask| mask.layer != removed.name);
+            layer.masks.retain(|mask| mask.layer() != Some(removed.name.as_str()));
         }
     }
 }
@@ -37,8 +35,8 @@ pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
     }
     let old = std::mem::replace(&mut layer.name, name.to_owned());
     for mask in planet.layers.iter_mut().flat_map(|layer| &mut layer.masks) {
-        if mask.layer == old {
-            name.clone_into(&mut mask.layer);
+        if mask.layer() == Some(old.as_str()) {
+            mask.set_layer(name);
         }
     }
     true
@@ -48,12 +46,22 @@ pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
 pub fn shift(planet: &mut Planet, index: usize, by: isize) -> usize {
     match index.checked_add_signed(by) {
         Some(to) if to < planet.layers.len() && index < planet.layers.len() => {
-            let layer = planet.layers.remove(index);
-            planet.layers.insert(to, layer);
-            to
+            let gap = if by > 0 { to + 1 } else { to };
+            move_to_gap(planet, index, gap)
         }
         _ => index,
     }
+}
+
+/// Moves a layer into the gap before the layer that stands at `gap` (or behind the last); gives its new place.
+pub fn move_to_gap(planet: &mut Planet, index: usize, gap: usize) -> usize {
+    if index >= planet.layers.len() || gap > planet.layers.len() {
+        return index;
+    }
+    let to = if gap > index { gap - 1 } else { gap };
+    let layer = planet.layers.remove(index);
+    planet.layers.insert(to, layer);
+    to
 }
 
 fn insert(planet: &mut Planet, layer: Layer, after: Option<usize>) -> Option<usize> {
@@ -75,12 +83,13 @@ fn unique_name(planet: &Planet, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::Mask;
+    use crate::planet::param::Choice;
+    use crate::planet::{LayerMask, Mask};
 
     fn planet() -> Planet {
         let layer = |name: &str| Layer { name: name.to_owned(), ..Layer::default() };
         let mut planet = Planet { layers: vec![layer("A"), layer("B"), layer("C")], ..Planet::default() };
-        planet.layers[2].masks.push(Mask { layer: "A".to_owned(), ..Mask::default() });
+        planet.layers[2].masks.push(Mask::Layer(LayerMask { layer: "A".to_owned(), ..LayerMask::default() }));
         planet
     }
 
@@ -88,7 +97,7 @@ mod tests {
     fn masks_follow_a_rename_and_go_with_their_layer() {
         let mut planet = planet();
         assert!(rename(&mut planet, 0, "Land"));
-        assert_eq!(planet.layers[2].masks[0].layer, "Land");
+        assert_eq!(planet.layers[2].masks[0].layer(), Some("Land"));
         assert!(!rename(&mut planet, 0, "B") && !rename(&mut planet, 0, " "));
         remove(&mut planet, 0);
         assert!(planet.layers[1].masks.is_empty());
@@ -114,5 +123,9 @@ mod tests {
         assert_eq!(shift(&mut planet, 0, 1), 1);
         assert_eq!(planet.layers[1].name, "A");
         assert_eq!(shift(&mut planet, 2, 1), 2);
+        let names = |planet: &Planet| planet.layers.iter().map(|layer| layer.name.clone()).collect::<String>();
+        assert_eq!((move_to_gap(&mut planet, 0, 3), names(&planet)), (2, "ACB".to_owned()));
+        assert_eq!((move_to_gap(&mut planet, 2, 0), names(&planet)), (0, "BAC".to_owned()));
+        assert_eq!((move_to_gap(&mut planet, 1, 2), names(&planet)), (1, "BAC".to_owned()));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Draft, layer_edit, masks};
 use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::random_seed;
 use crate::planet::layers::layer_path;
@@ -36,8 +37,8 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         let (index, count) = (state.selected, draft.planet.layers.len());
         ui.add_enabled_ui(count < MAX_LAYERS, |ui| {
             ui.menu_button("Add layer", |ui| {
-                for (kind, name) in Shape::NAMES.iter().enumerate() {
-                    if ui.button(*name).clicked() {
+                for (kind, (name, doc)) in Shape::NAMES.iter().zip(Shape::DOCS).enumerate() {
+                    if ui.button(*name).on_hover_text(*doc).clicked() {
                         let after = (count > 0).then_some(index);
                         let seed = random_seed() as u32;
                         state.selected = layer_edit::add(draft.planet, kind, after, seed).unwrap_or(index);
@@ -74,26 +75,61 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
 }
 
 fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
+    let changes_m = draft.under_pointer.map(|under| under.layers_m.as_slice());
+    let mut moved = None;
     for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             ui.add(egui::Checkbox::without_text(&mut layer.enabled))
                 .on_hover_text("Whether the layer takes part; switched off it can still serve as a mask")
                 .accessible_name(format!("Enabled of {}", layer.name));
-            let kind = layer.shape.names().get(layer.shape.index()).copied().unwrap_or_default();
-            let blend = layer.blend.names().get(layer.blend.index()).copied().unwrap_or_default();
-            let details = egui::RichText::new(format!("{blend} · {kind}")).weak().small();
+            let change_m = changes_m.and_then(|changes| changes.get(index)).filter(|_| layer.enabled);
+            let details = egui::RichText::new(details(layer, change_m.copied())).weak().small();
             let name = egui::RichText::new(&layer.name);
             let name = if layer.enabled { name } else { name.weak() };
-            let chosen = state.selected == index;
             let width = ui.available_width();
             let atoms = (egui::Atom::from(name).atom_shrink(true), egui::Atom::grow(), details);
-            let button = egui::Button::selectable(chosen, atoms);
-            let response = ui.add(button.truncate().min_size(egui::vec2(width, 20.0)));
-            if response.accessible_name(format!("Layer {}", layer.name)).clicked() {
+            let button = egui::Button::selectable(state.selected == index, atoms)
+                .truncate()
+                .min_size(egui::vec2(width, 20.0))
+                .sense(egui::Sense::click_and_drag());
+            let response = ui.add(button);
+            if response.clicked() {
                 state.selected = index;
             }
+            moved = moved.or(dragged(ui, &response, index));
+            response.on_hover_text("Drag to change the order").accessible_name(format!("Layer {}", layer.name));
         });
     }
+    if let Some((from, gap)) = moved {
+        let to = layer_edit::move_to_gap(draft.planet, from, gap);
+        state.selected = to;
+        if to != from {
+            draft.name_edit("Move layer");
+        }
+    }
+}
+
+/// Blend and kind of a layer, or, while the pointer is over the ground, what the layer changes there.
+fn details(layer: &Layer, change_m: Option<f64>) -> String {
+    if let Some(change_m) = change_m {
+        let sign = if change_m < 0.0 { "−" } else { "+" };
+        return format!("{sign}{}", length_text(change_m.abs()));
+    }
+    let kind = layer.shape.names().get(layer.shape.index()).copied().unwrap_or_default();
+    let blend = layer.blend.names().get(layer.blend.index()).copied().unwrap_or_default();
+    format!("{blend} · {kind}")
+}
+
+/// A layer that is dragged, or has been dropped: over which row of the list, and into which gap.
+fn dragged(ui: &egui::Ui, row: &egui::Response, index: usize) -> Option<(usize, usize)> {
+    row.dnd_set_drag_payload(index);
+    let from = *row.dnd_hover_payload::<usize>()?;
+    let pointer = ui.ctx().pointer_interact_pos()?;
+    let below = pointer.y > row.rect.center().y;
+    let y = if below { row.rect.bottom() + 1.0 } else { row.rect.top() - 1.0 };
+    ui.painter().hline(row.rect.x_range(), y, ui.visuals().selection.stroke);
+    row.dnd_release_payload::<usize>()?;
+    Some((from, index + usize::from(below)))
 }
 
 fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
@@ -104,9 +140,9 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let Some(layer) = draft.planet.layers.get_mut(index) else { return };
     let name = layer.name.clone();
     let grid = Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems };
-    let mut default = Layer::default();
-    default.shape.set_index(layer.shape.index());
-    params_grid(ui, &grid, layer, &mut default);
+    let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
+    let mut default = Layer { shape, ..Layer::default() };
+    draft.browse = params_grid(ui, &grid, layer, &mut default);
     ui.add_space(6.0);
     if let Some(label) = masks::show(ui, index, layer, &names, problems) {
         draft.name_edit(label);

@@ -1,10 +1,10 @@
-//! The masks of a layer: where it acts, by the noise of other layers.
+//! The masks of a layer: where it acts.
 
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::layers::layer_path;
-use crate::planet::param::{ParamPath, Segment};
-use crate::planet::{Layer, MAX_MASKS, Mask};
+use crate::planet::param::{Choice, ParamPath, Segment};
+use crate::planet::{HeightMask, Layer, LayerMask, MAX_MASKS, Mask};
 use eframe::egui;
 
 /// Shows the masks of the layer at `index`; gives the label of an edit that is more than a parameter.
@@ -20,13 +20,12 @@ pub fn show(
     ui.horizontal(|ui| {
         ui.strong("Masks");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let possible = !others.is_empty() && layer.masks.len() < MAX_MASKS;
-            let button = ui.add_enabled(possible, egui::Button::new("Add mask"));
-            let button = button.on_hover_text("Let this layer act only where another layer's noise is in a range");
-            if button.on_disabled_hover_text("A mask needs another layer").clicked()
-                && let Some(other) = others.first()
-            {
-                layer.masks.push(Mask { layer: (*other).clone(), ..Mask::default() });
+            let button = ui.add_enabled(layer.masks.len() < MAX_MASKS, egui::Button::new("Add mask"));
+            if button.on_hover_text("Let this layer act only in some places").clicked() {
+                layer.masks.push(match others.first() {
+                    Some(other) => Mask::Layer(LayerMask { layer: (*other).clone(), ..LayerMask::default() }),
+                    None => Mask::Height(HeightMask::default()),
+                });
                 label = Some("Add mask".to_owned());
             }
         });
@@ -36,18 +35,20 @@ pub fn show(
         let owner = format!("mask {} of {}", number + 1, layer.name);
         egui::Frame::group(ui.style()).show(ui, |ui| {
             ui.horizontal(|ui| {
-                ui.label("Where");
-                egui::ComboBox::from_id_salt(("mask", number))
-                    .selected_text(mask.layer.as_str())
-                    .width((ui.available_width() - 40.0).max(60.0))
-                    .truncate()
-                    .show_ui(ui, |ui| {
-                        for other in &others {
-                            ui.selectable_value(&mut mask.layer, (*other).clone(), other.as_str());
-                        }
-                    })
-                    .response
-                    .accessible_name(format!("Layer of {owner}"));
+                if let Mask::Layer(mask) = mask {
+                    ui.label("Where");
+                    egui::ComboBox::from_id_salt(("mask", number))
+                        .selected_text(mask.layer.as_str())
+                        .width((ui.available_width() - 40.0).max(60.0))
+                        .truncate()
+                        .show_ui(ui, |ui| {
+                            for other in &others {
+                                ui.selectable_value(&mut mask.layer, (*other).clone(), other.as_str());
+                            }
+                        })
+                        .response
+                        .accessible_name(format!("Layer of {owner}"));
+                }
                 if icon_button(ui, Icon::Remove, &format!("Remove {owner}"), "Remove this mask").clicked() {
                     removed = Some(number);
                 }
@@ -55,7 +56,9 @@ pub fn show(
             let mut path = layer_path(index).segments().to_vec();
             path.extend([Segment::Field("masks"), Segment::Index(number)]);
             let grid = Grid { base: ParamPath::from(path), owner: &owner, skip: &["layer"], problems };
-            params_grid(ui, &grid, mask, &mut Mask::default());
+            let mut default = Mask::default();
+            default.set_index(mask.index());
+            params_grid(ui, &grid, mask, &mut default);
         });
     }
     if let Some(number) = removed {

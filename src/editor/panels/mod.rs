@@ -14,6 +14,7 @@ pub mod layers;
 pub mod masks;
 pub mod parts;
 
+use crate::editor::viewport::pointer::UnderPointer;
 use crate::planet::Planet;
 use crate::planet::param::ParamPath;
 use eframe::egui;
@@ -59,8 +60,12 @@ pub struct Draft<'a> {
     pub planet: &'a mut Planet,
     /// What to call the edit; None names it after what changed.
     pub label: Option<String>,
+    /// The parameter for which a file is to be chosen.
+    pub browse: Option<ParamPath>,
     /// Everything wrong with the document's planet.
     pub problems: &'a [(ParamPath, String)],
+    /// The ground under the pointer.
+    pub under_pointer: Option<&'a UnderPointer>,
 }
 
 impl Draft<'_> {

@@ -1,7 +1,7 @@
 //! How long things take, measured truthfully: from an edit to its picture, and from frame to frame.
 
+use super::timeline::{Drawing, Timeline};
 use crate::build::Surface;
-use crate::planet::param::Stage;
 use crate::planet::{Planet, diff};
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -22,9 +22,9 @@ struct Edit {
 pub struct EditClock {
     pending: VecDeque<Edit>,
     /// Drawn in this frame, not yet presented.
-    drawn: Option<Instant>,
-    finished: Option<Receiver<Duration>>,
-    last: Option<Duration>,
+    drawn: Option<(Instant, Timeline)>,
+    finished: Option<Receiver<Timeline>>,
+    last: Option<Timeline>,
 }
 
 impl EditClock {
@@ -40,16 +40,18 @@ impl EditClock {
     }
 
     /// A frame has been drawn.
-    pub fn drawn(&mut self, surface: &Surface, planet: &Arc<Planet>) {
+    pub fn drawn(&mut self, surface: &Surface, planet: &Arc<Planet>, drawing: &Drawing) {
         if !surface.complete {
             return;
         }
+        let made_for = |edit: &Edit| Arc::ptr_eq(surface.terrain.planet(), &edit.planet);
         let shown = self.pending.iter().rposition(|edit| {
-            Arc::ptr_eq(surface.terrain.planet(), &edit.planet)
-                || (Arc::ptr_eq(planet, &edit.planet) && same_tiles(surface.terrain.planet(), planet))
+            made_for(edit) || (Arc::ptr_eq(planet, &edit.planet) && same_tiles(surface.terrain.planet(), planet))
         });
         if let Some(index) = shown {
-            self.drawn = Some(self.pending[index].at);
+            let edit = &self.pending[index];
+            let timeline = Timeline::new(edit.at, made_for(edit).then_some(surface), drawing);
+            self.drawn = Some((edit.at, timeline));
             self.pending.drain(..=index);
         }
     }
@@ -59,22 +61,23 @@ impl EditClock {
     pub fn frame_began(&mut self, device: &wgpu::Device, wake: impl FnOnce() + Send + 'static) {
         if let Some(receiver) = &self.finished {
             match receiver.try_recv() {
-                Ok(duration) => {
-                    self.last = Some(duration);
+                Ok(timeline) => {
+                    self.last = Some(timeline);
                     self.finished = None;
                 }
                 Err(std::sync::mpsc::TryRecvError::Empty) => return,
                 Err(std::sync::mpsc::TryRecvError::Disconnected) => self.finished = None,
             }
         }
-        if let Some(edited_at) = self.drawn.take() {
+        if let Some((edited_at, mut timeline)) = self.drawn.take() {
             let (sender, receiver) = channel();
             self.finished = Some(receiver);
             let device = device.clone();
             std::thread::spawn(move || {
                 if device.poll(wgpu::PollType::wait_indefinitely()).is_ok() {
+                    timeline.finish(edited_at.elapsed());
                     // The receiver is gone when the editor closed meanwhile.
-                    let _ = sender.send(edited_at.elapsed());
+                    let _ = sender.send(timeline);
                 }
                 wake();
             });
@@ -88,12 +91,18 @@ impl EditClock {
 
     /// The newest measurement.
     pub fn last(&self) -> Option<Duration> {
-        self.last
+        self.last.as_ref().map(|timeline| timeline.total)
+    }
+
+    /// Where its time went.
+    pub fn timeline(&self) -> Option<&Timeline> {
+        self.last.as_ref()
     }
 }
 
-fn same_tiles(before: &Planet, after: &Planet) -> bool {
-    !diff::first_stale_stage(before, after).is_some_and(Stage::touches_tiles)
+/// Whether the tiles of one planet can be drawn as those of another.
+pub(super) fn same_tiles(before: &Planet, after: &Planet) -> bool {
+    !diff::touched_stages(before, after).touches_tiles()
 }
 
 /// The time from frame to frame while frames follow each other.

@@ -1,6 +1,6 @@
 //! The ground under the camera: the evaluator of the surface on screen, or a bare ball until there is one.
 
-use super::camera_controller::Ground;
+use super::camera::Ground;
 use crate::planet::Planet;
 use crate::terrain::Terrain;
 use glam::DVec3;
@@ -27,15 +27,14 @@ impl Ground for PlanetGround<'_> {
         self.planet.radius_m()
     }
 
-    fn surface_radius_m(&self, dir_planet: DVec3) -> f64 {
-        let height_m = match self.terrain {
-            Some(terrain) => {
-                let ground_m = terrain.height_m(dir_planet);
-                self.planet.sea_level_m().map_or(ground_m, |sea_m| ground_m.max(sea_m))
-            }
-            None => self.sea_or_zero_m(),
-        };
+    fn floor_radius_m(&self, dir_planet: DVec3) -> f64 {
+        let height_m = self.terrain.map_or_else(|| self.sea_or_zero_m(), |terrain| terrain.height_m(dir_planet));
         self.planet.radius_m() + height_m
+    }
+
+    fn surface_radius_m(&self, dir_planet: DVec3) -> f64 {
+        let sea_m = self.planet.sea_level_m().map_or(f64::MIN, |sea_m| self.planet.radius_m() + sea_m);
+        self.floor_radius_m(dir_planet).max(sea_m)
     }
 
     fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64> {

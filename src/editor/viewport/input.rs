@@ -1,6 +1,7 @@
-//! What the pointer and the keys do to the view and to the sun.
+//! What the pointer and the keys do to the cameras and to the sun.
 
-use super::camera_controller::{CameraController, Ground, turn_sun};
+use super::camera::orbit::turn_sun;
+use super::camera::{Cameras, Controls, Ground, Mode};
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 use eframe::egui;
@@ -14,7 +15,7 @@ pub enum Drag {
     /// Nothing is dragged.
     #[default]
     None,
-    /// The ground is held.
+    /// The ground is held, or the view.
     Globe,
     /// The head turns.
     Head,
@@ -27,7 +28,7 @@ pub fn handle(
     ui: &egui::Ui,
     response: &egui::Response,
     drag: &mut Drag,
-    controller: &mut CameraController,
+    cameras: &mut Cameras,
     ground: &dyn Ground,
     planet: &mut Planet,
 ) -> Moved {
@@ -54,7 +55,7 @@ pub fn handle(
         };
         if let (Drag::Globe, Some(origin)) = (*drag, origin) {
             let (x, y) = to_view(origin);
-            controller.grab(x, y, aspect, ground);
+            cameras.grab(x, y, aspect, ground);
         }
     }
     if response.dragged() {
@@ -64,14 +65,13 @@ pub fn handle(
             Drag::None => {}
             Drag::Globe => {
                 if let Some(pos) = response.interact_pointer_pos() {
-                    let (x, y) = to_view(pos);
-                    controller.drag(x, y, aspect, ground);
+                    cameras.drag(to_view(pos), (right, up), aspect, ground);
                 }
             }
-            Drag::Head if delta != egui::Vec2::ZERO => controller.tilt(-right * 1.6, -up * 1.6, ground),
+            Drag::Head if delta != egui::Vec2::ZERO => cameras.look(-right, -up, ground),
             Drag::Sun if delta != egui::Vec2::ZERO => {
                 let sun = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg).direction();
-                let (lat_deg, lon_deg) = turn_sun(sun, &controller.camera(ground), right, up).to_degrees();
+                let (lat_deg, lon_deg) = turn_sun(sun, &cameras.camera(ground), right, up).to_degrees();
                 planet.star.latitude_deg = round_hundredth(lat_deg).clamp(-90.0, 90.0);
                 planet.star.longitude_deg = round_hundredth(lon_deg).clamp(-180.0, 180.0);
                 moved.sun = true;
@@ -80,7 +80,7 @@ pub fn handle(
         }
     }
     if response.drag_stopped() {
-        controller.release();
+        cameras.release();
         *drag = Drag::None;
     }
 
@@ -88,22 +88,24 @@ pub fn handle(
         && let Some(pos) = response.interact_pointer_pos()
     {
         let (x, y) = to_view(pos);
-        controller.fly_to(x, y, aspect, ground);
+        cameras.fly_to(x, y, aspect, ground);
     }
     if response.hovered() {
         let (scroll, pinch) = ui.input(|i| (f64::from(i.smooth_scroll_delta.y), f64::from(i.zoom_delta())));
         let steps = scroll * 0.005 + if pinch > 0.0 { pinch.ln() } else { 0.0 };
         if steps != 0.0 {
-            controller.zoom(steps, response.hover_pos().map(to_view), aspect, ground);
+            cameras.zoom(steps, response.hover_pos().map(to_view), aspect, ground);
         }
     }
-    if response.has_focus() {
-        moved.animating |= keys(ui, response.id, controller, aspect, ground);
-    }
-    if controller.is_flying() {
-        controller.advance(f64::from(ui.input(|i| i.stable_dt).min(0.1)), ground);
-        moved.animating |= controller.is_flying();
-    }
+    let focused = ui.memory(egui::Memory::focused);
+    // Keys are for the picture unless somebody types or moves through the panels with them.
+    let controls = if focused.is_none_or(|id| id == response.id) {
+        keys(ui, response.id, cameras, ground)
+    } else {
+        Controls::default()
+    };
+    let duration_secs = f64::from(ui.input(|i| i.stable_dt).min(0.25));
+    moved.animating |= cameras.advance(duration_secs, &controls, ground);
     moved
 }
 
@@ -116,32 +118,38 @@ pub struct Moved {
     pub sun: bool,
 }
 
-/// Arrow keys travel, with Shift they turn the head; Page up and Page down change the altitude.
-fn keys(ui: &egui::Ui, id: egui::Id, controller: &mut CameraController, aspect: f64, ground: &dyn Ground) -> bool {
+/// What the keys ask for. Arrow keys travel like WASD around the planet, with Shift they turn the head; otherwise they always
+/// do.
+fn keys(ui: &egui::Ui, id: egui::Id, cameras: &mut Cameras, ground: &dyn Ground) -> Controls {
     use egui::Key;
     let filter = egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
-    let (down, shift, dt) = ui.input(|i| {
-        let down = |key: Key| f64::from(u8::from(i.key_down(key)));
-        let axes = [
-            down(Key::ArrowRight) - down(Key::ArrowLeft),
-            down(Key::ArrowUp) - down(Key::ArrowDown),
-            down(Key::PageDown) - down(Key::PageUp),
-        ];
-        (axes, i.modifiers.shift, f64::from(i.stable_dt.min(0.1)))
-    });
-    let [right, up, nearer] = down;
-    if right != 0.0 || up != 0.0 {
-        if shift {
-            controller.tilt(right * dt, up * dt, ground);
-        } else {
-            controller.travel(right * dt, up * dt, ground);
-        }
+    let input = ui.input(Clone::clone);
+    // With Ctrl or Alt the same keys are shortcuts.
+    if input.modifiers.command || input.modifiers.alt {
+        return Controls::default();
     }
-    if nearer != 0.0 {
-        controller.zoom(nearer * dt * 1.5, None, aspect, ground);
+    let axis = |more: &[Key], less: &[Key]| {
+        let down = |keys: &[Key]| f64::from(u8::from(keys.iter().any(|key| input.key_down(*key))));
+        down(more) - down(less)
+    };
+    let mut controls = Controls {
+        right: axis(&[Key::D], &[Key::A]),
+        up: axis(&[Key::E, Key::Space, Key::PageUp], &[Key::Q, Key::PageDown]),
+        ahead: axis(&[Key::W], &[Key::S]),
+        roll: axis(&[Key::C], &[Key::Z]),
+        fast: input.modifiers.shift,
+        jump: input.key_down(Key::Space),
+    };
+    let (right, up) = (axis(&[Key::ArrowRight], &[Key::ArrowLeft]), axis(&[Key::ArrowUp], &[Key::ArrowDown]));
+    if cameras.mode() == Mode::Orbit && !input.modifiers.shift {
+        controls.right += right;
+        controls.ahead += up;
+    } else if right != 0.0 || up != 0.0 {
+        let turned = f64::from(input.stable_dt.min(0.1));
+        cameras.look(right * turned, up * turned, ground);
     }
-    down != [0.0; 3]
+    controls
 }
 
 fn round_hundredth(degrees: f64) -> f64 {

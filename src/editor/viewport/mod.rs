@@ -1,44 +1,48 @@
 //! The picture of the planet: asks for a surface, draws it into a texture when something changed, moves the camera.
 //!
-//! - [`camera_controller`]: where one looks from; pure mathematics
+//! - [`camera`]: where one looks from; pure mathematics
 //! - [`input`]: what the pointer and the keys do
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
+//! - `outline`: what a frozen view sees, drawn into another
+//! - [`pointer`]: what lies under the pointer
+//! - [`swap`]: the surface on screen, and the next one while it is uploaded
 //! - [`adaptation`]: exposure that follows what there is to see
-//! - [`clock`]: the time from an edit to its picture
+//! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, where it went, the time of each frame
 
 pub mod adaptation;
-pub mod camera_controller;
+pub mod camera;
 pub mod clock;
+pub mod frames;
 pub mod ground;
 pub mod input;
+mod outline;
+pub mod pointer;
+pub mod swap;
 pub mod target;
+pub mod timeline;
 
-use crate::build::{Builder, Surface};
+use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, FrameStats, Renderer};
+use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns};
 use crate::sphere::LatLon;
 use adaptation::Adaptation;
-use camera_controller::{CameraController, Ground};
-use clock::{EditClock, FrameMeter};
+use camera::pose::Pose;
+use camera::{Cameras, Ground};
+use clock::{EditClock, FrameMeter, same_tiles};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
+use frames::FrameLog;
+use glam::DVec3;
 use ground::PlanetGround;
+use pointer::{Probe, UnderPointer};
 use std::sync::Arc;
+use std::time::Instant;
+use swap::{Swap, UPLOAD_BUDGET_BYTES};
 use target::Target;
-
-/// What lies under the pointer.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct UnderPointer {
-    pub place: LatLon,
-    pub height_m: f64,
-    pub temperature_c: f64,
-    pub moisture: f64,
-    pub biome: String,
-}
+use timeline::Span;
 
 /// What is looked at and how; no part of the document.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +51,8 @@ pub struct ViewSettings {
     pub debug_view: DebugView,
     /// How well things are drawn.
     pub quality: Quality,
+    /// Whether the tiles stay those of the view in which they were frozen.
+    pub freeze_detail: bool,
     /// Exposure in stops.
     pub exposure_ev: f64,
     /// Whether the exposure is a correction to what suits the picture.
@@ -64,6 +70,7 @@ struct PictureKey {
     surface: Arc<Surface>,
     planet: Arc<Planet>,
     view: View,
+    frozen: Option<View>,
     time_secs: f64,
     exposure_ev: f64,
     auto_exposure: bool,
@@ -72,14 +79,25 @@ struct PictureKey {
 
 impl PictureKey {
     fn same(&self, other: &PictureKey) -> bool {
-        Arc::ptr_eq(&self.surface, &other.surface)
+        same_leaves(&self.surface, &other.surface)
             && Arc::ptr_eq(&self.planet, &other.planet)
             && self.view == other.view
+            && self.frozen == other.frozen
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
             && self.auto_exposure == other.auto_exposure
             && self.debug_view == other.debug_view
     }
+}
+
+/// Whether two surfaces are made of the same tiles and stand for as much.
+fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
+    let detail = |leaf: &Leaf| leaf.detail.as_ref().map(|detail| detail.serial);
+    let same = |(a, b): (&Leaf, &Leaf)| {
+        a.tile.serial == b.tile.serial && a.coarser_edges == b.coarser_edges && detail(a) == detail(b)
+    };
+    let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
+    Arc::ptr_eq(a, b) || (a.complete == b.complete && all())
 }
 
 /// What can be drawn with, or why nothing can.
@@ -96,17 +114,25 @@ pub struct Viewport {
     pub edit_clock: EditClock,
     /// Time from frame to frame.
     pub frame_meter: FrameMeter,
+    /// How long each frame took.
+    pub frames: FrameLog,
     builder: Builder,
+    swap: Swap,
+    /// The upload under way or just done: when, and how many bytes were uploaded before it.
+    upload: Option<(Span, u64)>,
     drawing: Drawing,
     target: Option<Target>,
     drawn: Option<PictureKey>,
     adaptation: Adaptation,
     stats: FrameStats,
-    controller: CameraController,
+    cameras: Cameras,
     ground_radius_m: f64,
+    /// The view whose tiles are kept.
+    frozen: Option<View>,
+    wants_focus: bool,
+    moving: bool,
     drag: input::Drag,
-    under_pointer: Option<UnderPointer>,
-    under_pointer_key: Option<(egui::Pos2, View, Arc<Surface>)>,
+    pointer: Probe,
     pictures: u64,
 }
 
@@ -127,11 +153,12 @@ impl Viewport {
         });
         // On a software adapter the pictures in between would cost more than they please.
         let by_eye = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
-        let ctx = ctx.clone();
+        let (ctx, pointer_ctx) = (ctx.clone(), ctx.clone());
         Self {
             settings: ViewSettings {
                 debug_view: DebugView::default(),
                 quality,
+                freeze_detail: false,
                 exposure_ev: 0.0,
                 auto_exposure: true,
                 time_secs: 0.0,
@@ -140,39 +167,59 @@ impl Viewport {
             },
             edit_clock: EditClock::default(),
             frame_meter: FrameMeter::default(),
+            frames: FrameLog::default(),
             builder: Builder::new(move || ctx.request_repaint()),
+            swap: Swap::default(),
+            upload: None,
             drawing,
             target: None,
             drawn: None,
             adaptation: Adaptation::new(by_eye),
             stats: FrameStats::default(),
-            controller: CameraController::new(planet.radius_m(), opening_place(planet)),
+            cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
+            frozen: None,
+            wants_focus: false,
+            moving: false,
             drag: input::Drag::None,
-            under_pointer: None,
-            under_pointer_key: None,
+            pointer: Probe::new(move || pointer_ctx.request_repaint()),
             pictures: 0,
         }
     }
 
     /// Looks at the whole planet again.
     pub fn reset_view(&mut self, planet: &Planet) {
-        self.controller = CameraController::new(self.ground_radius_m, opening_place(planet));
+        let dive = self.cameras.dives();
+        self.cameras = Cameras::new(self.ground_radius_m, opening_place(planet));
+        self.cameras.set_dive(dive);
     }
 
-    /// The newest surface.
+    /// The surface on screen.
     pub fn surface(&self) -> Option<Arc<Surface>> {
-        self.builder.surface()
+        self.swap.shown().cloned()
     }
 
-    /// Whether a finer surface is being built.
+    /// Whether a finer surface is being built, or on its way to the screen.
     pub fn is_busy(&self) -> bool {
-        self.builder.is_busy()
+        self.builder.is_busy() || self.swap.is_under_way(self.builder.surface().as_ref())
+    }
+
+    /// What is kept of tiles and their noise.
+    pub fn memory(&self) -> Memory {
+        self.builder.memory()
+    }
+
+    /// How often each table has been made since the start.
+    pub fn table_runs(&self) -> Option<TableRuns> {
+        match &self.drawing {
+            Drawing::Ready(renderer, _) => Some(renderer.table_runs()),
+            Drawing::Failed(_) => None,
+        }
     }
 
     /// What lies under the pointer, if it is over the globe.
     pub fn under_pointer(&self) -> Option<&UnderPointer> {
-        self.under_pointer.as_ref()
+        self.pointer.answer()
     }
 
     /// What the newest picture took.
@@ -185,45 +232,94 @@ impl Viewport {
         self.pictures
     }
 
-    /// Height of the eye above the ground, and the place under it.
+    /// Height of the eye above the ground or the sea, and the place under it.
     pub fn eye(&self, planet: &Planet) -> (f64, LatLon) {
-        let surface = self.builder.surface();
-        let ground = PlanetGround::new(planet, surface.as_deref().map(|surface| &*surface.terrain));
-        (self.controller.altitude_m(&ground), self.controller.place())
+        self.with_ground(planet, |cameras, ground| {
+            let pose = cameras.pose(ground);
+            let altitude_m = pose.position_planet_m.length() - ground.surface_radius_m(pose.up());
+            (altitude_m, LatLon::from_direction(pose.up()))
+        })
+    }
+
+    /// Where one looks from.
+    pub fn pose(&self, planet: &Planet) -> Pose {
+        self.with_ground(planet, |cameras, ground| cameras.pose(ground))
+    }
+
+    /// Distance from the planet's centre to the ground or the sea, whichever is higher.
+    pub fn surface_radius_m(&self, planet: &Planet, dir_planet: DVec3) -> f64 {
+        self.with_ground(planet, |_, ground| ground.surface_radius_m(dir_planet))
+    }
+
+    /// The cameras: how one moves.
+    pub fn cameras(&self) -> &Cameras {
+        &self.cameras
+    }
+
+    /// Whether the camera goes on moving by itself.
+    pub fn is_moving(&self) -> bool {
+        self.moving
+    }
+
+    /// Changes how or where one moves.
+    pub fn move_cameras(&mut self, planet: &Planet, change: impl FnOnce(&mut Cameras, &dyn Ground)) {
+        let mut cameras = self.cameras.clone();
+        self.with_ground(planet, |_, ground| change(&mut cameras, ground));
+        self.cameras = cameras;
+        self.moving = true;
+    }
+
+    fn with_ground<R>(&self, planet: &Planet, ask: impl FnOnce(&Cameras, &dyn Ground) -> R) -> R {
+        let surface = self.surface();
+        ask(&self.cameras, &PlanetGround::new(planet, surface.as_deref().map(|surface| &*surface.terrain)))
+    }
+
+    /// Gives the keys to the picture.
+    pub fn take_focus(&mut self) {
+        self.wants_focus = true;
     }
 
     /// Why nothing or something old is drawn.
-    pub fn error(&self) -> Option<&str> {
-        match &self.drawing {
+    pub fn error(&self) -> Option<String> {
+        let drawing = match &self.drawing {
             Drawing::Ready(renderer, _) => renderer.shader_error(),
-            Drawing::Failed(error) => Some(error),
-        }
+            Drawing::Failed(error) => Some(error.as_str()),
+        };
+        drawing.map(str::to_owned).or_else(|| self.builder.error())
     }
 
     /// Shows the picture in all of the room there is. `valid` is what is drawn; a drag of the sun changes `draft`, and gives
     /// the label of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
+        if std::mem::take(&mut self.wants_focus) {
+            response.request_focus();
+        }
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "View of the planet"));
         ui.painter().rect_filled(rect, 0.0, egui::Color32::BLACK);
         if rect.width() < 1.0 || rect.height() < 1.0 {
             return None;
         }
 
-        let surface = self.builder.surface();
+        self.advance(ui.ctx());
+        let surface = self.surface();
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
         if ground.radius_m() != self.ground_radius_m {
-            self.controller.rescale(self.ground_radius_m, ground.radius_m());
+            self.cameras.rescale(self.ground_radius_m, ground.radius_m(), &ground);
+            if let Some(frozen) = &mut self.frozen {
+                frozen.camera.position_planet_m *= ground.radius_m() / self.ground_radius_m;
+            }
             self.ground_radius_m = ground.radius_m();
         }
-        self.controller.keep_above(&ground);
-        let moved = input::handle(ui, &response, &mut self.drag, &mut self.controller, &ground, draft);
+        self.cameras.keep_above(&ground);
+        let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, draft);
 
         let settings = &mut self.settings;
         if settings.playing {
             settings.time_secs += f64::from(ui.input(|i| i.stable_dt).min(0.1)) * settings.time_speed;
         }
+        self.moving = moved.animating;
         if moved.animating || settings.playing {
             ui.ctx().request_repaint();
         } else if settings.auto_exposure && self.adaptation.is_under_way() {
@@ -233,26 +329,49 @@ impl Viewport {
         let pixels_per_point = ui.ctx().pixels_per_point();
         let side_px = |points: f32| (points * pixels_per_point).round().max(1.0) as u32;
         let view = View {
-            camera: self.controller.camera(&ground),
+            camera: self.cameras.camera(&ground),
             size_px: [side_px(rect.width()), side_px(rect.height())],
             quality: self.settings.quality,
         };
         // The camera stands over the surface that is shown; a planet of another size is asked for from as far in its radii.
-        let mut wanted = view;
+        self.frozen = self.settings.freeze_detail.then(|| self.frozen.unwrap_or(view));
+        let mut wanted = self.frozen.unwrap_or(view);
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
         if let Some(surface) = surface {
-            // Sea and air of one size over ground of another would flash until the new tiles are there.
+            // Sea, air and light of one planet over the ground of another would flash until the new tiles are there.
             let shown = surface.terrain.planet().clone();
-            let planet = if shown.radius_km == valid.radius_km { valid } else { &shown };
+            let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&shown, valid) { valid } else { &shown };
             self.draw(surface, planet, view);
         }
         if let Some(target) = &self.target {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
             ui.painter().image(target.id(), rect, uv, egui::Color32::WHITE);
         }
+        if let Some(frozen) = &self.frozen {
+            outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);
+        }
         moved.sun.then_some(input::SUN_STEP)
+    }
+
+    /// Brings the newest surface nearer to the screen: uploads a frame's worth of it, and swaps it in when that was all.
+    fn advance(&mut self, ctx: &egui::Context) {
+        let newest = self.builder.surface();
+        let (drawing, frames, span) = (&mut self.drawing, &mut self.frames, &mut self.upload);
+        self.swap.advance(newest.clone(), |surface| {
+            let Drawing::Ready(renderer, state) = drawing else { return true };
+            let (begin, before) = (Instant::now(), renderer.uploaded_bytes());
+            let done = renderer.upload(&state.device, &state.queue, surface, UPLOAD_BUDGET_BYTES);
+            let now = Span::since(begin);
+            frames.uploaded(now.end - now.begin);
+            let (first, before) = span.map_or((now, before), |(span, before)| (span, before));
+            *span = Some((Span { end: now.end, ..first }, before));
+            done
+        });
+        if self.swap.is_under_way(newest.as_ref()) {
+            ctx.request_repaint();
+        }
     }
 
     /// Draws, unless the picture of just that is there already.
@@ -262,6 +381,7 @@ impl Viewport {
             surface,
             planet: planet.clone(),
             view,
+            frozen: self.frozen,
             time_secs: self.settings.time_secs,
             exposure_ev: self.settings.exposure_ev,
             auto_exposure: self.settings.auto_exposure,
@@ -272,10 +392,14 @@ impl Viewport {
         let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
         let adapting = self.settings.auto_exposure && self.adaptation.is_under_way();
         if !changed && !adapting {
+            if !self.swap.is_uploading() {
+                self.upload = None;
+            }
             return;
         }
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
         let star = &planet.star;
+        let begin = Instant::now();
         self.stats = renderer.render(
             &state.device,
             &state.queue,
@@ -284,6 +408,7 @@ impl Viewport {
                 surface: &key.surface,
                 planet,
                 view,
+                frozen: key.frozen,
                 sun_dir_planet: LatLon::from_degrees(star.latitude_deg, star.longitude_deg).direction(),
                 time_secs: key.time_secs,
                 exposure_ev: key.exposure_ev,
@@ -292,38 +417,24 @@ impl Viewport {
         );
         self.pictures += 1;
         self.frame_meter.drawn();
-        self.edit_clock.drawn(&key.surface, planet);
+        let draw = Span::since(begin);
+        self.frames.drew(draw.end - draw.begin);
+        let upload = if self.swap.is_uploading() { None } else { self.upload.take() };
+        let (upload, before) = upload.unzip();
+        let uploaded_bytes = before.map_or(0, |before| renderer.uploaded_bytes() - before);
+        self.edit_clock.drawn(&key.surface, planet, &timeline::Drawing { upload, uploaded_bytes, draw });
         self.drawn = Some(key);
     }
 
-    /// Asks the evaluator what lies under the pointer, unless the answer is known.
+    /// Asks what lies under the pointer.
     fn look_under_pointer(&mut self, response: &egui::Response, view: &View, surface: Option<&Arc<Surface>>) {
-        let (Some(pos), Some(surface)) = (response.hover_pos(), surface) else {
-            self.under_pointer = None;
-            self.under_pointer_key = None;
-            return;
-        };
-        let known = self.under_pointer_key.as_ref();
-        if known.is_some_and(|(p, v, s)| *p == pos && v == view && Arc::ptr_eq(s, surface)) {
-            return;
+        if let (Some(pos), Some(surface)) = (response.hover_pos(), surface) {
+            let rect = response.rect;
+            let x = f64::from((pos.x - rect.center().x) / (0.5 * rect.width()));
+            let y = f64::from((rect.center().y - pos.y) / (0.5 * rect.height()));
+            self.pointer.ask(x, y, view, surface);
+        } else {
+            self.pointer.leave();
         }
-        self.under_pointer_key = Some((pos, *view, surface.clone()));
-        let rect = response.rect;
-        let x = f64::from((pos.x - rect.center().x) / (0.5 * rect.width()));
-        let y = f64::from((rect.center().y - pos.y) / (0.5 * rect.height()));
-        let camera = &view.camera;
-        let ray = camera.ray_dir_planet(x, y, view.aspect());
-        self.under_pointer = surface.terrain.raycast(camera.position_planet_m, ray).map(|distance_m| {
-            let dir = camera.position_planet_m + ray * distance_m;
-            let sample = surface.terrain.sample(dir);
-            let palette = &surface.terrain.planet().biomes.palette;
-            UnderPointer {
-                place: LatLon::from_direction(dir),
-                height_m: sample.height_m,
-                temperature_c: sample.temperature_c,
-                moisture: sample.moisture,
-                biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
-            }
-        });
     }
 }

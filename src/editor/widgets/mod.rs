@@ -2,9 +2,11 @@
 //!
 //! - [`param_row`]: one parameter as a row: label, slider, number, reset
 //! - [`params_grid`]: all parameters of a part
+//! - [`curve_edit`]: a curve through points
 //! - [`icon`]: drawn icons and their buttons
 //! - [`number`]: numbers as text, with units
 
+pub mod curve_edit;
 pub mod icon;
 pub mod number;
 pub mod param_row;

@@ -35,6 +35,8 @@ pub fn parse_number(text: &str, unit: Unit) -> Option<f64> {
         (Unit::Metres, "km") => 1000.0,
         (Unit::Metres, "cm") => 0.01,
         (Unit::Metres, "mm") | (Unit::Kilometres, "m") => 0.001,
+        (Unit::Millimetres, "m") => 1000.0,
+        (Unit::Millimetres, "cm") => 10.0,
         (Unit::Degrees, "deg") | (Unit::Celsius, "C" | "°") => 1.0,
         (Unit::MetresPerSecond, "km/h") => 1.0 / 3.6,
         (Unit::KilometresPerHour, "m/s") => 3.6,

@@ -3,6 +3,7 @@
 //! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of Continents";
 //! the number beside a slider is called "Amplitude of Continents as a number".
 
+use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
 use super::number::{format_digits, parse_number, suffix};
 use super::random_seed;
@@ -29,9 +30,9 @@ const NUMBER_WIDTH: f32 = 86.0;
 const NUMBER_DIGITS: i32 = 5;
 const TRIPLE_DIGITS: i32 = 4;
 
-/// Shows the row; whether the value was changed.
+/// Shows the row; whether a file is to be chosen for it.
 pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> bool {
-    let before = value.get();
+    let mut browse = false;
     ui.push_id(row.path.to_string(), |ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
@@ -44,7 +45,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 egui::Layout::left_to_right(egui::Align::Center),
                 |ui| {
                     ui.set_min_width(control_width);
-                    control(ui, row, &mut value);
+                    browse = control(ui, row, &mut value);
                 },
             );
             if let Some(default) = row.default
@@ -56,11 +57,16 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 }
             }
         });
+        if let ValueMut::Curve(curve) = &mut value
+            && let Some(edit) = curve_edit(row.param, &name(row)).filter(|_| !curve.is_empty())
+        {
+            edit.show(ui, curve);
+        }
         if let Some(problem) = row.problem {
             ui.colored_label(ui.visuals().error_fg_color, problem);
         }
     });
-    value.get() != before
+    browse
 }
 
 fn name(row: &Row<'_>) -> String {
@@ -119,6 +125,8 @@ fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
         Value::Triple([r, g, b]) => format!("({r}, {g}, {b}){unit}"),
         Value::Text(v) => v.clone(),
         Value::Letter(v) => v.to_string(),
+        Value::Curve(points) if points.is_empty() => "no curve".to_owned(),
+        Value::Curve(points) => points.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(", "),
         Value::Choice(index) => match place {
             ValueMut::Choice(choice) => choice.names().get(*index).copied().unwrap_or_default().to_owned(),
             _ => index.to_string(),
@@ -126,7 +134,8 @@ fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
     }
 }
 
-fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
+/// Whether a file is to be chosen.
+fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     let name = name(row);
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
@@ -166,15 +175,44 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) {
                 **letter = typed;
             }
         }
+        (Domain::File { max_chars }, ValueMut::Text(text)) => return file_field(ui, &name, text, max_chars),
         (domain, ValueMut::Text(text)) => {
             let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
             ui.add(edit).accessible_name(&name);
         }
+        (Domain::Curve { .. }, ValueMut::Curve(curve)) => {
+            // The curve itself stands below the row, over its whole width.
+            if !curve.is_empty() {
+                ui.weak(format!("{} points", curve.len()));
+            } else if ui.button("Bend").on_hover_text(row.param.doc).accessible_name(format!("Bend {name}")).clicked()
+                && let Some(edit) = curve_edit(row.param, &name)
+            {
+                **curve = edit.straight();
+            }
+        }
         _ => {
             ui.weak("cannot be edited here");
         }
     }
+    false
+}
+
+/// A path, and a button that asks for another; whether it was clicked.
+fn file_field(ui: &mut egui::Ui, name: &str, path: &mut String, max_chars: usize) -> bool {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let browse = ui.button("Browse…").on_hover_text("Choose a file").clicked();
+        let edit = egui::TextEdit::singleline(path).char_limit(max_chars).desired_width(ui.available_width());
+        ui.add(edit).accessible_name(name);
+        browse
+    })
+    .inner
+}
+
+/// The editor of a parameter that is a curve.
+fn curve_edit<'a>(param: &Param, name: &'a str) -> Option<CurveEdit<'a>> {
+    let Domain::Curve { most, least_step } = param.domain else { return None };
+    Some(CurveEdit { name, unit: param.unit, most, least_step })
 }
 
 /// A slider that leaves room for the number beside it.

@@ -17,8 +17,15 @@ pub struct Grid<'a> {
     pub problems: &'a [(ParamPath, String)],
 }
 
-/// Shows the parameters of `part`; `default` is what their reset buttons go back to.
-pub fn params_grid(ui: &mut egui::Ui, grid: &Grid<'_>, part: &mut dyn Params, default: &mut dyn Params) {
+/// Shows the parameters of `part`; `default` is what their reset buttons go back to. Gives the one for which a file is to be
+/// chosen.
+pub fn params_grid(
+    ui: &mut egui::Ui,
+    grid: &Grid<'_>,
+    part: &mut dyn Params,
+    default: &mut dyn Params,
+) -> Option<ParamPath> {
+    let mut browse = None;
     let defaults = values(default, &grid.base);
     let depth = grid.base.segments().len();
     part.each_param(&mut grid.base.clone(), &mut |path, param, value| {
@@ -30,8 +37,11 @@ pub fn params_grid(ui: &mut egui::Ui, grid: &Grid<'_>, part: &mut dyn Params, de
         // Some parameters stand at the path of the part itself, such as the kind of a shape.
         let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
         let row = Row { param, path, owner: grid.owner, default, problem: problem_at(grid.problems, path) };
-        param_row(ui, &row, value);
+        if param_row(ui, &row, value) {
+            browse = Some(path.clone());
+        }
     });
+    browse
 }
 
 fn values(part: &mut dyn Params, base: &ParamPath) -> Vec<(ParamPath, &'static str, Value)> {

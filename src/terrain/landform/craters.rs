@@ -1,183 +1,271 @@
 //! Craters of many sizes: bowls with a raised rim, scattered without storing any.
 //!
 //! Space is cut into cells; each holds one jittered centre. Only centres near the sphere's surface count, the fainter the
-//! farther they lie off it, which reads as age. Jitter, reach and thickness are chosen so that a crater can only be felt in the
-//! eight cells nearest to a point: whatever point asks, it looks at every crater that reaches it.
+//! farther they lie off it. Jitter, reach and thickness are chosen so that a crater can only be felt in the eight cells
+//! nearest to a point: whatever point asks, it looks at every crater that reaches it.
+//!
+//! The widest craters may have the flat floor and the central peak of large impacts, and each crater its own age: worn ones
+//! are shallow dishes without a rim. Numbers may follow the power law that moons show.
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
+use super::places::{CORNERS, Places, neighbour, unit};
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK, Lane, Octave, Points3};
+use crate::terrain::noise::{self, CHUNK, Octave};
 use crate::terrain::simd::for_each_simd;
 
 /// Most radius of a crater, in cells.
 const RADIUS: f32 = 0.45;
-/// How far the ejecta reach, in crater radii.
+/// Most reach of the ejecta, in crater radii.
 const REACH: f32 = 1.6;
-/// Height of the rim, in depths.
-const RIM: f32 = 0.28;
+/// Radius of the central peak, in crater radii.
+const PEAK: f32 = 0.28;
+/// Radius of the dish that a crater wears down to, in crater radii, and its depth.
+const DISH: f32 = 1.3;
+const DISH_DEPTH: f32 = 0.7;
+/// How much of its depth a crater loses with age.
+const FILLED: f32 = 0.75;
 /// Centres up to this far off the surface count, in cells. sqrt((RADIUS * REACH)^2 + THICKNESS^2) + 0.2 (jitter) < 1.
 const THICKNESS: f32 = 0.34;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Craters {
-    octaves: Vec<Weighted>,
+    sizes: Vec<Size>,
+}
+
+/// The craters of one octave.
+#[derive(Clone, Debug, PartialEq)]
+struct Size {
+    /// One lattice, whose layers show as bands where they lie along the ground; or two, one in the gaps of the other.
+    lattices: Vec<Octave>,
+    weight: f32,
+    mould: Mould,
+}
+
+/// What the craters of one octave are like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Mould {
     /// Share of cells that hold a crater.
     density: f32,
+    /// Whether the sizes within the octave follow a power law: the widest over this one is then `1 + a u + b u^2`, with `u`
+    /// random.
+    power: bool,
+    spread: [f32; 2],
+    rim: f32,
+    reach: f32,
+    floor: f32,
+    peak: f32,
+    age: f32,
+    fresh: f32,
 }
 
 impl Craters {
     pub(super) fn new(params: &planet::Craters, seed: u64, radius_km: f64) -> Self {
-        let planet::Craters { diameter_km, octaves, gain, lacunarity, density } = *params;
+        let planet::Craters { diameter_km, octaves, gain, lacunarity, power, density, .. } = *params;
         // The widest crater is 0.9 cells across.
         let octaves = series(seed, 0.9 * radius_km / diameter_km, octaves, gain, lacunarity);
-        Self { octaves, density: density as f32 }
+        // Cells of equal density make the power 2; any other comes from the densities, until every cell is full.
+        let excess = if power > 0.0 { power - 2.0 } else { 0.0 };
+        let sizes = octaves.into_iter().enumerate().map(|(i, Weighted { octave, weight })| {
+            let density = (density * libm::pow(lacunarity, excess * i as f64)).min(1.0);
+            // Large impacts collapse: all of it at half the widest diameter, none at a tenth.
+            let collapse = ((libm::pow(lacunarity, -(i as f64)) - 0.1) / 0.4).clamp(0.0, 1.0);
+            let gaps = Octave {
+                offset: octave.offset.map(|offset| offset + 0.5),
+                seed: noise::scramble(octave.seed),
+                ..octave
+            };
+            let lattices = if power > 0.0 { vec![octave, gaps] } else { vec![octave] };
+            Size { lattices, weight, mould: Mould::new(params, density, collapse) }
+        });
+        Self { sizes: sizes.collect() }
+    }
+}
+
+impl Mould {
+    fn new(params: &planet::Craters, density: f64, collapse: f64) -> Self {
+        let planet::Craters { lacunarity, power, rim, ejecta, floor, peak, age, fresh, .. } = *params;
+        // The inverse of the cumulative count, met at its ends and its middle.
+        let middle = libm::pow(0.5 + 0.5 * libm::pow(lacunarity, power), 1.0 / power.max(0.01));
+        let spread = [4.0 * middle - lacunarity - 3.0, 2.0 * lacunarity - 4.0 * middle + 2.0];
+        Self {
+            density: density as f32,
+            power: power > 0.0,
+            spread: spread.map(|a| a as f32),
+            rim: rim as f32,
+            reach: (ejecta as f32).min(REACH),
+            floor: (floor * collapse) as f32,
+            peak: (peak * collapse) as f32,
+            age: age as f32,
+            fresh: fresh as f32,
+        }
+    }
+
+    /// Height (-1, the floor, to the rim) and slope of a crater at so many radii from its middle. `random` is from 0 to 1.
+    #[inline(always)]
+    fn profile(self, r: f32, random: f32) -> (f32, f32) {
+        // A flat floor and a bowl up to the rim, then ejecta that run out.
+        let inside = r < 1.0;
+        let widen = 1.0 / (1.0 - self.floor);
+        let bowl = ((r - self.floor) * widen).max(0.0);
+        let thin = 1.0 / (self.reach - 1.0);
+        let tail = ((self.reach - r) * thin).max(0.0);
+        let top = (1.0 - (r * r) * (1.0 / (PEAK * PEAK))).max(0.0);
+        let inner = (1.0 + self.rim) * bowl * bowl - 1.0 + self.peak * (top * top);
+        let inner_slope = 2.0 * (1.0 + self.rim) * bowl * widen - self.peak * (4.0 / (PEAK * PEAK)) * (top * r);
+        let height = if inside { inner } else { self.rim * tail * tail };
+        let slope = if inside { inner_slope } else { -2.0 * self.rim * tail * thin };
+        // Worn down to a dish.
+        let age = self.age * ((random - self.fresh) / (1.0 - self.fresh).max(1e-6)).max(0.0);
+        let dish = (1.0 - (r * r) * (1.0 / (DISH * DISH))).max(0.0);
+        let left = 1.0 - FILLED * age;
+        let worn = height + age * (-DISH_DEPTH * (dish * dish) - height);
+        let worn_slope = slope + age * (DISH_DEPTH * (4.0 / (DISH * DISH)) * (dish * r) - slope);
+        (left * worn, left * worn_slope)
     }
 }
 
 impl Evaluate for Craters {
     fn octave_count(&self) -> usize {
-        self.octaves.len()
+        self.sizes.len()
     }
 
     fn bounds(&self) -> (f64, f64) {
         (-1.0, 1.0)
     }
 
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, jets: [craters, ..], .. } = scratch;
         let n = chunk.len();
         let mut places = Places::default();
-        for Weighted { octave, weight } in &self.octaves {
-            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
-            find_places(chunk.simd, chunk.skewed, octave, &mut places);
-            dig(chunk.simd, n, &places, octave, self.density, craters);
+        for Size { lattices, weight, mould } in &self.sizes {
+            let frequency = lattices[0].frequency;
+            let fades = chunk.fades(1.0 / frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
+            let dig = if fades.is_unseen() { dig_values } else { dig_gradients };
+            let settle = if fades.is_unseen() { settle_values } else { settle_gradients };
+            craters.fill(n, 0.0);
+            for octave in lattices {
+                places.find(chunk.simd, chunk.skewed, octave);
+                for corner in CORNERS {
+                    dig(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
+                }
+            }
+            settle(chunk.simd, n, frequency as f32, craters);
             sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
         }
     }
 }
 
-/// Where each point stands in a lattice of cubes, and its direction.
-struct Places {
-    cell: [Lane<u32>; 3],
-    fraction: [Lane<f32>; 3],
-    dir: [Lane<f32>; 3],
-}
-
-impl Default for Places {
-    fn default() -> Self {
-        Self { cell: [[0; CHUNK]; 3], fraction: [[0.0; CHUNK]; 3], dir: [[0.0; CHUNK]; 3] }
-    }
-}
-
+/// Adds the craters of one cell of the eight: one loop for each cell, as the compiler makes vectors of innermost loops alone.
 #[inline(always)]
-fn find_places_body(skewed: Points3<'_>, octave: &Octave, places: &mut Places) {
-    let [x, y, z] = skewed;
-    let n = x.len().min(y.len()).min(z.len()).min(CHUNK);
-    for axis in 0..3 {
-        let p = skewed[axis];
-        for i in 0..n {
-            let unskewed = p[i] - (x[i] + y[i] + z[i]) * (1.0 / 6.0);
-            let (cell, fraction) = noise::split(unskewed * octave.frequency + octave.offset[axis]);
-            places.cell[axis][i] = cell;
-            places.fraction[axis][i] = fraction;
-            places.dir[axis][i] = unskewed as f32;
-        }
-    }
-}
-for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places) = find_places_body);
-
-#[inline(always)]
-fn dig_body(n: usize, places: &Places, octave: &Octave, density: f32, craters: &mut Jets) {
-    let ([ix, iy, iz], [fx, fy, fz], [dx, dy, dz]) = (&places.cell, &places.fraction, &places.dir);
-    let frequency = octave.frequency as f32;
+fn dig_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) {
     for i in 0..n.min(CHUNK) {
-        let (v, g) =
-            value_gradient([ix[i], iy[i], iz[i]], [fx[i], fy[i], fz[i]], [dx[i], dy[i], dz[i]], octave.seed, density);
-        Jet { v, d: [g[0] * frequency, g[1] * frequency, g[2] * frequency] }.store(craters, i);
+        let (cell, step) = neighbour(places, corner, i);
+        let random = noise::cell_hash(cell, seed);
+        let jitter = |bits: u32| 0.3 + 0.4 * unit(bits);
+        let towards = |axis: usize, bits: u32| step[axis] + jitter(bits) - places.fraction[axis][i];
+        let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
+        let dir = [places.dir[0][i], places.dir[1][i], places.dir[2][i]];
+        let crater = crater::<R>(to, dir, noise::scramble(random), mould);
+        (R::load(craters, i) + crater).store(craters, i);
     }
 }
-for_each_simd!(fn dig(n: usize, places: &Places, octave: &Octave, density: f32, craters: &mut Jets) = dig_body);
+for_each_simd!(fn dig_values(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<f32>);
+for_each_simd!(fn dig_gradients(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<Jet>);
 
-/// Height (-1, the floor of the largest, to [`RIM`]) and gradient by the lattice coordinates, of the craters of an octave at a
-/// place in a cell. `dir` is the point's unit direction; `density` the share of cells that hold a crater.
+/// Overlapping craters dig no deeper than one; and gradients by the lattice become gradients by the direction.
 #[inline(always)]
-fn value_gradient([ix, iy, iz]: [u32; 3], [x, y, z]: [f32; 3], dir: [f32; 3], seed: u32, density: f32) -> (f32, [f32; 3]) {
-    // The nearer neighbour along each axis: one cell down in the lower half, one up in the upper.
-    let side = |w: f32| if w < 0.5 { (u32::MAX, -1.0) } else { (1, 1.0) };
-    let ((sx, ox), (sy, oy), (sz, oz)) = (side(x), side(y), side(z));
-    let (mut value, mut gradient) = (0.0_f32, [0.0_f32; 3]);
-    for corner in 0..8_u32 {
-        let (bx, by, bz) = (corner & 1, corner >> 1 & 1, corner >> 2);
-        let cell = [ix.wrapping_add(sx * bx), iy.wrapping_add(sy * by), iz.wrapping_add(sz * bz)];
-        let random = noise::cell_hash(cell, seed);
-        let unit = |bits: u32| (bits & 1023) as f32 * (1.0 / 1023.0);
-        let jitter = |bits: u32| 0.3 + 0.4 * unit(bits);
-        let to = [
-            ox * bx as f32 + jitter(random) - x,
-            oy * by as f32 + jitter(random >> 10) - y,
-            oz * bz as f32 + jitter(random >> 20) - z,
-        ];
-        let more = noise::scramble(random);
-        let size = unit(more >> 10);
-        let radius = RADIUS * (0.3 + 0.7 * size * size);
-        let off = to[0] * dir[0] + to[1] * dir[1] + to[2] * dir[2];
-        let flat = [to[0] - off * dir[0], to[1] - off * dir[1], to[2] - off * dir[2]];
-        let distance = (flat[0] * flat[0] + flat[1] * flat[1] + flat[2] * flat[2]).sqrt();
-        let r = distance / radius;
-
-        let nearness = (1.0 - off.abs() * (1.0 / THICKNESS)).max(0.0);
-        let depth =
-            if unit(more) < density { nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS) } else { 0.0 };
-        // A bowl up to the rim, then ejecta that run out.
-        let inside = r < 1.0;
-        let tail = ((REACH - r) * (1.0 / (REACH - 1.0))).max(0.0);
-        let height = if inside { (1.0 + RIM) * r * r - 1.0 } else { RIM * tail * tail };
-        let slope = if inside { 2.0 * (1.0 + RIM) * r } else { -2.0 * RIM * tail * (1.0 / (REACH - 1.0)) };
-        value += depth * height;
-        let pull = -depth * slope / (radius * distance.max(1e-6));
-        gradient[0] += pull * flat[0];
-        gradient[1] += pull * flat[1];
-        gradient[2] += pull * flat[2];
+fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets) {
+    for i in 0..n.min(CHUNK) {
+        let sum = R::load(craters, i);
+        let v = sum.value();
+        let slope = if v > -1.0 && v < 1.0 { frequency } else { 0.0 };
+        sum.chain(v.clamp(-1.0, 1.0), slope).store(craters, i);
     }
-    // Overlapping craters dig no deeper than one.
-    let keep = if value > -1.0 && value < 1.0 { 1.0 } else { 0.0 };
-    (value.clamp(-1.0, 1.0), [gradient[0] * keep, gradient[1] * keep, gradient[2] * keep])
+}
+for_each_simd!(fn settle_values(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<f32>);
+for_each_simd!(fn settle_gradients(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<Jet>);
+
+/// Height and gradient by the lattice coordinates of a crater whose centre lies `to` from a point with unit direction `dir`.
+/// `random` decides whether it is there, its size and its age.
+#[inline(always)]
+fn crater<R: Real>(to: [f32; 3], dir: [f32; 3], random: u32, mould: Mould) -> R {
+    let size = unit(random >> 10);
+    let even = RADIUS * (0.3 + 0.7 * size * size);
+    let steep = RADIUS / (1.0 + size * (mould.spread[0] + size * mould.spread[1]));
+    let radius = if mould.power { steep } else { even };
+    let off = to[0] * dir[0] + to[1] * dir[1] + to[2] * dir[2];
+    let flat = [to[0] - off * dir[0], to[1] - off * dir[1], to[2] - off * dir[2]];
+    let distance = (flat[0] * flat[0] + flat[1] * flat[1] + flat[2] * flat[2]).sqrt();
+    let (height, slope) = mould.profile(distance / radius, unit(random >> 20));
+
+    let nearness = (1.0 - off.abs() * (1.0 / THICKNESS)).max(0.0);
+    let depth =
+        if unit(random) < mould.density { nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS) } else { 0.0 };
+    let pull = -depth * slope / (radius * distance.max(1e-6));
+    R::of(depth * height, [pull * flat[0], pull * flat[1], pull * flat[2]])
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::check;
     use super::*;
-    use glam::DVec3;
+
+    fn moon() -> planet::Craters {
+        planet::Craters {
+            octaves: 3,
+            density: 0.4,
+            power: 2.4,
+            floor: 0.5,
+            peak: 0.4,
+            age: 0.9,
+            fresh: 0.1,
+            ..Default::default()
+        }
+    }
 
     #[test]
-    fn gradients_match_central_differences_and_nothing_jumps() {
-        let octave = Octave { frequency: 9.0, offset: [0.3, 17.7, -4.1], seed: 77 };
-        let at = |p: DVec3| {
-            let p = p.normalize();
-            let [(ix, x), (iy, y), (iz, z)] =
-                [0, 1, 2].map(|axis| noise::split(p[axis] * octave.frequency + octave.offset[axis]));
-            value_gradient([ix, iy, iz], [x, y, z], p.as_vec3().to_array(), octave.seed, 0.8)
-        };
-        let (mut off, mut jumps, mut deep) = (0, 0, 0);
-        for i in 0..20_000 {
-            let angle = f64::from(i) * 1e-3;
-            let p = DVec3::new(angle.cos(), angle.sin(), 0.3 * (angle * 0.37).sin()).normalize();
-            let along = p.any_orthonormal_vector();
-            let step = 1e-4;
-            let (lo, hi) = (at(p - along * step), at(p + along * step));
-            let difference = f64::from(hi.0 - lo.0) / (2.0 * step) / octave.frequency;
-            let (value, gradient) = at(p);
-            let exact = DVec3::from_array(gradient.map(f64::from)).dot(along);
-            off += i32::from((difference - exact).abs() > 0.3);
-            jumps += i32::from((hi.0 - lo.0).abs() > 0.05);
-            deep += i32::from(value < -0.3);
+    fn craters_are_sound() {
+        for params in [planet::Craters { octaves: 2, ..Default::default() }, moon()] {
+            check::kind(&Craters::new(&params, 7, 1740.0), 0.02);
         }
-        assert!(deep > 200, "there are craters: {deep}");
-        assert_eq!(jumps, 0);
-        // Differences across a rim's edge are neither side's slope.
-        assert!(off < 200, "{off}");
+    }
+
+    /// Counts above a diameter go with its power, within an octave and from one to the next.
+    #[test]
+    fn counts_follow_the_power_law() {
+        let Craters { sizes } = Craters::new(&moon(), 7, 1740.0);
+        let above = |diameter: f64| -> f64 {
+            let counts = sizes.iter().map(|Size { lattices, mould, .. }| {
+                let frequency = lattices[0].frequency;
+                let wide = |i: u32| {
+                    let u = (f64::from(i) + 0.5) / 1000.0;
+                    let [a, b] = mould.spread.map(f64::from);
+                    1.0 / (frequency * (1.0 + u * (a + b * u))) > diameter
+                };
+                let share = (0..1000).filter(|i| wide(*i)).count() as f64 / 1000.0;
+                share * f64::from(mould.density) * frequency * frequency
+            });
+            counts.sum()
+        };
+        let widest = 1.0 / sizes[0].lattices[0].frequency;
+        // No crater is wider than the widest, which takes their count off the endless power law.
+        for diameter in [0.8, 0.6, 0.5, 0.4, 0.25, 0.15] {
+            let count = above(widest * diameter) / above(widest * 0.5);
+            let law = (f64::powf(diameter, -2.4) - 1.0) / (f64::powf(0.5, -2.4) - 1.0);
+            assert!((count / law - 1.0).abs() < 0.15, "{diameter}: {count} {law}");
+        }
+    }
+
+    #[test]
+    #[ignore = "prints figures"]
+    fn speed() {
+        check::speed("craters", &Craters::new(&planet::Craters::default(), 7, 1740.0));
     }
 }

@@ -1,9 +1,9 @@
 //! Fractal Brownian motion: octaves of noise summed.
 
 use super::octaves::{Weighted, series};
-use super::{Chunk, Evaluate, Scratch};
+use super::{Chunk, Evaluate, Scratch, Sums};
 use crate::planet;
-use crate::terrain::noise;
+use crate::terrain::noise::{self, Noise};
 use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: a wave is about two cells long.
@@ -44,14 +44,28 @@ impl Evaluate for Fbm {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, .. } = scratch;
-        for Weighted { octave, weight } in &self.octaves {
-            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
-            if fades.is_unseen() {
-                noise.values(chunk.simd, chunk.skewed, octave);
-            } else {
-                noise.gradients(chunk.simd, chunk.skewed, octave);
-            }
-            sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
+        add_octaves(&self.octaves, chunk, LEAST_POINTS, noise, sums);
+    }
+}
+
+/// Adds octaves, each shown in full from `least_points` points for each lattice cell on.
+pub(super) fn add_octaves(
+    octaves: &[Weighted],
+    chunk: &Chunk<'_>,
+    least_points: f64,
+    noise: &mut Noise,
+    sums: &mut Sums,
+) {
+    for Weighted { octave, weight } in octaves {
+        let fades = chunk.fades(1.0 / octave.frequency, least_points);
+        if chunk.skips(&fades) {
+            break;
         }
+        if fades.is_unseen() {
+            noise.values(chunk.simd, chunk.skewed, octave);
+        } else {
+            noise.gradients(chunk.simd, chunk.skewed, octave);
+        }
+        sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
     }
 }

@@ -3,19 +3,41 @@
 //! - `fbm`: octaves summed
 //! - `ridged`: octaves folded into crests
 //! - `craters`: bowls and rims of many sizes
+//! - `terraces`: the waviness of steps cut into the ground
+//! - `billow`: octaves folded into rounded hills
+//! - `damped`: octaves weaker where the ground is steep
+//! - `warped`: octaves at displaced points
+//! - `continents`: octaves at displaced points, put through a profile of land and sea floor
+//! - `canyons`: valleys along the zero lines of warped noise
+//! - `warp`: displaced points
+//! - `curve`: a smooth curve through knots
+//! - `dunes`: waves that run with the wind
+//! - `gullies`: mountains carved by running water
+//! - `cells`: plates, cracks and domes around scattered centres
+//! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
+//! - `places`: cells of a lattice around points, for kinds that scatter things
+//! - `check`: what every kind must hold, for tests
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
 //! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
+#[cfg(test)]
+mod check;
+mod curve;
 mod octaves;
+mod places;
+#[cfg(test)]
+mod tests;
+mod warp;
 
 use super::jet::Jets;
 use super::noise::{CHUNK, Lane, Noise, Points3};
 use super::simd::{Simd, for_each_simd};
 use crate::planet::Shape;
 use glam::DVec3;
+use warp::Displaced;
 
 /// Lists the kinds: `Kind in file`.
 macro_rules! landforms {
@@ -44,6 +66,16 @@ landforms! {
     Fbm in fbm,
     Ridged in ridged,
     Craters in craters,
+    Terraces in terraces,
+    Billow in billow,
+    Damped in damped,
+    Warped in warped,
+    Continents in continents,
+    Dunes in dunes,
+    Gullies in gullies,
+    Canyons in canyons,
+    Cells in cells,
+    HeightMap in heightmap,
 }
 
 impl Landform {
@@ -90,7 +122,7 @@ trait Evaluate {
 
     /// Adds its values at the chunk's points to `scratch.sums.value` (all zero before), and to each of `scratch.sums.gradients`
     /// what points as far apart as `chunk.spacings_rad` can show of its gradient. All else in `scratch` is free to use, with
-    /// anything in it. If `spacings_rad` is empty, values alone are wanted; they must have the same bits.
+    /// anything in it. What `chunk.skips` may be left out, with all that is finer. If `spacings_rad` is empty, values alone are wanted; they must have the same bits.
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch);
 }
 
@@ -107,11 +139,18 @@ pub(crate) struct Chunk<'a> {
     pub(crate) dirs: &'a [DVec3],
     /// The spacings of points (as angles) for which gradients are wanted, at most [`MAX_BANDS`]; 0 wants every octave.
     pub(crate) spacings_rad: &'a [f64],
+    /// Whether values may lack what is seen in none of the bands: for shading, which has no use for heights.
+    pub(crate) seen_only: bool,
 }
 
 impl Chunk<'_> {
     pub(crate) fn len(&self) -> usize {
         self.dirs.len()
+    }
+
+    /// Whether something with these fades can be left out.
+    pub(crate) fn skips(&self, fades: &Fades) -> bool {
+        self.seen_only && fades.is_unseen()
     }
 
     /// What each of the spacings can show of features so large (as an angle): all of it from `least` points for each feature
@@ -143,6 +182,18 @@ pub(crate) struct Scratch {
     pub(crate) sums: Sums,
     noise: Noise,
     jets: [Jets; 8],
+    displaced: Displaced,
+}
+
+/// The coordinates of the chunk's directions as numbers with gradients.
+fn place(chunk: &Chunk<'_>, dir: [&mut Jets; 3]) {
+    for (axis, jets) in dir.into_iter().enumerate() {
+        jets.fill(chunk.len(), 0.0);
+        jets.gradient[axis][..chunk.len()].fill(1.0);
+        for (value, dir) in jets.value.iter_mut().zip(chunk.dirs) {
+            *value = dir[axis] as f32;
+        }
+    }
 }
 
 /// Sums of one chunk. Values are summed in f64: it costs little and keeps millimetres of an 8 km mountain.
@@ -167,12 +218,24 @@ impl Sums {
 
     /// Adds numbers and, as far as they are seen, their gradients, all times a weight.
     fn add(&mut self, chunk: &Chunk<'_>, value: &Lane<f32>, gradient: &[Lane<f32>; 3], weight: f32, fades: &Fades) {
-        let n = chunk.len();
-        add_value(chunk.simd, n, value, weight, &mut self.value);
+        add_value(chunk.simd, chunk.len(), value, weight, &mut self.value);
+        self.add_gradients(chunk, gradient, weight, fades);
+    }
+
+    /// Adds gradients alone, as far as they are seen, times a weight.
+    fn add_gradients(&mut self, chunk: &Chunk<'_>, gradient: &[Lane<f32>; 3], weight: f32, fades: &Fades) {
         for (sum, share) in self.gradients.iter_mut().zip(fades.0) {
             if share > 0.0 {
-                add_gradient(chunk.simd, n, gradient, weight * share, sum);
+                add_gradient(chunk.simd, chunk.len(), gradient, weight * share, sum);
             }
+        }
+    }
+
+    /// Lets the octaves summed so far, of this share of all weight, stand for those left out, in the values: for octaves whose
+    /// mean is not zero, without which the ground would sink.
+    fn stand_for_all(&mut self, n: usize, share: f64) {
+        if share > 0.0 {
+            self.value[..n].iter_mut().for_each(|v| *v /= share);
         }
     }
 
@@ -207,33 +270,3 @@ fn add_gradient_body(n: usize, gradient: &[Lane<f32>; 3], weight: f32, sum: &mut
     }
 }
 for_each_simd!(fn add_gradient(n: usize, gradient: &[Lane<f32>; 3], weight: f32, sum: &mut [Lane<f32>; 3]) = add_gradient_body);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::terrain::field::Field;
-    use crate::terrain::points::Points;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn bounds_near_a_direction_hold_around_it(
-            seed: u64, x in -1.0..1.0_f64, y in -1.0..1.0_f64, z in 0.1..1.0_f64, log_angle in -12.0..0.0_f64,
-        ) {
-            let (dir, angle_rad) = (DVec3::new(x, y, z).normalize(), 10.0_f64.powf(log_angle));
-            let (a, b) = dir.any_orthonormal_pair();
-            let around = (0..64).map(|i| {
-                let (turn, share) = (f64::from(i) * 2.4, (f64::from(i) / 64.0).sqrt());
-                (dir + (a * turn.cos() + b * turn.sin()) * (angle_rad * share * 0.99).tan()).normalize()
-            });
-            let points = Points::new(around.collect());
-            for shape in Shape::all() {
-                let landform = Landform::new(&shape, seed, 6371.0);
-                let (lo, hi) = landform.bounds_near(dir, angle_rad);
-                for v in Field::new(&landform, Simd::detect(), &points, &[]).value {
-                    prop_assert!(lo <= v && v <= hi, "{shape:?}: {v} not in {lo}..{hi} within {angle_rad}");
-                }
-            }
-        }
-    }
-}

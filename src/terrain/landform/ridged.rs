@@ -55,11 +55,17 @@ impl Evaluate for Ridged {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [crest, feed, ..] } = scratch;
+        let Scratch { sums, noise, jets: [crest, feed, ..], .. } = scratch;
         let n = chunk.len();
         feed.fill(n, 1.0);
+        let mut share = 0.0;
         for Weighted { octave, weight } in &self.octaves {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                sums.stand_for_all(n, share);
+                break;
+            }
+            share += f64::from(*weight);
             // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);

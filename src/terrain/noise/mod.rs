@@ -12,6 +12,7 @@
 //! everywhere.
 
 mod batch;
+pub(crate) mod precise;
 
 pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
 
@@ -248,6 +249,35 @@ mod tests {
         let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n as f64).sqrt();
         assert!(mean.abs() < 0.005, "mean {mean}");
         assert!((0.31..0.35).contains(&deviation), "deviation {deviation}");
+    }
+
+    /// How alike two points are depends on their distance, not on the direction from one to the other: no lattice shows.
+    #[test]
+    fn no_direction_is_preferred() {
+        let n = 60_000;
+        let random = |i: u64, k: u64| (mix(i * 3 + k) >> 11) as f64 / (1_u64 << 53) as f64 * 1000.0;
+        let directions = (-1..=1)
+            .flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| [x, y, z])))
+            .filter(|d| *d > [0, 0, 0]);
+        for distance in [0.3, 0.6, 0.9] {
+            let likeness: Vec<f64> = directions
+                .clone()
+                .map(|d| {
+                    let step = distance / f64::from(d.iter().map(|w| w * w).sum::<i32>()).sqrt();
+                    let pairs = (0..n).map(|i| {
+                        let p = [0, 1, 2].map(|k| random(i, k));
+                        let q = [0, 1, 2].map(|k| p[k] + step * f64::from(d[k]));
+                        f64::from(with_seed(p, 77, value)) * f64::from(with_seed(q, 77, value))
+                    });
+                    pairs.sum::<f64>() / n as f64 / (0.33 * 0.33)
+                })
+                .collect();
+            let mean = likeness.iter().sum::<f64>() / likeness.len() as f64;
+            assert_eq!(likeness.len(), 13);
+            for one in &likeness {
+                assert!((one - mean).abs() < 0.08, "at {distance}: {likeness:.3?}");
+            }
+        }
     }
 
     /// The greatest that corners can add up to, over a grid of places in a simplex.

@@ -1,0 +1,174 @@
+//! The vertices of a tile from its heights, gradients and climate: in chunks, each loop over plain arrays.
+
+use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
+use crate::sphere::NodeId;
+use crate::terrain::Terrain;
+use crate::terrain::climate::{ClimateField, NO_SEA, Rules};
+use crate::terrain::height::Heights;
+use crate::terrain::noise::{CHUNK, Lane};
+use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Adding this to an f32 below 2^22 leaves the nearest whole number in the low bits; the other one does so for f64.
+const ROUNDER_F32: f32 = 12_582_912.0;
+const ROUNDER_F64: f64 = 6_755_399_441_055_744.0;
+
+/// Makes the mesh of a node; whose heights it has is for the caller to say. `dirs_planet`, `heights` (with the gradients of the tile's own spacing and of its parent's) and
+/// `climate` are those of its vertices, and so is `inland_rad` unless it is empty.
+pub(super) fn mesh(
+    terrain: &Terrain,
+    id: NodeId,
+    dirs: &[DVec3],
+    heights: &Heights,
+    climate: &ClimateField,
+    inland_rad: &[f64],
+) -> Tile {
+    static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
+    let (simd, planet) = (terrain.simd(), terrain.planet());
+    let (radius_m, rules) = (planet.radius_m(), Rules::new(planet));
+    let (min_height_m, max_height_m) = heights.range_m(simd);
+    let center_planet_m = id.direction(0.5, 0.5) * (radius_m + 0.5 * (min_height_m + max_height_m));
+
+    let mut lanes = Lanes::default();
+    let mut vertices = Vec::with_capacity(TILE_VERTICES);
+    for start in (0..dirs.len()).step_by(CHUNK) {
+        let range = start..(start + CHUNK).min(dirs.len());
+        let (dirs, height_m) = (&dirs[range.clone()], &heights.height_m[range.clone()]);
+        place(simd, radius_m, center_planet_m, dirs, height_m, &mut lanes);
+        for (band, [x, y, z]) in heights.gradients.iter().enumerate().take(2) {
+            let gradient = [&x[range.clone()], &y[range.clone()], &z[range.clone()]];
+            face(simd, radius_m, dirs, height_m, gradient, &mut lanes.normal_oct[band]);
+        }
+        let noise = [&climate.temperature[range.clone()], &climate.moisture[range.clone()]];
+        weather(simd, &rules, dirs, height_m, noise, inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), &mut lanes);
+        vertices.extend((0..dirs.len()).map(|i| lanes.vertex(i)));
+    }
+    Tile {
+        id,
+        serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
+        heights_serial: 0,
+        vertices,
+        min_height_m,
+        max_height_m,
+        center_planet_m,
+        bounding_radius_m: lanes.farthest_square.iter().copied().fold(0.0, f64::max).sqrt(),
+    }
+}
+
+/// What is known of a chunk's vertices.
+struct Lanes {
+    high_m: [Lane<f32>; 3],
+    low_m: [Lane<f32>; 3],
+    height_m: Lane<f32>,
+    temperature_c: Lane<f32>,
+    climate_unorm: [Lane<u16>; 2],
+    /// The tile's own normal and its parent's.
+    normal_oct: [[Lane<i16>; 2]; 2],
+    /// Square of the greatest distance from the tile's centre, over all chunks so far.
+    farthest_square: Lane<f64>,
+}
+
+impl Default for Lanes {
+    fn default() -> Self {
+        Self {
+            high_m: [[0.0; CHUNK]; 3],
+            low_m: [[0.0; CHUNK]; 3],
+            height_m: [0.0; CHUNK],
+            temperature_c: [0.0; CHUNK],
+            climate_unorm: [[0; CHUNK]; 2],
+            normal_oct: [[[0; CHUNK]; 2]; 2],
+            farthest_square: [0.0; CHUNK],
+        }
+    }
+}
+
+impl Lanes {
+    #[inline(always)]
+    fn vertex(&self, i: usize) -> Vertex {
+        let three = |[x, y, z]: &[Lane<f32>; 3]| [x[i], y[i], z[i]];
+        let normal = |[x, y]: &[Lane<i16>; 2]| [x[i], y[i]];
+        Vertex {
+            position_high_m: three(&self.high_m),
+            height_m: self.height_m[i],
+            position_low_m: three(&self.low_m),
+            temperature_c: self.temperature_c[i],
+            climate_unorm: [self.climate_unorm[0][i], self.climate_unorm[1][i]],
+            normal_oct: normal(&self.normal_oct[0]),
+            parent_normal_oct: normal(&self.normal_oct[1]),
+        }
+    }
+}
+
+/// Positions, each f64 as two f32.
+#[inline(always)]
+fn place_body(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], lanes: &mut Lanes) {
+    let n = dirs.len().min(height_m.len()).min(CHUNK);
+    let [hx, hy, hz] = &mut lanes.high_m;
+    let [lx, ly, lz] = &mut lanes.low_m;
+    for i in 0..n {
+        let p = dirs[i] * (radius_m + height_m[i]);
+        (hx[i], hy[i], hz[i]) = (p.x as f32, p.y as f32, p.z as f32);
+        (lx[i], ly[i], lz[i]) =
+            ((p.x - f64::from(hx[i])) as f32, (p.y - f64::from(hy[i])) as f32, (p.z - f64::from(hz[i])) as f32);
+        lanes.height_m[i] = height_m[i] as f32;
+        let off = p - center_m;
+        let square = off.x * off.x + off.y * off.y + off.z * off.z;
+        let farthest = lanes.farthest_square[i];
+        lanes.farthest_square[i] = if square > farthest { square } else { farthest };
+    }
+}
+for_each_simd!(fn place(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], lanes: &mut Lanes) = place_body);
+
+/// Normals on the octahedron, unfolded (Cigolle et al. 2014), as two snorm numbers.
+#[inline(always)]
+fn face_body(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32]; 3], normal_oct: &mut [Lane<i16>; 2]) {
+    let [gx, gy, gz] = gradient;
+    let n = dirs.len().min(height_m.len()).min(gx.len()).min(gy.len()).min(gz.len()).min(CHUNK);
+    let (mut x, mut y, mut z, mut outward_m) = ([0.0_f32; CHUNK], [0.0_f32; CHUNK], [0.0_f32; CHUNK], [0.0_f32; CHUNK]);
+    for i in 0..n {
+        (x[i], y[i], z[i]) = (dirs[i].x as f32, dirs[i].y as f32, dirs[i].z as f32);
+        outward_m[i] = (radius_m + height_m[i]) as f32;
+    }
+    let [oct_x, oct_y] = normal_oct;
+    for i in 0..n {
+        let d = [x[i], y[i], z[i]];
+        let g = [gx[i], gy[i], gz[i]];
+        // The direction less the slope: see `tangent_slope`.
+        let up = d[0] * g[0] + d[1] * g[1] + d[2] * g[2];
+        let scale = 1.0 / outward_m[i];
+        let v =
+            [d[0] - (g[0] - d[0] * up) * scale, d[1] - (g[1] - d[1] * up) * scale, d[2] - (g[2] - d[2] * up) * scale];
+        let shrink = 1.0 / (v[0].abs() + v[1].abs() + v[2].abs());
+        let (a, b) = (v[0] * shrink, v[1] * shrink);
+        let fold = |a: f32, b: f32| (1.0 - b.abs()) * if a < 0.0 { -1.0 } else { 1.0 };
+        let below = v[2] < 0.0;
+        let snorm = |w: f32| (w.clamp(-1.0, 1.0) * 32767.0 + ROUNDER_F32).to_bits() as i16;
+        oct_x[i] = snorm(if below { fold(a, b) } else { a });
+        oct_y[i] = snorm(if below { fold(b, a) } else { b });
+    }
+}
+for_each_simd!(fn face(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32]; 3], normal_oct: &mut [Lane<i16>; 2]) = face_body);
+
+/// Temperature, moisture and the row of the biome table.
+#[inline(always)]
+fn weather_body(
+    rules: &Rules,
+    dirs: &[DVec3],
+    height_m: &[f64],
+    noise: [&[f64]; 2],
+    inland_rad: &[f64],
+    lanes: &mut Lanes,
+) {
+    let [temperature, moisture] = noise;
+    let n = dirs.len().min(height_m.len()).min(temperature.len()).min(moisture.len()).min(inland_rad.len()).min(CHUNK);
+    let unorm = |value: f64| (value * 65535.0 + ROUNDER_F64).to_bits() as u16;
+    let [columns, rows] = &mut lanes.climate_unorm;
+    for i in 0..n {
+        let climate = rules.at(dirs[i].z, height_m[i], [temperature[i], moisture[i]], inland_rad[i]);
+        lanes.temperature_c[i] = climate.temperature_c as f32;
+        columns[i] = unorm(climate.moisture);
+        rows[i] = unorm(climate.row);
+    }
+}
+for_each_simd!(fn weather(rules: &Rules, dirs: &[DVec3], height_m: &[f64], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) = weather_body);

@@ -1,0 +1,118 @@
+//! What building took: how often each stage ran, when and for how long, and what is kept in memory.
+
+use crate::planet::param::{Stage, Stages};
+use std::time::Instant;
+
+/// What building a surface took, over all slices of its request.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BuildStats {
+    /// Tiles in the surface.
+    pub tiles: usize,
+    /// Vertices in the surface.
+    pub vertices: usize,
+    /// Tiles (re)built for it: its own, and their ancestors.
+    pub tiles_built: usize,
+    /// Octaves of noise times points that were evaluated.
+    pub octave_samples: usize,
+    /// Seconds from the request to the finished surface.
+    pub duration_secs: f64,
+    /// Seconds it took to compare the planet with the one before and to compile it.
+    pub compile_secs: f64,
+    /// Seconds it took to choose the nodes.
+    pub select_secs: f64,
+    /// Slices that the work was done in; each ended in a complete surface.
+    pub slices: usize,
+    stages: PerStage,
+}
+
+/// One for each stage of [`Stage::ALL`]; only those of [`Stages::OF_TILES`] ever run here.
+type PerStage = [StageWork; Stage::ALL.len()];
+
+/// What one stage took, on all threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StageWork {
+    /// How often it ran: once for each tile, and [`Stage::Field`] once for each layer of each tile.
+    pub runs: usize,
+    /// Seconds it ran, summed over all threads.
+    pub busy_secs: f64,
+    /// When it first began, in seconds from the request.
+    pub begin_secs: f64,
+    /// When it last ended, in seconds from the request.
+    pub end_secs: f64,
+}
+
+impl BuildStats {
+    /// What one stage took.
+    pub fn stage(&self, stage: Stage) -> StageWork {
+        self.stages[stage as usize]
+    }
+
+    /// The stages that ran.
+    pub fn ran(&self) -> Stages {
+        let ran = |stage: &Stage| self.stage(*stage).runs > 0;
+        Stage::ALL.into_iter().filter(ran).fold(Stages::NONE, |all, stage| all.and(Stages::of(&[stage])))
+    }
+
+    /// Takes over what was done for it.
+    pub(crate) fn add(&mut self, work: &Work) {
+        self.tiles_built += work.tiles;
+        self.octave_samples += work.octave_samples;
+        for (sum, stage) in self.stages.iter_mut().zip(work.stages) {
+            sum.add(stage);
+        }
+    }
+}
+
+impl StageWork {
+    fn add(&mut self, other: StageWork) {
+        if other.runs == 0 {
+            return;
+        }
+        let first = self.runs == 0;
+        self.runs += other.runs;
+        self.busy_secs += other.busy_secs;
+        self.begin_secs = if first { other.begin_secs } else { self.begin_secs.min(other.begin_secs) };
+        self.end_secs = self.end_secs.max(other.end_secs);
+    }
+}
+
+/// What one thread has done.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Work {
+    origin: Instant,
+    /// Tiles finished.
+    pub(crate) tiles: usize,
+    /// Octaves times points that were evaluated.
+    pub(crate) octave_samples: usize,
+    stages: PerStage,
+}
+
+impl Work {
+    /// Nothing yet; times count from `origin`.
+    pub(crate) fn since(origin: Instant) -> Self {
+        Self { origin, tiles: 0, octave_samples: 0, stages: Default::default() }
+    }
+
+    /// Runs a stage of a tile and notes it.
+    pub(crate) fn run<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let begun = Instant::now();
+        let result = work();
+        let secs = |at: Instant| at.duration_since(self.origin).as_secs_f64();
+        let (begin_secs, end_secs) = (secs(begun), secs(Instant::now()));
+        self.stages[stage as usize].add(StageWork { runs: 1, busy_secs: end_secs - begin_secs, begin_secs, end_secs });
+        result
+    }
+}
+
+/// What the builder keeps for later.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Memory {
+    /// Bytes in tiles and in what they were made from.
+    pub used_bytes: usize,
+    /// Most bytes it may come to, unless what is shown takes more.
+    pub budget_bytes: usize,
+    /// Tiles.
+    pub tiles: usize,
+    /// Layer fields of the present planet and of earlier ones.
+    pub fields: usize,
+}

@@ -1,0 +1,74 @@
+//! The window that lists every key and what the mouse does. Shortcuts come from the commands themselves.
+
+use super::command::Command;
+use eframe::egui;
+
+/// What is no command: held keys and the mouse.
+const GROUPS: [(&str, &[(&str, &str)]); 4] = [
+    (
+        "Mouse",
+        &[
+            ("Drag", "Orbit: hold the ground and turn the planet. Fly, walk: look around"),
+            ("Right drag", "Turn the head"),
+            ("Scroll", "Orbit: go nearer to what is under the pointer. Fly: faster or slower"),
+            ("Double click", "Fly there; any key stops"),
+            ("Shift and drag, middle drag", "Turn the star"),
+            ("Right click on a name in the panel", "Copy or reset a value"),
+        ],
+    ),
+    (
+        "Orbit",
+        &[
+            ("W A S D, arrow keys", "Travel over the ground"),
+            ("E, Q, Page up, Page down", "Higher, lower"),
+            ("Shift and arrow keys", "Turn the head"),
+        ],
+    ),
+    (
+        "Fly",
+        &[
+            ("W A S D", "To where you look, back, to the sides; faster the higher you are"),
+            ("E or Space, Q", "Up, down"),
+            ("Z, C", "Roll to the left, to the right"),
+            ("Arrow keys", "Look around"),
+            ("Shift", "Five times as fast"),
+        ],
+    ),
+    ("Walk", &[("W A S D", "Walk; slower uphill"), ("Shift", "Run"), ("Space", "Jump"), ("Arrow keys", "Look around")]),
+];
+
+/// Shows the window while it is open.
+pub fn show(ctx: &egui::Context, open: &mut bool) {
+    let most_high = ctx.content_rect().height() - 120.0;
+    egui::Window::new("Controls").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+        egui::ScrollArea::vertical().max_height(most_high).show(ui, |ui| {
+            egui::Grid::new("controls").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+                for (title, rows) in GROUPS {
+                    heading(ui, title);
+                    for (keys, effect) in rows {
+                        row(ui, keys, effect);
+                    }
+                }
+                heading(ui, "Shortcuts");
+                for &command in Command::ALL {
+                    let keys: Vec<String> =
+                        command.shortcuts().iter().map(|shortcut| ctx.format_shortcut(shortcut)).collect();
+                    if !keys.is_empty() {
+                        row(ui, &keys.join(", "), command.tooltip());
+                    }
+                }
+            });
+        });
+    });
+}
+
+fn heading(ui: &mut egui::Ui, title: &str) {
+    ui.heading(title);
+    ui.end_row();
+}
+
+fn row(ui: &mut egui::Ui, keys: &str, effect: &str) {
+    ui.strong(keys);
+    ui.label(effect.trim_end_matches('.'));
+    ui.end_row();
+}

@@ -1,0 +1,115 @@
+//! What lies under the pointer, found on a thread of its own: a ray that grazes a heavy planet takes longer than a picture may.
+
+use crate::build::Surface;
+use crate::lod::View;
+use crate::sphere::LatLon;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// What lies under the pointer.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct UnderPointer {
+    pub place: LatLon,
+    pub height_m: f64,
+    pub temperature_c: f64,
+    pub moisture: f64,
+    pub biome: String,
+    /// Angle of the ground against the horizontal.
+    pub slope_deg: f64,
+    /// What each layer changes there.
+    pub layers_m: Vec<f64>,
+}
+
+/// One question: a point of the picture (`x`, `y` from -1 to 1, right and up) of a surface as seen from a view.
+#[derive(Clone)]
+struct Question {
+    number: u64,
+    x: f64,
+    y: f64,
+    view: View,
+    surface: Arc<Surface>,
+}
+
+impl Question {
+    fn same_as(&self, other: &Question) -> bool {
+        (self.x, self.y) == (other.x, other.y) && self.view == other.view && Arc::ptr_eq(&self.surface, &other.surface)
+    }
+}
+
+/// Asks and remembers the newest answer.
+pub struct Probe {
+    questions: Sender<Question>,
+    answers: Receiver<(u64, Option<UnderPointer>)>,
+    asked: Option<Question>,
+    /// Number of the next question.
+    next: u64,
+    /// Answers to earlier questions than this are about a pointer that has left.
+    first: u64,
+    answer: Option<UnderPointer>,
+}
+
+impl Probe {
+    /// Starts the thread; `wake` is called from it with each answer. It ends with the probe.
+    pub fn new(wake: impl Fn() + Send + 'static) -> Self {
+        let (questions, asked) = channel::<Question>();
+        let (answered, answers) = channel();
+        let spawned = std::thread::Builder::new().name("tellus-pointer".to_owned()).spawn(move || {
+            while let Ok(question) = asked.recv() {
+                // Only the newest matters.
+                let question = asked.try_iter().last().unwrap_or(question);
+                if answered.send((question.number, look(&question))).is_err() {
+                    return;
+                }
+                wake();
+            }
+        });
+        // Without a thread there are no answers, and nothing else breaks.
+        debug_assert!(spawned.is_ok());
+        Self { questions, answers, asked: None, next: 0, first: 0, answer: None }
+    }
+
+    /// Asks for a point of the picture, unless that is what was asked last.
+    pub fn ask(&mut self, x: f64, y: f64, view: &View, surface: &Arc<Surface>) {
+        let question = Question { number: self.next, x, y, view: *view, surface: surface.clone() };
+        if !self.asked.as_ref().is_some_and(|asked| asked.same_as(&question)) {
+            self.next += 1;
+            self.asked = Some(question.clone());
+            // Without a thread there is nobody to ask.
+            let _ = self.questions.send(question);
+        }
+        let first = self.first;
+        if let Some((_, answer)) = self.answers.try_iter().filter(|(number, _)| *number >= first).last() {
+            self.answer = answer;
+        }
+    }
+
+    /// The pointer is not over the picture.
+    pub fn leave(&mut self) {
+        (self.asked, self.answer, self.first) = (None, None, self.next);
+    }
+
+    /// The newest answer: what is there, if the pointer is over the globe.
+    pub fn answer(&self) -> Option<&UnderPointer> {
+        self.answer.as_ref()
+    }
+}
+
+fn look(question: &Question) -> Option<UnderPointer> {
+    let Question { view, surface, .. } = question;
+    let camera = &view.camera;
+    let ray = camera.ray_dir_planet(question.x, question.y, view.aspect());
+    let distance_m = surface.terrain.raycast(camera.position_planet_m, ray)?;
+    let dir = camera.position_planet_m + ray * distance_m;
+    let sample = surface.terrain.sample(dir);
+    let palette = &surface.terrain.planet().biomes.palette;
+    Some(UnderPointer {
+        place: LatLon::from_direction(dir),
+        height_m: sample.height_m,
+        temperature_c: sample.temperature_c,
+        moisture: sample.moisture,
+        biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
+        slope_deg: sample.slope_rad.to_degrees(),
+        layers_m: sample.layers_m,
+    })
+}

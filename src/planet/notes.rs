@@ -1,0 +1,75 @@
+//! What the editor keeps in a preset for whoever edits it next. No picture, no height and no game depends on it.
+
+use super::param::{Domain, Stage, Unit, linear, params};
+
+/// Most bookmarks a planet may have.
+pub const MAX_BOOKMARKS: usize = 64;
+
+params! {
+    /// The editor's own section of a preset.
+    pub struct EditorNotes {
+    } with {
+        /// Views of the planet to come back to.
+        bookmarks: Vec<Bookmark> = Vec::new();
+    }
+}
+
+params! {
+    /// A view of the planet: where the eye is and how the head is turned.
+    pub struct Bookmark {
+        /// What the view is called.
+        name: String = "View".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 64 }, Stage::Label;
+        /// Latitude of the eye, north positive.
+        latitude_deg: f64 = 0.0, "Latitude", Unit::Degrees, linear(-90.0, 90.0), Stage::Label;
+        /// Longitude of the eye, east positive.
+        longitude_deg: f64 = 0.0, "Longitude", Unit::Degrees, linear(-180.0, 180.0), Stage::Label;
+        /// Height of the eye above the ground or the sea, whichever is higher; below zero it is under water.
+        altitude_m: f64 = 1000.0, "Altitude", Unit::Metres, linear(-100_000.0, 1e11), Stage::Label;
+        /// Where one looks: 0 is north, 90 is east.
+        heading_deg: f64 = 0.0, "Heading", Unit::Degrees, linear(-360.0, 360.0), Stage::Label;
+        /// Angle above the horizon; -90 is straight down.
+        pitch_deg: f64 = 0.0, "Pitch", Unit::Degrees, linear(-90.0, 90.0), Stage::Label;
+        /// How far the top of the view leans to the right.
+        roll_deg: f64 = 0.0, "Roll", Unit::Degrees, linear(-180.0, 180.0), Stage::Label;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::param::Stages;
+    use crate::planet::{Planet, VERSION, diff, random};
+
+    fn planet() -> Planet {
+        let bookmark = Bookmark { name: "Beach".to_owned(), pitch_deg: -12.5, ..Bookmark::default() };
+        Planet { editor: Some(EditorNotes { bookmarks: vec![bookmark] }), ..random::random(5) }
+    }
+
+    #[test]
+    fn notes_are_saved_but_change_nothing_that_is_drawn() {
+        let planet = planet();
+        assert_eq!(Planet::from_text("f.ron", &planet.to_text()).unwrap(), planet);
+        let bare = Planet { editor: None, ..planet.clone() };
+        assert!(!bare.to_text().contains("editor"), "a preset without notes does not mention them");
+        assert_eq!(diff::touched_stages(&bare, &planet), Stages::of(&[Stage::Label]));
+        assert_eq!(random::vary(&planet, 3, 1.0).editor, planet.editor, "a variation is seen from the same places");
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_bookmark_is_told() {
+        let message = |bookmarks: &str| {
+            let text = format!("(version: {VERSION}, editor: (bookmarks: {bookmarks}))");
+            Planet::from_text("f.ron", &text).unwrap_err().to_string()
+        };
+        assert_eq!(
+            message("[(pitch_deg: 99)]"),
+            "f.ron:1:47: editor.bookmarks[0].pitch_deg: 99 is out of range; use -90 to 90°"
+        );
+        assert_eq!(
+            message("3"),
+            "f.ron:1:34: editor.bookmarks: `3` is not what belongs here; use a list: `[(...), (...)]`"
+        );
+        let many = format!("[{}]", "(),".repeat(MAX_BOOKMARKS + 1));
+        assert_eq!(message(&many), "f.ron:1:34: editor.bookmarks: 65 bookmarks are too many; use at most 64");
+    }
+}

@@ -1,0 +1,150 @@
+//! How low and how high the ground can be, by interval arithmetic: each layer's noise may be anywhere in its range,
+//! whatever the others do.
+
+use super::{CompiledLayer, CompiledMask, Edge, LayerStack, Source};
+use crate::planet::Blend;
+use glam::DVec3;
+
+/// All numbers between two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Interval {
+    lo: f64,
+    hi: f64,
+}
+
+impl Interval {
+    const ZERO: Interval = Interval { lo: 0.0, hi: 0.0 };
+    const UNIT: Interval = Interval { lo: 0.0, hi: 1.0 };
+
+    /// The smallest that holds them all.
+    fn of(values: &[f64]) -> Self {
+        let (lo, hi) = values.iter().fold((f64::MAX, f64::MIN), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
+        Self { lo, hi }
+    }
+
+    /// What a rising function makes of it.
+    fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        Self { lo: function(self.lo), hi: function(self.hi) }
+    }
+
+    /// What a function that rises with both makes of two.
+    fn with(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
+        Self { lo: function(self.lo, other.lo), hi: function(self.hi, other.hi) }
+    }
+
+    fn times(self, o: Self) -> Self {
+        Self::of(&[self.lo * o.lo, self.lo * o.hi, self.hi * o.lo, self.hi * o.hi])
+    }
+
+    /// A little wider, for what rounding does.
+    fn widened(self) -> Self {
+        let by = 1e-9 * self.lo.abs().max(self.hi.abs());
+        Self { lo: self.lo - by, hi: self.hi + by }
+    }
+}
+
+/// What is asked about: all directions within an angle of one, or the whole planet.
+type Near = Option<(DVec3, f64)>;
+
+impl LayerStack {
+    /// Lowest and greatest height over the whole planet. Conservative.
+    pub(crate) fn bounds_m(&self) -> (f64, f64) {
+        self.bounds(None)
+    }
+
+    /// Lowest and greatest height within an angle of a direction. Conservative.
+    pub(crate) fn bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.bounds(Some((dir_planet, angle_rad)))
+    }
+
+    fn bounds(&self, near: Near) -> (f64, f64) {
+        let mut height = Interval::ZERO;
+        for layer in self.layers.iter().filter(|layer| layer.enabled) {
+            let mask = layer.masks.iter().fold(Interval { lo: 1.0, hi: 1.0 }, |product, mask| {
+                product.with(self.mask(mask, height, near), |a, b| a * b)
+            });
+            let target = layer.joined(height, near);
+            // For any mask, low heights come from low ones; between its ends they go straight.
+            let share = |mask: f64| height.with(target, |h, t| h * (1.0 - mask) + t * mask);
+            let (least, most) = (share(mask.lo), share(mask.hi));
+            height = Interval { lo: least.lo.min(most.lo), hi: least.hi.max(most.hi) }.widened();
+        }
+        if let Some(curve) = &self.height_curve {
+            let (lo, hi) = curve.range(height.lo, height.hi);
+            height = Interval { lo, hi }.widened();
+        }
+        let (lowest_m, highest_m) = self.limits_m();
+        (height.lo.clamp(lowest_m, highest_m), height.hi.clamp(lowest_m, highest_m))
+    }
+
+    fn mask(&self, mask: &CompiledMask, height: Interval, near: Near) -> Interval {
+        let source = match mask.source {
+            Source::Layer(layer) => self.layers[layer].noise(near),
+            Source::Height => height,
+            Source::Slope { .. } => Interval::UNIT,
+            Source::Latitude { both } => {
+                let sine = sine_of_latitude(near);
+                match both {
+                    true if sine.lo < 0.0 && sine.hi > 0.0 => Interval { lo: 0.0, hi: sine.hi.max(-sine.lo) },
+                    true => Interval::of(&[sine.lo.abs(), sine.hi.abs()]),
+                    false => sine,
+                }
+            }
+        };
+        let Edge { from, to, invert } = mask.edge;
+        let step = |x: f64| {
+            let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+            let step = t * t * (3.0 - 2.0 * t);
+            if invert { 1.0 - step } else { step }
+        };
+        let Interval { lo, hi } = Interval::of(&[step(source.lo), step(source.hi)]).widened();
+        Interval { lo: lo.max(0.0), hi: hi.min(1.0) }
+    }
+}
+
+impl CompiledLayer {
+    /// The layer's own noise.
+    fn noise(&self, near: Near) -> Interval {
+        let (lo, hi) = match near {
+            Some((dir_planet, angle_rad)) => self.landform.bounds_near(dir_planet, angle_rad),
+            None => self.landform.bounds(),
+        };
+        Interval { lo, hi }.widened()
+    }
+
+    /// What its blend makes of the height below.
+    fn joined(&self, height: Interval, near: Near) -> Interval {
+        let mut noise = match &self.steps {
+            // At most half a step either way, whatever the waves.
+            Some(steps) => Interval { lo: -0.5 * steps.sharpness, hi: 0.5 * steps.sharpness },
+            None => self.noise(near),
+        };
+        if let Some(curve) = &self.curve {
+            let (lo, hi) = curve.range(noise.lo, noise.hi);
+            noise = Interval { lo, hi }.widened();
+        }
+        let blend = self.blend;
+        let noise = noise.map(|v| v + blend.bias);
+        let output = noise.map(|v| v * blend.amplitude_m);
+        let soft = |gap_m: f64| 0.25 * (blend.softness_m - gap_m.abs()).max(0.0).powi(2) / blend.softness_m;
+        match blend.kind {
+            Blend::Add => height.with(output, |h, y| h + y),
+            Blend::Subtract => height.with(Interval { lo: -output.hi, hi: -output.lo }, |h, y| h + y),
+            Blend::Multiply => height.times(noise),
+            Blend::Max => height.with(output, f64::max),
+            Blend::Min => height.with(output, f64::min),
+            Blend::Replace => output,
+            Blend::SmoothMax => height.with(output, |h, y| h.max(y) + soft(y - h)),
+            Blend::SmoothMin => height.with(output, |h, y| h.min(y) - soft(y - h)),
+        }
+    }
+}
+
+/// The sine of the latitude.
+fn sine_of_latitude(near: Near) -> Interval {
+    let Some((dir_planet, angle_rad)) = near else { return Interval { lo: -1.0, hi: 1.0 }.widened() };
+    let latitude_rad = libm::asin(dir_planet.z.clamp(-1.0, 1.0));
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let sine = |latitude_rad: f64| libm::sin(latitude_rad.clamp(-quarter, quarter));
+    Interval { lo: sine(latitude_rad - angle_rad), hi: sine(latitude_rad + angle_rad) }.widened()
+}

@@ -1,0 +1,325 @@
+//! The loops that join layers: each does one thing to a chunk of points.
+//!
+//! Heights are in f64. Slopes are the partial derivatives by which gradients are mixed afterwards, all bands alike, in f32;
+//! loops with `SLOPES` unset leave them out for queries that want heights alone.
+
+use super::{Blend, Edge, Steps};
+use crate::planet::MAX_MASKS;
+
+use crate::terrain::simd::{Simd, for_each_simd};
+
+/// Points worked on at a time. A whole tile: what little is done with each number waits for memory more than anything, and long
+/// runs are fetched ahead.
+pub(super) const CHUNK: usize = 1152;
+
+/// One number for each point of a chunk.
+pub(super) type Lane<T> = [T; CHUNK];
+
+/// Adding and subtracting this rounds an f64 below 2^51 to a whole number.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// Compiles a loop for each instruction set, once with slopes and once without; `slopes` says which is wanted.
+macro_rules! joining {
+    (fn $name:ident($($arg:ident: $type:ty),*) = $body:ident) => {
+        #[allow(clippy::too_many_arguments)]
+        pub(super) fn $name(simd: Simd, slopes: bool, $($arg: $type),*) {
+            for_each_simd!(fn with_slopes($($arg: $type),*) = $body::<true>);
+            for_each_simd!(fn without_slopes($($arg: $type),*) = $body::<false>);
+            if slopes { with_slopes(simd, $($arg),*) } else { without_slopes(simd, $($arg),*) }
+        }
+    };
+}
+
+/// What a layer makes of its own noise and of the height below it, before masks.
+pub(super) struct Output {
+    /// The height that the blend gives.
+    pub(super) target: Lane<f64>,
+    /// Its derivatives by the height below and by the noise.
+    pub(super) by_height: Lane<f32>,
+    pub(super) by_noise: Lane<f32>,
+}
+
+/// How the noise that counts depends on the layer's own noise and on the height below, where it was reshaped.
+pub(super) struct Shaped {
+    pub(super) by_noise: Lane<f64>,
+    pub(super) by_height: Lane<f64>,
+}
+
+/// The product of a layer's masks.
+pub(super) struct Masking {
+    pub(super) mask: Lane<f64>,
+    /// The last mask alone.
+    pub(super) step: Lane<f64>,
+    /// Derivatives of the product by the source of each mask.
+    pub(super) by_source: [Lane<f32>; MAX_MASKS],
+}
+
+#[inline(always)]
+fn each<const SLOPES: bool>(
+    n: usize,
+    height: &Lane<f64>,
+    noise: &[f64],
+    output: &mut Output,
+    blend: impl Fn(f64, f64) -> (f64, f64, f64),
+) {
+    for (i, v) in noise.iter().enumerate().take(n.min(CHUNK)) {
+        let (target, by_height, by_noise) = blend(height[i], *v);
+        output.target[i] = target;
+        if SLOPES {
+            output.by_height[i] = by_height as f32;
+            output.by_noise[i] = by_noise as f32;
+        }
+    }
+}
+
+/// Joins the noise `v` to the height below: `h + v * amplitude_m` and so on.
+#[inline(always)]
+fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], output: &mut Output) {
+    let (a, bias) = (blend.amplitude_m, blend.bias);
+    // The sum with zero makes the height of a layer without amplitude 0 and never -0.
+    let scaled = |v: f64| (v + bias) * a + 0.0;
+    // Polynomial smooth maximum: beyond `soft` apart it is the greater.
+    let soft = blend.softness_m;
+    let share = |y: f64, h: f64| (0.5 + 0.5 * (y - h) / soft).clamp(0.0, 1.0);
+    use crate::planet::Blend as Kind;
+    match blend.kind {
+        Kind::Add => each::<SLOPES>(n, height, noise, output, |h, v| (h + scaled(v), 1.0, a)),
+        Kind::Subtract => each::<SLOPES>(n, height, noise, output, |h, v| (h - scaled(v), 1.0, -a)),
+        Kind::Multiply => each::<SLOPES>(n, height, noise, output, |h, v| (h * (v + bias), v + bias, h)),
+        Kind::Replace => each::<SLOPES>(n, height, noise, output, |_, v| (scaled(v), 0.0, a)),
+        Kind::Max => each::<SLOPES>(n, height, noise, output, |h, v| {
+            let y = scaled(v);
+            if y > h { (y, 0.0, a) } else { (h, 1.0, 0.0) }
+        }),
+        Kind::Min => each::<SLOPES>(n, height, noise, output, |h, v| {
+            let y = scaled(v);
+            if y < h { (y, 0.0, a) } else { (h, 1.0, 0.0) }
+        }),
+        Kind::SmoothMax => each::<SLOPES>(n, height, noise, output, |h, v| {
+            let y = scaled(v);
+            let s = share(y, h);
+            (h + (y - h) * s + soft * s * (1.0 - s), 1.0 - s, s * a)
+        }),
+        Kind::SmoothMin => each::<SLOPES>(n, height, noise, output, |h, v| {
+            let y = scaled(v);
+            let s = share(h, y);
+            (h + (y - h) * s - soft * s * (1.0 - s), 1.0 - s, s * a)
+        }),
+    }
+}
+joining!(fn blend(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], output: &mut Output) = blend_body);
+
+/// Cuts the height below into steps: `noise` becomes the way from there to its step, in steps.
+///
+/// A step's tread is flat around its own height, with a riser half-way to the next: `S(t) - t`, where `t` is the place between
+/// two treads and `S` a smoothstep across the riser.
+#[inline(always)]
+fn cut_body<const SLOPES: bool>(
+    n: usize,
+    steps: &Steps,
+    height: &Lane<f64>,
+    noise: &mut Lane<f64>,
+    shaped: &mut Shaped,
+) {
+    let (per_metre, riser) = (1.0 / steps.height_m, 0.5 - 0.4 * steps.sharpness);
+    let (start, per_riser) = (0.5 - riser, 0.5 / riser);
+    for i in 0..n.min(CHUNK) {
+        let place = (height[i] * per_metre + steps.waviness * noise[i]).clamp(-1e12, 1e12);
+        let t = place - ((place - 0.5 + ROUNDER) - ROUNDER);
+        let s = ((t - start) * per_riser).clamp(0.0, 1.0);
+        noise[i] = steps.sharpness * (s * s * (3.0 - 2.0 * s) - t);
+        if SLOPES {
+            let slope = steps.sharpness * (6.0 * s * (1.0 - s) * per_riser - 1.0);
+            shaped.by_noise[i] = slope * steps.waviness;
+            shaped.by_height[i] = slope * per_metre;
+        }
+    }
+}
+joining!(fn cut(n: usize, steps: &Steps, height: &Lane<f64>, noise: &mut Lane<f64>, shaped: &mut Shaped) = cut_body);
+
+/// Multiplies the masks so far by a smoothstep of `source`; it is the `number`th.
+#[inline(always)]
+fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) {
+    let span = edge.to - edge.from;
+    let (sign, shift) = if edge.invert { (-1.0, 1.0) } else { (1.0, 0.0) };
+    let Masking { mask, step, by_source } = masking;
+    let (before, own) = by_source.split_at_mut(number.min(MAX_MASKS - 1));
+    for (i, x) in source.iter().enumerate().take(n.min(CHUNK)) {
+        let t = ((x - edge.from) / span).clamp(0.0, 1.0);
+        step[i] = t * t * (3.0 - 2.0 * t) * sign + shift;
+        if SLOPES {
+            own[0][i] = (6.0 * t * (1.0 - t) / span * sign * mask[i]) as f32;
+        }
+    }
+    if SLOPES {
+        for lane in before {
+            for i in 0..n.min(CHUNK) {
+                lane[i] *= step[i] as f32;
+            }
+        }
+    }
+    for i in 0..n.min(CHUNK) {
+        mask[i] *= step[i];
+    }
+}
+joining!(fn mask(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) = mask_body);
+
+/// Goes from the height below as far to the blended one as the masks let it; slopes become those of the joined height.
+#[inline(always)]
+fn join_body<const SLOPES: bool>(
+    n: usize,
+    masks: usize,
+    masking: &mut Masking,
+    output: &mut Output,
+    height: &mut Lane<f64>,
+) {
+    let Output { target, by_height, by_noise } = output;
+    // From here on the change, not the target.
+    let change = target;
+    for i in 0..n.min(CHUNK) {
+        change[i] -= height[i];
+        height[i] += change[i] * masking.mask[i];
+    }
+    if SLOPES {
+        for i in 0..n.min(CHUNK) {
+            let mask = masking.mask[i] as f32;
+            by_height[i] = by_height[i] * mask + (1.0 - mask);
+            by_noise[i] *= mask;
+        }
+        for lane in masking.by_source.iter_mut().take(masks) {
+            for i in 0..n.min(CHUNK) {
+                lane[i] *= change[i] as f32;
+            }
+        }
+    }
+}
+joining!(fn join(n: usize, masks: usize, masking: &mut Masking, output: &mut Output, height: &mut Lane<f64>) = join_body);
+
+/// The gradient of the joined height in one band, from those of the height below and of the layer's noise.
+#[inline(always)]
+fn mix_body(n: usize, output: &Output, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) {
+    for (gradient, noise) in gradient.iter_mut().zip(noise) {
+        for (i, d) in noise.iter().enumerate().take(n.min(CHUNK)) {
+            gradient[i] = gradient[i] * output.by_height[i] + d * output.by_noise[i];
+        }
+    }
+}
+for_each_simd!(pub(super) fn mix(n: usize, output: &Output, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) = mix_body);
+
+/// Adds the gradient of a mask's source, as far as the height depends on it.
+#[inline(always)]
+fn add_source_body(n: usize, slope: &Lane<f32>, source: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) {
+    for (gradient, source) in gradient.iter_mut().zip(source) {
+        for (i, d) in source.iter().enumerate().take(n.min(CHUNK)) {
+            gradient[i] += d * slope[i];
+        }
+    }
+}
+for_each_simd!(pub(super) fn add_source(n: usize, slope: &Lane<f32>, source: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) = add_source_body);
+
+/// Adds the gradient of a noise whose amplitude is the same everywhere.
+#[inline(always)]
+fn add_scaled_body(n: usize, amplitude_m: f32, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) {
+    for (gradient, noise) in gradient.iter_mut().zip(noise) {
+        for (i, d) in noise.iter().enumerate().take(n.min(CHUNK)) {
+            gradient[i] += d * amplitude_m;
+        }
+    }
+}
+for_each_simd!(pub(super) fn add_scaled(n: usize, amplitude_m: f32, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) = add_scaled_body);
+
+/// Adds one lane to another.
+#[inline(always)]
+fn add_body(n: usize, more: &Lane<f32>, sum: &mut Lane<f32>) {
+    for i in 0..n.min(CHUNK) {
+        sum[i] += more[i];
+    }
+}
+for_each_simd!(pub(super) fn add(n: usize, more: &Lane<f32>, sum: &mut Lane<f32>) = add_body);
+
+/// Turns a slope by the size of the latitude's sine into one by the sine itself.
+#[inline(always)]
+fn mirror_body(n: usize, sine: &Lane<f64>, slope: &mut Lane<f32>) {
+    for i in 0..n.min(CHUNK) {
+        slope[i] = if sine[i] < 0.0 { -slope[i] } else { slope[i] };
+    }
+}
+for_each_simd!(pub(super) fn mirror(n: usize, sine: &Lane<f64>, slope: &mut Lane<f32>) = mirror_body);
+
+/// The chain rule where the noise that counts depends on the layer's own noise and on the height below.
+#[inline(always)]
+fn through_body(n: usize, shaped: &Shaped, output: &mut Output) {
+    for i in 0..n.min(CHUNK) {
+        output.by_height[i] += output.by_noise[i] * shaped.by_height[i] as f32;
+        output.by_noise[i] *= shaped.by_noise[i] as f32;
+    }
+}
+for_each_simd!(pub(super) fn through(n: usize, shaped: &Shaped, output: &mut Output) = through_body);
+
+/// The slopes of something reshaped once more, by a function of this derivative.
+#[inline(always)]
+fn reshape_body(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) {
+    for (i, d) in derivative.iter().enumerate().take(n.min(CHUNK)) {
+        shaped.by_noise[i] *= d;
+        shaped.by_height[i] *= d;
+    }
+}
+for_each_simd!(pub(super) fn reshape(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) = reshape_body);
+
+/// The sine of the ground's slope from the gradient of its height by the unit direction.
+#[inline(always)]
+fn steepness_body(n: usize, radius_m: f64, dirs: &[Lane<f64>; 3], gradient: &[Lane<f32>; 3], sine: &mut Lane<f64>) {
+    let per_square = 1.0 / (radius_m * radius_m);
+    let ([x, y, z], [gx, gy, gz]) = (dirs, gradient);
+    for i in 0..n.min(CHUNK) {
+        let g = [f64::from(gx[i]), f64::from(gy[i]), f64::from(gz[i])];
+        let up = g[0] * x[i] + g[1] * y[i] + g[2] * z[i];
+        let t = [g[0] - up * x[i], g[1] - up * y[i], g[2] - up * z[i]];
+        let square = (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) * per_square;
+        // A gradient that overflowed is as steep as can be.
+        let square = if square < 1e30 { square } else { 1e30 };
+        sine[i] = (square / (1.0 + square)).sqrt();
+    }
+}
+for_each_simd!(pub(super) fn steepness(n: usize, radius_m: f64, dirs: &[Lane<f64>; 3], gradient: &[Lane<f32>; 3], sine: &mut Lane<f64>) = steepness_body);
+
+/// Keeps heights within limits; `slope` becomes 0 where they were not.
+#[inline(always)]
+fn limit_body(n: usize, limits_m: (f64, f64), height: &mut Lane<f64>, slope: &mut Lane<f64>) {
+    let (lowest, highest) = limits_m;
+    for i in 0..n.min(CHUNK) {
+        let h = height[i];
+        let above = if h >= lowest { h } else { lowest };
+        height[i] = if above <= highest { above } else { highest };
+        slope[i] = if h >= lowest && h <= highest { slope[i] } else { 0.0 };
+    }
+}
+for_each_simd!(pub(super) fn limit(n: usize, limits_m: (f64, f64), height: &mut Lane<f64>, slope: &mut Lane<f64>) = limit_body);
+
+/// Multiplies a gradient; where it overflowed or the slope is 0, the ground counts as flat.
+#[inline(always)]
+fn finish_body(n: usize, slope: &Lane<f64>, gradient: &mut [Lane<f32>; 3]) {
+    for lane in gradient {
+        for i in 0..n.min(CHUNK) {
+            let d = lane[i] * slope[i] as f32;
+            lane[i] = if d.abs() < 1e30 { d } else { 0.0 };
+        }
+    }
+}
+for_each_simd!(pub(super) fn finish(n: usize, slope: &Lane<f64>, gradient: &mut [Lane<f32>; 3]) = finish_body);
+
+/// Lowest and greatest of some numbers.
+#[inline(always)]
+fn range_body(values: &[f64], (lowest, greatest): (&mut f64, &mut f64)) {
+    // Many at once, for one after the other takes its time.
+    let (mut lo, mut hi) = ([f64::MAX; 32], [f64::MIN; 32]);
+    for some in values.chunks(32) {
+        for ((v, lo), hi) in some.iter().zip(&mut lo).zip(&mut hi) {
+            *lo = if *v < *lo { *v } else { *lo };
+            *hi = if *v > *hi { *v } else { *hi };
+        }
+    }
+    *lowest = lo.into_iter().fold(f64::MAX, f64::min);
+    *greatest = hi.into_iter().fold(f64::MIN, f64::max);
+}
+for_each_simd!(pub(super) fn range(values: &[f64], bounds: (&mut f64, &mut f64)) = range_body);

@@ -1,0 +1,231 @@
+//! From layer fields to height: amplitude, bias, curves, blends and masks, with the gradient carried along by the chain rule.
+//!
+//! - [`LayerStack`]: the layers of a planet, ready to be joined
+//! - `join`: heights at a batch of points, chunk by chunk; `lanes`: its loops
+//! - `curve`: curves through points
+//! - `bounds`: how low and how high the ground can be
+//!
+//! No noise is evaluated here; an edit of an amplitude, a blend or a mask runs this stage alone. Only a mask by slope asks for
+//! more: the gradients of the layers before it, as points `over_m` apart would show them, whatever tile or query asks.
+
+mod bounds;
+mod curve;
+mod join;
+mod lanes;
+
+pub use curve::curve_at;
+pub(crate) use join::{Heights, combine};
+
+use super::landform::Landform;
+use crate::planet::{self, Layer, MAX_MASKS, Mask, Planet, Shape};
+use curve::CompiledCurve;
+use std::sync::Arc;
+
+/// The layers of a planet and what is done with them together.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LayerStack {
+    pub(crate) layers: Vec<CompiledLayer>,
+    /// The distances over which masks measure slopes.
+    slope_bands: Vec<Band>,
+    height_curve: Option<CompiledCurve>,
+    radius_m: f64,
+}
+
+/// A layer, ready to be evaluated and joined.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct CompiledLayer {
+    /// Its noise; equal shapes have equal fields, so this is the key under which a field is kept.
+    pub(crate) landform: Arc<Landform>,
+    /// Whether its field is needed: it is on, or a layer that is on is masked by it.
+    pub(crate) needed: bool,
+    /// Spacings at which gradients of its field are needed for slopes.
+    slope_spacings_rad: Vec<f64>,
+    enabled: bool,
+    steps: Option<Steps>,
+    curve: Option<CompiledCurve>,
+    blend: Blend,
+    masks: Vec<CompiledMask>,
+}
+
+/// Gradients as points so far apart can show them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Band {
+    spacing_rad: f64,
+    /// They are needed of the height that the layers before this one make.
+    until: usize,
+}
+
+/// How a layer's noise joins the height below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Blend {
+    kind: planet::Blend,
+    bias: f64,
+    amplitude_m: f64,
+    softness_m: f64,
+}
+
+/// How terraces are cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Steps {
+    height_m: f64,
+    sharpness: f64,
+    waviness: f64,
+}
+
+/// A smooth step of something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct CompiledMask {
+    source: Source,
+    edge: Edge,
+}
+
+/// What a mask looks at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Source {
+    /// The noise of a layer.
+    Layer(usize),
+    /// The height so far, metres.
+    Height,
+    /// The sine of the slope so far, at this spacing.
+    Slope { spacing_rad: f64 },
+    /// The sine of the latitude, without its sign if both hemispheres are alike.
+    Latitude { both: bool },
+}
+
+/// From 0 at `from` to 1 at `to`; the ends may stand either way round.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Edge {
+    from: f64,
+    to: f64,
+    invert: bool,
+}
+
+/// Steps and soft corners below this size are none.
+const LEAST_M: f64 = 1e-3;
+
+impl LayerStack {
+    /// Compiles the layers of a valid planet; masks that name no layer are left out.
+    pub(crate) fn new(planet: &Planet) -> Self {
+        let layers = planet.layers.iter().map(|layer| CompiledLayer::new(planet, layer)).collect();
+        let (height_curve, radius_m) = (CompiledCurve::new(&planet.height_curve), planet.radius_m());
+        let mut stack = Self { layers, slope_bands: Vec::new(), height_curve, radius_m };
+        stack.find_slope_bands();
+        stack.find_needed();
+        stack
+    }
+
+    /// Whether it makes the same heights, whatever the layers that it does not need are like.
+    pub(crate) fn joins_like(&self, other: &Self) -> bool {
+        let same = |(a, b): (&CompiledLayer, &CompiledLayer)| a == b || !(a.needed || b.needed);
+        self.radius_m == other.radius_m
+            && self.height_curve == other.height_curve
+            && self.slope_bands == other.slope_bands
+            && self.layers.len() == other.layers.len()
+            && self.layers.iter().zip(&other.layers).all(same)
+    }
+
+    /// For each distance over which slopes are measured, the layers that make the ground it is measured on.
+    fn find_slope_bands(&mut self) {
+        for (until, layer) in self.layers.iter().enumerate().filter(|(_, layer)| layer.enabled) {
+            for mask in &layer.masks {
+                let Source::Slope { spacing_rad } = mask.source else { continue };
+                match self.slope_bands.iter_mut().find(|band| band.spacing_rad == spacing_rad) {
+                    Some(band) => band.until = until,
+                    None => self.slope_bands.push(Band { spacing_rad, until }),
+                }
+            }
+        }
+    }
+
+    /// Which fields are needed, and at which spacings their gradients are.
+    fn find_needed(&mut self) {
+        for index in 0..self.layers.len() {
+            let layer = &self.layers[index];
+            if !layer.enabled {
+                continue;
+            }
+            let masking = layer.masks.iter().filter_map(|mask| match mask.source {
+                Source::Layer(layer) => Some(layer),
+                _ => None,
+            });
+            let needed: Vec<usize> = std::iter::once(index).chain(masking).collect();
+            for needed in needed {
+                let layer = &mut self.layers[needed];
+                layer.needed = true;
+                for band in self.slope_bands.iter().filter(|band| band.until > index) {
+                    if !layer.slope_spacings_rad.contains(&band.spacing_rad) {
+                        layer.slope_spacings_rad.push(band.spacing_rad);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether a mask needs to know where on the planet it is.
+    fn looks_at_directions(&self) -> bool {
+        let looks = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
+        self.layers.iter().any(|layer| layer.enabled && layer.masks.iter().any(looks))
+    }
+
+    /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths of the
+    /// way to the centre, ten radii out.
+    fn limits_m(&self) -> (f64, f64) {
+        (-0.9 * self.radius_m, 10.0 * self.radius_m)
+    }
+}
+
+impl CompiledLayer {
+    fn new(planet: &Planet, layer: &Layer) -> Self {
+        let seed = u64::from(planet.seed) << 32 | u64::from(layer.seed);
+        let steps = match &layer.shape {
+            Shape::Terraces(planet::Terraces { sharpness, waviness, .. }) => {
+                let height_m = layer.amplitude_m.max(LEAST_M);
+                Some(Steps { height_m, sharpness: *sharpness, waviness: *waviness })
+            }
+            _ => None,
+        };
+        Self {
+            landform: Arc::new(Landform::new(&layer.shape, seed, planet.radius_km)),
+            needed: false,
+            slope_spacings_rad: Vec::new(),
+            enabled: layer.enabled,
+            steps,
+            curve: CompiledCurve::new(&layer.curve),
+            blend: Blend {
+                kind: layer.blend,
+                bias: layer.bias,
+                amplitude_m: layer.amplitude_m,
+                softness_m: layer.softness_m.max(LEAST_M),
+            },
+            masks: layer.masks.iter().filter_map(|mask| CompiledMask::new(planet, mask)).take(MAX_MASKS).collect(),
+        }
+    }
+
+    /// The spacings at which gradients of its field are needed when these are asked for.
+    pub(crate) fn spacings_rad(&self, asked_rad: &[f64]) -> Vec<f64> {
+        let more = self.slope_spacings_rad.iter().filter(|spacing| !asked_rad.contains(spacing));
+        asked_rad.iter().chain(more).copied().collect()
+    }
+}
+
+impl CompiledMask {
+    fn new(planet: &Planet, mask: &Mask) -> Option<Self> {
+        // Sines of angles rise evenly enough with them, and need no arc functions at each point.
+        let sine = |degrees: f64| libm::sin(degrees.to_radians());
+        let (source, from, to, invert) = match mask {
+            Mask::Layer(mask) => {
+                let layer = planet.layers.iter().position(|layer| layer.name == mask.layer)?;
+                (Source::Layer(layer), mask.from, mask.to, mask.invert)
+            }
+            Mask::Height(mask) => (Source::Height, mask.from_m, mask.to_m, mask.invert),
+            Mask::Slope(mask) => {
+                let source = Source::Slope { spacing_rad: mask.over_m / planet.radius_m() };
+                (source, sine(mask.from_deg), sine(mask.to_deg), mask.invert)
+            }
+            Mask::Latitude(mask) => {
+                (Source::Latitude { both: mask.both }, sine(mask.from_deg), sine(mask.to_deg), mask.invert)
+            }
+        };
+        Some(Self { source, edge: Edge { from, to, invert } })
+    }
+}

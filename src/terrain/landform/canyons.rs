@@ -1,0 +1,143 @@
+//! Valleys: the zero lines of warped noise, made into channels.
+//!
+//! A point's distance from the line is about `|n| / |grad n|`, along the ground; dividing by the gradient is what keeps the
+//! width the same everywhere. Each octave is a finer net of valleys, which runs dry with distance from the coarser ones, so that
+//! it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
+
+use super::octaves::{Weighted, series};
+use super::warp::Warp;
+use super::{Chunk, Evaluate, Scratch, place};
+use crate::planet;
+use crate::terrain::field::EXACT;
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::noise::{CHUNK, Noise, precise};
+use crate::terrain::simd::for_each_simd;
+
+/// Points across a valley's wall from which on it shows in full.
+const LEAST_POINTS: f64 = 2.5;
+
+/// Added to the gradient (by the lattice), so that a valley widens no further than this where the noise is level.
+const LEAST_GRADIENT: f32 = 0.5;
+
+/// Tributaries run dry between these distances from the valley they lead to, in its wavelengths.
+const WET: f32 = 0.08;
+const DRY: f32 = 0.4;
+
+/// The meanders' wavelength and displacement (at `meander` 1) against the distance between valleys; octaves of meanders.
+const MEANDER_WAVELENGTH: f64 = 0.5;
+const MEANDER_REACH: f64 = 0.3;
+const MEANDER_OCTAVES: u32 = 2;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Canyons {
+    warp: Warp,
+    octaves: Vec<Weighted>,
+    channel: Channel,
+    /// Width of a valley's wall against the wavelength.
+    wall: f64,
+}
+
+/// The form of a valley.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Channel {
+    /// Half widths to a wavelength.
+    narrowness: f32,
+    /// Share of the width that is flat.
+    floor: f32,
+}
+
+impl Canyons {
+    pub(super) fn new(params: &planet::Canyons, seed: u64, radius_km: f64) -> Self {
+        let planet::Canyons { wavelength_km, octaves, gain, lacunarity, width_km, steepness, meander } = *params;
+        let frequency = radius_km / wavelength_km;
+        let width = width_km / wavelength_km;
+        let reach = MEANDER_REACH * meander / frequency;
+        Self {
+            warp: Warp::new(seed, frequency / MEANDER_WAVELENGTH, MEANDER_OCTAVES, reach),
+            octaves: series(seed, frequency, octaves, gain, lacunarity),
+            channel: Channel { narrowness: (2.0 / width) as f32, floor: steepness as f32 },
+            wall: 0.5 * width * (1.0 - steepness),
+        }
+    }
+}
+
+impl Evaluate for Canyons {
+    fn octave_count(&self) -> usize {
+        self.warp.octave_count() + self.octaves.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (-1.0 - 1e-5, 1e-5)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, noise, displaced, jets: [carved, uncut, wet, px, py, pz, ..] } = scratch;
+        let n = chunk.len();
+        let Some(largest) = self.octaves.first() else { return };
+        place(chunk, [px, py, pz]);
+        let dir = [&*px, &*py, &*pz];
+        uncut.fill(n, 1.0);
+        wet.fill(n, 1.0);
+        let fades_of = |octave: &Weighted| chunk.fades(self.wall / octave.octave.frequency, LEAST_POINTS);
+        // The distance needs the gradient, whether or not its own is seen.
+        let exact = Chunk { spacings_rad: EXACT, ..*chunk };
+        self.warp.displace(&exact, !fades_of(largest).is_unseen(), noise, displaced);
+        let there = displaced.points(n);
+        for weighted in &self.octaves {
+            let Weighted { octave, weight } = weighted;
+            let (depth, scale) = (weight / largest.weight, (1.0 / octave.frequency) as f32);
+            let fades = fades_of(weighted);
+            if chunk.skips(&fades) {
+                break;
+            }
+            // Lines must lie where they are to the millimetre, though they are hundreds of kilometres apart.
+            let mut value = [0.0; CHUNK];
+            precise::add(chunk.simd, there, octave, 1.0, &mut value);
+            if fades.is_unseen() {
+                noise.gradients(chunk.simd, there, octave);
+                displaced.pull_back_noise(chunk, false, noise);
+                noise.value = value.map(|v| v as f32);
+                carve_values(chunk.simd, n, noise, scale, depth, self.channel, dir, [uncut, wet, carved]);
+            } else {
+                noise.curvatures(chunk.simd, there, octave);
+                displaced.pull_back_noise(chunk, true, noise);
+                noise.value = value.map(|v| v as f32);
+                carve_gradients(chunk.simd, n, noise, scale, depth, self.channel, dir, [uncut, wet, carved]);
+            }
+            sums.add(chunk, &carved.value, &carved.gradient, -1.0, &fades);
+        }
+    }
+}
+
+/// Carves an octave of valleys, at most `depth` deep, out of what coarser ones have left: `uncut`, the share of the rock; `wet`,
+/// how near they are. `scale` is the octave's cell in radii.
+#[inline(always)]
+fn carve_body<R: Real>(
+    n: usize,
+    noise: &Noise,
+    scale: f32,
+    depth: f32,
+    channel: Channel,
+    dir: [&Jets; 3],
+    state: [&mut Jets; 3],
+) {
+    let [px, py, pz] = dir;
+    let [uncut, wet, carved] = state;
+    for i in 0..n.min(CHUNK) {
+        let [gx, gy, gz] = R::noise_gradient(noise, i);
+        let (x, y, z) = (gx.scale(scale), gy.scale(scale), gz.scale(scale));
+        let upward = x * R::load(px, i) + y * R::load(py, i) + z * R::load(pz, i);
+        let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
+        let distance =
+            R::noise(noise, i).abs() * along.plus(LEAST_GRADIENT * LEAST_GRADIENT).sqrt().recip();
+        let wall = distance.scale(channel.narrowness).smoothstep(channel.floor, 1.0);
+        let cut = (R::constant(1.0) - wall) * R::load(wet, i).scale(depth);
+        let left = R::load(uncut, i);
+        let taken = left * cut;
+        taken.store(carved, i);
+        (left - taken).store(uncut, i);
+        (R::load(wet, i) * (R::constant(1.0) - distance.smoothstep(WET, DRY))).store(wet, i);
+    }
+}
+for_each_simd!(fn carve_values(n: usize, noise: &Noise, scale: f32, depth: f32, channel: Channel, dir: [&Jets; 3], state: [&mut Jets; 3]) = carve_body::<f32>);
+for_each_simd!(fn carve_gradients(n: usize, noise: &Noise, scale: f32, depth: f32, channel: Channel, dir: [&Jets; 3], state: [&mut Jets; 3]) = carve_body::<Jet>);

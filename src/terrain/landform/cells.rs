@@ -1,0 +1,262 @@
+//! Cells (Worley 1996): the ground is shared out between jittered centres in space, each point to the nearest.
+//!
+//! Distances are squared and in cells. The difference of the squared distances to two centres is linear across the border
+//! between them, so slopes and cracks are straight and need no root.
+//!
+//! Which cells to search: with centres at most [`JITTER`] from their cells' middles along each axis, the eight cells
+//! nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells beyond [`neighbourhood`] lie
+//! at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which makes sqrt([`HORIZON`]) = 1.5627. So the
+//! two nearest centres are always found, and nothing jumps as the search moves on.
+
+use super::octaves::{Weighted, series};
+use super::places::{Places, neighbour, unit};
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet::{self, CellStyle};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::noise::{self, CHUNK};
+use crate::terrain::simd::for_each_simd;
+
+/// Most that a centre stands from its cell's middle along each axis, in cells.
+const JITTER: f32 = 0.395;
+/// Square of the distance within which all centres are known: 2 (1.5 - JITTER)^2.
+const HORIZON: f32 = 2.442;
+/// Points for each border's width, or for half a dome, from which on they show in full.
+const LEAST_POINTS: f64 = 1.2;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Cells {
+    octaves: Vec<Weighted>,
+    style: CellStyle,
+    jitter: f32,
+    width: f32,
+}
+
+impl Cells {
+    pub(super) fn new(params: &planet::Cells, seed: u64, radius_km: f64) -> Self {
+        let planet::Cells { cell_km, style, width, jitter, octaves, gain, lacunarity } = *params;
+        Self {
+            octaves: series(seed, radius_km / cell_km, octaves, gain, lacunarity),
+            style,
+            jitter: JITTER * jitter as f32,
+            width: width as f32,
+        }
+    }
+}
+
+impl Evaluate for Cells {
+    fn octave_count(&self) -> usize {
+        self.octaves.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (-1.001, if self.style == CellStyle::Cracks { 0.0 } else { 1.001 })
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, jets: [first, second, steepness, shares, levels, height, ..], .. } = scratch;
+        let (simd, n) = (chunk.simd, chunk.len());
+        let width = if self.style == CellStyle::Bumps { 0.5 } else { f64::from(self.width) };
+        let mut places = Places::default();
+        for Weighted { octave, weight } in &self.octaves {
+            let fades = chunk.fades(width / octave.frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
+            let unseen = fades.is_unseen();
+            let (seed, frequency) = (octave.seed, octave.frequency as f32);
+            places.find(simd, chunk.skewed, octave);
+            first.fill(n, f32::MAX);
+            second.fill(n, f32::MAX);
+            let meet = if unseen { meet_values } else { meet_gradients };
+            for step in neighbourhood() {
+                meet(simd, n, &places, step, seed, self.jitter, first, second);
+            }
+            match self.style {
+                CellStyle::Plates => {
+                    let begin = if unseen { begin_values } else { begin_gradients };
+                    let share = if unseen { share_values } else { share_gradients };
+                    let level = if unseen { level_values } else { level_gradients };
+                    begin(simd, n, self.width, first, steepness);
+                    shares.fill(n, 0.0);
+                    levels.fill(n, 0.0);
+                    for step in neighbourhood() {
+                        share(simd, n, &places, step, seed, self.jitter, first, steepness, shares, levels);
+                    }
+                    level(simd, n, frequency, shares, levels, height);
+                }
+                CellStyle::Cracks => {
+                    let crack = if unseen { crack_values } else { crack_gradients };
+                    crack(simd, n, frequency, self.width, first, second, height);
+                }
+                CellStyle::Bumps => {
+                    let swell = if unseen { swell_values } else { swell_gradients };
+                    swell(simd, n, frequency, first, height);
+                }
+            }
+            sums.add(chunk, &height.value, &height.gradient, *weight, &fades);
+        }
+    }
+}
+
+/// The cells that must be searched, in steps towards the nearer side: all around a point, and one further along one axis at
+/// a time on its nearer side.
+fn neighbourhood() -> impl Iterator<Item = [i32; 3]> {
+    let all = (0..64).map(|k| [(k & 3) - 1, ((k >> 2) & 3) - 1, (k >> 4) - 1]);
+    all.filter(|step| step.iter().filter(|s| **s == 2).count() <= 1)
+}
+
+/// The square of the distance to the centre of a cell, and random bits of that cell.
+#[inline(always)]
+fn centre<R: Real>(places: &Places, step: [i32; 3], seed: u32, jitter: f32, i: usize) -> (R, u32) {
+    let (cell, from) = neighbour(places, step, i);
+    let random = noise::cell_hash(cell, seed);
+    let towards =
+        |axis: usize, bits: u32| from[axis] + (0.5 - jitter) + (2.0 * jitter) * unit(bits) - places.fraction[axis][i];
+    let (x, y, z) = (towards(0, random), towards(1, random >> 10), towards(2, random >> 20));
+    (R::of(x * x + y * y + z * z, [-2.0 * x, -2.0 * y, -2.0 * z]), random)
+}
+
+/// Keeps the two nearest centres.
+#[inline(always)]
+fn meet_body<R: Real>(
+    n: usize,
+    places: &Places,
+    step: [i32; 3],
+    seed: u32,
+    jitter: f32,
+    first: &mut Jets,
+    second: &mut Jets,
+) {
+    for i in 0..n.min(CHUNK) {
+        let (here, _) = centre::<R>(places, step, seed, jitter, i);
+        let (one, two) = (R::load(first, i), R::load(second, i));
+        let nearest = here.value() < one.value();
+        let farther = R::select(nearest, one, here);
+        R::select(nearest, here, one).store(first, i);
+        R::select(farther.value() < two.value(), farther, two).store(second, i);
+    }
+}
+for_each_simd!(fn meet_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<f32>);
+for_each_simd!(fn meet_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<Jet>);
+
+/// How quickly a plate's share falls off beyond its border; never so slowly that centres beyond the horizon would count.
+#[inline(always)]
+fn begin_body<R: Real>(n: usize, width: f32, first: &Jets, steepness: &mut Jets) {
+    for i in 0..n.min(CHUNK) {
+        (-R::load(first, i)).plus(HORIZON).at_most(width).recip().store(steepness, i);
+    }
+}
+for_each_simd!(fn begin_values(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<f32>);
+for_each_simd!(fn begin_gradients(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<Jet>);
+
+/// Adds the share that the plate of a cell has in the ground at each point, and its level as much.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+fn share_body<R: Real>(
+    n: usize,
+    places: &Places,
+    step: [i32; 3],
+    seed: u32,
+    jitter: f32,
+    first: &Jets,
+    steepness: &Jets,
+    shares: &mut Jets,
+    levels: &mut Jets,
+) {
+    for i in 0..n.min(CHUNK) {
+        let (here, random) = centre::<R>(places, step, seed, jitter, i);
+        let beyond = (here - R::load(first, i)) * R::load(steepness, i);
+        let share = (-beyond).plus(1.0).at_least(0.0).square();
+        let level = 2.0 * unit(noise::scramble(random)) - 1.0;
+        (R::load(shares, i) + share).store(shares, i);
+        (R::load(levels, i) + share.scale(level)).store(levels, i);
+    }
+}
+for_each_simd!(fn share_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &Jets, steepness: &Jets, shares: &mut Jets, levels: &mut Jets) = share_body::<f32>);
+for_each_simd!(fn share_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &Jets, steepness: &Jets, shares: &mut Jets, levels: &mut Jets) = share_body::<Jet>);
+
+/// The mean level of the plates by their shares; the nearest plate's share is one, so the sum is never zero.
+#[inline(always)]
+fn level_body<R: Real>(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) {
+    for i in 0..n.min(CHUNK) {
+        let level = R::load(levels, i) * R::load(shares, i).recip();
+        level.chain(level.value(), frequency).store(height, i);
+    }
+}
+for_each_simd!(fn level_values(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) = level_body::<f32>);
+for_each_simd!(fn level_gradients(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) = level_body::<Jet>);
+
+/// Cracks along the borders.
+#[inline(always)]
+fn crack_body<R: Real>(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) {
+    for i in 0..n.min(CHUNK) {
+        let crack = (R::load(second, i) - R::load(first, i)).smoothstep(0.0, width).plus(-1.0);
+        crack.chain(crack.value(), frequency).store(height, i);
+    }
+}
+for_each_simd!(fn crack_values(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) = crack_body::<f32>);
+for_each_simd!(fn crack_gradients(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) = crack_body::<Jet>);
+
+/// Domes around the centres.
+#[inline(always)]
+fn swell_body<R: Real>(n: usize, frequency: f32, first: &Jets, height: &mut Jets) {
+    for i in 0..n.min(CHUNK) {
+        let dome = R::load(first, i).scale(-2.0).plus(1.0).at_least(-1.0);
+        dome.chain(dome.value(), frequency).store(height, i);
+    }
+}
+for_each_simd!(fn swell_values(n: usize, frequency: f32, first: &Jets, height: &mut Jets) = swell_body::<f32>);
+for_each_simd!(fn swell_gradients(n: usize, frequency: f32, first: &Jets, height: &mut Jets) = swell_body::<Jet>);
+
+#[cfg(test)]
+mod tests {
+    use super::super::check;
+    use super::*;
+
+    fn cells(style: CellStyle) -> Cells {
+        Cells::new(&planet::Cells { style, cell_km: 700.0, octaves: 2, width: 0.4, ..Default::default() }, 7, 6371.0)
+    }
+
+    #[test]
+    fn cells_are_sound() {
+        for style in [CellStyle::Plates, CellStyle::Cracks, CellStyle::Bumps] {
+            check::kind(&cells(style), 0.02);
+            let (mean, deviation) = check::statistics(&cells(style));
+            assert!(mean.abs() < 0.6 && (0.15..0.6).contains(&deviation), "{style:?} {mean} {deviation}");
+        }
+    }
+
+    /// Every cell that is left out is farther away than the two nearest centres can be.
+    #[test]
+    fn the_search_finds_the_two_nearest_centres() {
+        let known: Vec<[i32; 3]> = neighbourhood().collect();
+        assert_eq!(known.len(), 54);
+        let (lo, hi) = (0.5 - f64::from(JITTER), 0.5 + f64::from(JITTER));
+        // A point in the lower half of its cell along each axis: the nearer side is down.
+        for p in (0..1331).map(|k| [k % 11, k / 11 % 11, k / 121].map(|w| f64::from(w) * 0.05)) {
+            let distance = |cell: [i32; 3], far: bool| -> f64 {
+                let along = |axis: usize| {
+                    let (near, other) = (f64::from(cell[axis]) + lo - p[axis], f64::from(cell[axis]) + hi - p[axis]);
+                    let least = if near * other < 0.0 { 0.0 } else { near.abs().min(other.abs()) };
+                    if far { near.abs().max(other.abs()) } else { least }
+                };
+                (0..3).map(|axis| along(axis) * along(axis)).sum()
+            };
+            let mut farthest: Vec<f64> = known.iter().map(|step| distance(step.map(|s| -s), true)).collect();
+            farthest.sort_by(f64::total_cmp);
+            let left_out = (0..343).map(|k| [k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3]);
+            for cell in left_out.filter(|cell| !known.contains(&cell.map(|c| -c))) {
+                assert!(distance(cell, false) > f64::from(HORIZON) - 1e-6, "{cell:?} from {p:?}");
+            }
+            assert!(farthest[1] < f64::from(HORIZON), "{p:?}");
+        }
+    }
+
+    #[test]
+    #[ignore = "prints figures"]
+    fn speed() {
+        for style in [CellStyle::Plates, CellStyle::Cracks] {
+            check::speed(&format!("{style:?}"), &cells(style));
+        }
+    }
+}

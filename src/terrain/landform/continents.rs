@@ -1,0 +1,172 @@
+//! Continents and oceans: warped fractal noise put through a hypsometric curve, which gives each part of the globe its share of
+//! the surface: abyssal plain, continental rise and slope, shelf, coastal plain, interior.
+//!
+//! A globe holds few continents, so the shares of the bare noise differ much from seed to seed. The curve is therefore laid
+//! through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
+
+use super::curve::Curve;
+use super::fbm::{LEAST_POINTS, add_octaves};
+use super::octaves::{Weighted, series};
+use super::warp::Warp;
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet;
+use crate::terrain::noise::CHUNK;
+use crate::terrain::points::Points;
+use crate::terrain::simd::Simd;
+use glam::DVec3;
+
+/// Points at which the noise is measured.
+const SURVEY: usize = 8 * CHUNK;
+
+/// The warp's coarsest wavelength against that of the continents, and how many octaves it has.
+const WARP_WAVELENGTH: f64 = 0.5;
+const WARP_OCTAVES: u32 = 4;
+
+/// How many of the coarsest octaves are warped. In finer ones the warp would show as a grain, drawn out all one way.
+const WARPED_OCTAVES: usize = 4;
+
+/// Height of the edge of the shelf.
+const SHELF_EDGE: f64 = -0.05;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Continents {
+    warp: Warp,
+    octaves: Vec<Weighted>,
+    curve: Curve,
+}
+
+impl Continents {
+    pub(super) fn new(params: &planet::Continents, seed: u64, radius_km: f64) -> Self {
+        let planet::Continents { wavelength_km, octaves, gain, lacunarity, warp, land, shelf } = *params;
+        let frequency = radius_km / wavelength_km;
+        let mut continents = Self {
+            warp: Warp::new(seed, frequency / WARP_WAVELENGTH, WARP_OCTAVES, warp / frequency),
+            octaves: series(seed, frequency, octaves, gain, lacunarity),
+            curve: Curve::new(&[]),
+        };
+        continents.curve = Curve::new(&hypsometry(&continents.survey(), land, shelf));
+        continents
+    }
+
+    /// The noise before the curve, in order, at points spread evenly over the sphere.
+    fn survey(&self) -> Vec<f64> {
+        let points = Points::new(spread(SURVEY));
+        let mut scratch = Box::<Scratch>::default();
+        let mut values = Vec::with_capacity(SURVEY);
+        for start in (0..SURVEY).step_by(CHUNK) {
+            let range = start..(start + CHUNK).min(SURVEY);
+            let n = range.len();
+            let chunk = Chunk {
+                // The same bits on every set.
+                simd: Simd::detect(),
+                skewed: [&points.x[range.clone()], &points.y[range.clone()], &points.z[range.clone()]],
+                dirs: &points.dirs[range],
+                spacings_rad: &[],
+                seen_only: false,
+            };
+            scratch.sums.restart(&chunk);
+            self.add_noise(&chunk, &mut scratch);
+            values.extend_from_slice(&scratch.sums.value[..n]);
+        }
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    fn add_noise(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, noise, displaced, .. } = scratch;
+        let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
+        self.warp.add_octaves(coarse, chunk, noise, displaced, sums);
+        add_octaves(fine, chunk, LEAST_POINTS, noise, sums);
+    }
+}
+
+/// Directions spread evenly over the sphere: a Fibonacci lattice.
+fn spread(count: usize) -> Vec<DVec3> {
+    // Turns by the golden angle.
+    const TURN_RAD: f64 = 2.399_963_229_728_653;
+    (0..count)
+        .map(|i| {
+            let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+            let (sin, cos) = libm::sincos(i as f64 * TURN_RAD);
+            let radius = (1.0 - z * z).sqrt();
+            DVec3::new(radius * cos, radius * sin, z)
+        })
+        .collect()
+}
+
+/// Knots of the curve: noise and height. `land` is a share of the surface, `shelf` one of the sea floor.
+fn hypsometry(sorted: &[f64], land: f64, shelf: f64) -> Vec<(f64, f64)> {
+    let sea = 1.0 - land;
+    // Continental slope and rise.
+    let slope = 0.2 * (1.0 - shelf);
+    let knots = [
+        (0.0, -1.0),
+        (sea * 0.45 * (1.0 - shelf), -0.97),
+        (sea * (1.0 - shelf - slope), -0.86),
+        (sea * (1.0 - shelf - 0.3 * slope), -0.3),
+        (sea * (1.0 - shelf), SHELF_EDGE),
+        (sea, 0.0),
+        (sea + land * 0.25, 0.06),
+        (sea + land * 0.6, 0.2),
+        (sea + land * 0.9, 0.5),
+        (1.0, 1.0),
+    ];
+    // Quantiles may coincide where the noise has no octave to tell points apart; knots must not.
+    let mut last = f64::MIN;
+    knots
+        .iter()
+        .map(|&(share, height)| {
+            last = quantile(sorted, share).max(last + 1e-6);
+            (last, height)
+        })
+        .collect()
+}
+
+/// The value below which a share of the sorted values lies.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = (share * sorted.len() as f64 - 0.5).clamp(0.0, (sorted.len() - 1) as f64);
+    let below = place as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
+}
+
+impl Evaluate for Continents {
+    fn octave_count(&self) -> usize {
+        self.warp.octave_count() + self.octaves.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (-1.0, 1.0)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        self.add_noise(chunk, scratch);
+        scratch.sums.map(chunk.len(), |noise| self.curve.at(noise));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Landform;
+    use super::*;
+    use crate::terrain::field::Field;
+
+    #[test]
+    fn as_much_land_and_shelf_as_asked_for() {
+        let points = Points::new(spread(10_000));
+        for (seed, land, shelf, wavelength_km) in
+            [(1, 0.3, 0.1, 6000.0), (2, 0.05, 0.3, 9000.0), (3, 0.6, 0.05, 3000.0), (4, 0.8, 0.4, 800.0)]
+        {
+            let params = planet::Continents { land, shelf, wavelength_km, ..Default::default() };
+            let landform = Landform::Continents(Continents::new(&params, seed, 6371.0));
+            let heights = Field::new(&landform, Simd::detect(), &points, &[]).value;
+            let share = |from: f64, to: f64| {
+                heights.iter().filter(|h| (from..to).contains(*h)).count() as f64 / heights.len() as f64
+            };
+            let (is_land, is_shelf) = (share(0.0, 2.0), share(SHELF_EDGE, 0.0) / (1.0 - land));
+            
+            assert!((is_land - land).abs() < 0.03, "{is_land} of {land}");
+            assert!((is_shelf - shelf).abs() < 0.04, "{is_shelf} of {shelf}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave divided by `1 + damping * slope^2`, where the slope is
+//! that of the octaves up to it, undamped. Octaves are raised by 1 first, so that damping pulls slopes down: peaks stand out,
+//! valleys widen.
+//!
+//! Slopes are measured along the ground, in coarsest wavelengths, so that `damping` means the same on every planet. Where the
+//! gradient is wanted too, second derivatives of the noise make it exact.
+
+use super::fbm::LEAST_POINTS;
+use super::octaves::{Weighted, series};
+use super::{Chunk, Evaluate, Scratch, place};
+use crate::planet;
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::noise::{self, CHUNK, Noise};
+use crate::terrain::simd::for_each_simd;
+
+/// Cells to the radius, and against the coarsest octave, beyond which the square of a slope would leave the range of f32.
+const FINEST: f64 = 1e10;
+const FINEST_TO_COARSEST: f64 = 1e12;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Damped {
+    octaves: Vec<Weighted>,
+    damping: f32,
+}
+
+impl Damped {
+    pub(super) fn new(params: &planet::Damped, seed: u64, radius_km: f64) -> Self {
+        let planet::Damped { wavelength_km, octaves, gain, lacunarity, damping } = *params;
+        let frequency = radius_km / wavelength_km;
+        let mut octaves = series(seed, frequency, octaves, gain, lacunarity);
+        octaves.retain(|o| o.octave.frequency < FINEST.min(FINEST_TO_COARSEST * frequency));
+        Self { octaves, damping: damping as f32 }
+    }
+}
+
+impl Evaluate for Damped {
+    fn octave_count(&self) -> usize {
+        self.octaves.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (-noise::BOUND, noise::BOUND)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, noise, jets: [damped, px, py, pz, slope_x, slope_y, slope_z, ..], .. } = scratch;
+        let n = chunk.len();
+        place(chunk, [px, py, pz]);
+        let (dir, slope) = ([&*px, &*py, &*pz], &mut [slope_x, slope_y, slope_z]);
+        for lane in slope.iter_mut() {
+            lane.fill(n, 0.0);
+        }
+        let Some(first) = self.octaves.first() else { return };
+        let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
+        for Weighted { octave, weight } in &self.octaves {
+            let rise = (f64::from(*weight) * unit) as f32;
+            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
+            // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
+            if fades.is_unseen() {
+                noise.gradients(chunk.simd, chunk.skewed, octave);
+                damp_values(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
+            } else {
+                noise.curvatures(chunk.simd, chunk.skewed, octave);
+                damp_gradients(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
+            }
+            sums.add(chunk, &damped.value, &damped.gradient, *weight, &fades);
+        }
+        // Raised octaves sum to about 0..2.
+        sums.map(n, |v| (v - 1.0, 1.0));
+    }
+}
+
+/// Damps an octave, whose gradient times `rise` counts towards the slope.
+#[inline(always)]
+fn damp_body<R: Real>(
+    n: usize,
+    noise: &Noise,
+    rise: f32,
+    damping: f32,
+    dir: [&Jets; 3],
+    slope: &mut [&mut Jets; 3],
+    damped: &mut Jets,
+) {
+    let [px, py, pz] = dir;
+    let [sx, sy, sz] = slope;
+    for i in 0..n.min(CHUNK) {
+        let [gx, gy, gz] = R::noise_gradient(noise, i);
+        let x = R::load(sx, i) + gx.scale(rise);
+        let y = R::load(sy, i) + gy.scale(rise);
+        let z = R::load(sz, i) + gz.scale(rise);
+        x.store(sx, i);
+        y.store(sy, i);
+        z.store(sz, i);
+        let upward = x * R::load(px, i) + y * R::load(py, i) + z * R::load(pz, i);
+        let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
+        (R::noise(noise, i).plus(1.0) * along.scale(damping).plus(1.0).recip()).store(damped, i);
+    }
+}
+for_each_simd!(fn damp_values(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<f32>);
+for_each_simd!(fn damp_gradients(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<Jet>);

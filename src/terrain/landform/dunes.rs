@@ -1,0 +1,257 @@
+//! Dunes: phasor noise (Tricard et al. 2019), waves that run with the wind.
+//!
+//! Jittered points in 3D cells each send out a wave `e^iθ` along the wind at their own place, faded with distance. Their sum
+//! is a complex number whose angle is a phase without seam, and a profile drawn over that phase has crests of equal height
+//! that fork and end as those of real dunes do. Where the sum is zero the phase is undefined; dunes run out before that.
+//!
+//! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly. Reach
+//! and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
+
+use super::octaves::series;
+use super::places::{CORNERS, Places, neighbour, unit};
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet;
+use crate::terrain::approx;
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::noise::{self, CHUNK, Noise, Octave};
+use crate::terrain::simd::for_each_simd;
+use std::f32::consts::TAU;
+
+/// Wavelengths to a cell: more makes longer, straighter crests.
+const WAVES: f32 = 2.2;
+/// How far a wave reaches, in cells.
+const REACH: f32 = 0.75;
+/// How far points stand from their cells' centres along each axis, in cells. REACH + JITTER <= 1.
+const JITTER: f32 = 0.25;
+/// The square of the sum at which dunes have half their height; on average it is about 0.24.
+const FAINT: f32 = 0.03;
+/// Wavelengths to a cell of the noise that bends the crests.
+const BENDS: f64 = 3.0;
+/// Points for each wavelength from which on dunes show in full.
+const LEAST_POINTS: f64 = 4.0;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Dunes {
+    sizes: Vec<Size>,
+    wind: Wind,
+    profile: Profile,
+    /// How far noise bends the crests, in wavelengths.
+    waviness: f32,
+}
+
+/// Dunes of one size.
+#[derive(Clone, Debug, PartialEq)]
+struct Size {
+    wavelength_rad: f64,
+    lattices: [Octave; 2],
+    bends: Octave,
+    weight: f32,
+}
+
+/// The heading the wind blows to: its parts to the east and north.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Wind {
+    east: f32,
+    north: f32,
+}
+
+impl Dunes {
+    pub(super) fn new(params: &planet::Dunes, seed: u64, radius_km: f64) -> Self {
+        let planet::Dunes { wavelength_km, octaves, gain, lacunarity, wind_deg, asymmetry, waviness } = *params;
+        let sizes = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity)
+            .into_iter()
+            .map(|wave| {
+                let lattice = |frequency: f64, shift: f64, salt: u32| Octave {
+                    frequency,
+                    offset: wave.octave.offset.map(|offset| offset + shift),
+                    seed: noise::scramble(wave.octave.seed.wrapping_add(salt)),
+                };
+                let frequency = wave.octave.frequency;
+                let cells = frequency / f64::from(WAVES);
+                Size {
+                    wavelength_rad: 1.0 / frequency,
+                    lattices: [lattice(cells, 0.0, 1), lattice(cells, 0.5, 2)],
+                    bends: lattice(frequency / BENDS, 0.0, 3),
+                    weight: wave.weight,
+                }
+            })
+            .collect();
+        let (east, north) = libm::sincos(wind_deg.to_radians());
+        Self {
+            sizes,
+            wind: Wind { east: east as f32, north: north as f32 },
+            profile: Profile::new(asymmetry as f32),
+            waviness: waviness as f32,
+        }
+    }
+}
+
+impl Evaluate for Dunes {
+    fn octave_count(&self) -> usize {
+        self.sizes.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        (-1.001, 1.001)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, noise, jets: [re, im, dunes, ..], .. } = scratch;
+        let (simd, n) = (chunk.simd, chunk.len());
+        let mut places = Places::default();
+        for size in &self.sizes {
+            let fades = chunk.fades(size.wavelength_rad, LEAST_POINTS);
+            if chunk.skips(&fades) {
+                break;
+            }
+            let unseen = fades.is_unseen();
+            let send = if unseen { send_values } else { send_gradients };
+            re.fill(n, 0.0);
+            im.fill(n, 0.0);
+            for octave in &size.lattices {
+                places.find(simd, chunk.skewed, octave);
+                for corner in CORNERS {
+                    send(simd, n, &places, corner, octave, self.wind, re, im);
+                }
+            }
+            if unseen {
+                noise.values(simd, chunk.skewed, &size.bends);
+                pile_values(simd, n, re, im, noise, self.waviness, self.profile, dunes);
+            } else {
+                noise.gradients(simd, chunk.skewed, &size.bends);
+                pile_gradients(simd, n, re, im, noise, self.waviness, self.profile, dunes);
+            }
+            sums.add(chunk, &dunes.value, &dunes.gradient, size.weight, &fades);
+        }
+    }
+}
+
+/// Adds the waves that the points of one cell of the eight send out, to the real and the imaginary part.
+#[inline(always)]
+fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) {
+    let (seed, frequency) = (octave.seed, octave.frequency as f32);
+    let cell_rad = (1.0 / octave.frequency) as f32;
+    for i in 0..n.min(CHUNK) {
+        let (cell, step) = neighbour(places, corner, i);
+        let random = noise::cell_hash(cell, seed);
+        let towards = |axis: usize, bits: u32| {
+            step[axis] + (0.5 - JITTER) + (2.0 * JITTER) * unit(bits) - places.fraction[axis][i]
+        };
+        let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
+        let near = (1.0 - (to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) * (1.0 / (REACH * REACH))).max(0.0);
+        let weight = near * near * near;
+
+        // Where the wave comes from, and the wind there. At the very pole it blows nowhere.
+        let from = |axis: usize| places.dir[axis][i] + to[axis] * cell_rad;
+        let (x, y, z) = (from(0), from(1), from(2));
+        let flat = x * x + y * y;
+        let part = 1.0 / flat.max(1e-20).sqrt();
+        let (east, north) = (wind.east * part, wind.north * part);
+        let along = [-(east * y) - north * (z * x), east * x - north * (z * y), north * flat];
+
+        let start = unit(noise::scramble(random));
+        let waves = (to[0] * along[0] + to[1] * along[1] + to[2] * along[2]) * WAVES;
+        let (sin, cos) = approx::sin_cos(start - waves);
+        let fall = near * near * (6.0 / (REACH * REACH)) * frequency;
+        let turn = weight * (TAU * WAVES) * frequency;
+        let part = |value: f32, other: f32| {
+            let slope = |axis: usize| fall * value * to[axis] + turn * other * along[axis];
+            R::of(weight * value, [slope(0), slope(1), slope(2)])
+        };
+        (R::load(re, i) + part(cos, -sin)).store(re, i);
+        (R::load(im, i) + part(sin, cos)).store(im, i);
+    }
+}
+for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<f32>);
+for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<Jet>);
+
+/// The height of dunes from the sum of waves and the noise that bends them.
+#[inline(always)]
+fn pile_body<R: Real>(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) {
+    for i in 0..n.min(CHUNK) {
+        let (re, im) = (R::load(re, i), R::load(im, i));
+        let square = re.square() + im.square();
+        let strength = square * square.plus(FAINT).recip();
+        let phase = approx::atan2(im, re) + R::noise(bends, i).scale(waviness);
+        (profile.height(phase) * strength).plus(-1.0).store(dunes, i);
+    }
+}
+for_each_simd!(fn pile_values(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<f32>);
+for_each_simd!(fn pile_gradients(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<Jet>);
+
+/// The section of a dune along the wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Profile {
+    /// Share of the wavelength that faces the wind.
+    windward: f32,
+    /// How sharply the lee breaks off at the crest: 0 is as round as the windward side.
+    brink: f32,
+}
+
+impl Profile {
+    fn new(asymmetry: f32) -> Self {
+        Self { windward: 0.5 + 0.3 * asymmetry, brink: asymmetry }
+    }
+
+    /// The height over the trough, 0 to 2, at a phase in turns. The windward side rises from trough to crest, the lee falls.
+    #[inline(always)]
+    fn height<R: Real>(self, phase: R) -> R {
+        let wrapped = approx::wrap(phase.value());
+        let t = if wrapped < 0.0 { wrapped + 1.0 } else { wrapped };
+        let up = t < self.windward;
+        let run = if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) };
+        let s = (if up { t * run } else { (t - 1.0) * run }).clamp(0.0, 1.0);
+        let brink = if up { 0.0 } else { self.brink };
+        // From round, s^2 (3 - 2 s), to broken off, s^2.
+        let height = 2.0 * s * s * (1.0 + (1.0 - brink) * 2.0 * (1.0 - s));
+        let slope = 4.0 * s * (1.0 + (1.0 - brink) * (2.0 - 3.0 * s));
+        phase.chain(height, slope * run)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check;
+    use super::*;
+    use crate::sphere::geo::east_north;
+    use crate::terrain::field::EXACT;
+    use crate::terrain::simd::Simd;
+
+    fn dunes() -> Dunes {
+        Dunes::new(&planet::Dunes { wavelength_km: 400.0, ..Default::default() }, 7, 6371.0)
+    }
+
+    #[test]
+    fn dunes_are_sound() {
+        check::kind(&dunes(), 0.02);
+        let (mean, deviation) = check::statistics(&dunes());
+        assert!((-0.5..0.1).contains(&mean) && (0.4..0.8).contains(&deviation), "{mean} {deviation}");
+    }
+
+    /// With the wind the ground rises gently for most of the way and falls steeply.
+    #[test]
+    fn the_lee_is_steep_and_lies_where_the_wind_blows_to() {
+        for heading_deg in [0.0, 90.0, 200.0] {
+            let params = planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
+            let dirs = check::directions(4000);
+            let (_, gradients) = check::evaluate(&Dunes::new(&params, 7, 6371.0), Simd::detect(), &dirs, EXACT);
+            let (mut rising, mut steepest_rise, mut steepest_fall) = (0, 0.0_f64, 0.0_f64);
+            for (dir, gradient) in dirs.iter().zip(&gradients).filter(|(dir, _)| dir.z.abs() < 0.9) {
+                let (east, north) = east_north(*dir);
+                let (sin, cos) = f64::to_radians(heading_deg).sin_cos();
+                let rise = gradient.dot(east * sin + north * cos);
+                rising += u32::from(rise > 0.0);
+                steepest_rise = steepest_rise.max(rise);
+                steepest_fall = steepest_fall.max(-rise);
+            }
+            assert!(rising > 2300, "{heading_deg}: {rising}");
+            assert!(steepest_fall > 1.5 * steepest_rise, "{heading_deg}: {steepest_fall} {steepest_rise}");
+        }
+    }
+
+    #[test]
+    #[ignore = "prints figures"]
+    fn speed() {
+        check::speed("dunes", &dunes());
+    }
+}

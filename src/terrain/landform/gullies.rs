@@ -1,0 +1,316 @@
+//! Gullies: mountains as running water carves them, each point by itself, after the gradient-aligned waves of Clay John
+//! (2020) and Rune Skovbo Johansen (2025).
+//!
+//! A smooth relief of noise is given gullies that run down its slope: in each of the jittered cells around a point stands a
+//! wave whose crests follow the slope, and their sum is a phasor (see `dunes`), the cosine of which is the gullies' height. Each
+//! finer octave runs down the slope of the relief together with the gullies before it, so that gullies branch. Ground that
+//! is flat gets none: summits keep the height of a ridge and valley floors that of a valley, and ridges and valleys of one
+//! octave stay clear of the next.
+//!
+//! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
+
+use super::fbm::LEAST_POINTS;
+use super::octaves::{Weighted, series};
+use super::places::{CORNERS, Places, neighbour, unit};
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet;
+use crate::terrain::approx;
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::noise::{self, CHUNK, Noise, Octave};
+use crate::terrain::simd::for_each_simd;
+use std::f32::consts::TAU;
+
+/// Gullies to a cell.
+const WAVES: f32 = 1.0;
+/// How far a wave reaches, in cells.
+const REACH: f32 = 0.8;
+/// How far the middles of waves stand from their cells' centres along each axis, in cells. REACH + JITTER <= 1.
+const JITTER: f32 = 0.2;
+/// The square of the phasor below which gullies fade; where all waves agree it is about 0.4.
+const FAINT: f32 = 0.02;
+/// Depth of a gully for each unit of its width at depth 1, against the relief for each unit of wavelength.
+const STEEPNESS: f64 = 0.4;
+/// The slope at which ground has half its gullies, in reliefs for each unit of wavelength.
+const FLAT: f32 = 0.35;
+/// How many times coarser than the gullies an octave of the relief must be to lead them: they cannot follow a slope that turns
+/// within their own width.
+const COARSER: f64 = 2.5;
+/// How much gullies count in the slope that leads the next octave: less keeps the finer ones straighter.
+const BRANCH: f32 = 0.6;
+/// How round the crests are: the square of half the height that is taken off them.
+const ROUND: f32 = 0.004;
+/// How quickly the next octave sets in beside a crest or a valley of the one before.
+const CLEAR: f32 = 0.05;
+/// The height of the relief, up and down, that counts as summit and valley floor.
+const SUMMIT: f32 = 0.6;
+/// Points for each gully from which on it shows in full.
+const LEAST_GULLY_POINTS: f64 = 3.0;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Gullies {
+    relief: Vec<Weighted>,
+    /// So many of the relief's octaves are coarser than the gullies and lead them.
+    leading: usize,
+    gullies: Vec<Carved>,
+    /// Cells of the coarsest octave of the relief to the planet's radius.
+    frequency: f64,
+}
+
+/// An octave of gullies.
+#[derive(Clone, Debug, PartialEq)]
+struct Carved {
+    lattices: [Octave; 2],
+    /// Height of its ridges over the middle.
+    height: f32,
+    /// The steepest slope of its flanks, in reliefs for each unit of wavelength.
+    slope: f32,
+}
+
+impl Gullies {
+    pub(super) fn new(params: &planet::Gullies, seed: u64, radius_km: f64) -> Self {
+        let planet::Gullies { wavelength_km, octaves, gain, lacunarity, gully_km, gully_octaves, depth } = *params;
+        let frequency = radius_km / wavelength_km;
+        let relief = series(seed, frequency, octaves, gain, lacunarity);
+        let waves = series(noise::mix(!seed), radius_km / gully_km, gully_octaves, gain, lacunarity);
+        let coarsest = waves.first().map_or(1.0, |wave| f64::from(wave.weight));
+        let gullies = waves
+            .iter()
+            .map(|Weighted { octave, weight }| {
+                let height = depth * STEEPNESS * gully_km / wavelength_km * f64::from(*weight) / coarsest;
+                let lattice = |shift: f64, salt: u32| Octave {
+                    frequency: octave.frequency / f64::from(WAVES),
+                    offset: octave.offset.map(|offset| offset + shift),
+                    seed: noise::scramble(octave.seed.wrapping_add(salt)),
+                };
+                Carved {
+                    lattices: [lattice(0.0, 1), lattice(0.5, 2)],
+                    height: height as f32,
+                    slope: (height * octave.frequency / frequency) as f32 * TAU,
+                }
+            })
+            .collect();
+        let leading = relief.iter().filter(|w| COARSER * w.octave.frequency * gully_km < radius_km).count().max(1);
+        Self { relief, leading, gullies, frequency }
+    }
+}
+
+impl Evaluate for Gullies {
+    fn octave_count(&self) -> usize {
+        self.relief.len() + self.gullies.len()
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        let bound = noise::BOUND + self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>();
+        (-bound, bound)
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        let Scratch { sums, noise, .. } = scratch;
+        let (simd, n, skewed) = (chunk.simd, chunk.len(), chunk.skewed);
+        let fades_of = |octave: &Octave| chunk.fades(1.0 / octave.frequency, LEAST_GULLY_POINTS * f64::from(WAVES));
+        let shaded = self.gullies.first().is_some_and(|gully| !fades_of(&gully.lattices[0]).is_unseen());
+        let mut places = Places::default();
+        let mut work = Work::default();
+        work.share.fill(n, 1.0);
+        for (i, Weighted { octave, weight }) in self.relief.iter().enumerate() {
+            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if i >= self.leading && chunk.skips(&fades) {
+                break;
+            }
+            let per_cell = *weight / self.frequency as f32;
+            match (i < self.leading, shaded) {
+                (true, true) => {
+                    noise.curvatures(simd, skewed, octave);
+                    lead_gradients(simd, n, noise, *weight, per_cell, &mut work);
+                }
+                (true, false) => {
+                    noise.gradients(simd, skewed, octave);
+                    lead_values(simd, n, noise, *weight, per_cell, &mut work);
+                }
+                (false, _) if fades.is_unseen() => noise.values(simd, skewed, octave),
+                (false, _) => noise.gradients(simd, skewed, octave),
+            }
+            sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
+        }
+        settle(simd, n, &mut work);
+        for gully in &self.gullies {
+            let fades = fades_of(&gully.lattices[0]);
+            if chunk.skips(&fades) {
+                break;
+            }
+            let unseen = fades.is_unseen();
+            let turn = if unseen { turn_values } else { turn_gradients };
+            let send = if unseen { send_values } else { send_gradients };
+            let carve = if unseen { carve_values } else { carve_gradients };
+            work.waves.iter_mut().for_each(|jets| jets.fill(n, 0.0));
+            for octave in &gully.lattices {
+                places.find(simd, skewed, octave);
+                turn(simd, n, &places, &mut work);
+                for corner in CORNERS {
+                    send(simd, n, &places, corner, octave, &mut work);
+                }
+            }
+            carve(simd, n, gully, &mut work);
+            sums.add(chunk, &work.gully.value, &work.gully.gradient, gully.height, &fades);
+        }
+    }
+}
+
+/// What one octave hands to the next, and room to work in.
+#[derive(Default)]
+struct Work {
+    /// The slope that leads the gullies, in reliefs for each cell of its coarsest octave.
+    guide: [Jets; 3],
+    /// Along the ground and across the slope; the shorter, the flatter the ground.
+    side: [Jets; 3],
+    /// Real and imaginary part of the sum of waves; and as their gradients, those of the sum of waves each times the way
+    /// to its middle.
+    waves: [Jets; 4],
+    /// How much of the next octave there is.
+    share: Jets,
+    /// The height where there is none of it.
+    target: Jets,
+    gully: Jets,
+}
+
+/// Adds an octave of the relief to the slope that leads, and to the height that summits and valley floors keep.
+#[inline(always)]
+fn lead_body<R: Real>(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) {
+    for i in 0..n.min(CHUNK) {
+        let slope = R::noise_gradient(noise, i);
+        for (slope, guide) in slope.into_iter().zip(&mut work.guide) {
+            (R::load(guide, i) + slope.scale(per_cell)).store(guide, i);
+        }
+        (R::load(&work.target, i) + R::noise(noise, i).scale(weight)).store(&mut work.target, i);
+    }
+}
+for_each_simd!(fn lead_values(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) = lead_body::<f32>);
+for_each_simd!(fn lead_gradients(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) = lead_body::<Jet>);
+
+/// From the relief's height to that of a gully's ridge (1) at summits and of its bed (-1) on valley floors.
+#[inline(always)]
+fn settle_body(n: usize, work: &mut Work) {
+    for i in 0..n.min(CHUNK) {
+        let relief = Jet::load(&work.target, i);
+        relief.smoothstep(-SUMMIT, SUMMIT).scale(2.0).plus(-1.0).store(&mut work.target, i);
+    }
+}
+for_each_simd!(fn settle(n: usize, work: &mut Work) = settle_body);
+
+/// Turns the slope to the side.
+#[inline(always)]
+fn turn_body<R: Real>(n: usize, places: &Places, work: &mut Work) {
+    for i in 0..n.min(CHUNK) {
+        let [gx, gy, gz] = [R::load(&work.guide[0], i), R::load(&work.guide[1], i), R::load(&work.guide[2], i)];
+        let x = R::of(places.dir[0][i], [1.0, 0.0, 0.0]);
+        let y = R::of(places.dir[1][i], [0.0, 1.0, 0.0]);
+        let z = R::of(places.dir[2][i], [0.0, 0.0, 1.0]);
+        let (sx, sy, sz) = (y * gz - z * gy, z * gx - x * gz, x * gy - y * gx);
+        let length = (sx.square() + sy.square() + sz.square()).plus(FLAT * FLAT).sqrt();
+        let shorten = length.recip();
+        (sx * shorten).store(&mut work.side[0], i);
+        (sy * shorten).store(&mut work.side[1], i);
+        (sz * shorten).store(&mut work.side[2], i);
+    }
+}
+for_each_simd!(fn turn_values(n: usize, places: &Places, work: &mut Work) = turn_body::<f32>);
+for_each_simd!(fn turn_gradients(n: usize, places: &Places, work: &mut Work) = turn_body::<Jet>);
+
+/// Adds the waves of one cell of the eight.
+#[inline(always)]
+fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) {
+    let (seed, frequency) = (octave.seed, octave.frequency as f32);
+    let Work { side, waves: [re, im, re_arm, im_arm], .. } = work;
+    for i in 0..n.min(CHUNK) {
+        let (cell, step) = neighbour(places, corner, i);
+        let random = noise::cell_hash(cell, seed);
+        let towards = |axis: usize, bits: u32| {
+            step[axis] + (0.5 - JITTER) + (2.0 * JITTER) * unit(bits) - places.fraction[axis][i]
+        };
+        let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
+        let near = (1.0 - (to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) * (1.0 / (REACH * REACH))).max(0.0);
+        let weight = near * near * near;
+        let waves = to[0] * side[0].value[i] + to[1] * side[1].value[i] + to[2] * side[2].value[i];
+        let (sin, cos) = approx::sin_cos(waves * -WAVES);
+        // The gradient as if the waves ran the same way everywhere, all but the part that is the same for all waves.
+        let fall = near * near * (6.0 / (REACH * REACH)) * frequency;
+        let part = |value: f32| {
+            let fall = fall * value;
+            R::of(weight * value, [fall * to[0], fall * to[1], fall * to[2]])
+        };
+        let arm = |value: f32| {
+            let value = weight * value;
+            R::of(0.0, [value * to[0], value * to[1], value * to[2]])
+        };
+        (R::load(re, i) + part(cos)).store(re, i);
+        (R::load(im, i) + part(sin)).store(im, i);
+        (R::load(re_arm, i) + arm(cos)).store(re_arm, i);
+        (R::load(im_arm, i) + arm(sin)).store(im_arm, i);
+    }
+}
+for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
+for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
+
+/// From the sum of waves to the height of gullies, and to what leads the next octave.
+#[inline(always)]
+fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work) {
+    let frequency = gully.lattices[0].frequency as f32;
+    for i in 0..n.min(CHUNK) {
+        let side = [R::load(&work.side[0], i), R::load(&work.side[1], i), R::load(&work.side[2], i)];
+        // Each wave's angle grows along the side, and turns with it by the way to the wave's middle.
+        let [re, im, re_arm, im_arm] = &work.waves;
+        let along = |k: f32, axis: usize| k * side[axis].value();
+        let turned = |sum: &Jets, other: &Jets, arm: &Jets, sign: f32| {
+            let k = other.value[i] * (sign * TAU * WAVES * frequency);
+            let straight = R::load(sum, i) + R::of(0.0, [along(k, 0), along(k, 1), along(k, 2)]);
+            let by = |axis: usize| side[axis].chain(0.0, arm.gradient[axis][i] * (-sign * TAU * WAVES));
+            straight + (by(0) + by(1) + by(2))
+        };
+        let real = turned(re, im, im_arm, -1.0);
+        let imaginary = turned(im, re, re_arm, 1.0);
+        let shorten = (real.square() + imaginary.square()).plus(FAINT).sqrt().recip();
+        let (cos, sin) = (real * shorten, imaginary * shorten);
+
+        // Sharp on the crest and round in the bed: 1 - 2 |sin of half the phase|.
+        let half = (-cos).plus(1.0).scale(0.5).plus(ROUND).sqrt();
+        let ridge = half.scale(-2.0).plus(1.0);
+        let steepness = side[0].square() + side[1].square() + side[2].square();
+        let share = R::load(&work.share, i) * steepness;
+        let target = R::load(&work.target, i);
+        let height = target + (ridge - target) * share;
+        height.store(&mut work.gully, i);
+        height.store(&mut work.target, i);
+        let flank = sin.square();
+        (R::load(&work.share, i) * flank * flank.plus(CLEAR).recip().scale(1.0 + CLEAR)).store(&mut work.share, i);
+        let slope = (sin * half.recip() * share).scale(-0.5 * BRANCH * gully.slope);
+        for (side, guide) in side.into_iter().zip(&mut work.guide) {
+            (R::load(guide, i) + side * slope).store(guide, i);
+        }
+    }
+}
+for_each_simd!(fn carve_values(n: usize, gully: &Carved, work: &mut Work) = carve_body::<f32>);
+for_each_simd!(fn carve_gradients(n: usize, gully: &Carved, work: &mut Work) = carve_body::<Jet>);
+
+#[cfg(test)]
+mod tests {
+    use super::super::check;
+    use super::*;
+
+    fn gullies() -> Gullies {
+        let params = planet::Gullies { wavelength_km: 4000.0, gully_km: 900.0, gully_octaves: 3, ..Default::default() };
+        Gullies::new(&params, 7, 6371.0)
+    }
+
+    #[test]
+    fn gullies_are_sound() {
+        check::kind(&gullies(), 0.0);
+        let (mean, deviation) = check::statistics(&gullies());
+        assert!(mean.abs() < 0.2 && (0.2..0.5).contains(&deviation), "{mean} {deviation}");
+    }
+
+    #[test]
+    #[ignore = "prints figures"]
+    fn speed() {
+        check::speed("gullies", &gullies());
+    }
+}

@@ -1,0 +1,224 @@
+//! Domain warping: points displaced by a vector noise before a landform is evaluated at them.
+//!
+//! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian, which only
+//! turns gradients, in f32.
+
+use super::fbm::{LEAST_POINTS, add_octaves};
+use super::octaves::{Weighted, series};
+use super::{Chunk, Sums, add_gradient};
+use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
+use crate::terrain::simd::for_each_simd;
+
+/// So many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32 is
+/// half a millimetre of 4 km.
+const PRECISE: usize = 2;
+
+/// Farthest displacement at a noise of 1, in radii.
+const MAX_REACH: f64 = 8.0;
+
+/// Root mean square of the noise's derivative along one axis of its lattice.
+const DERIVATIVE: f64 = 1.2;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Warp {
+    octaves: Vec<Weighted>,
+    /// Displacement at a noise of 1, in radii.
+    reach: f64,
+}
+
+/// Where the points of a chunk went.
+#[derive(Default)]
+pub(crate) struct Displaced {
+    skewed: Displacement,
+    /// For each band the derivatives of the displaced point by the point: `[coordinate displaced][coordinate]`.
+    jacobians: Vec<[[Lane<f32>; 3]; 3]>,
+    /// Second derivatives of each coordinate displaced, in the order of [`Noise::curvature`].
+    curvatures: Curvatures,
+}
+
+struct Curvatures([[Lane<f32>; 6]; 3]);
+
+impl Default for Curvatures {
+    fn default() -> Self {
+        Self([[[0.0; CHUNK]; 6]; 3])
+    }
+}
+
+struct Displacement([Lane<f64>; 3]);
+
+impl Default for Displacement {
+    fn default() -> Self {
+        Self([[0.0; CHUNK]; 3])
+    }
+}
+
+impl Warp {
+    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells to the radius, that displaces by `reach` radii.
+    pub(super) fn new(seed: u64, frequency: f64, octaves: u32, reach: f64) -> Self {
+        // The lattice must stay within what f64 can split; a few radii away is as good as anywhere.
+        let reach = reach.min(MAX_REACH);
+        // Another sequence than that of the noise that is warped.
+        Self { octaves: series(noise::mix(!seed), frequency, octaves, 0.5, 2.0), reach }
+    }
+
+    /// How many octaves of noise it takes at a point.
+    pub(super) fn octave_count(&self) -> usize {
+        3 * self.octaves.len()
+    }
+
+    /// By how much features of the warped noise are typically squeezed.
+    fn squeeze(&self) -> f64 {
+        let shear = |o: &Weighted| self.reach * f64::from(o.weight) * o.octave.frequency * DERIVATIVE;
+        1.0 + self.octaves.iter().map(|o| shear(o) * shear(o)).sum::<f64>().sqrt()
+    }
+
+    /// Adds octaves of noise at the displaced points of a chunk.
+    pub(super) fn add_octaves(
+        &self,
+        octaves: &[Weighted],
+        chunk: &Chunk<'_>,
+        noise: &mut Noise,
+        displaced: &mut Displaced,
+        sums: &mut Sums,
+    ) {
+        self.displace(chunk, false, noise, displaced);
+        let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
+        let least_points = LEAST_POINTS * self.squeeze();
+        let (coarse, fine) = octaves.split_at(PRECISE.min(octaves.len()));
+        for Weighted { octave, weight } in coarse {
+            precise::add(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
+            let fades = chunk.fades(1.0 / octave.frequency, least_points);
+            if !fades.is_unseen() {
+                noise.gradients(chunk.simd, there.skewed, octave);
+                sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
+            }
+        }
+        add_octaves(fine, &there, least_points, noise, sums);
+        displaced.pull_back(chunk, sums);
+    }
+
+    /// Displaces the points of a chunk; with second derivatives if `curved`.
+    pub(super) fn displace(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise, displaced: &mut Displaced) {
+        let n = chunk.len();
+        displaced.skewed.0 = [[0.0; CHUNK]; 3];
+        displaced.jacobians.resize(chunk.spacings_rad.len(), [[[0.0; CHUNK]; 3]; 3]);
+        for jacobian in &mut displaced.jacobians {
+            for (row, lanes) in jacobian.iter_mut().enumerate() {
+                for (column, lane) in lanes.iter_mut().enumerate() {
+                    lane.fill(if row == column { 1.0 } else { 0.0 });
+                }
+            }
+        }
+        if curved {
+            displaced.curvatures.0 = [[[0.0; CHUNK]; 6]; 3];
+        }
+        for Weighted { octave, weight } in &self.octaves {
+            let reach = self.reach * f64::from(*weight);
+            precise::add_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
+            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
+            if fades.is_unseen() {
+                continue;
+            }
+            for (row, octave) in precise::components(octave).iter().enumerate() {
+                if curved {
+                    noise.curvatures(chunk.simd, chunk.skewed, octave);
+                    add_curvature(chunk.simd, n, &noise.curvature, reach as f32, &mut displaced.curvatures.0[row]);
+                } else {
+                    noise.gradients(chunk.simd, chunk.skewed, octave);
+                }
+                for (jacobian, share) in displaced.jacobians.iter_mut().zip(fades.0) {
+                    add_gradient(chunk.simd, n, &noise.gradient, reach as f32 * share, &mut jacobian[row]);
+                }
+            }
+        }
+        add_skewed(chunk.simd, chunk.skewed, &mut displaced.skewed.0);
+    }
+}
+
+impl Displaced {
+    /// The displaced points, of which there are `n`.
+    pub(super) fn points(&self, n: usize) -> Points3<'_> {
+        self.skewed.0.each_ref().map(|lane| &lane[..n])
+    }
+
+    /// Turns the gradient of a noise at the displaced points (and its second derivatives, if `curved`) into those by the points,
+    /// as the first band shows them.
+    pub(super) fn pull_back_noise(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise) {
+        let Some(jacobian) = self.jacobians.first() else { return };
+        if curved {
+            bend(chunk.simd, chunk.len(), jacobian, &self.curvatures.0, noise);
+        }
+        multiply(chunk.simd, chunk.len(), jacobian, &mut noise.gradient);
+    }
+
+    /// Turns gradients by the displaced points into gradients by the points.
+    fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
+        for (jacobian, gradient) in self.jacobians.iter().zip(&mut sums.gradients) {
+            multiply(chunk.simd, chunk.len(), jacobian, gradient);
+        }
+    }
+}
+
+/// Skews displacements and adds the skewed points.
+#[inline(always)]
+fn add_skewed_body(skewed: Points3<'_>, displaced: &mut [Lane<f64>; 3]) {
+    let ([x, y, z], [qx, qy, qz]) = (skewed, displaced);
+    for i in 0..x.len().min(y.len()).min(z.len()).min(CHUNK) {
+        let [sx, sy, sz] = noise::skew([qx[i], qy[i], qz[i]]);
+        qx[i] = x[i] + sx;
+        qy[i] = y[i] + sy;
+        qz[i] = z[i] + sz;
+    }
+}
+for_each_simd!(fn add_skewed(skewed: Points3<'_>, displaced: &mut [Lane<f64>; 3]) = add_skewed_body);
+
+/// Gradients times the Jacobian.
+#[inline(always)]
+fn multiply_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) {
+    let ([jx, jy, jz], [x, y, z]) = (jacobian, gradient);
+    for i in 0..n.min(CHUNK) {
+        let (gx, gy, gz) = (x[i], y[i], z[i]);
+        x[i] = jx[0][i] * gx + jy[0][i] * gy + jz[0][i] * gz;
+        y[i] = jx[1][i] * gx + jy[1][i] * gy + jz[1][i] * gz;
+        z[i] = jx[2][i] * gx + jy[2][i] * gy + jz[2][i] * gz;
+    }
+}
+for_each_simd!(fn multiply(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) = multiply_body);
+
+#[inline(always)]
+fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) {
+    for (sum, curvature) in sum.iter_mut().zip(curvature) {
+        for i in 0..n.min(CHUNK) {
+            sum[i] += curvature[i] * weight;
+        }
+    }
+}
+for_each_simd!(fn add_curvature(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) = add_curvature_body);
+
+/// Second derivatives of a noise by the points, by the chain rule: `J' H J` and the gradient times those of the displacement.
+#[inline(always)]
+fn bend_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], curvatures: &[[Lane<f32>; 6]; 3], noise: &mut Noise) {
+    let ([jx, jy, jz], [cx, cy, cz]) = (jacobian, curvatures);
+    let ([x, y, z], [hxx, hyy, hzz, hyz, hzx, hxy]) = (&noise.gradient, &mut noise.curvature);
+    for i in 0..n.min(CHUNK) {
+        let [xx, yy, zz, yz, zx, xy] = [hxx[i], hyy[i], hzz[i], hyz[i], hzx[i], hxy[i]];
+        let half = |k: usize| {
+            let (a, b, c) = (jx[k][i], jy[k][i], jz[k][i]);
+            [xx * a + xy * b + zx * c, xy * a + yy * b + yz * c, zx * a + yz * b + zz * c]
+        };
+        let (half_x, half_y, half_z) = (half(0), half(1), half(2));
+        let whole = |k: usize, half: [f32; 3], c: usize| {
+            jx[k][i] * half[0]
+                + jy[k][i] * half[1]
+                + jz[k][i] * half[2]
+                + (x[i] * cx[c][i] + y[i] * cy[c][i] + z[i] * cz[c][i])
+        };
+        hxx[i] = whole(0, half_x, 0);
+        hyy[i] = whole(1, half_y, 1);
+        hzz[i] = whole(2, half_z, 2);
+        hyz[i] = whole(1, half_z, 3);
+        hzx[i] = whole(2, half_x, 4);
+        hxy[i] = whole(0, half_y, 5);
+    }
+}
+for_each_simd!(fn bend(n: usize, jacobian: &[[Lane<f32>; 3]; 3], curvatures: &[[Lane<f32>; 6]; 3], noise: &mut Noise) = bend_body);

@@ -1,0 +1,115 @@
+//! A planet with everything on, and an edit of each of its parameters.
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
+
+use tellus::planet::param::{Domain, Param, ParamPath, Stage, Stages, Value, ValueMut};
+use tellus::planet::{
+    Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Table, TableRows, Water, param::Choice as _,
+};
+
+/// A planet on which every parameter has something to do: each kind of layer, masks, all biomes in the table.
+pub fn full_planet() -> Planet {
+    let mut planet = Planet {
+        radius_km: 1500.0,
+        water: Some(Water::default()),
+        atmosphere: Some(Atmosphere::default()),
+        clouds: Some(Clouds::default()),
+        ..Planet::default()
+    };
+    // A height map without its picture has nothing to do.
+    let kinds = Shape::all().into_iter().filter(|shape| !matches!(shape, Shape::HeightMap(_)));
+    for (i, mut shape) in kinds.enumerate() {
+        shrink(&mut shape);
+        let name = shape.names()[shape.index()].to_owned();
+        let blend = if i == 0 { Blend::Add } else { Blend::ALL[i % Blend::ALL.len()] };
+        planet.layers.push(Layer {
+            name,
+            shape,
+            seed: i as u32,
+            amplitude_m: 900.0,
+            bias: 0.1,
+            blend,
+            ..Layer::default()
+        });
+    }
+    for (i, mut mask) in Mask::all().into_iter().enumerate() {
+        if let Mask::Layer(mask) = &mut mask {
+            mask.layer = planet.layers[0].name.clone();
+        }
+        planet.layers[1 + i].masks.push(mask);
+    }
+    let biome = |key, color| Biome { key, color, ..Biome::default() };
+    planet.biomes.palette = vec![biome('a', [0.1, 0.3, 0.1]), biome('b', [0.4, 0.4, 0.2])];
+    planet.biomes.table = Table::uniform('a', 4, 3);
+    planet.biomes.table.set_key(1, 1, 'b');
+    planet.biomes.rows = TableRows::Temperature;
+    planet.climate.sea_moisture = 0.3;
+    planet
+}
+
+/// Fewer octaves: tests build many tiles.
+fn shrink(shape: &mut Shape) {
+    use tellus::planet::param::Params as _;
+    shape.each_param(&mut ParamPath::default(), &mut |_, param, mut value| {
+        if param.name == "octaves" {
+            value.set(&Value::Count(3));
+        }
+    });
+}
+
+/// An edit of one parameter.
+pub struct Edit {
+    pub path: String,
+    /// What its description says that it makes run.
+    pub declared: Stages,
+    pub planet: Planet,
+}
+
+/// An edit of each parameter of a planet that has another value to take, and one of the biome table.
+pub fn every_edit(planet: &Planet) -> Vec<Edit> {
+    let mut places: Vec<(ParamPath, Stages)> = Vec::new();
+    planet.clone().each(&mut |path, param, _| places.push((path.clone(), param.stages)));
+    let mut edits: Vec<Edit> = places
+        .into_iter()
+        .filter_map(|(path, stages)| {
+            let mut edited = planet.clone();
+            edited.each(&mut |at, param, mut value| {
+                if *at == path {
+                    let new = other(planet, param, &value);
+                    value.set(&new);
+                }
+            });
+            let declared = stages.with_consequences();
+            (edited != *planet).then(|| Edit { path: path.to_string(), declared, planet: edited })
+        })
+        .collect();
+    let mut painted = planet.clone();
+    painted.biomes.table.set_key(0, 0, 'b');
+    edits.push(Edit { path: "biomes.table".to_owned(), declared: Stages::of(&[Stage::Material]), planet: painted });
+    edits
+}
+
+/// Another valid value.
+fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
+    match (value.get(), param.domain) {
+        (Value::Number(v), Domain::Number { min, max, .. }) => {
+            let by = (v.abs() * 0.05).max((max - min) * 1e-4);
+            Value::Number(if v + by <= max { v + by } else { v - by })
+        }
+        (Value::Count(v), Domain::Count { max, .. }) => Value::Count(if v < max { v + 1 } else { v - 1 }),
+        (Value::Count(v), _) => Value::Count(v + 1),
+        (Value::Flag(v), _) => Value::Flag(!v),
+        (Value::Triple(v), _) => Value::Triple(v.map(|c| if c > 0.5 { c * 0.8 } else { c + 0.1 })),
+        (Value::Choice(index), _) => match value {
+            ValueMut::Choice(choice) => Value::Choice((index + 1) % choice.names().len()),
+            _ => unreachable!(),
+        },
+        (Value::Curve(_), Domain::Curve { most, .. }) => {
+            Value::Curve(vec![[-0.25 * most, -0.2 * most], [0.25 * most, 0.3 * most]])
+        }
+        (Value::Letter(_), _) => Value::Letter('z'),
+        // A mask's layer: another one. A layer that masks refer to keeps its name, or they would follow nobody.
+        (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
+        (Value::Text(text), _) => Value::Text(format!("{text}!")),
+        (value, _) => value,
+    }
+}
