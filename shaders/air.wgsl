@@ -69,52 +69,28 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         cloud_at = textureLoad(cloud_distance, pixel, 0).r;
     }
 
-    let radius = globals.eye_km.w;
-    let h = globals.eye_up.w;
-    let mu = dot(dir, globals.eye_up.xyz);
-    var light = vec3f(0.0);
-    var transmittance = vec3f(1.0);
-    var to_cloud = vec3f(1.0);
-    var way = vec2f(0.0, -1.0);
-    if globals.air.x > 0.0 { way = way_through_air(h, mu, far); }
-    if way.y > way.x {
+    var air = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
+    if globals.air.x > 0.0 {
         let sun = globals.sun_dir.xyz;
-        let cosine = dot(dir, sun);
-        let phase_rayleigh = rayleigh_phase(cosine);
-        let phase_mie = mie_phase(cosine);
-        let sun_up = dot(sun, globals.eye_up.xyz);
-        let steps = globals.air.z;
-        let middle = clamp(-(radius + h) * mu, way.x, way.y);
-        let start = -sqrt(middle - way.x);
-        let step = (sqrt(way.y - middle) - start) / steps;
-        for (var i = 0.0; i < steps; i += 1.0) {
-            let w = start + i * step;
-            let t0 = bent(w, middle);
-            let t1 = bent(w + step, middle);
-            let length_km = t1 - t0;
-            let t = bent(w + 0.5 * step, middle);
-            let height = altitude_along(radius, h, mu, t);
-            let sun_mu = clamp(((radius + h) * sun_up + t * cosine) / (radius + height), -1.0, 1.0);
-            let air = air_at(height);
-            let passed = exp(-air.extinction * length_km);
-            let shine = source(height, sun_mu, phase_rayleigh, phase_mie, air);
-            // Air behind a cloud is seen through it.
-            let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
-            let inside = transmittance * shine * (1.0 - passed) / max(air.extinction, vec3f(1e-12));
-            light += inside * mix(1.0, clouds.a, behind);
-            if cloud_at > t0 { to_cloud = transmittance * exp(-air.extinction * min(cloud_at - t0, length_km)); }
-            transmittance *= passed;
-        }
-        light *= globals.sun_irradiance.rgb;
+        air = air_light(globals.eye_up.w, globals.eye_up.xyz, dir, sun, far, globals.air.z, cloud_at, clouds.a);
     }
+    var light = air.radiance * globals.sun_irradiance.rgb;
     if far >= NOTHING_KM {
-        // Stars drown in a bright sky.
-        let drowned = 1.0 / (1.0 + 3000.0 * luminance(light) + 40.0 * luminance(clouds.rgb));
+        // Stars drown in a bright sky, and at dusk too, when exposure is long.
+        let drowned = 1.0 / (1.0 + 1e6 * luminance(light) + 40.0 * luminance(clouds.rgb));
         // As wide as a pixel of the display, not of this picture: as bright at every quality.
         let shown = globals.eye_low_m.w * max(f32(globals.modes.y), 1.0);
         let spread = select(1.0, 0.5, globals.modes.y == 0u);
         scene = stars(dir, shown) * (drowned * spread) + sun_disc(dir);
     }
-    light += glare(dir) + to_cloud * clouds.rgb + transmittance * clouds.a * scene;
-    return vec4f(min(light, vec3f(60000.0)), 1.0);
+    let air_only = luminance(light);
+    light += glare(dir) + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene;
+    // How much the pixel counts for exposure: the sky a little seen from beneath, from outer space not at all, stars never.
+    var counts = 1.0;
+    if far >= NOTHING_KM {
+        let inside = 1.0 - smoothstep(0.1, 0.5, globals.eye_up.w / max(globals.air.x, 1e-3));
+        let shown = air_only + luminance(clouds.rgb);
+        counts = 0.3 * inside * saturate1(shown / (shown + luminance(scene) + 1e-9));
+    }
+    return vec4f(min(light, vec3f(60000.0)), counts);
 }

@@ -1,4 +1,4 @@
-// The air: density by altitude, phase functions, and the mapping of the transmittance table.
+// The air: density by altitude, phase functions, and the mapping of the table of optical depths.
 // Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020; table mapping:
 // Bruneton and Neyret, Precomputed Atmospheric Scattering, 2008.
 #include "globals.wgsl"
@@ -23,6 +23,14 @@ fn air_at(h: f32) -> Air {
     return air;
 }
 
+// Integral of exp(-extinction t) along a stretch: how far it shines, its own extinction counted. 1 - exp(-x) would lose every
+// digit where air is thin or the stretch short.
+fn shining_length(extinction: vec3f, length_km: f32) -> vec3f {
+    let x = extinction * length_km;
+    let series = length_km * (1.0 - x * (0.5 - x * (1.0 / 6.0)));
+    return select((1.0 - exp(-x)) / extinction, series, x < vec3f(0.03));
+}
+
 fn rayleigh_phase(cosine: f32) -> f32 { return 3.0 / (16.0 * PI) * (1.0 + cosine * cosine); }
 
 // Cornette and Shanks, Physically reasonable analytic expression for the single-scattering phase function, 1992.
@@ -33,12 +41,12 @@ fn mie_phase(cosine: f32) -> f32 {
     return 3.0 / (8.0 * PI) * (1.0 - g2) * (1.0 + cosine * cosine) / ((2.0 + g2) * base * sqrt(base));
 }
 
-const TRANSMITTANCE_SIZE: vec2f = vec2f(256.0, 64.0);
+const DEPTH_SIZE: vec2f = vec2f(256.0, 64.0);
 
 fn texel_from_unit(x: vec2f, size: vec2f) -> vec2f { return (x * (size - 1.0) + 0.5) / size; }
 
-// Where altitude and cosine to the zenith stand in the transmittance table.
-fn transmittance_uv(h_km: f32, mu: f32) -> vec2f {
+// Where altitude and cosine to the zenith stand in the table of optical depths.
+fn depth_uv(h_km: f32, mu: f32) -> vec2f {
     let radius = globals.eye_km.w;
     let top = globals.air.x;
     let h = clamp(h_km, 0.0, top);
@@ -49,7 +57,7 @@ fn transmittance_uv(h_km: f32, mu: f32) -> vec2f {
     let way_min = top - h;
     let way_max = sqrt(rho2) + sqrt(horizon2);
     let x = vec2f((way - way_min) / max(way_max - way_min, 1e-9), sqrt(rho2 / horizon2));
-    return texel_from_unit(saturate(x), TRANSMITTANCE_SIZE);
+    return texel_from_unit(saturate(x), DEPTH_SIZE);
 }
 
 // Cosine of the horizon's zenith angle from an altitude.
@@ -59,8 +67,9 @@ fn horizon_cosine(h: f32) -> f32 {
     return -sqrt(height * (2.0 * radius + height)) / (radius + height);
 }
 
-// Share of the star's disc over the horizon of the smooth planet.
-fn sun_over_horizon(h: f32, mu: f32) -> f32 {
-    let half = max(globals.sun_dir.w, 0.0015);
-    return smoothstep(-half, half, mu - horizon_cosine(h));
+// Share of the star's disc over the horizon of the smooth planet, where its middle is `over` the horizon (difference of
+// cosines); the mean over a stretch along which that changes by `change`.
+fn disc_share(over: f32, change: f32) -> f32 {
+    let half = max(globals.sun_dir.w, 0.0015) + 0.5 * abs(change);
+    return smoothstep(-half, half, over);
 }

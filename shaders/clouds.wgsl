@@ -43,7 +43,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         lobe(cosine, 0.35),
         1.0 / (4.0 * PI),
     );
-    let to_sun = 1.0 / max(abs(sun_mu), 0.2);
+    let to_sun = 1.0 / max(abs(sun_mu), 0.07);
 
     for (var i = 0.0; i < steps; i += 1.0) {
         let s0 = i / steps;

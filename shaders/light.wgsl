@@ -2,22 +2,39 @@
 #include "air_model.wgsl"
 #include "tables.wgsl"
 
+// Transmittance of the air alone along a ray that misses the ground.
+fn clear_transmittance(h: f32, mu: f32) -> vec3f {
+    let top = globals.air.x;
+    if top <= 0.0 { return vec3f(1.0); }
+    var at = vec2f(h, mu);
+    if h > top {
+        // From outer space the way begins where it meets the air, if it does.
+        let b = (globals.eye_km.w + h) * mu;
+        let into = b * b - (h - top) * (2.0 * globals.eye_km.w + h + top);
+        if b >= 0.0 || into <= 0.0 { return vec3f(1.0); }
+        at = vec2f(top, -sqrt(into) / (globals.eye_km.w + top));
+    }
+    return exp(-textureSampleLevel(depth_table, clamped, depth_uv(at.x, at.y), 0.0).rgb);
+}
+
 // Transmittance to the star, its setting behind the smooth planet included.
 fn sun_transmittance(h: f32, mu: f32) -> vec3f {
-    let visible = sun_over_horizon(h, mu);
-    if globals.air.x <= 0.0 || visible <= 0.0 { return vec3f(visible); }
-    let clear = textureSampleLevel(transmittance_table, clamped, transmittance_uv(h, mu), 0.0).rgb;
-    return clear * visible;
+    let visible = disc_share(mu - horizon_cosine(h), 0.0);
+    if visible <= 0.0 { return vec3f(0.0); }
+    return clear_transmittance(h, mu) * visible;
 }
+
+// The square root spreads tables about the terminator.
+fn signed_root(x: f32) -> f32 { return sign(x) * sqrt(abs(x)); }
+
+// Lifts the dim light of deep twilight into the range of 16 bits.
+const MULTISCATTER_SCALE: f32 = 1024.0;
 
 // Radiance that comes from all around after two or more scatterings, for unit irradiance.
 fn multiscatter(h: f32, mu: f32) -> vec3f {
-    let x = vec2f(mu * 0.5 + 0.5, saturate1(h / globals.air.x));
-    return textureSampleLevel(multiscatter_table, clamped, texel_from_unit(x, vec2f(32.0)), 0.0).rgb;
+    let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / globals.air.x)));
+    return textureSampleLevel(multiscatter_table, clamped, texel_from_unit(x, vec2f(32.0)), 0.0).rgb / MULTISCATTER_SCALE;
 }
-
-// The square root spreads the table about the terminator.
-fn signed_root(x: f32) -> f32 { return sign(x) * sqrt(abs(x)); }
 
 // Irradiance of the sky on level ground.
 fn sky_irradiance(h: f32, mu: f32) -> vec3f {

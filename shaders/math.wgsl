@@ -2,6 +2,8 @@
 // which loses every digit in 32 bits near the ground.
 
 const PI: f32 = 3.14159265;
+// Farther than anything.
+const NOTHING_KM: f32 = 1e9;
 
 fn saturate1(x: f32) -> f32 { return clamp(x, 0.0, 1.0); }
 
@@ -25,6 +27,9 @@ fn altitude_along(radius: f32, h: f32, mu: f32, t: f32) -> f32 {
     let grown = t * (t + 2.0 * r * mu);
     return h + grown / (r + sqrt(max(r * r + grown, 0.0)));
 }
+
+// Samples crowd about `middle`, such as the lowest point of a way, where air is densest: t = middle + w|w|.
+fn bent(w: f32, middle: f32) -> f32 { return middle + w * abs(w); }
 
 // Integer hash (pcg3d, Jarzynski and Olano, Hash Functions for GPU Rendering, 2020).
 fn hash3(p: vec3u) -> vec3u {

@@ -9,23 +9,23 @@ fn way_through_air(h: f32, mu: f32, far: f32) -> vec2f {
     return vec2f(max(shell.x, 0.0), min(shell.y, far));
 }
 
-// Samples crowd about `middle`, the lowest point of the way, where the air is densest: t = middle + w|w|.
-fn bent(w: f32, middle: f32) -> f32 { return middle + w * abs(w); }
-
-// One stretch of air: what it scatters towards the eye for unit irradiance, per unit of its own extinction.
-fn source(h: f32, sun_mu: f32, phase_rayleigh: f32, phase_mie: f32, air: Air) -> vec3f {
-    let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
-    return direct * sun_transmittance(h, sun_mu) + (air.rayleigh + air.mie) * multiscatter(h, sun_mu);
+struct AirLight {
+    // What the air scatters towards the eye, for unit irradiance
+    radiance: vec3f,
+    // Of the whole way, and of the way to the cloud
+    transmittance: vec3f,
+    to_cloud: vec3f,
 }
 
-// Radiance that the air alone scatters from a direction, for unit irradiance; `up` at the eye.
-fn scattered_from(h: f32, up: vec3f, dir: vec3f, sun: vec3f, steps: f32) -> vec3f {
+// Marches up to `far` along a ray; `up` at the eye. Of the air behind a cloud at `cloud_at` only `cloud_through` is seen.
+fn air_light(
+    h: f32, up: vec3f, dir: vec3f, sun: vec3f, far: f32, steps: f32, cloud_at: f32, cloud_through: f32,
+) -> AirLight {
+    var out = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
     let radius = globals.eye_km.w;
     let mu = dot(dir, up);
-    let ground = ray_sphere((radius + h) * mu, h * (2.0 * radius + h));
-    let far = select(1e9, ground.x, ground.x > 0.0 && ground.y >= ground.x);
     let way = way_through_air(h, mu, far);
-    if way.y <= way.x { return vec3f(0.0); }
+    if way.y <= way.x { return out; }
     let cosine = dot(dir, sun);
     let phase_rayleigh = rayleigh_phase(cosine);
     let phase_mie = mie_phase(cosine);
@@ -33,19 +33,41 @@ fn scattered_from(h: f32, up: vec3f, dir: vec3f, sun: vec3f, steps: f32) -> vec3
     let middle = clamp(-(radius + h) * mu, way.x, way.y);
     let start = -sqrt(middle - way.x);
     let step = (sqrt(way.y - middle) - start) / steps;
-    var radiance = vec3f(0.0);
-    var transmittance = vec3f(1.0);
+    var last_over = 0.0;
     for (var i = 0.0; i < steps; i += 1.0) {
         let w = start + i * step;
-        let length = bent(w + step, middle) - bent(w, middle);
+        let t0 = bent(w, middle);
+        let t1 = bent(w + step, middle);
+        let length_km = t1 - t0;
         let t = bent(w + 0.5 * step, middle);
         let height = altitude_along(radius, h, mu, t);
         let sun_mu = clamp(((radius + h) * sun_up + t * cosine) / (radius + height), -1.0, 1.0);
         let air = air_at(height);
-        let passed = exp(-air.extinction * length);
-        let shine = source(height, sun_mu, phase_rayleigh, phase_mie, air);
-        radiance += transmittance * shine * (1.0 - passed) / max(air.extinction, vec3f(1e-12));
-        transmittance *= passed;
+        // The shadow of the planet begins somewhere within a stretch: the mean over it, or few steps would show as bands.
+        let over = sun_mu - horizon_cosine(height);
+        let visible = disc_share(over, select(over - last_over, 0.0, i == 0.0));
+        last_over = over;
+        var shine = (air.rayleigh + air.mie) * multiscatter(height, sun_mu);
+        if visible > 0.0 {
+            let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
+            shine += direct * clear_transmittance(height, sun_mu) * visible;
+        }
+        let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
+        let inside = out.transmittance * shine * shining_length(air.extinction, length_km);
+        out.radiance += inside * mix(1.0, cloud_through, behind);
+        if cloud_at > t0 {
+            out.to_cloud = out.transmittance * exp(-air.extinction * min(cloud_at - t0, length_km));
+        }
+        out.transmittance *= exp(-air.extinction * length_km);
     }
-    return radiance;
+    return out;
+}
+
+// The same down to the smooth ground or out into space, without clouds.
+fn scattered_from(h: f32, up: vec3f, dir: vec3f, sun: vec3f, steps: f32) -> vec3f {
+    let radius = globals.eye_km.w;
+    let mu = dot(dir, up);
+    let ground = ray_sphere((radius + h) * mu, h * (2.0 * radius + h));
+    let far = select(NOTHING_KM, ground.x, mu < 0.0 && ground.x >= 0.0 && ground.y >= ground.x);
+    return air_light(h, up, dir, sun, far, steps, NOTHING_KM, 1.0).radiance;
 }

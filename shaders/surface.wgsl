@@ -5,8 +5,6 @@
 @group(2) @binding(0) var scene_color: texture_2d<f32>;
 @group(2) @binding(1) var scene_depth: texture_depth_2d;
 
-const NOTHING_KM: f32 = 1e9;
-
 // Distance to the terrain in km along a ray of length `ray_length` at unit depth; NOTHING_KM for none.
 fn terrain_distance(pixel: vec2i, ray_length: f32) -> f32 {
     let depth = textureLoad(scene_depth, pixel, 0);

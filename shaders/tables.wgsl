@@ -1,6 +1,6 @@
 // Look-up tables and maps that outlive a frame.
 
-@group(1) @binding(0) var transmittance_table: texture_2d<f32>;
+@group(1) @binding(0) var depth_table: texture_2d<f32>;
 @group(1) @binding(1) var multiscatter_table: texture_2d<f32>;
 @group(1) @binding(2) var irradiance_table: texture_2d<f32>;
 @group(1) @binding(3) var sky_table: texture_2d<f32>;

@@ -3,6 +3,8 @@
 #include "math.wgsl"
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;
+// x: factor that was metered, 1 for manual exposure
+@group(1) @binding(1) var<uniform> metered: vec4f;
 
 // Highlights bleach as on film: channels are mixed before a curve with a soft toe and shoulder, and drawn apart after it
 // (the idea of AgX; the matrix and the curve x^n / (x^n + c) are fitted here so that 0.18 stays near 0.2 and 1.0, white
@@ -30,7 +32,7 @@ fn decode_srgb(c: vec3f) -> vec3f {
 
 fn show(radiance: vec3f) -> vec3f {
     if globals.modes.x != 0u { return saturate(radiance); }
-    return film(radiance * globals.misc.w);
+    return film(radiance * (globals.misc.w * metered.x));
 }
 
 @fragment

@@ -27,6 +27,7 @@
 //! - [`planet`]: what a planet is: the preset's data, its parameters, loading and saving
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
 //! - [`terrain`]: what the surface is: [`terrain::Terrain`], the evaluator that everything asks
+//! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`lod`]: which nodes are shown from where
 //! - [`build`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
@@ -35,6 +36,7 @@
 //! Lengths are metres, angles radians, unless a name says otherwise. Frames are named in full (`sun_dir_planet`): the planet
 //! frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
+pub mod atmosphere;
 pub mod build;
 pub mod lod;
 pub mod planet;

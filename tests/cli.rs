@@ -123,6 +123,29 @@ fn sample_answers_people_and_machines() {
 }
 
 #[test]
+fn sky_says_the_same_by_physics_and_by_shaders() {
+    let air = "tests/fixtures/earth_air.ron";
+    let ask = |more: &[&str]| {
+        let args = ["sky", air, "--sun-zenith", "60", "--view-zenith", "0", "--json"];
+        let (status, out, err) = run(&[&args, more].concat());
+        assert!(status == 0 && err.is_empty(), "{err}");
+        let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let rgb = |key: &str| -> [f64; 3] { std::array::from_fn(|i| answer[key][i].as_f64().unwrap()) };
+        [rgb("transmittance"), rgb("radiance")]
+    };
+    let near = |a: [f64; 3], b: [f64; 3], share: f64| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= share * b);
+    let [through, radiance] = ask(&[]);
+    assert!(near(through, [0.88478, 0.75386, 0.58228], 0.003), "{through:?}");
+    assert!(near(radiance, [0.00459, 0.00992, 0.02376], 0.05), "{radiance:?}");
+    let [drawn_through, drawn] = ask(&["--gpu"]);
+    assert!(near(drawn_through, through, 0.02) && near(drawn, radiance, 0.02), "{drawn_through:?} {drawn:?}");
+    let (status, out, _) = run(&["sky", air, "--sun-zenith", "90", "--view-zenith", "80", "--azimuth", "-30"]);
+    assert!(status == 0 && out.contains("transmittance  0.106") && out.contains("radiance"), "{out}");
+    let (status, _, err) = run(&["sky", air, "--sun-zenith", "190", "--view-zenith", "0"]);
+    assert!(status == 2 && err.contains("use 0 to 180"), "{err}");
+}
+
+#[test]
 fn new_writes_valid_planets_that_their_seed_repeats() {
     let folder = folder();
     let paths = ["a.ron", "b.ron", "c.ron"].map(|name| folder.path().join(name));

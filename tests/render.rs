@@ -11,7 +11,7 @@ use tellus::build::Surface;
 use tellus::lod::Quality;
 use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Planet};
-use tellus::render::{DebugView, Frame};
+use tellus::render::{DebugView, Frame, Metering};
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
 const POSES: [(f64, f64, f64); 8] = [
@@ -143,6 +143,27 @@ fn the_sea_lies_where_the_ground_is_below_its_level() {
         }
     }
     assert!(seas > 20 && lands > 20, "{seas} {lands}");
+}
+
+#[test]
+fn exposure_lights_dusk_and_leaves_night_dark() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 0.0, 0.0, 200.0, 90.0, -8.0);
+    let surface = surface(&planet, &camera);
+    let mut mean = |sun_lon: f64, metering: Metering| {
+        gpu.renderer.metering = metering;
+        let light = lights(&gpu.draw(&frame(&surface, &planet, camera, (0.0, sun_lon))));
+        f64::from(light.iter().sum::<u32>()) / light.len() as f64 / 3.0
+    };
+    let [noon, sunset, dusk, night] = [0.0, 91.0, 96.0, 150.0].map(|lon| mean(lon, Metering::Instant));
+    assert!(noon > 60.0 && sunset > 40.0 && dusk > 12.0, "{noon} {sunset} {dusk}");
+    assert!(noon > dusk && dusk > night && night < 12.0, "{noon} {dusk} {night}");
+    assert!(mean(91.0, Metering::Manual) < sunset && mean(96.0, Metering::Manual) < dusk);
+    // Bit by bit, from noon to where it settles at sunset.
+    mean(0.0, Metering::Instant);
+    let steps = [0.1; 60].map(|secs| mean(91.0, Metering::Adapting { secs }));
+    assert!(steps[0] < steps[3] && (steps[59] - sunset).abs() < 1.0, "{steps:?} {sunset}");
 }
 
 #[test]

@@ -36,6 +36,15 @@ pub(super) fn altitude(text: &str) -> Result<f64, String> {
     number(text, 0.1, 1e12)
 }
 
+/// Above a sphere; zero is on it.
+pub(super) fn height(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1e12)
+}
+
+pub(super) fn zenith(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 180.0)
+}
+
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     number(text, -1e9, 1e9)
 }

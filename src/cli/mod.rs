@@ -1,7 +1,7 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: how sizes, angles and places are written
-//! - `render`, `check`, `sample`, `new`, `bench`: the subcommands
+//! - `render`, `check`, `sample`, `sky`, `new`, `bench`: the subcommands
 //! - `view`: where the camera stands unless told; `headless`: a GPU without a window
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
@@ -13,6 +13,7 @@ mod headless;
 mod new;
 mod render;
 mod sample;
+mod sky;
 
 use crate::planet::Planet;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
@@ -37,6 +38,7 @@ enum Command {
     Render(Box<render::Args>),
     Check(check::Args),
     Sample(sample::Args),
+    Sky(sky::Args),
     New(new::Args),
     Bench(bench::Args),
 }
@@ -73,6 +75,7 @@ pub fn run() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
+        Some(Command::Sky(args)) => sky::run(&args),
         Some(Command::New(args)) => new::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
     };

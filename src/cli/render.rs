@@ -5,7 +5,7 @@ use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
-use crate::render::{DebugView, Frame, Renderer};
+use crate::render::{DebugView, Frame, Metering, Renderer};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use clap::ValueEnum;
@@ -50,9 +50,9 @@ pub(super) struct Args {
     /// Time since the start: clouds drift, waves run
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
-    /// Brightness of the picture in stops
-    #[arg(long, value_name = "EV", default_value = "0", allow_hyphen_values = true, value_parser = args::exposure)]
-    exposure: f64,
+    /// Exposure in stops, 0 for a sunlit planet [default: as suits what there is to see]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = args::exposure)]
+    exposure: Option<f64>,
     /// How well it is drawn
     #[arg(long, value_enum, default_value_t = Quality::High)]
     quality: Quality,
@@ -101,6 +101,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let gpu = headless::Gpu::open(args.size)?;
     let mut renderer =
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
+    renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     let view = view(args, &planet);
     let mut surface = build_now(&planet, &view);
     add_detail(&mut surface, &view);
@@ -112,7 +113,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         frozen: None,
         sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
         time_secs: args.time,
-        exposure_ev: args.exposure,
+        exposure_ev: args.exposure.unwrap_or(0.0),
         debug_view: args.view,
     };
     let pixels = gpu.picture(args.size, |target| {

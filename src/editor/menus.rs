@@ -113,6 +113,9 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
         ui.add(slider)
             .labelled_by(label.id)
             .on_hover_text("Brightness of the picture in stops; not part of the planet");
+        ui.checkbox(&mut app.viewport.settings.auto_exposure, "Automatic").on_hover_text(
+            "Exposure follows what there is to see, and the slider corrects it; off, the slider alone decides",
+        );
     });
     ui.separator();
     for command in [Command::TogglePanel, Command::TogglePerformance, Command::ToggleFullscreen, Command::ToggleTheme] {

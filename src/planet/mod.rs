@@ -3,6 +3,7 @@
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
 //! - [`layers`], [`shapes`], [`masks`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; where they act;
 //!   everything else; the biome table); `kinds` writes the enums whose values carry parameters
+//! - `airs`, `star_color`: atmospheres to start from; the colour of a star by its temperature
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
@@ -12,6 +13,7 @@
 //! - [`notes`]: what the editor keeps in a preset for itself
 //! - [`random`]: random planets that are always valid
 
+mod airs;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
@@ -27,10 +29,12 @@ pub mod picture;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
+mod star_color;
 pub mod table;
 pub(crate) mod text;
 pub mod validate;
 
+pub use airs::{STARTING_AIRS, StartingAir};
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
@@ -41,6 +45,7 @@ pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
     Terraces, Warped,
 };
+pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
 
 use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};

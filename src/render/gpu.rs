@@ -165,3 +165,16 @@ pub(crate) fn checked<T>(device: &wgpu::Device, name: &str, make: impl FnOnce() 
         Poll::Ready(None) | Poll::Pending => Ok(made),
     }
 }
+
+/// The bytes of a buffer that has just been copied into; waits for the device.
+pub(crate) fn read(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
+    let failed = |error: &dyn std::fmt::Display| RenderError::Device(error.to_string());
+    let (send, receive) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        let _ = send.send(result);
+    });
+    device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
+    receive.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+    let mapped = buffer.get_mapped_range(..).map_err(|error| failed(&error))?;
+    Ok(mapped.to_vec())
+}

@@ -7,7 +7,10 @@
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
+//! - `exposure`: how bright the picture is, and what exposure suits it
 //! - `tonemap`: radiance to display
+//!
+//! `sky_probe` asks the shaders of the air about single rays.
 //!
 //! Around them: `shaders` (includes, checks, hot reload), `globals` (the uniform buffer), `targets`, `gpu` (helpers),
 //! `scene_pass` (what the full-screen passes over the scene share).
@@ -18,18 +21,22 @@ mod biome_table;
 mod cloud_map;
 mod clouds;
 mod detail_pool;
+mod exposure;
 mod globals;
 mod gpu;
 mod noise_tile;
 mod pool;
 mod scene_pass;
 pub mod shaders;
+mod sky_probe;
 mod tables;
 mod targets;
 mod terrain;
 mod tonemap;
 mod water;
 
+pub use exposure::Metering;
+pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
 
 use crate::build::Surface;
@@ -117,7 +124,7 @@ pub struct Frame<'a> {
     pub sun_dir_planet: DVec3,
     /// Seconds since time zero: drift of the clouds, waves.
     pub time_secs: f64,
-    /// Exposure in stops; 0 suits a sunlit planet.
+    /// Exposure in stops, of which 0 suits a sunlit planet; with automatic exposure ([`Renderer::metering`]) a correction to it.
     pub exposure_ev: f64,
     /// Shaded, or a debug view.
     pub debug_view: DebugView,
@@ -129,6 +136,9 @@ pub enum RenderError {
     /// A shader does not compile: what naga or the driver says, with the file and line it comes from.
     #[error("{0}")]
     Shader(String),
+    /// The device does not answer.
+    #[error("the device: {0}")]
+    Device(String),
 }
 
 /// What one frame drew.
@@ -148,6 +158,7 @@ pub(crate) struct Passes {
     water: water::WaterPass,
     clouds: clouds::CloudsPass,
     air: air::AirPass,
+    exposure: exposure::ExposurePass,
     tonemap: tonemap::TonemapPass,
 }
 
@@ -165,6 +176,7 @@ impl Passes {
             water: water::WaterPass::new(device, globals, tables)?,
             clouds: clouds::CloudsPass::new(device, globals, tables)?,
             air: air::AirPass::new(device, globals, tables)?,
+            exposure: exposure::ExposurePass::new(device)?,
             tonemap: tonemap::TonemapPass::new(device, globals, target_format)?,
         })
     }
@@ -176,6 +188,7 @@ struct Inputs {
     water: [wgpu::BindGroup; 2],
     clouds: [wgpu::BindGroup; 2],
     air: [wgpu::BindGroup; 2],
+    exposure: [wgpu::BindGroup; 2],
     tonemap: [wgpu::BindGroup; 2],
 }
 
@@ -185,13 +198,16 @@ impl Inputs {
             water: [0, 1].map(|scene| passes.water.bind(device, targets, scene)),
             clouds: [0, 1].map(|scene| passes.clouds.bind(device, targets, scene)),
             air: [0, 1].map(|scene| passes.air.bind(device, targets, scene)),
-            tonemap: [0, 1].map(|scene| passes.tonemap.bind(device, &targets.hdr[scene])),
+            exposure: [0, 1].map(|scene| passes.exposure.bind(device, &targets.hdr[scene])),
+            tonemap: [0, 1].map(|scene| passes.tonemap.bind(device, &targets.hdr[scene], &passes.exposure.result)),
         }
     }
 }
 
 /// All GPU state of one viewport.
 pub struct Renderer {
+    /// Whether exposure is set by hand or by what there is to see.
+    pub metering: Metering,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
@@ -219,7 +235,17 @@ impl Renderer {
         let passes = Passes::new(device, &globals.layout, &tables.layout, target_format)?;
         let terrain = terrain::TerrainResources::new(device);
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
-        Ok(Self { target_format, globals, tables, terrain, targets, passes, watch, shader_error })
+        Ok(Self {
+            metering: Metering::Manual,
+            target_format,
+            globals,
+            tables,
+            terrain,
+            targets,
+            passes,
+            watch,
+            shader_error,
+        })
     }
     /// Uploads tiles of a surface ahead of the frame that will draw it, at most so many bytes (but at least one tile). Whether
     /// all are there now. Without it [`Renderer::render`] uploads what it needs at once.
@@ -285,6 +311,8 @@ impl Renderer {
             self.passes.air.draw(&mut encoder, groups, &inputs.air[scene], &targets, scene);
             scene = 1 - scene;
         }
+        let metering = if frame.debug_view == DebugView::Shaded { self.metering } else { Metering::Manual };
+        self.passes.exposure.draw(queue, &mut encoder, &inputs.exposure[scene], size_px, metering);
         self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], target);
         queue.submit([encoder.finish()]);
         self.targets = Some((targets, inputs));

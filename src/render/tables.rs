@@ -32,7 +32,7 @@ pub struct TableRuns {
 /// The textures of group 1 and their bind groups.
 pub(crate) struct Tables {
     pub(crate) layout: wgpu::BindGroupLayout,
-    /// Transmittance, multiple scattering, irradiance, sky.
+    /// Optical depth, multiple scattering, irradiance, sky.
     air: [wgpu::TextureView; 4],
     weather: cloud_map::WeatherMap,
     noise: wgpu::TextureView,
@@ -69,7 +69,7 @@ impl Tables {
             ],
         );
         let air = [
-            gpu::target(device, "transmittance", [256, 64], FORMAT),
+            gpu::target(device, "optical depth", [256, 64], FORMAT),
             gpu::target(device, "multiscatter", [32, 32], FORMAT),
             gpu::target(device, "irradiance", [64, 16], FORMAT),
             gpu::target(device, "sky", [64, 32], FORMAT),
@@ -159,8 +159,8 @@ impl Tables {
 
     fn fill_air(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, passes: &Passes) {
         let (air, Groups { first_of_air: first, first_two_of_air: two, .. }) = (&passes.air_tables, &self.groups);
-        let [transmittance, multiscatter, irradiance, sky] = &self.air;
-        gpu::draw_screen(encoder, "transmittance", &air.transmittance, &[globals], &[transmittance]);
+        let [optical_depth, multiscatter, irradiance, sky] = &self.air;
+        gpu::draw_screen(encoder, "optical depth", &air.optical_depth, &[globals], &[optical_depth]);
         gpu::draw_screen(encoder, "multiscatter", &air.multiscatter, &[globals, first], &[multiscatter]);
         gpu::draw_screen(encoder, "irradiance", &air.irradiance, &[globals, two], &[irradiance]);
         gpu::draw_screen(encoder, "sky", &air.sky, &[globals, two], &[sky]);
@@ -181,9 +181,9 @@ impl Groups {
             let mut air = air.each_ref();
             let first = air[0];
             air[ready..].fill(first);
-            let [transmittance, multiscatter, irradiance, sky] = air;
+            let [optical_depth, multiscatter, irradiance, sky] = air;
             let views =
-                [transmittance, multiscatter, irradiance, sky, weather, noise, &biomes.albedo, &biomes.roughness];
+                [optical_depth, multiscatter, irradiance, sky, weather, noise, &biomes.albedo, &biomes.roughness];
             gpu::texture_group(device, "tables", layout, &views)
         };
         Self { all: bind(4), first_of_air: bind(1), first_two_of_air: bind(2) }

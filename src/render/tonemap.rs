@@ -15,14 +15,26 @@ impl TonemapPass {
         globals: &wgpu::BindGroupLayout,
         format: wgpu::TextureFormat,
     ) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "tonemap", &[Slot::Float2d]);
+        let layout = gpu::layout(device, "tonemap", &[Slot::Float2d, Slot::Uniform]);
         let pipeline = gpu::screen_pipeline(device, "tonemap.wgsl", &[globals, &layout], &[format])?;
         Ok(Self { pipeline, layout })
     }
 
-    /// Binds the radiance it is to show.
-    pub(crate) fn bind(&self, device: &wgpu::Device, hdr: &wgpu::TextureView) -> wgpu::BindGroup {
-        gpu::texture_group(device, "tonemap", &self.layout, &[hdr])
+    /// Binds the radiance it is to show and what was metered, see [`super::exposure::ExposurePass::result`].
+    pub(crate) fn bind(
+        &self,
+        device: &wgpu::Device,
+        hdr: &wgpu::TextureView,
+        exposure: &wgpu::Buffer,
+    ) -> wgpu::BindGroup {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("tonemap"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(hdr) },
+                wgpu::BindGroupEntry { binding: 1, resource: exposure.as_entire_binding() },
+            ],
+        })
     }
 
     /// Shows what [`Self::bind`] bound in `target`.

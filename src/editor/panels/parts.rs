@@ -3,7 +3,9 @@
 use super::Draft;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::param::{ParamPath, Params, Segment};
-use crate::planet::{Atmosphere, Climate, Clouds, Planet, Star, Water};
+use crate::planet::{
+    Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, Star, Water, star_color, star_kelvin,
+};
 use eframe::egui;
 
 /// Parts that were turned off, with the values they had.
@@ -23,6 +25,17 @@ pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 
 /// The star.
 pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
+    ui.horizontal(|ui| {
+        let label = ui.label("Colour of a star of");
+        let mut kelvin = star_kelvin(draft.planet.star.color).round();
+        let value = egui::DragValue::new(&mut kelvin).range(STAR_KELVIN).speed(20.0).suffix(" K");
+        let response = ui.add(value).labelled_by(label.id);
+        if response.on_hover_text("Sets the colour to that of a star of this temperature; the Sun has 5772 K").changed()
+        {
+            draft.planet.star.color = star_color(kelvin);
+        }
+    });
+    ui.add_space(4.0);
     whole(ui, "star", &mut draft.planet.star, &mut Star::default(), draft.problems);
     ui.add_space(4.0);
     ui.weak("Shift and drag on the planet turns the star.");
@@ -41,6 +54,16 @@ pub fn water(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'
 
 /// The air, if there is any.
 pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
+    ui.menu_button("Start from …", |ui| {
+        for air in STARTING_AIRS {
+            if ui.button(air.name).on_hover_text(air.note).clicked() {
+                draft.planet.atmosphere = Some(air.atmosphere());
+                draft.label = Some(format!("Start from air: {}", air.name));
+                ui.close();
+            }
+        }
+    });
+    ui.add_space(4.0);
     let (part, kept) = (&mut draft.planet.atmosphere, &mut remembered.atmosphere);
     let label = optional(ui, "atmosphere", part, kept, draft.problems);
     draft.label = label.or(draft.label.take());

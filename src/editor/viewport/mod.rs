@@ -7,8 +7,10 @@
 //! - `outline`: what a frozen view sees, drawn into another
 //! - [`pointer`]: what lies under the pointer
 //! - [`swap`]: the surface on screen, and the next one while it is uploaded
+//! - [`adaptation`]: exposure that follows what there is to see
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, where it went, the time of each frame
 
+pub mod adaptation;
 pub mod camera;
 pub mod clock;
 pub mod frames;
@@ -26,6 +28,7 @@ use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns};
 use crate::sphere::LatLon;
+use adaptation::Adaptation;
 use camera::pose::Pose;
 use camera::{Cameras, Ground};
 use clock::{EditClock, FrameMeter, same_tiles};
@@ -52,6 +55,8 @@ pub struct ViewSettings {
     pub freeze_detail: bool,
     /// Exposure in stops.
     pub exposure_ev: f64,
+    /// Whether the exposure is a correction to what suits the picture.
+    pub auto_exposure: bool,
     /// Seconds since time zero.
     pub time_secs: f64,
     /// Whether time goes on.
@@ -68,6 +73,7 @@ struct PictureKey {
     frozen: Option<View>,
     time_secs: f64,
     exposure_ev: f64,
+    auto_exposure: bool,
     debug_view: DebugView,
 }
 
@@ -79,6 +85,7 @@ impl PictureKey {
             && self.frozen == other.frozen
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
+            && self.auto_exposure == other.auto_exposure
             && self.debug_view == other.debug_view
     }
 }
@@ -116,6 +123,7 @@ pub struct Viewport {
     drawing: Drawing,
     target: Option<Target>,
     drawn: Option<PictureKey>,
+    adaptation: Adaptation,
     stats: FrameStats,
     cameras: Cameras,
     ground_radius_m: f64,
@@ -143,6 +151,8 @@ impl Viewport {
             wgpu::DeviceType::DiscreteGpu => Quality::High,
             _ => Quality::Medium,
         });
+        // On a software adapter the pictures in between would cost more than they please.
+        let by_eye = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
         let (ctx, pointer_ctx) = (ctx.clone(), ctx.clone());
         Self {
             settings: ViewSettings {
@@ -150,6 +160,7 @@ impl Viewport {
                 quality,
                 freeze_detail: false,
                 exposure_ev: 0.0,
+                auto_exposure: true,
                 time_secs: 0.0,
                 playing: false,
                 time_speed: 600.0,
@@ -163,6 +174,7 @@ impl Viewport {
             drawing,
             target: None,
             drawn: None,
+            adaptation: Adaptation::new(by_eye),
             stats: FrameStats::default(),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
@@ -310,6 +322,8 @@ impl Viewport {
         self.moving = moved.animating;
         if moved.animating || settings.playing {
             ui.ctx().request_repaint();
+        } else if settings.auto_exposure && self.adaptation.is_under_way() {
+            ui.ctx().request_repaint_after(adaptation::PAUSE);
         }
 
         let pixels_per_point = ui.ctx().pixels_per_point();
@@ -370,16 +384,20 @@ impl Viewport {
             frozen: self.frozen,
             time_secs: self.settings.time_secs,
             exposure_ev: self.settings.exposure_ev,
+            auto_exposure: self.settings.auto_exposure,
             debug_view: self.settings.debug_view,
         };
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
         let resized = target.resize(view.size_px);
-        if !resized && self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key)) {
+        let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
+        let adapting = self.settings.auto_exposure && self.adaptation.is_under_way();
+        if !changed && !adapting {
             if !self.swap.is_uploading() {
                 self.upload = None;
             }
             return;
         }
+        renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
         let star = &planet.star;
         let begin = Instant::now();
         self.stats = renderer.render(

@@ -1,0 +1,34 @@
+// Table: optical depth from an altitude to the top of the air, by cosine to the zenith. Depths are stored, not transmittances:
+// between texels they change evenly, and 16 bits hold those of the deepest red sunset.
+#include "screen.wgsl"
+#include "air_model.wgsl"
+
+@fragment
+fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let x = (pixel.xy - 0.5) / (DEPTH_SIZE - 1.0);
+    let radius = globals.eye_km.w;
+    let top = globals.air.x;
+    // The inverse of depth_uv.
+    let horizon2 = top * (2.0 * radius + top);
+    let rho = x.y * sqrt(horizon2);
+    let h = rho * rho / (radius + sqrt(radius * radius + rho * rho));
+    let r = radius + h;
+    let way_min = top - h;
+    let way_max = rho + sqrt(horizon2);
+    let way = way_min + x.x * (way_max - way_min);
+    var mu = 1.0;
+    if way > 0.0 { mu = clamp((horizon2 - rho * rho - way * way) / (2.0 * r * way), -1.0, 1.0); }
+
+    // Steps crowd about the lowest point of the way, where air is densest.
+    const STEPS: u32 = 40u;
+    let middle = clamp(-r * mu, 0.0, way);
+    let start = -sqrt(middle);
+    let step = (sqrt(way - middle) - start) / f32(STEPS);
+    var depth = vec3f(0.0);
+    for (var i = 0u; i < STEPS; i++) {
+        let w = start + f32(i) * step;
+        let length_km = bent(w + step, middle) - bent(w, middle);
+        depth += air_at(altitude_along(radius, h, mu, bent(w + 0.5 * step, middle))).extinction * length_km;
+    }
+    return vec4f(min(depth, vec3f(60000.0)), 1.0);
+}

@@ -1,0 +1,78 @@
+//! What the air is made of: scattering and extinction by altitude, phase functions.
+
+use crate::planet::Atmosphere;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Coefficients per kilometre at the reference sphere, and how they thin out.
+#[derive(Clone, Debug)]
+pub(super) struct Medium {
+    pub(super) top: f64,
+    rayleigh: DVec3,
+    rayleigh_scale: f64,
+    mie_scattering: DVec3,
+    mie_extinction: DVec3,
+    mie_scale: f64,
+    anisotropy: f64,
+    absorber: DVec3,
+    absorber_height: f64,
+    absorber_width: f64,
+    pub(super) ground_albedo: DVec3,
+}
+
+/// One place of the air: coefficients per kilometre.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) rayleigh: DVec3,
+    pub(super) mie: DVec3,
+    pub(super) extinction: DVec3,
+}
+
+impl Medium {
+    pub(super) fn new(air: &Atmosphere) -> Self {
+        let mie_scattering = DVec3::from_array(air.mie_scattering_per_km);
+        Self {
+            top: air.height_km,
+            rayleigh: DVec3::from_array(air.rayleigh_per_km),
+            rayleigh_scale: air.rayleigh_scale_km,
+            mie_scattering,
+            mie_extinction: mie_scattering + DVec3::from_array(air.mie_absorption_per_km),
+            mie_scale: air.mie_scale_km,
+            anisotropy: air.mie_anisotropy,
+            absorber: DVec3::from_array(air.absorber_per_km),
+            absorber_height: air.absorber_height_km,
+            absorber_width: air.absorber_width_km,
+            ground_albedo: DVec3::from_array(air.ground_albedo),
+        }
+    }
+
+    pub(super) fn at(&self, altitude: f64) -> Place {
+        let h = altitude.max(0.0);
+        let rayleigh = self.rayleigh * (-h / self.rayleigh_scale).exp();
+        let haze = (-h / self.mie_scale).exp();
+        let absorber = self.absorber * (1.0 - (h - self.absorber_height).abs() / self.absorber_width).max(0.0);
+        let extinction = rayleigh + self.mie_extinction * haze + absorber;
+        Place { rayleigh, mie: self.mie_scattering * haze, extinction }
+    }
+
+    /// No place of the air has a greater extinction.
+    pub(super) fn greatest_extinction(&self) -> DVec3 {
+        self.rayleigh + self.mie_extinction + self.absorber
+    }
+
+    /// Cornette and Shanks, Physically reasonable analytic expression for the single-scattering phase function, 1992.
+    pub(super) fn mie_phase(&self, cosine: f64) -> f64 {
+        let g = self.anisotropy;
+        let base = (1.0 + g * g - 2.0 * g * cosine).max(1e-6);
+        3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + cosine * cosine) / ((2.0 + g * g) * base * base.sqrt())
+    }
+
+    /// Asymmetry of the Mie phase function.
+    pub(super) fn anisotropy(&self) -> f64 {
+        self.anisotropy
+    }
+}
+
+pub(super) fn rayleigh_phase(cosine: f64) -> f64 {
+    3.0 / (16.0 * PI) * (1.0 + cosine * cosine)
+}

@@ -1,0 +1,102 @@
+//! Atmospheres to start from. Like the Earth's, the figures are those of real air as far as they are known (surface densities,
+//! scale heights, optical depths), rounded, and then tuned by eye for three colours.
+
+use super::Atmosphere;
+
+/// A named atmosphere.
+#[derive(Clone, Copy, Debug)]
+pub struct StartingAir {
+    /// What it is called, as a person reads it.
+    pub name: &'static str,
+    /// What to expect of it, in a few words.
+    pub note: &'static str,
+    make: fn() -> Atmosphere,
+}
+
+impl StartingAir {
+    /// The atmosphere itself.
+    pub fn atmosphere(&self) -> Atmosphere {
+        (self.make)()
+    }
+}
+
+/// All of them, the Earth's first.
+pub const STARTING_AIRS: &[StartingAir] = &[
+    StartingAir { name: "Earth", note: "Blue by day, red at sunset", make: Atmosphere::default },
+    StartingAir { name: "Mars", note: "Thin and dusty: butterscotch by day, a blue sunset", make: mars },
+    StartingAir { name: "Titan", note: "Deep orange haze high above the ground", make: titan },
+    StartingAir { name: "Venus", note: "Dense and yellow; the ground lies in an orange dusk", make: venus },
+    StartingAir { name: "Alien green", note: "Green by day, a violet sunset", make: green },
+];
+
+/// Dust takes more red out of light than blue, and swallows blue: what is left around a low star is blue.
+fn mars() -> Atmosphere {
+    Atmosphere {
+        height_km: 100.0,
+        rayleigh_per_km: [0.00008, 0.00019, 0.00046],
+        rayleigh_scale_km: 11.1,
+        mie_scattering_per_km: [0.03, 0.0225, 0.0145],
+        mie_absorption_per_km: [0.0008, 0.003, 0.006],
+        mie_scale_km: 11.1,
+        mie_anisotropy: 0.72,
+        absorber_per_km: [0.0; 3],
+        ground_albedo: [0.3, 0.17, 0.1],
+        ..Atmosphere::default()
+    }
+}
+
+/// Four times the Earth's density at the ground, a haze that reaches hundreds of kilometres up.
+fn titan() -> Atmosphere {
+    Atmosphere {
+        height_km: 500.0,
+        rayleigh_per_km: [0.024, 0.057, 0.14],
+        rayleigh_scale_km: 20.0,
+        mie_scattering_per_km: [0.045, 0.034, 0.014],
+        mie_absorption_per_km: [0.003, 0.012, 0.034],
+        mie_scale_km: 55.0,
+        mie_anisotropy: 0.6,
+        absorber_per_km: [0.0, 0.002, 0.006],
+        absorber_height_km: 200.0,
+        absorber_width_km: 120.0,
+        ground_albedo: [0.18, 0.12, 0.07],
+    }
+}
+
+fn venus() -> Atmosphere {
+    Atmosphere {
+        height_km: 160.0,
+        rayleigh_per_km: [0.05, 0.118, 0.29],
+        rayleigh_scale_km: 14.0,
+        mie_scattering_per_km: [0.06, 0.056, 0.046],
+        mie_absorption_per_km: [0.0003, 0.002, 0.008],
+        mie_scale_km: 16.0,
+        mie_anisotropy: 0.7,
+        absorber_per_km: [0.0005, 0.004, 0.016],
+        absorber_height_km: 60.0,
+        absorber_width_km: 15.0,
+        ground_albedo: [0.25, 0.2, 0.13],
+    }
+}
+
+fn green() -> Atmosphere {
+    Atmosphere {
+        rayleigh_per_km: [0.0065, 0.024, 0.0125],
+        rayleigh_scale_km: 9.0,
+        absorber_per_km: [0.0006, 0.0015, 0.0002],
+        ..Atmosphere::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::{Planet, validate};
+
+    #[test]
+    fn every_starting_air_is_valid() {
+        for air in STARTING_AIRS {
+            let planet = Planet { atmosphere: Some(air.atmosphere()), ..Planet::default() };
+            assert_eq!(validate::problems(&planet), [], "{}", air.name);
+        }
+    }
+}
