@@ -37,6 +37,7 @@ params! {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::param::Stages;
     use crate::planet::{Planet, VERSION, diff, random};
 
     fn planet() -> Planet {

@@ -102,7 +102,7 @@ pub(crate) trait Real:
     #[inline(always)]
     fn smoothstep(self, from: f32, to: f32) -> Self {
         let span = 1.0 / (to - from);
-        let t = ((self.value() - from) * span).max(0.0).min(1.0);
+        let t = ((self.value() - from) * span).clamp(0.0, 1.0);
         self.chain(t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) * span)
     }
 }
@@ -216,6 +216,8 @@ impl Sub for Jet {
 
 impl Mul for Jet {
     type Output = Self;
+    // The product rule is a sum.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let d = |i: usize| self.d[i] * o.v + o.d[i] * self.v;

@@ -60,8 +60,8 @@ impl Noise {
 
 #[inline(always)]
 fn find_cells_body(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) {
-    for axis in 0..3 {
-        let (p, cell, fraction) = (skewed[axis], &mut noise.cell[axis], &mut noise.fraction[axis]);
+    for (axis, p) in skewed.into_iter().enumerate() {
+        let (cell, fraction) = (&mut noise.cell[axis], &mut noise.fraction[axis]);
         for ((p, cell), fraction) in p.iter().zip(cell).zip(fraction) {
             (*cell, *fraction) = split(p * octave.frequency + octave.offset[axis]);
         }

@@ -119,8 +119,8 @@ mod tests {
         let mut noise = Noise::default();
         for (octave, sum) in components(&octave).iter().zip(&sums) {
             noise.values(Simd::detect(), skewed, octave);
-            for i in 0..CHUNK {
-                assert!((1.0 + 2.0 * f64::from(noise.value[i]) - sum[i]).abs() < 2e-6);
+            for (value, sum) in noise.value.iter().zip(sum) {
+                assert!((1.0 + 2.0 * f64::from(*value) - sum).abs() < 2e-6);
             }
         }
         for simd in Simd::available() {
