@@ -128,8 +128,7 @@ fn carve_body<R: Real>(
         let (x, y, z) = (gx.scale(scale), gy.scale(scale), gz.scale(scale));
         let upward = x * R::load(px, i) + y * R::load(py, i) + z * R::load(pz, i);
         let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
-        let distance =
-            R::noise(noise, i).abs() * along.plus(LEAST_GRADIENT * LEAST_GRADIENT).sqrt().recip();
+        let distance = R::noise(noise, i).abs() * along.plus(LEAST_GRADIENT * LEAST_GRADIENT).sqrt().recip();
         let wall = distance.scale(channel.narrowness).smoothstep(channel.floor, 1.0);
         let cut = (R::constant(1.0) - wall) * R::load(wet, i).scale(depth);
         let left = R::load(uncut, i);

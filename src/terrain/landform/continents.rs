@@ -164,7 +164,7 @@ mod tests {
                 heights.iter().filter(|h| (from..to).contains(*h)).count() as f64 / heights.len() as f64
             };
             let (is_land, is_shelf) = (share(0.0, 2.0), share(SHELF_EDGE, 0.0) / (1.0 - land));
-            
+
             assert!((is_land - land).abs() < 0.03, "{is_land} of {land}");
             assert!((is_shelf - shelf).abs() < 0.04, "{is_shelf} of {shelf}");
         }

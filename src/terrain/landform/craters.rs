@@ -136,7 +136,6 @@ impl Evaluate for Craters {
         (-1.0, 1.0)
     }
 
-
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, jets: [craters, ..], .. } = scratch;
         let n = chunk.len();
@@ -206,8 +205,11 @@ fn crater<R: Real>(to: [f32; 3], dir: [f32; 3], random: u32, mould: Mould) -> R 
     let (height, slope) = mould.profile(distance / radius, unit(random >> 20));
 
     let nearness = (1.0 - off.abs() * (1.0 / THICKNESS)).max(0.0);
-    let depth =
-        if unit(random) < mould.density { nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS) } else { 0.0 };
+    let depth = if unit(random) < mould.density {
+        nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS)
+    } else {
+        0.0
+    };
     let pull = -depth * slope / (radius * distance.max(1e-6));
     R::of(depth * height, [pull * flat[0], pull * flat[1], pull * flat[2]])
 }

@@ -128,7 +128,15 @@ impl Evaluate for Dunes {
 
 /// Adds the waves that the points of one cell of the eight send out, to the real and the imaginary part.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) {
+fn send_body<R: Real>(
+    n: usize,
+    places: &Places,
+    corner: [i32; 3],
+    octave: &Octave,
+    wind: Wind,
+    re: &mut Jets,
+    im: &mut Jets,
+) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let cell_rad = (1.0 / octave.frequency) as f32;
     for i in 0..n.min(CHUNK) {
@@ -167,7 +175,15 @@ for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], oc
 
 /// The height of dunes from the sum of waves and the noise that bends them.
 #[inline(always)]
-fn pile_body<R: Real>(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) {
+fn pile_body<R: Real>(
+    n: usize,
+    re: &Jets,
+    im: &Jets,
+    bends: &Noise,
+    waviness: f32,
+    profile: Profile,
+    dunes: &mut Jets,
+) {
     for i in 0..n.min(CHUNK) {
         let (re, im) = (R::load(re, i), R::load(im, i));
         let square = re.square() + im.square();
@@ -232,7 +248,8 @@ mod tests {
     #[test]
     fn the_lee_is_steep_and_lies_where_the_wind_blows_to() {
         for heading_deg in [0.0, 90.0, 200.0] {
-            let params = planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
+            let params =
+                planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
             let dirs = check::directions(4000);
             let (_, gradients) = check::evaluate(&Dunes::new(&params, 7, 6371.0), Simd::detect(), &dirs, EXACT);
             let (mut rising, mut steepest_rise, mut steepest_fall) = (0, 0.0_f64, 0.0_f64);

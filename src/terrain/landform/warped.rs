@@ -90,6 +90,6 @@ mod tests {
                 worst_m = worst_m.max(bend_m.abs());
             }
         }
-         assert!(worst_m < 7e-4, "{worst_m}");
+        assert!(worst_m < 7e-4, "{worst_m}");
     }
 }
