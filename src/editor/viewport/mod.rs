@@ -5,7 +5,7 @@
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
 //! - `outline`: what a frozen view sees, drawn into another
-//! - [`pointer`]: what lies under the pointer
+//! - [`mod@pointer`]: what lies under the pointer
 //! - [`swap`]: the surface on screen, and the next one while it is uploaded
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, where it went, the time of each frame
 
