@@ -210,21 +210,7 @@ for_each_simd!(fn swell_gradients(n: usize, frequency: f32, first: &Jets, height
 
 #[cfg(test)]
 mod tests {
-    use super::super::check;
     use super::*;
-
-    fn cells(style: CellStyle) -> Cells {
-        Cells::new(&planet::Cells { style, cell_km: 700.0, octaves: 2, width: 0.4, ..Default::default() }, 7, 6371.0)
-    }
-
-    #[test]
-    fn cells_are_sound() {
-        for style in [CellStyle::Plates, CellStyle::Cracks, CellStyle::Bumps] {
-            check::kind(&cells(style), 0.02);
-            let (mean, deviation) = check::statistics(&cells(style));
-            assert!(mean.abs() < 0.6 && (0.15..0.6).contains(&deviation), "{style:?} {mean} {deviation}");
-        }
-    }
 
     /// Every cell that is left out is farther away than the two nearest centres can be.
     #[test]
@@ -249,14 +235,6 @@ mod tests {
                 assert!(distance(cell, false) > f64::from(HORIZON) - 1e-6, "{cell:?} from {p:?}");
             }
             assert!(farthest[1] < f64::from(HORIZON), "{p:?}");
-        }
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        for style in [CellStyle::Plates, CellStyle::Cracks] {
-            check::speed(&format!("{style:?}"), &cells(style));
         }
     }
 }

@@ -216,7 +216,6 @@ fn crater<R: Real>(to: [f32; 3], dir: [f32; 3], random: u32, mould: Mould) -> R 
 
 #[cfg(test)]
 mod tests {
-    use super::super::check;
     use super::*;
 
     fn moon() -> planet::Craters {
@@ -229,13 +228,6 @@ mod tests {
             age: 0.9,
             fresh: 0.1,
             ..Default::default()
-        }
-    }
-
-    #[test]
-    fn craters_are_sound() {
-        for params in [planet::Craters { octaves: 2, ..Default::default() }, moon()] {
-            check::kind(&Craters::new(&params, 7, 1740.0), 0.02);
         }
     }
 
@@ -263,11 +255,5 @@ mod tests {
             let law = (f64::powf(diameter, -2.4) - 1.0) / (f64::powf(0.5, -2.4) - 1.0);
             assert!((count / law - 1.0).abs() < 0.15, "{diameter}: {count} {law}");
         }
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        check::speed("craters", &Craters::new(&planet::Craters::default(), 7, 1740.0));
     }
 }

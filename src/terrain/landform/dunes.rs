@@ -227,22 +227,10 @@ impl Profile {
 
 #[cfg(test)]
 mod tests {
-    use super::super::check;
+    use super::super::Landform;
+    use super::super::tests::{directions, gradients};
     use super::*;
     use crate::sphere::geo::east_north;
-    use crate::terrain::field::EXACT;
-    use crate::terrain::simd::Simd;
-
-    fn dunes() -> Dunes {
-        Dunes::new(&planet::Dunes { wavelength_km: 400.0, ..Default::default() }, 7, 6371.0)
-    }
-
-    #[test]
-    fn dunes_are_sound() {
-        check::kind(&dunes(), 0.02);
-        let (mean, deviation) = check::statistics(&dunes());
-        assert!((-0.5..0.1).contains(&mean) && (0.4..0.8).contains(&deviation), "{mean} {deviation}");
-    }
 
     /// With the wind the ground rises gently for most of the way and falls steeply.
     #[test]
@@ -250,10 +238,10 @@ mod tests {
         for heading_deg in [0.0, 90.0, 200.0] {
             let params =
                 planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
-            let dirs = check::directions(4000);
-            let (_, gradients) = check::evaluate(&Dunes::new(&params, 7, 6371.0), Simd::detect(), &dirs, EXACT);
+            let dirs = directions(4000);
+            let landform = Landform::Dunes(Dunes::new(&params, 7, 6371.0));
             let (mut rising, mut steepest_rise, mut steepest_fall) = (0, 0.0_f64, 0.0_f64);
-            for (dir, gradient) in dirs.iter().zip(&gradients).filter(|(dir, _)| dir.z.abs() < 0.9) {
+            for (dir, gradient) in dirs.iter().zip(gradients(&landform, &dirs)).filter(|(dir, _)| dir.z.abs() < 0.9) {
                 let (east, north) = east_north(*dir);
                 let (sin, cos) = f64::to_radians(heading_deg).sin_cos();
                 let rise = gradient.dot(east * sin + north * cos);
@@ -264,11 +252,5 @@ mod tests {
             assert!(rising > 2300, "{heading_deg}: {rising}");
             assert!(steepest_fall > 1.5 * steepest_rise, "{heading_deg}: {steepest_fall} {steepest_rise}");
         }
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        check::speed("dunes", &dunes());
     }
 }

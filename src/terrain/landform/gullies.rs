@@ -290,27 +290,3 @@ fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work) {
 }
 for_each_simd!(fn carve_values(n: usize, gully: &Carved, work: &mut Work) = carve_body::<f32>);
 for_each_simd!(fn carve_gradients(n: usize, gully: &Carved, work: &mut Work) = carve_body::<Jet>);
-
-#[cfg(test)]
-mod tests {
-    use super::super::check;
-    use super::*;
-
-    fn gullies() -> Gullies {
-        let params = planet::Gullies { wavelength_km: 4000.0, gully_km: 900.0, gully_octaves: 3, ..Default::default() };
-        Gullies::new(&params, 7, 6371.0)
-    }
-
-    #[test]
-    fn gullies_are_sound() {
-        check::kind(&gullies(), 0.0);
-        let (mean, deviation) = check::statistics(&gullies());
-        assert!(mean.abs() < 0.2 && (0.2..0.5).contains(&deviation), "{mean} {deviation}");
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        check::speed("gullies", &gullies());
-    }
-}

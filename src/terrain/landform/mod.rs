@@ -17,14 +17,12 @@
 //! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
-//! - `check`: what every kind must hold, for tests
+//! - `tests`: what every kind must hold
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
 //! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
 //! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
-#[cfg(test)]
-mod check;
 mod curve;
 mod octaves;
 mod places;
