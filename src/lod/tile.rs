@@ -15,19 +15,20 @@ pub const NORMAL_SIDE: usize = 4 * TILE_QUADS + 1;
 
 /// The ground's slope over a node, four times as fine as its mesh: what a tile's normals are too coarse to show.
 ///
-/// Linear interpolation between texels, of which the first and the last lie on the node's edges, gives rise over run along two
-/// tangents of the sphere, as [`slope_basis`] has them at each point: the normal is along `up - x * east - y * north`.
+/// Linear interpolation between texels, of which the first and the last lie on the node's edges, gives rise over run
+/// along two tangents of the sphere, as [`slope_basis`] has them at each point: the normal is along
+/// `up - x * east - y * north`.
 #[derive(Debug)]
 pub struct NormalTile {
     /// Different for any two ever built.
     pub serial: u64,
-    /// [`NORMAL_SIDE`] rows of [`NORMAL_SIDE`] texels, as half floats: the slope along both tangents, with relief finer than
-    /// twice the texel spacing faded out; and the same as the parent's would have it.
+    /// [`NORMAL_SIDE`] rows of [`NORMAL_SIDE`] texels, as half floats: the slope along both tangents, with relief finer
+    /// than twice the texel spacing faded out; and the same as the parent's would have it.
     pub texels: Vec<[half::f16; 4]>,
 }
 
-/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's first axis
-/// as it can be, and the one to its left, seen from outside.
+/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's
+/// first axis as it can be, and the one to its left, seen from outside.
 pub fn slope_basis(face: Face, dir_planet: DVec3) -> [DVec3; 2] {
     let along = slope_axis(face);
     let east = (along - dir_planet * dir_planet.dot(along)).normalize_or_zero();
@@ -44,9 +45,9 @@ pub fn slope_axis(face: Face) -> DVec3 {
 
 /// One vertex, 44 bytes.
 ///
-/// The position in the planet frame is `high + low`: each component is an f64 split into two f32. A shader that computes
-/// `(high - eye_high) + (low - eye_low)` gets the position relative to the eye without loss, and the same bits for the
-/// same point in every tile, so that neighbouring tiles meet without a pinhole.
+/// The position in the planet frame is `high + low`: each component is an f64 split into two f32. A shader that
+/// computes `(high - eye_high) + (low - eye_low)` gets the position relative to the eye without loss, and the same bits
+/// for the same point in every tile, so that neighbouring tiles meet without a pinhole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "render", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -59,9 +60,11 @@ pub struct Vertex {
     pub position_low_m: [f32; 3],
     /// Temperature at the surface, °C.
     pub temperature_c: f32,
-    /// Where in the biome table: moisture (0 dry to 65535 wet) and row (0 = last row, coldest or lowest; 65535 = first).
+    /// Where in the biome table: moisture (0 dry to 65535 wet) and row (0 = last row, coldest
+    /// or lowest; 65535 = first).
     pub climate_unorm: [u16; 2],
-    /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex spacing is faded out of it.
+    /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex
+    /// spacing is faded out of it.
     pub normal_oct: [i16; 2],
     /// The same as the parent tile would have it here: blend to it with distance, so that no level change shows.
     pub parent_normal_oct: [i16; 2],

@@ -1,8 +1,8 @@
 //! What a planet is: plain data, its description, its file.
 //!
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
-//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; where they act;
-//!   everything else; the biome table); `kinds` writes the enums whose values carry parameters
+//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; where
+//!   they act; everything else; the biome table); `kinds` writes the enums whose values carry parameters
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
@@ -46,8 +46,8 @@ pub use table::Table;
 use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};
 use serde::{Deserialize, Serialize};
 
-/// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old version
-/// is migrated when it is read, and keeps its exact heights.
+/// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
+/// version is migrated when it is read, and keeps its exact heights.
 pub const VERSION: u32 = 2;
 
 /// Most layers a planet may have.
@@ -74,8 +74,8 @@ params! {
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
         radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
-        /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it is; beyond
-        /// its ends the curve goes on straight.
+        /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it
+        /// is; beyond its ends the curve goes on straight.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;
     } with {
         /// The star that lights the planet.

@@ -1,7 +1,7 @@
 //! Numbers that carry their gradient, so that a landform's formula is written once.
 //!
-//! A formula generic over [`Real`] is compiled for `f32` (heights alone) and for [`Jet`] (heights with gradients, by forward
-//! differentiation). The value of a jet goes through the very operations of the plain number: the same bits.
+//! A formula generic over [`Real`] is compiled for `f32` (heights alone) and for [`Jet`] (heights with gradients, by
+//! forward differentiation). The value of a jet goes through the very operations of the plain number: the same bits.
 
 use super::noise::{CHUNK, Lane, Noise};
 use std::ops::{Add, Mul, Neg, Sub};
@@ -55,8 +55,8 @@ pub(crate) trait Real:
     fn store(self, jets: &mut Jets, i: usize);
     /// The noise at the `i`th point.
     fn noise(noise: &Noise, i: usize) -> Self;
-    /// The gradient of the noise at the `i`th point, itself with gradients; needs [`Noise::gradients`] for plain numbers and
-    /// [`Noise::curvatures`] for jets.
+    /// The gradient of the noise at the `i`th point, itself with gradients; needs [`Noise::gradients`] for plain
+    /// numbers and [`Noise::curvatures`] for jets.
     fn noise_gradient(noise: &Noise, i: usize) -> [Self; 3];
 
     /// Times a plain number.

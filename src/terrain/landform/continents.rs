@@ -1,8 +1,8 @@
-//! Continents and oceans: warped fractal noise put through a hypsometric curve, which gives each part of the globe its share of
-//! the surface: abyssal plain, continental rise and slope, shelf, coastal plain, interior.
+//! Continents and oceans: warped fractal noise put through a hypsometric curve, which gives each part of the globe its
+//! share of the surface: abyssal plain, continental rise and slope, shelf, coastal plain, interior.
 //!
-//! A globe holds few continents, so the shares of the bare noise differ much from seed to seed. The curve is therefore laid
-//! through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
+//! A globe holds few continents, so the shares of the bare noise differ much from seed to seed. The curve is therefore
+//! laid through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
 
 use super::curve::Curve;
 use super::fbm::{LEAST_POINTS, add_octaves};

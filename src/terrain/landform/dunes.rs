@@ -1,11 +1,12 @@
 //! Dunes: phasor noise (Tricard et al. 2019), waves that run with the wind.
 //!
-//! Jittered points in 3D cells each send out a wave `e^iθ` along the wind at their own place, faded with distance. Their sum
-//! is a complex number whose angle is a phase without seam, and a profile drawn over that phase has crests of equal height
-//! that fork and end as those of real dunes do. Where the sum is zero the phase is undefined; dunes run out before that.
+//! Jittered points in 3D cells each send out a wave `e^iθ` along the wind at their own place, faded with distance.
+//! Their sum is a complex number whose angle is a phase without seam, and a profile drawn over that phase has
+//! crests of equal height that fork and end as those of real dunes do. Where the sum is zero the phase is
+//! undefined; dunes run out before that.
 //!
-//! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly. Reach
-//! and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
+//! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly.
+//! Reach and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
 
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
@@ -209,7 +210,8 @@ impl Profile {
         Self { windward: 0.5 + 0.3 * asymmetry, brink: asymmetry }
     }
 
-    /// The height over the trough, 0 to 2, at a phase in turns. The windward side rises from trough to crest, the lee falls.
+    /// The height over the trough, 0 to 2, at a phase in turns. The windward side rises from trough
+    /// to crest, the lee falls.
     #[inline(always)]
     fn height<R: Real>(self, phase: R) -> R {
         let wrapped = approx::wrap(phase.value());

@@ -1,5 +1,5 @@
-//! Ridged multifractal (Musgrave, in Ebert et al. 2003): noise folded at zero into crests, `(1 - |n|)^2`, each octave strong
-//! where the one before was.
+//! Ridged multifractal (Musgrave, in Ebert et al. 2003): noise folded at zero into crests, `(1 - |n|)^2`, each octave
+//! strong where the one before was.
 
 use super::octaves::{Weighted, series};
 use super::{Chunk, Evaluate, Scratch};
