@@ -1,8 +1,8 @@
 //! Tellus: whole planets from one small file.
 //!
-//! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text through this
-//! crate and asks the same evaluator that drew the artist's picture: the height that is queried is the height that was seen,
-//! bit for bit, on every machine.
+//! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text
+//! through this crate and asks the same evaluator that drew the artist's picture: the height that is queried is the
+//! height that was seen, bit for bit, on every machine.
 //!
 //! ```
 //! use tellus::planet::Planet;
@@ -33,8 +33,8 @@
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
 //! - `editor`, `cli` (feature `editor`): the application and the command line
 //!
-//! Lengths are metres, angles radians, unless a name says otherwise. Frames are named in full (`sun_dir_planet`): the planet
-//! frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
+//! Lengths are metres, angles radians, unless a name says otherwise. Frames are named in full (`sun_dir_planet`): the
+//! planet frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
 pub mod atmosphere;
 pub mod build;

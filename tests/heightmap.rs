@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tellus::planet::param::Choice;
-use tellus::planet::{HeightMap, Layer, PictureLayout, Planet, Shape};
+use tellus::planet::{HeightMap, Layer, PictureLayout, Planet, Shape, VERSION};
 use tellus::sphere::LatLon;
 use tellus::sphere::raster::cube_direction;
 use tellus::terrain::Terrain;
@@ -193,7 +193,8 @@ fn a_picture_that_is_wrong_is_told_with_its_place_and_loses_no_work() {
         ("square.png", "CubeCross", "square.png is 8 x 8 pixels; a cube cross is 4 squares wide and 3 high"),
         ("square.png", "CubeStrip", "square.png is 8 x 8 pixels; a cube strip is 6 squares in a row or a column"),
     ] {
-        let text = format!("(version: 1, layers: [\n  (shape: HeightMap(layout: {layout}, file: {file:?})),\n])");
+        let text =
+            format!("(version: {VERSION}, layers: [\n  (shape: HeightMap(layout: {layout}, file: {file:?})),\n])");
         std::fs::write(path("p.ron"), &text).unwrap();
         let column = text.lines().nth(1).unwrap().find('"').unwrap() + 1;
         let said = said(folder.path(), "p.ron");
@@ -208,7 +209,7 @@ fn a_picture_that_is_wrong_is_told_with_its_place_and_loses_no_work() {
 
 #[test]
 fn a_height_map_without_a_file_is_valid_and_flat() {
-    let planet = Planet::from_text("p.ron", "(version: 1, layers: [(shape: HeightMap())])").unwrap();
+    let planet = Planet::from_text("p.ron", &format!("(version: {VERSION}, layers: [(shape: HeightMap())])")).unwrap();
     assert!(planet.missing_pictures().is_empty());
     let terrain = Terrain::new(Arc::new(planet));
     assert_eq!((terrain.height_m(DVec3::X), terrain.height_bounds_m()), (0.0, (0.0, 0.0)));

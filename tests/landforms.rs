@@ -1,4 +1,5 @@
-//! Every kind of layer, by itself: the same bits everywhere and for ever, true gradients, no value that is not a number.
+//! Every kind of layer, by itself: the same bits everywhere and for ever, true gradients, no
+//! value that is not a number.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use glam::DVec3;

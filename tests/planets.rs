@@ -1,5 +1,5 @@
-//! The planets that ship with the program, drawn as a person would see them: no holes, the same twice, and as they looked when
-//! somebody last looked (goldens, blessed on Mesa's software driver with `TELLUS_BLESS=1`).
+//! The planets that ship with the program, drawn as a person would see them: no holes, the same twice, and as they
+//! looked when somebody last looked (goldens, blessed on Mesa's software driver with `TELLUS_BLESS=1`).
 #![cfg(feature = "editor")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -74,7 +74,8 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
                 let frame = frame(&planet, &surface, view, sun);
                 let picture = gpu.draw(&frame);
                 assert!(lights(&picture).iter().any(|&light| light > 150), "{file} from {altitude_m} m is dark");
-                // Where there is air no place that the star stands over is black; a value that is not a number would be.
+                // Where there is air no place that the star stands over is black; a value that
+                // is not a number would be.
                 let noon = sun == noon_and_sunset(&planet)[0] && planet.atmosphere.is_some();
                 let black =
                     lights(&picture).iter().zip(&inside).filter(|(light, inside)| **inside && **light == 0).count();

@@ -1,5 +1,5 @@
-//! Rebuilds: which stages each parameter makes run, what is found again, and that whatever happens on the way, the end is
-//! what a build from nothing gives.
+//! Rebuilds: which stages each parameter makes run, what is found again, and that whatever happens on the way, the end
+//! is what a build from nothing gives.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 #[path = "support/edits.rs"]

@@ -1,5 +1,5 @@
-//! How evenly the cube mapping spreads its cells over the sphere, against the mappings it was chosen from. The figures stand
-//! in the README's design notes.
+//! How evenly the cube mapping spreads its cells over the sphere, against the mappings it was chosen from. The figures
+//! stand in the README's design notes.
 
 use glam::DVec3;
 use tellus::sphere::{Face, cube};
@@ -8,8 +8,8 @@ use tellus::sphere::{Face, cube};
 const SIDE: i32 = 128;
 const HALVINGS: u32 = 6;
 
-/// Over all cells: largest area over smallest; worst and mean ratio of the two principal stretches of a cell; longest over
-/// shortest of those stretches (the spacing of vertices).
+/// Over all cells: largest area over smallest; worst and mean ratio of the two principal stretches of a cell; longest
+/// over shortest of those stretches (the spacing of vertices).
 struct Distortion {
     area: f64,
     worst_stretch: f64,

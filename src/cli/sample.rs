@@ -19,8 +19,8 @@ pub(super) struct Args {
     /// Longitude in degrees, east positive
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: f64,
-    /// Answer as a JSON object: height_m, slope_deg, normal, temperature_c and precipitation_mm (a year), temperature and
-    /// moisture (0 to 1, the sides of the biome table), biome, layers
+    /// Answer as a JSON object: height_m, slope_deg, normal, temperature_c and precipitation_mm (a year), temperature
+    /// and moisture (0 to 1, the sides of the biome table), biome, layers
     #[arg(long)]
     json: bool,
 }

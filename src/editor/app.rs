@@ -1,7 +1,8 @@
 //! The eframe application: its state, and the order of things in a frame.
 //!
-//! `logic` takes in what came from outside (shortcuts, dropped files, dialogs, the close button) and carries out commands;
-//! `ui` shows everything, lets the panels change a draft of the planet, and turns a changed draft into an undo step.
+//! `logic` takes in what came from outside (shortcuts, dropped files, dialogs, the close button) and carries
+//! out commands; `ui` shows everything, lets the panels change a draft of the planet, and turns a changed
+//! draft into an undo step.
 
 use super::bookmarks::Renaming;
 use super::command::Command;

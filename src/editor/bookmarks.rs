@@ -1,4 +1,5 @@
-//! Views to come back to: kept in the preset, listed in a menu, gone to in a smooth flight. Each change is an undo step.
+//! Views to come back to: kept in the preset, listed in a menu, gone to in a smooth flight.
+//! Each change is an undo step.
 
 use super::app::EditorApp;
 use super::command::Command;

@@ -242,8 +242,8 @@ impl Command {
         }
     }
 
-    /// Whether a text field with the focus keeps the shortcut for itself: it has an undo of its own, and takes whatever can be
-    /// typed.
+    /// Whether a text field with the focus keeps the shortcut for itself: it has an undo of its own, and
+    /// takes whatever can be typed.
     pub fn yields_to_text(self) -> bool {
         matches!(self, Command::Undo | Command::Redo | Command::Show(_) | Command::LevelView | Command::Controls)
     }

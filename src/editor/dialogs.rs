@@ -49,8 +49,8 @@ pub struct NativeDialogs {
 const NO_DIALOGS: &str = "This desktop has no file dialogs. Install xdg-desktop-portal or zenity; or start Tellus with \
     the file's name (`tellus my.ron`), drop files on the window, and save with Ctrl+S.";
 
-/// Whether anything here can show a file dialog: on Linux that is a portal, reached over the session bus, or zenity. Without
-/// either the dialog would be "cancelled" at once, and nobody would know why.
+/// Whether anything here can show a file dialog: on Linux that is a portal, reached over the session bus, or zenity.
+/// Without either the dialog would be "cancelled" at once, and nobody would know why.
 fn can_show_dialogs() -> bool {
     if !cfg!(target_os = "linux") {
         return true;

@@ -32,7 +32,8 @@ pub enum Action {
 }
 
 impl Action {
-    /// Whether a value that is being typed must be taken over first, so that it is neither lost nor left out of the file.
+    /// Whether a value that is being typed must be taken over first, so that it is neither lost
+    /// nor left out of the file.
     fn needs_typed_value(&self) -> bool {
         use Command::{New, Open, Quit, RandomPlanet, Save, SaveAs};
         match self {

@@ -1,8 +1,8 @@
 //! Undo and redo: whole planets, shared, one step for each gesture.
 //!
-//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames; [`History::record`] opens a step at its
-//! first change and [`History::settle`], called while nobody drags or types, closes it. Planets are kept as `Arc`, so a step
-//! costs the planet's data once.
+//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames; [`History::record`] opens a step at
+//! its first change and [`History::settle`], called while nobody drags or types, closes it. Planets are kept as `Arc`,
+//! so a step costs the planet's data once.
 
 use crate::planet::Planet;
 use std::collections::VecDeque;

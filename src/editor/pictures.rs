@@ -1,4 +1,5 @@
-//! Pictures of height maps, read on another thread. Until one is there, and as long as it cannot be read, its layer is flat.
+//! Pictures of height maps, read on another thread. Until one is there, and as long as it cannot be
+//! read, its layer is flat.
 
 use super::app::EditorApp;
 use crate::planet::param::{Domain, ParamPath, ValueMut};

@@ -1,7 +1,7 @@
 //! Unsaved work outlives a crash: it is written beside the layout every few seconds, and offered at the next start.
 //!
-//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`; a file whose lock nobody holds was left
-//! behind. The documents' own files are never touched.
+//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`; a file whose lock nobody holds was
+//! left behind. The documents' own files are never touched.
 
 use super::document::Document;
 use crate::planet::Planet;
@@ -67,7 +67,8 @@ impl Recovery {
         Ok((recovery, orphans))
     }
 
-    /// Writes unsaved work if it is time, on another thread; removes the file when there is none. Gives when to call again.
+    /// Writes unsaved work if it is time, on another thread; removes the file when there is none.
+    /// Gives when to call again.
     pub fn tick(&mut self, document: &Document) -> Option<Duration> {
         if self.writing.as_ref().is_some_and(|thread| !thread.is_finished()) {
             return Some(INTERVAL / 10);

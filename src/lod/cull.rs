@@ -21,7 +21,8 @@ impl Culling {
         Self::widened(view, lowest_radius_m, 1.0)
     }
 
-    /// The same with the frustum's opening (its tangent) `factor` times as wide, for choosing tiles a little ahead of need.
+    /// The same with the frustum's opening (its tangent) `factor` times as wide, for choosing
+    /// tiles a little ahead of need.
     pub fn widened(view: &View, lowest_radius_m: f64, factor: f64) -> Self {
         let camera = &view.camera;
         let tan_y = (camera.fov_y_rad * 0.5).tan() * factor;
@@ -57,7 +58,8 @@ impl Culling {
     }
 }
 
-/// Angle at the planet's centre between a point at `radius_m` and where its sight grazes the sphere of `lowest_radius_m`.
+/// Angle at the planet's centre between a point at `radius_m` and where its sight grazes the
+/// sphere of `lowest_radius_m`.
 fn horizon_angle_rad(lowest_radius_m: f64, radius_m: f64) -> f64 {
     (lowest_radius_m / radius_m).clamp(-1.0, 1.0).acos()
 }

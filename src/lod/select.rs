@@ -1,15 +1,15 @@
 //! Whether a node is fine enough: screen-space error, and the distances between which levels blend.
 //!
-//! A node's error is taken as half its vertex spacing: a surface of slope 1 can leave the chord between two vertices by that
-//! much. It is projected at the nearest point of the node, so each level has one distance inside which it is split, and each
-//! level's distance is half the one before.
+//! A node's error is taken as half its vertex spacing: a surface of slope 1 can leave the chord between two vertices by
+//! that much. It is projected at the nearest point of the node, so each level has one distance inside which it is
+//! split, and each level's distance is half the one before.
 
 use super::{Culling, Quality, View};
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, Tile};
 use crate::sphere::NodeId;
 
-/// A node nearer than this many of its vertex spacings is always split, however small the picture: the blend between levels
-/// ([`morph_range_m`]) relies on nodes being small against their distance.
+/// A node nearer than this many of its vertex spacings is always split, however small the picture: the blend between
+/// levels ([`morph_range_m`]) relies on nodes being small against their distance.
 const LEAST_DISTANCE_SPACINGS: f64 = 48.0;
 
 /// Nodes a little outside the picture are refined too, so that a turn of the head shows no coarse ground.
@@ -37,8 +37,8 @@ impl Selection {
             && self.culling.sees(tile)
     }
 
-    /// Whether any of the tile is nearer than a distance: by its bounding sphere, then by every eighth vertex and what may lie
-    /// around it.
+    /// Whether any of the tile is nearer than a distance: by its bounding sphere, then by every eighth vertex
+    /// and what may lie around it.
     fn is_within(&self, tile: &Tile, distance_m: f64) -> bool {
         const STRIDE: usize = 8;
         let eye = self.view.camera.position_planet_m;
@@ -72,8 +72,8 @@ pub fn split_distance_m(level: u8, radius_m: f64, view: &View) -> f64 {
     spacing_rad(level) * radius_m * (focal_px / spacing_px).max(LEAST_DISTANCE_SPACINGS)
 }
 
-/// Distances from the eye between which a tile of a level blends into what its parent would show there: start and end, in
-/// metres. At the end it is the parent's.
+/// Distances from the eye between which a tile of a level blends into what its parent would show there: start and end,
+/// in metres. At the end it is the parent's.
 pub fn morph_range_m(level: u8, radius_m: f64, view: &View) -> (f64, f64) {
     if level == 0 {
         return (1e30, 2e30);

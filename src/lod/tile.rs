@@ -30,8 +30,8 @@ pub struct DetailTile {
     pub rise_m: Vec<half::f16>,
 }
 
-/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's first axis
-/// as it can be, and the one to its left, seen from outside.
+/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's
+/// first axis as it can be, and the one to its left, seen from outside.
 pub fn slope_basis(face: Face, dir_planet: DVec3) -> [DVec3; 2] {
     let along = slope_axis(face);
     let east = (along - dir_planet * dir_planet.dot(along)).normalize_or_zero();
@@ -48,9 +48,9 @@ pub fn slope_axis(face: Face) -> DVec3 {
 
 /// One vertex, 44 bytes.
 ///
-/// The position in the planet frame is `high + low`: each component is an f64 split into two f32. A shader that computes
-/// `(high - eye_high) + (low - eye_low)` gets the position relative to the eye without loss, and the same bits for the
-/// same point in every tile, so that neighbouring tiles meet without a pinhole.
+/// The position in the planet frame is `high + low`: each component is an f64 split into two f32. A shader that
+/// computes `(high - eye_high) + (low - eye_low)` gets the position relative to the eye without loss, and the same bits
+/// for the same point in every tile, so that neighbouring tiles meet without a pinhole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "render", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C)]
@@ -63,9 +63,11 @@ pub struct Vertex {
     pub position_low_m: [f32; 3],
     /// Temperature at the surface, °C.
     pub temperature_c: f32,
-    /// Where in the biome table: moisture (0 dry to 65535 wet) and row (0 = last row, coldest or lowest; 65535 = first).
+    /// Where in the biome table: moisture (0 dry to 65535 wet) and row (0 = last row, coldest
+    /// or lowest; 65535 = first).
     pub climate_unorm: [u16; 2],
-    /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex spacing is faded out of it.
+    /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex
+    /// spacing is faded out of it.
     pub normal_oct: [i16; 2],
     /// The same as the parent tile would have it here: blend to it with distance, so that no level change shows.
     pub parent_normal_oct: [i16; 2],

@@ -27,8 +27,8 @@ impl Camera {
         Self { position_planet_m, planet_from_view, fov_y_rad }
     }
 
-    /// A camera over a place, at `radius_m` from the planet's centre. Heading is clockwise from north; pitch is 0 at the
-    /// horizon and -π/2 straight down.
+    /// A camera over a place, at `radius_m` from the planet's centre. Heading is clockwise from north; pitch is 0 at
+    /// the horizon and -π/2 straight down.
     pub fn over(place: LatLon, radius_m: f64, heading_rad: f64, pitch_rad: f64, fov_y_rad: f64) -> Self {
         let up = place.direction();
         let (east, north) = geo::east_north(up);

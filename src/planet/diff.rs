@@ -4,8 +4,8 @@ use super::Planet;
 use super::param::{ParamPath, Params, Segment, Stage, Stages, Value};
 use std::collections::HashMap;
 
-/// One parameter that two planets differ in. Of a whole part or list element that only one of them has, each parameter is a
-/// change.
+/// One parameter that two planets differ in. Of a whole part or list element that only one of them has,
+/// each parameter is a change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Where the parameter stands.

@@ -112,8 +112,8 @@ impl Planet {
         text::write(self)
     }
 
-    /// Saves atomically: the old file stays until the new one is whole. Paths of pictures are written as they count from the
-    /// new file. A planet that could not be loaded again is refused.
+    /// Saves atomically: the old file stays until the new one is whole. Paths of pictures are written as they count
+    /// from the new file. A planet that could not be loaded again is refused.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
         let path = path.as_ref();
         let failed = |message: String| SaveError { path: path.to_owned(), message };

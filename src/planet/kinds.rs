@@ -1,12 +1,15 @@
 //! Enums whose every value carries parameters of its own: kinds of layer, kinds of mask.
 //!
-//! A list of kinds is all that is written; the names, the choice in the panels, the file and the messages follow from it.
+//! A list of kinds is all that is written; the names, the choice in the panels, the file and the
+//! messages follow from it.
 
 use super::param::{ParamPath, Params, Unit};
 
-/// Writes an enum of kinds from their list; its default is the first. In a file a value is written `Kind(parameter: 1.0)`.
+/// Writes an enum of kinds from their list; its default is the first. In a file a value is
+/// written `Kind(parameter: 1.0)`.
 ///
-/// `"name", "Label", stage | stage` describe the choice between the kinds as a parameter; the enum's documentation is its tooltip.
+/// `"name", "Label", stage | stage` describe the choice between the kinds as a parameter; the enum's
+/// documentation is its tooltip.
 macro_rules! kinds {
     (
         $(#[doc = $enum_doc:literal])+
@@ -87,8 +90,8 @@ macro_rules! kinds {
 }
 pub(crate) use kinds;
 
-/// Takes over what two kinds both have: parameters of the same name and unit, and the size of the largest feature, which is
-/// the first parameter in kilometres of either.
+/// Takes over what two kinds both have: parameters of the same name and unit, and the size of the largest feature,
+/// which is the first parameter in kilometres of either.
 pub(super) fn take_over(kind: &mut dyn Params, before: &mut dyn Params) {
     let mut old = Vec::new();
     before.each_param(&mut ParamPath::default(), &mut |_, param, value| {

@@ -8,8 +8,9 @@ use super::shapes::Shape;
 const NOISE_CURVE: Domain = Domain::Curve { most: 4.0, least_step: 0.01 };
 
 params! {
-    /// One layer of terrain. Its noise `v`, reshaped by `curve`, is about -1 to 1; its output is `y = (v + bias) * amplitude_m`, which `blend`
-    /// joins to the height made by the layers above it in the list, as far as the masks let it.
+    /// One layer of terrain. Its noise `v`, reshaped by `curve`, is about -1 to 1; its output is
+    /// `y = (v + bias) * amplitude_m`, which `blend` joins to the height made by the layers above it in the list, as
+    /// far as the masks let it.
     pub struct Layer {
         /// What the layer is called; masks refer to it by this name, so it must be unique.
         name: String = "Layer".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
@@ -25,8 +26,8 @@ params! {
         blend: Blend = Blend::Add, "Blend", Unit::None, Domain::Choice, Stage::Height;
         /// How far apart in height SmoothMax and SmoothMin begin to round the corner between the two grounds.
         softness_m: f64 = 100.0, "Softness", Unit::Metres, log(0.0, 100_000.0), Stage::Height;
-        /// Reshapes the noise: points (noise, what it becomes), before bias and amplitude. Empty leaves it as it is; beyond its
-        /// ends the curve goes on straight.
+        /// Reshapes the noise: points (noise, what it becomes), before bias and amplitude. Empty leaves it as it is;
+        /// beyond its ends the curve goes on straight.
         curve: Curve = Curve::new(), "Curve", Unit::None, NOISE_CURVE, Stage::Height;
     } with {
         /// The kind of terrain and its parameters.

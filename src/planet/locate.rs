@@ -1,9 +1,9 @@
 //! Where in a RON text a value stands: a scanner that knows brackets, literals and comments, but no types.
 //!
 //! serde forgets positions as soon as a value is read, and a range is only checked when the whole planet is there. This
-//! walks the text once more and tells for each value its path (`layers[2].shape.octaves`) and its place. It is written as
-//! a loop with its own stack, so that no depth of nesting can overflow the thread's, and it never fails: in a broken text
-//! it reports what it could see before the break.
+//! walks the text once more and tells for each value its path (`layers[2].shape.octaves`) and its place. It is written
+//! as a loop with its own stack, so that no depth of nesting can overflow the thread's, and it never fails: in a broken
+//! text it reports what it could see before the break.
 
 use std::collections::HashMap;
 

@@ -1,7 +1,7 @@
 //! Where a layer acts: the kinds of mask and the parameters of each.
 //!
-//! Every mask goes smoothly from off (0) at `from` to on (1) at `to`, whichever of the two is greater, and `invert` swaps off
-//! and on. Several masks of a layer multiply.
+//! Every mask goes smoothly from off (0) at `from` to on (1) at `to`, whichever of the two is greater, and `invert`
+//! swaps off and on. Several masks of a layer multiply.
 
 use super::kinds::kinds;
 use super::param::{Domain, Stage, Unit, linear, log, params};
@@ -52,8 +52,8 @@ params! {
         from_deg: f64 = 15.0, "From", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
         /// Slope at which the layer is fully on; between the two it fades smoothly.
         to_deg: f64 = 30.0, "To", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
-        /// Distance over which the slope is measured: relief much finer than this does not count. A planet may use few different
-        /// ones.
+        /// Distance over which the slope is measured: relief much finer than this does not count. A planet
+        /// may use few different ones.
         over_m: f64 = 500.0, "Over", Unit::Metres, log(1.0, 1_000_000.0), Stage::Field | Stage::Height;
         /// Off where it would be on, and the reverse.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;

@@ -4,8 +4,8 @@
 //!
 //! Version 2 is current. When version 3 comes: copy what changes of version 2's types into `migrate/v2.rs` and freeze
 //! them, write `impl From<v2::File> for FileV3` and nothing else about version 2, read version 3 here, and add
-//! `tests/fixtures/preset_v3.ron` beside the fixtures of the versions before, which go on loading for ever. Never edit a
-//! fixture, and never migrate text.
+//! `tests/fixtures/preset_v3.ron` beside the fixtures of the versions before, which go on loading for ever. Never edit
+//! a fixture, and never migrate text.
 
 mod v1;
 

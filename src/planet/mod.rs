@@ -51,8 +51,8 @@ pub use table::Table;
 use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};
 use serde::{Deserialize, Serialize};
 
-/// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old version
-/// is migrated when it is read, and keeps its exact heights.
+/// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
+/// version is migrated when it is read, and keeps its exact heights.
 pub const VERSION: u32 = 2;
 
 /// Most layers a planet may have.
@@ -79,8 +79,8 @@ params! {
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
         radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
-        /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it is; beyond
-        /// its ends the curve goes on straight.
+        /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it
+        /// is; beyond its ends the curve goes on straight.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;
     } with {
         /// The star that lights the planet.

@@ -519,8 +519,8 @@ param_value!(f64 => Number, u32 => Count, bool => Flag, char => Letter, [f64; 3]
 
 /// Writes a struct of parameters: its fields, defaults, serde rules and descriptions.
 ///
-/// Each line is `name: type = default, "Label", unit, domain, stage | stage;`, its doc comment being the tooltip and the comment
-/// in the saved file. `with { .. }` adds fields that hold parameters of their own.
+/// Each line is `name: type = default, "Label", unit, domain, stage | stage;`, its doc comment being the tooltip and
+/// the comment in the saved file. `with { .. }` adds fields that hold parameters of their own.
 macro_rules! params {
     (
         $(#[$struct_attr:meta])*

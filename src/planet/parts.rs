@@ -28,7 +28,8 @@ params! {
         sea_moisture: f64 = 0.0, "Moisture from the sea", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// How far moisture from the sea reaches inland; on the way it fades, fastest near the shore.
         sea_reach_km: f64 = 1500.0, "Reach of the sea", Unit::Kilometres, log(1.0, 20_000.0), Stage::Climate;
-        /// Rain and snow in a year where the moisture is 1; elsewhere in proportion. For figures alone: nothing is drawn from it.
+        /// Rain and snow in a year where the moisture is 1; elsewhere in proportion. For figures alone:
+        /// nothing is drawn from it.
         wettest_mm: f64 = 3000.0, "Wettest", Unit::Millimetres, log(1.0, 30_000.0), Stage::Label;
         /// Size of the regions between which temperature and moisture vary.
         wavelength_km: f64 = 3000.0, "Region size", Unit::Kilometres, log(0.1, 100_000.0), Stage::ClimateNoise;

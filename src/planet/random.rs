@@ -3,9 +3,9 @@
 //! - `dice`: the pseudo-random numbers
 //! - `grounds`: biomes that follow from a climate
 //!
-//! [`random`] makes a planet from nothing: a few layers that build on each other, a climate, and biomes that follow from
-//! it. [`vary`] moves the numbers of a planet that there is. Neither knows more of a parameter than its description,
-//! where that is enough.
+//! [`random`] makes a planet from nothing: a few layers that build on each other, a climate, and biomes that follow
+//! from it. [`vary`] moves the numbers of a planet that there is. Neither knows more of a parameter than its
+//! description, where that is enough.
 
 mod dice;
 mod grounds;
@@ -61,7 +61,8 @@ pub fn random(seed: u64) -> Planet {
     planet
 }
 
-/// A variation of a planet: its numbers moved by up to `strength` (0 to 1) of their range; always valid if the planet is.
+/// A variation of a planet: its numbers moved by up to `strength` (0 to 1) of their range;
+/// always valid if the planet is.
 ///
 /// Names, letters, switches and choices stay: it is the same planet, only different.
 pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {

@@ -1,5 +1,5 @@
-//! The kinds of terrain layer and the parameters of each. How a kind is evaluated stands in the file of the same name in
-//! `terrain/landform`.
+//! The kinds of terrain layer and the parameters of each. How a kind is evaluated stands in the file of the same
+//! name in `terrain/landform`.
 //!
 //! A new kind: its parameters here, one line in the list of kinds, one file in `terrain/landform`. The list of names,
 //! the panels, the file and the messages follow from these.
@@ -49,8 +49,8 @@ shapes! {
 }
 
 params! {
-    /// Fractal Brownian motion: octaves of gradient noise, each finer and weaker than the one before, summed and divided
-    /// by the sum of their strengths.
+    /// Fractal Brownian motion: octaves of gradient noise, each finer and weaker than the one before, summed and
+    /// divided by the sum of their strengths.
     pub struct Fbm {
         /// Distance from crest to crest of the coarsest octave.
         wavelength_km: f64 = 2000.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -64,8 +64,8 @@ params! {
 }
 
 params! {
-    /// Ridged multifractal (Musgrave): noise folded at zero into crests; each octave is strong where the one before was,
-    /// so that valleys stay smooth and crests grow sharp. Shifted to about -1 (valley) to 1 (crest).
+    /// Ridged multifractal (Musgrave): noise folded at zero into crests; each octave is strong where the one before
+    /// was, so that valleys stay smooth and crests grow sharp. Shifted to about -1 (valley) to 1 (crest).
     pub struct Ridged {
         /// Distance between neighbouring ranges of the coarsest octave.
         wavelength_km: f64 = 800.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -93,8 +93,8 @@ params! {
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// Share of the ground that has been hit, for each size; with a power of counts, by the widest.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
-        /// How much more numerous craters are the smaller they are: the power of their cumulative count, about 2.4 on moons,
-        /// until the ground is full of them. At 0 the sizes are mixed evenly.
+        /// How much more numerous craters are the smaller they are: the power of their cumulative count, about 2.4 on
+        /// moons, until the ground is full of them. At 0 the sizes are mixed evenly.
         power: f64 = 2.4, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
         /// Height of the rim against the depth of the bowl.
         rim: f64 = 0.28, "Rim", Unit::None, linear(0.0, 0.6), Stage::Field;
@@ -112,9 +112,9 @@ params! {
 }
 
 params! {
-    /// Terraces: the height made by the layers before is cut into flat treads with steep risers between them, one step for each
-    /// `amplitude_m`. The layer's noise is the way from that height to its step, -0.5 to 0.5, so that it belongs with the blend
-    /// Add. Masks on it look at the noise of its waviness.
+    /// Terraces: the height made by the layers before is cut into flat treads with steep risers between them, one step
+    /// for each `amplitude_m`. The layer's noise is the way from that height to its step, -0.5 to 0.5, so that it
+    /// belongs with the blend Add. Masks on it look at the noise of its waviness.
     pub struct Terraces {
         /// How flat the treads are and how steep the risers: 0 leaves the ground as it is, 1 makes stairs.
         sharpness: f64 = 0.8, "Sharpness", Unit::None, linear(0.0, 1.0), Stage::Height;
@@ -128,8 +128,8 @@ params! {
 }
 
 params! {
-    /// Billow noise: each octave folded at zero, the other way round than `Ridged`, so that hills are round and the valleys
-    /// between them creases. From -1 (valleys) to 1 (tops).
+    /// Billow noise: each octave folded at zero, the other way round than `Ridged`, so that hills are round and the
+    /// valleys between them creases. From -1 (valleys) to 1 (tops).
     pub struct Billow {
         /// Distance between neighbouring hills of the coarsest octave.
         wavelength_km: f64 = 100.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -143,8 +143,9 @@ params! {
 }
 
 params! {
-    /// Slope-damped fractal noise (Quilez): an octave counts less where those before it have made the ground steep, as if
-    /// rain had worn the slopes down into wide, smooth valleys below rough peaks. About -1 to 1; damping lowers the mean.
+    /// Slope-damped fractal noise (Quilez): an octave counts less where those before it have made the ground
+    /// steep, as if rain had worn the slopes down into wide, smooth valleys below rough peaks. About -1 to 1;
+    /// damping lowers the mean.
     pub struct Damped {
         /// Distance from crest to crest of the coarsest octave.
         wavelength_km: f64 = 400.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -160,8 +161,8 @@ params! {
 }
 
 params! {
-    /// Fractal noise at points displaced by another fractal noise, which draws its features out into swirls and folds. About
-    /// -1 to 1.
+    /// Fractal noise at points displaced by another fractal noise, which draws its features out into swirls
+    /// and folds. About -1 to 1.
     pub struct Warped {
         /// Distance from crest to crest of the coarsest octave.
         wavelength_km: f64 = 1000.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -181,8 +182,9 @@ params! {
 }
 
 params! {
-    /// Continents and oceans: warped fractal noise, put through a profile with shares of the surface as on the Earth. -1 is the
-    /// abyssal plain, 0 the coast; a continental slope leads up to the shelf, a coastal plain to the interior, up to 1.
+    /// Continents and oceans: warped fractal noise, put through a profile with shares of the surface as on the
+    /// Earth. -1 is the abyssal plain, 0 the coast; a continental slope leads up to the shelf, a coastal plain
+    /// to the interior, up to 1.
     pub struct Continents {
         /// Size of the continents.
         wavelength_km: f64 = 5500.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
@@ -226,7 +228,8 @@ params! {
     pub struct Gullies {
         /// Distance from crest to crest of the relief that is carved.
         wavelength_km: f64 = 60.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves the relief has. Those much coarser than the gullies lead them; finer ones roughen the ground.
+        /// How many octaves the relief has. Those much coarser than the gullies lead them; finer
+        /// ones roughen the ground.
         octaves: u32 = 2, "Octaves", Unit::None, count(1, 16), Stage::Field;
         /// Strength of each octave, of the relief as of the gullies, against the one before.
         gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
@@ -297,13 +300,13 @@ params! {
     /// A height map: a grey picture of the whole planet, smoothed by about one of its pixels. Without a picture it is 0
     /// everywhere.
     pub struct HeightMap {
-        /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or the first; numbers as they are).
-        /// The path counts from the preset's folder.
+        /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or the first;
+        /// numbers as they are). The path counts from the preset's folder.
         file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Field;
-        /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the middle.
-        /// CubeCross: 4 x 3 squares; -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X. CubeStrip: the same squares
-        /// in one row or column, in the order +X, -X, +Y, -Y, +Z, -Z. +X is at longitude 0, +Y at 90° east, +Z at the north
-        /// pole; faces are seen from outside, as flat 90° pictures.
+        /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the
+        /// middle. CubeCross: 4 x 3 squares; -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X. CubeStrip: the
+        /// same squares in one row or column, in the order +X, -X, +Y, -Y, +Z, -Z. +X is at longitude 0, +Y at 90°
+        /// east, +Z at the north pole; faces are seen from outside, as flat 90° pictures.
         layout: PictureLayout = PictureLayout::Equirectangular, "Layout", Unit::None, Domain::Choice, Stage::Field;
         /// What black (0) means, as a value of this layer.
         low: f64 = 0.0, "Black", Unit::None, linear(-1.0, 1.0), Stage::Field;

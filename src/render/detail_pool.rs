@@ -89,7 +89,9 @@ impl DetailPool {
         }
         let place = self.take_layer(device)?;
         let [slopes, rise] = self.textures.get(place.array)?;
-        let bytes = |halves: &mut dyn Iterator<Item = half::f16>| -> Vec<u8> { halves.flat_map(half::f16::to_le_bytes).collect() };
+        let bytes = |halves: &mut dyn Iterator<Item = half::f16>| -> Vec<u8> {
+            halves.flat_map(half::f16::to_le_bytes).collect()
+        };
         write(queue, slopes, place.layer, &bytes(&mut tile.slopes.iter().flatten().copied()));
         write(queue, rise, place.layer, &bytes(&mut tile.rise_m.iter().copied()));
         self.held.insert(tile.serial, Held { place, drawn_in_frame: self.frame });

@@ -3,7 +3,8 @@
 //! A point of a face is `(s, t)` in -1..1. Each coordinate is bent by `w / sqrt(1 + c² (1 - w²))` with c = 0.87, which
 //! spreads the cells more evenly (area max/min 1.268 against 5.196 without), then the cube point is normalised. The
 //! mapping and its inverse use only square roots and divisions, which IEEE 754 rounds correctly: the same bits on every
-//! machine. Lengths are summed in the order x, y, z whatever the face, so that two faces agree on their common edge to the bit.
+//! machine. Lengths are summed in the order x, y, z whatever the face, so that two faces agree on
+//! their common edge to the bit.
 
 use glam::DVec3;
 
@@ -37,8 +38,8 @@ impl Face {
         Self::ALL[axis * 2 + usize::from(!positive)]
     }
 
-    /// The axes along which `s` and `t` grow, chosen so that (s, t, outward) is right-handed: seen from outside, `t` is a
-    /// quarter turn anticlockwise from `s`. The sign applies to `s`.
+    /// The axes along which `s` and `t` grow, chosen so that (s, t, outward) is right-handed: seen from outside, `t` is
+    /// a quarter turn anticlockwise from `s`. The sign applies to `s`.
     pub fn tangent_axes(self) -> ((usize, i64), usize) {
         let (axis, sign) = self.axis();
         (((axis + 1) % 3, sign), (axis + 2) % 3)

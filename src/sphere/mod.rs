@@ -1,4 +1,5 @@
-//! The globe as six squares: faces, the mapping between a square and the sphere, node addresses, latitude and longitude.
+//! The globe as six squares: faces, the mapping between a square and the sphere, node
+//! addresses, latitude and longitude.
 //!
 //! The planet frame is right-handed, metres, centre at the origin: +Z through the north pole, +X through latitude 0,
 //! longitude 0, +Y through longitude 90° east.

@@ -88,8 +88,8 @@ impl NodeId {
 
     /// The node of the same level across an edge, on whichever face it lies.
     ///
-    /// Works on the cube's integer grid: in units of half a cell the centre of a node has odd coordinates and its face lies
-    /// at ±2^level. One step over a face's edge turns the crossing coordinate into the new face's normal.
+    /// Works on the cube's integer grid: in units of half a cell the centre of a node has odd coordinates and its face
+    /// lies at ±2^level. One step over a face's edge turns the crossing coordinate into the new face's normal.
     pub fn neighbour(self, edge: Edge) -> NodeId {
         let side = 1_i64 << self.level;
         let (mut x, mut y) = (i64::from(self.x), i64::from(self.y));

@@ -1,17 +1,19 @@
 //! Rasters: numbers on grids that cover the whole sphere, sampled smoothly and with exact gradients.
 //!
-//! Samples are uniform cubic B-splines of the texels (de Boor 1978): twice continuously differentiable, so that shading shows no
-//! grid; never outside the range of the texels, so that nothing rings; and softer than the texels by about one of them.
+//! Samples are uniform cubic B-splines of the texels (de Boor 1978): twice continuously differentiable, so that
+//! shading shows no grid; never outside the range of the texels, so that nothing rings; and softer than the
+//! texels by about one of them.
 //!
-//! - A *globe* is equirectangular: twice as wide as high, north up, longitude 0 in the middle, east to the right. Rows go on
-//!   beyond a pole on the opposite meridian. Towards the poles texels are averaged along their row until they are as wide as
-//!   high, and around each pole the spline passes into a plane: no pinwheel, no crease.
-//! - A *cube* is six square faces in the order of [`super::Face`], each what a camera in the centre sees of the sphere's inside
-//!   with an opening angle of 90°, mirrored: seen from outside. North is up; the right edge of the four around the equator is
-//!   east; the bottom edge of +Z and the top edge of -Z meet +X. Faces overlap by two texels and are blended there.
+//! - A *globe* is equirectangular: twice as wide as high, north up, longitude 0 in the middle, east to the right. Rows
+//!   go on beyond a pole on the opposite meridian. Towards the poles texels are averaged along their row until they are
+//!   as wide as high, and around each pole the spline passes into a plane: no pinwheel, no crease.
+//! - A *cube* is six square faces in the order of [`super::Face`], each what a camera in the centre sees of the
+//!   sphere's inside with an opening angle of 90°, mirrored: seen from outside. North is up; the right edge of the
+//!   four around the equator is east; the bottom edge of +Z and the top edge of -Z meet +X. Faces overlap by two
+//!   texels and are blended there.
 //!
-//! Coarser levels, each half as fine, serve what is seen from afar. Everything is f64 with correctly rounded operations and
-//! `libm`: the same bits on every machine.
+//! Coarser levels, each half as fine, serve what is seen from afar. Everything is f64 with correctly rounded operations
+//! and `libm`: the same bits on every machine.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -101,7 +103,8 @@ impl<T: Texel> Raster<T> {
         self.bounds
     }
 
-    /// The finest level whose texels are no closer together than points so far apart (as an angle); 0 is the raster itself.
+    /// The finest level whose texels are no closer together than points so far apart (as an
+    /// angle); 0 is the raster itself.
     pub fn level_for(&self, spacing_rad: f64) -> usize {
         let too_fine = |level: &&Level<T>| {
             let texel_rad = match level {
@@ -167,7 +170,8 @@ fn range<T: Texel>(texels: &[T]) -> (f64, f64) {
     texels.par_chunks(1 << 16).map(one).reduce(|| (f64::MAX, f64::MIN), both)
 }
 
-/// The four weights of a uniform cubic B-spline and their derivatives, `t` of the way from the second knot to the third.
+/// The four weights of a uniform cubic B-spline and their derivatives, `t` of the way from the
+/// second knot to the third.
 #[inline(always)]
 fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
     let (u, t2) = (1.0 - t, t * t);
@@ -180,8 +184,8 @@ fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
     (weights, [-0.5 * u * u, 1.5 * t2 - 2.0 * t, 0.5 + t - 1.5 * t2, 0.5 * t2])
 }
 
-/// The spline at `(x, y)` in texels (texel `i` lies at `i + 0.5`), and its derivatives by x and y. `row(y, x)` gives four
-/// texels of row `y` from column `x` on.
+/// The spline at `(x, y)` in texels (texel `i` lies at `i + 0.5`), and its derivatives by x and y. `row(y, x)` gives
+/// four texels of row `y` from column `x` on.
 #[inline(always)]
 fn bicubic(x: f64, y: f64, row: impl Fn(isize, isize) -> [f64; 4]) -> (f64, f64, f64) {
     let (x, y) = (x - 0.5, y - 0.5);
@@ -313,7 +317,8 @@ impl Pole {
     }
 }
 
-/// Replaces each texel of a ring by the mean over `width` texels around it (1 or more; ends count by the part that is covered).
+/// Replaces each texel of a ring by the mean over `width` texels around it (1 or more; ends count by
+/// the part that is covered).
 fn average_along<T: Texel>(ring: &mut [T], width: f64) {
     let reach = ((width - 1.0) * 0.5).min((ring.len() / 2 - 1) as f64);
     let (whole, part) = (reach.floor() as usize, reach - reach.floor());
@@ -351,8 +356,8 @@ struct Cube<T> {
     texels: Vec<T>,
 }
 
-/// The unit direction through `(x, y)` of a face of `side` by `side` texels, y counted from the top; it may lie a little beyond
-/// the edges.
+/// The unit direction through `(x, y)` of a face of `side` by `side` texels, y counted from the top; it may lie a
+/// little beyond the edges.
 pub fn cube_direction(face: usize, side: usize, x: f64, y: f64) -> DVec3 {
     let [out, right, up] = FRAMES[face];
     let along = |w: f64| 2.0 * w / side as f64 - 1.0;

@@ -1,8 +1,8 @@
-//! Sine, cosine and arctangent by polynomials in f32, for the hot loops: the same bits on every instruction set, which neither
-//! the platform's functions nor a vector library promise.
+//! Sine, cosine and arctangent by polynomials in f32, for the hot loops: the same bits on every instruction set, which
+//! neither the platform's functions nor a vector library promise.
 //!
-//! Angles are in turns (1 is a full circle): a turn more or less is then a whole number, which f32 takes away without error.
-//! The polynomials interpolate at Chebyshev nodes; their errors, like the rounding, are about 1e-7.
+//! Angles are in turns (1 is a full circle): a turn more or less is then a whole number, which f32 takes away without
+//! error. The polynomials interpolate at Chebyshev nodes; their errors, like the rounding, are about 1e-7.
 
 use super::jet::Real;
 use std::f32::consts::TAU;

@@ -131,8 +131,8 @@ impl Rules {
         }
     }
 
-    /// The climate at a place whose latitude has this sine, at this height of the ground, with this noise for temperature and
-    /// moisture, so far from the sea (as an angle; [`NO_SEA`] where there is none).
+    /// The climate at a place whose latitude has this sine, at this height of the ground, with this noise for
+    /// temperature and moisture, so far from the sea (as an angle; [`NO_SEA`] where there is none).
     #[inline(always)]
     pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> PointClimate {
         // Over a sea the surface is the sea's.

@@ -1,8 +1,9 @@
 //! How far it is to the sea, all over a planet.
 //!
-//! Heights on a cube of cells tell land from sea; between two neighbours that differ, the shore lies where a straight line between
-//! their heights meets the sea. From there the nearest point of the shore spreads from cell to cell (vector distance
-//! propagation, Danielsson 1980), and the signed distance is a [`Raster`]: below zero in the sea, zero on the shore.
+//! Heights on a cube of cells tell land from sea; between two neighbours that differ, the shore lies where a
+//! straight line between their heights meets the sea. From there the nearest point of the shore spreads from cell
+//! to cell (vector distance propagation, Danielsson 1980), and the signed distance is a [`Raster`]: below zero in
+//! the sea, zero on the shore.
 
 use crate::sphere::raster::{Raster, cube_direction, cube_point};
 use glam::DVec3;

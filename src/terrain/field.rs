@@ -1,8 +1,8 @@
 //! A layer's noise and its gradient at a batch of points, before amplitude, blend and masks.
 //!
-//! Values hold every octave, always: the height that is drawn is the height that is queried. Gradients come in bands for
-//! shading, each octave faded out as its wavelength nears the spacing of the points: a tile shows no relief that it cannot
-//! carry, and next to it what its parent would show.
+//! Values hold every octave, always: the height that is drawn is the height that is queried. Gradients come in bands
+//! for shading, each octave faded out as its wavelength nears the spacing of the points: a tile shows no relief that it
+//! cannot carry, and next to it what its parent would show.
 
 use super::landform::{Chunk, Landform, Scratch};
 use super::noise::CHUNK;
@@ -26,8 +26,8 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// Evaluates a landform at points, with gradients as points so far apart (as angles) can show them; with no spacing, values
-    /// alone.
+    /// Evaluates a landform at points, with gradients as points so far apart (as angles) can show them; with
+    /// no spacing, values alone.
     pub(crate) fn new(landform: &Landform, simd: Simd, points: &Points, spacings_rad: &[f64]) -> Field {
         Self::evaluate(landform, simd, points, spacings_rad, false)
     }

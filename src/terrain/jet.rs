@@ -1,7 +1,7 @@
 //! Numbers that carry their gradient, so that a landform's formula is written once.
 //!
-//! A formula generic over [`Real`] is compiled for `f32` (heights alone) and for [`Jet`] (heights with gradients, by forward
-//! differentiation). The value of a jet goes through the very operations of the plain number: the same bits.
+//! A formula generic over [`Real`] is compiled for `f32` (heights alone) and for [`Jet`] (heights with gradients, by
+//! forward differentiation). The value of a jet goes through the very operations of the plain number: the same bits.
 
 use super::noise::{CHUNK, Lane, Noise};
 use std::ops::{Add, Mul, Neg, Sub};
@@ -55,8 +55,8 @@ pub(crate) trait Real:
     fn store(self, jets: &mut Jets, i: usize);
     /// The noise at the `i`th point.
     fn noise(noise: &Noise, i: usize) -> Self;
-    /// The gradient of the noise at the `i`th point, itself with gradients; needs [`Noise::gradients`] for plain numbers and
-    /// [`Noise::curvatures`] for jets.
+    /// The gradient of the noise at the `i`th point, itself with gradients; needs [`Noise::gradients`] for plain
+    /// numbers and [`Noise::curvatures`] for jets.
     fn noise_gradient(noise: &Noise, i: usize) -> [Self; 3];
 
     /// Times a plain number.
@@ -102,7 +102,7 @@ pub(crate) trait Real:
     #[inline(always)]
     fn smoothstep(self, from: f32, to: f32) -> Self {
         let span = 1.0 / (to - from);
-        let t = ((self.value() - from) * span).max(0.0).min(1.0);
+        let t = ((self.value() - from) * span).clamp(0.0, 1.0);
         self.chain(t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) * span)
     }
 }
@@ -216,6 +216,8 @@ impl Sub for Jet {
 
 impl Mul for Jet {
     type Output = Self;
+    // The product rule is a sum.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let d = |i: usize| self.d[i] * o.v + o.d[i] * self.v;

@@ -84,8 +84,8 @@ pub(crate) struct SeenRelief {
 }
 
 impl Terrain {
-    /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid one
-    /// gives is unspecified, but finite work.
+    /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid
+    /// one gives is unspecified, but finite work.
     pub fn new(planet: Arc<Planet>) -> Self {
         Self::compile(planet, None)
     }
@@ -100,7 +100,8 @@ impl Terrain {
         let climate = CompiledClimate::new(&planet);
         let height_bounds_m = stack.bounds_m();
         let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, height_bounds_m };
-        // Found here rather than when first asked for: asked on a worker of a thread pool, it would wait for its own pool.
+        // Found here rather than when first asked for: asked on a worker of a thread pool, it
+        // would wait for its own pool.
         if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
             let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
             let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, 0.5 * coast::CELL_RAD));
@@ -170,8 +171,8 @@ impl Terrain {
         }
     }
 
-    /// Height of the ground above the reference sphere under a direction (of any length but zero): the height that a tile
-    /// has at a vertex of that direction, to the bit.
+    /// Height of the ground above the reference sphere under a direction (of any length but zero): the height that a
+    /// tile has at a vertex of that direction, to the bit.
     pub fn height_m(&self, dir_planet: DVec3) -> f64 {
         self.heights_of(vec![unit(dir_planet)])[0]
     }
@@ -245,14 +246,14 @@ fn unit(dir: DVec3) -> DVec3 {
     if (dir.length_squared() - 1.0).abs() < 1e-12 { dir } else { dir.normalize() }
 }
 
-/// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a vector in the
-/// tangent plane. The surface's normal is along `dir - slope`.
+/// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a
+/// vector in the tangent plane. The surface's normal is along `dir - slope`.
 fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
     (gradient - dir * dir.dot(gradient)) / radius_m
 }
 
-/// The palette index of the biome in the table's cell at a moisture and row, both 0 to 1. Keys that the palette lacks count
-/// as its first biome.
+/// The palette index of the biome in the table's cell at a moisture and row, both 0 to 1. Keys that the palette lacks
+/// count as its first biome.
 pub fn biome_index(planet: &Planet, moisture: f64, row: f64) -> usize {
     let table = &planet.biomes.table;
     let (columns, rows) = (table.columns(), table.rows().len());

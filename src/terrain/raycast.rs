@@ -12,8 +12,8 @@ impl Terrain {
     /// Distance in metres along a ray from `origin_planet_m` to the ground or the sea's surface, whichever comes first;
     /// `None` when it meets neither. `dir_planet` must be a unit vector.
     ///
-    /// Marches in steps in proportion to the height above ground, then narrows the crossing down: ridges thinner than a step
-    /// can be missed.
+    /// Marches in steps in proportion to the height above ground, then narrows the crossing down: ridges thinner
+    /// than a step can be missed.
     pub fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64> {
         let radius_m = self.planet().radius_m();
         let (_, highest_m) = self.height_bounds_m();

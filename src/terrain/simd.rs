@@ -1,6 +1,7 @@
 //! The instruction sets the noise loops are compiled for, and the choice between them at run time.
 //!
-//! The same Rust source is compiled once for each set; the compiler vectorises it. The bits are equal, only the speed differs.
+//! The same Rust source is compiled once for each set; the compiler vectorises it. The bits are
+//! equal, only the speed differs.
 
 use std::sync::OnceLock;
 
@@ -55,9 +56,9 @@ impl Simd {
     }
 }
 
-/// Compiles `$body` (an `#[inline(always)]` function, perhaps with type arguments) once for each instruction set, and writes
-/// `$name`, which takes the set to use as its first argument. Sets that this machine lacks fall back to the baseline, so the
-/// call is always sound.
+/// Compiles `$body` (an `#[inline(always)]` function, perhaps with type arguments) once for each instruction set, and
+/// writes `$name`, which takes the set to use as its first argument. Sets that this machine lacks fall back to the
+/// baseline, so the call is always sound.
 macro_rules! for_each_simd {
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) = $body:expr) => {
         $(#[$meta])*
@@ -73,7 +74,8 @@ macro_rules! for_each_simd {
                 fn avx512($($arg: $type),*) { $body($($arg),*) }
                 use $crate::terrain::simd::Simd;
                 if simd > Simd::Baseline && simd <= Simd::detect() {
-                    // SAFETY: `simd` is at most what was detected on this machine, and each set includes the ones before.
+                    // SAFETY: `simd` is at most what was detected on this machine, and each set
+                    // includes the ones before.
                     unsafe {
                         match simd {
                             Simd::Sse41 => return sse41($($arg),*),

@@ -1,4 +1,5 @@
-//! Noise at arbitrary points of the unit sphere, on one core, against fastnoise-lite on the same points in the same run.
+//! Noise at arbitrary points of the unit sphere, on one core, against fastnoise-lite on the
+//! same points in the same run.
 
 use super::{median, repeat};
 use crate::sphere::LatLon;

@@ -2,7 +2,8 @@
 
 use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
 
-/// Adds a layer of a kind (an index into [`Shape::NAMES`]) behind `after`; gives its place, or None when there are too many.
+/// Adds a layer of a kind (an index into [`Shape::NAMES`]) behind `after`; gives its place, or None
+/// when there are too many.
 pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
     let shape = Shape::of_kind(kind)?;
     let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));

@@ -16,8 +16,8 @@ struct Edit {
     at: Instant,
 }
 
-/// Measures from the start of the frame in which an edit was made until the GPU has finished the first frame that shows the
-/// complete surface of that edit.
+/// Measures from the start of the frame in which an edit was made until the GPU has finished the first frame that shows
+/// the complete surface of that edit.
 #[derive(Default)]
 pub struct EditClock {
     pending: VecDeque<Edit>,
@@ -56,8 +56,8 @@ impl EditClock {
         }
     }
 
-    /// A new frame begins, so the one before has been handed to the screen: waits on another thread until the GPU is done
-    /// with it, then calls `wake`.
+    /// A new frame begins, so the one before has been handed to the screen: waits on another thread until the GPU is
+    /// done with it, then calls `wake`.
     pub fn frame_began(&mut self, device: &wgpu::Device, wake: impl FnOnce() + Send + 'static) {
         if let Some(receiver) = &self.finished {
             match receiver.try_recv() {

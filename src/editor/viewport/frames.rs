@@ -9,8 +9,8 @@ const MOST: usize = 600;
 /// One frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTime {
-    /// From the start of the frame to the start of the next: with egui's painting, the wait for the screen, and however long
-    /// nothing had to be drawn.
+    /// From the start of the frame to the start of the next: with egui's painting, the wait for the screen, and however
+    /// long nothing had to be drawn.
     pub whole: Duration,
     /// What the editor itself took.
     pub editor: Duration,

@@ -118,8 +118,8 @@ pub struct Moved {
     pub sun: bool,
 }
 
-/// What the keys ask for. Arrow keys travel like WASD around the planet, with Shift they turn the head; otherwise they always
-/// do.
+/// What the keys ask for. Arrow keys travel like WASD around the planet, with Shift they turn the head;
+/// otherwise they always do.
 fn keys(ui: &egui::Ui, id: egui::Id, cameras: &mut Cameras, ground: &dyn Ground) -> Controls {
     use egui::Key;
     let filter = egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };

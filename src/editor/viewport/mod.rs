@@ -5,7 +5,7 @@
 //! - [`ground`]: the ground as the camera knows it
 //! - [`target`]: the offscreen texture and its colour encoding
 //! - `outline`: what a frozen view sees, drawn into another
-//! - [`pointer`]: what lies under the pointer
+//! - [`mod@pointer`]: what lies under the pointer
 //! - [`swap`]: the surface on screen, and the next one while it is uploaded
 //! - [`adaptation`]: exposure that follows what there is to see
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, where it went, the time of each frame
@@ -288,8 +288,8 @@ impl Viewport {
         drawing.map(str::to_owned).or_else(|| self.builder.error())
     }
 
-    /// Shows the picture in all of the room there is. `valid` is what is drawn; a drag of the sun changes `draft`, and gives
-    /// the label of that edit.
+    /// Shows the picture in all of the room there is. `valid` is what is drawn; a drag of the sun changes `draft`, and
+    /// gives the label of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
         if std::mem::take(&mut self.wants_focus) {
@@ -333,7 +333,8 @@ impl Viewport {
             size_px: [side_px(rect.width()), side_px(rect.height())],
             quality: self.settings.quality,
         };
-        // The camera stands over the surface that is shown; a planet of another size is asked for from as far in its radii.
+        // The camera stands over the surface that is shown; a planet of another size is asked for
+        // from as far in its radii.
         self.frozen = self.settings.freeze_detail.then(|| self.frozen.unwrap_or(view));
         let mut wanted = self.frozen.unwrap_or(view);
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
@@ -355,7 +356,8 @@ impl Viewport {
         moved.sun.then_some(input::SUN_STEP)
     }
 
-    /// Brings the newest surface nearer to the screen: uploads a frame's worth of it, and swaps it in when that was all.
+    /// Brings the newest surface nearer to the screen: uploads a frame's worth of it, and swaps
+    /// it in when that was all.
     fn advance(&mut self, ctx: &egui::Context) {
         let newest = self.builder.surface();
         let (drawing, frames, span) = (&mut self.drawing, &mut self.frames, &mut self.upload);

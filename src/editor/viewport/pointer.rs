@@ -1,4 +1,5 @@
-//! What lies under the pointer, found on a thread of its own: a ray that grazes a heavy planet takes longer than a picture may.
+//! What lies under the pointer, found on a thread of its own: a ray that grazes a heavy planet takes
+//! longer than a picture may.
 
 use crate::build::Surface;
 use crate::lod::View;

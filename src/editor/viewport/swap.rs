@@ -1,7 +1,7 @@
 //! The surface on screen, and the one that takes its place once all of its tiles are on the GPU.
 //!
-//! An upload that has begun is brought to its end even when newer surfaces are there: otherwise a slider that is held could
-//! put off every swap for ever.
+//! An upload that has begun is brought to its end even when newer surfaces are there: otherwise a slider that is held
+//! could put off every swap for ever.
 
 use crate::build::Surface;
 use std::sync::Arc;
@@ -22,7 +22,8 @@ impl Swap {
         self.shown.as_ref()
     }
 
-    /// Moves on by a frame's worth. `upload` uploads some tiles of a surface and tells whether that was the last of them.
+    /// Moves on by a frame's worth. `upload` uploads some tiles of a surface and tells whether
+    /// that was the last of them.
     pub fn advance(&mut self, newest: Option<Arc<Surface>>, upload: impl FnOnce(&Surface) -> bool) {
         let is_shown = |surface: &Arc<Surface>| self.shown.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, surface));
         if self.incoming.is_none() {

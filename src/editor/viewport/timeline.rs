@@ -62,7 +62,8 @@ pub struct Drawing {
 }
 
 impl Timeline {
-    /// An edit made at `edited_at` that is now drawn; `surface` if its tiles were made for this edit. The total is not known yet.
+    /// An edit made at `edited_at` that is now drawn; `surface` if its tiles were made for this edit.
+    /// The total is not known yet.
     pub fn new(edited_at: Instant, surface: Option<&Surface>, drawing: &Drawing) -> Self {
         let mut timeline = Timeline { uploaded_bytes: drawing.uploaded_bytes, ..Timeline::default() };
         let secs = |at: Instant| at.saturating_duration_since(edited_at).as_secs_f64();

@@ -1,7 +1,7 @@
 //! One parameter as a row: label, the control its domain asks for, and a reset button when it differs from the default.
 //!
-//! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of Continents";
-//! the number beside a slider is called "Amplitude of Continents as a number".
+//! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of
+//! Continents"; the number beside a slider is called "Amplitude of Continents as a number".
 
 use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
@@ -140,7 +140,8 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
-            // A range that begins at zero needs a smallest step; a hundred-thousandth of the range is finer than anyone can see.
+            // A range that begins at zero needs a smallest step; a hundred-thousandth of the range is
+            // finer than anyone can see.
             add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-5));
             number_field(ui, &name, row.param, v, min, max, logarithmic);
         }
@@ -236,8 +237,8 @@ fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, m
     ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number).accessible_name(format!("{name} as a number"));
 }
 
-/// Reads and writes a number. Writing what would look the same is no edit: a field that was only visited must not round a
-/// loaded value to the digits it shows.
+/// Reads and writes a number. Writing what would look the same is no edit: a field that was only visited must not round
+/// a loaded value to the digits it shows.
 fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ {
     move |new| {
         if let Some(new) = new

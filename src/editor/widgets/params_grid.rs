@@ -17,8 +17,8 @@ pub struct Grid<'a> {
     pub problems: &'a [(ParamPath, String)],
 }
 
-/// Shows the parameters of `part`; `default` is what their reset buttons go back to. Gives the one for which a file is to be
-/// chosen.
+/// Shows the parameters of `part`; `default` is what their reset buttons go back to. Gives the one for
+/// which a file is to be chosen.
 pub fn params_grid(
     ui: &mut egui::Ui,
     grid: &Grid<'_>,

@@ -3,8 +3,8 @@
 //! - `read`: PNG and OpenEXR files
 //! - `place`: paths as they are written in a preset of a folder
 //!
-//! A planet carries its pixels with it, shared and never saved, so that its evaluator needs no file. [`Planet::load`] fetches
-//! them; a planet whose pixels are missing is flat where they would count.
+//! A planet carries its pixels with it, shared and never saved, so that its evaluator needs no file. [`Planet::load`]
+//! fetches them; a planet whose pixels are missing is flat where they would count.
 
 mod place;
 mod read;

@@ -2,8 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-/// The path to a file as a preset in a folder writes it: relative where both have more than the root in common, with `/` on
-/// every system; otherwise whole.
+/// The path to a file as a preset in a folder writes it: relative where both have more than the root in common, with
+/// `/` on every system; otherwise whole.
 pub(super) fn written_from(file: &Path, folder: &Path) -> String {
     // Links in either path would lead `..` astray.
     let (real_file, real_folder) = (real(file), real(folder));

@@ -1,8 +1,8 @@
 //! Joins the layers at a batch of points, chunk by chunk.
 //!
-//! A joined height depends on the height below, on the layer's noise and on what its masks look at. Its partial derivatives by
-//! these are found once for each point, and mix the gradients of each band. A mask by slope counts as the same all around a
-//! point: how fast the slope itself changes would take second derivatives of everything below.
+//! A joined height depends on the height below, on the layer's noise and on what its masks look at. Its partial
+//! derivatives by these are found once for each point, and mix the gradients of each band. A mask by slope counts as
+//! the same all around a point: how fast the slope itself changes would take second derivatives of everything below.
 
 use super::lanes::{self, Masking, Output, Shaped};
 use super::lanes::{CHUNK, Lane};
@@ -34,8 +34,9 @@ impl Heights {
     }
 }
 
-/// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at `spacings_rad` and at what
-/// its slopes need; `each(layer, heights_m)` is told the heights of a chunk of points after each layer that is on.
+/// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at
+/// `spacings_rad` and at what its slopes need; `each(layer, heights_m)` is told the heights of a chunk of points
+/// after each layer that is on.
 pub(crate) fn combine(
     stack: &LayerStack,
     simd: Simd,

@@ -1,15 +1,15 @@
 //! The loops that join layers: each does one thing to a chunk of points.
 //!
-//! Heights are in f64. Slopes are the partial derivatives by which gradients are mixed afterwards, all bands alike, in f32;
-//! loops with `SLOPES` unset leave them out for queries that want heights alone.
+//! Heights are in f64. Slopes are the partial derivatives by which gradients are mixed afterwards, all bands alike, in
+//! f32; loops with `SLOPES` unset leave them out for queries that want heights alone.
 
 use super::{Blend, Edge, Steps};
 use crate::planet::MAX_MASKS;
 
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// Points worked on at a time. A whole tile: what little is done with each number waits for memory more than anything, and long
-/// runs are fetched ahead.
+/// Points worked on at a time. A whole tile: what little is done with each number waits for memory more than anything,
+/// and long runs are fetched ahead.
 pub(super) const CHUNK: usize = 1152;
 
 /// One number for each point of a chunk.
@@ -111,8 +111,8 @@ joining!(fn blend(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], ou
 
 /// Cuts the height below into steps: `noise` becomes the way from there to its step, in steps.
 ///
-/// A step's tread is flat around its own height, with a riser half-way to the next: `S(t) - t`, where `t` is the place between
-/// two treads and `S` a smoothstep across the riser.
+/// A step's tread is flat around its own height, with a riser half-way to the next: `S(t) - t`, where `t` is the place
+/// between two treads and `S` a smoothstep across the riser.
 #[inline(always)]
 fn cut_body<const SLOPES: bool>(
     n: usize,

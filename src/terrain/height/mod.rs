@@ -1,12 +1,14 @@
-//! From layer fields to height: amplitude, bias, curves, blends and masks, with the gradient carried along by the chain rule.
+//! From layer fields to height: amplitude, bias, curves, blends and masks, with the gradient carried
+//! along by the chain rule.
 //!
 //! - [`LayerStack`]: the layers of a planet, ready to be joined
 //! - `join`: heights at a batch of points, chunk by chunk; `lanes`: its loops
 //! - `curve`: curves through points
 //! - `bounds`: how low and how high the ground can be
 //!
-//! No noise is evaluated here; an edit of an amplitude, a blend or a mask runs this stage alone. Only a mask by slope asks for
-//! more: the gradients of the layers before it, as points `over_m` apart would show them, whatever tile or query asks.
+//! No noise is evaluated here; an edit of an amplitude, a blend or a mask runs this stage alone. Only a mask by
+//! slope asks for more: the gradients of the layers before it, as points `over_m` apart would show them,
+//! whatever tile or query asks.
 
 mod bounds;
 mod curve;
@@ -167,8 +169,8 @@ impl LayerStack {
         self.layers.iter().any(|layer| layer.enabled && layer.masks.iter().any(looks))
     }
 
-    /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths of the
-    /// way to the centre, ten radii out.
+    /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths
+    /// of the way to the centre, ten radii out.
     fn limits_m(&self) -> (f64, f64) {
         (-0.9 * self.radius_m, 10.0 * self.radius_m)
     }

@@ -1,6 +1,6 @@
 //! Billow noise: each octave folded at zero into creases and rounded above them, `1 - (1 - |n|)^2`: what `ridged` is
-//! upside down, without its feedback. The creases are a little rounded too, as by sediment; sharp ones would be drawn as saw
-//! teeth.
+//! upside down, without its feedback. The creases are a little rounded too, as by sediment; sharp ones
+//! would be drawn as saw teeth.
 
 use super::octaves::{Weighted, series};
 use super::{Chunk, Evaluate, Scratch};

@@ -1,8 +1,8 @@
 //! Valleys: the zero lines of warped noise, made into channels.
 //!
-//! A point's distance from the line is about `|n| / |grad n|`, along the ground; dividing by the gradient is what keeps the
-//! width the same everywhere. Each octave is a finer net of valleys, which runs dry with distance from the coarser ones, so that
-//! it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
+//! A point's distance from the line is about `|n| / |grad n|`, along the ground; dividing by the gradient is what keeps
+//! the width the same everywhere. Each octave is a finer net of valleys, which runs dry with distance from the coarser
+//! ones, so that it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
 
 use super::octaves::{Weighted, series};
 use super::warp::Warp;
@@ -23,7 +23,8 @@ const LEAST_GRADIENT: f32 = 0.5;
 const WET: f32 = 0.08;
 const DRY: f32 = 0.4;
 
-/// The meanders' wavelength and displacement (at `meander` 1) against the distance between valleys; octaves of meanders.
+/// The meanders' wavelength and displacement (at `meander` 1) against the distance between
+/// valleys; octaves of meanders.
 const MEANDER_WAVELENGTH: f64 = 0.5;
 const MEANDER_REACH: f64 = 0.3;
 const MEANDER_OCTAVES: u32 = 2;
@@ -109,8 +110,8 @@ impl Evaluate for Canyons {
     }
 }
 
-/// Carves an octave of valleys, at most `depth` deep, out of what coarser ones have left: `uncut`, the share of the rock; `wet`,
-/// how near they are. `scale` is the octave's cell in radii.
+/// Carves an octave of valleys, at most `depth` deep, out of what coarser ones have left: `uncut`, the share of the
+/// rock; `wet`, how near they are. `scale` is the octave's cell in radii.
 #[inline(always)]
 fn carve_body<R: Real>(
     n: usize,
@@ -128,8 +129,7 @@ fn carve_body<R: Real>(
         let (x, y, z) = (gx.scale(scale), gy.scale(scale), gz.scale(scale));
         let upward = x * R::load(px, i) + y * R::load(py, i) + z * R::load(pz, i);
         let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
-        let distance =
-            R::noise(noise, i).abs() * along.plus(LEAST_GRADIENT * LEAST_GRADIENT).sqrt().recip();
+        let distance = R::noise(noise, i).abs() * along.plus(LEAST_GRADIENT * LEAST_GRADIENT).sqrt().recip();
         let wall = distance.scale(channel.narrowness).smoothstep(channel.floor, 1.0);
         let cut = (R::constant(1.0) - wall) * R::load(wet, i).scale(depth);
         let left = R::load(uncut, i);

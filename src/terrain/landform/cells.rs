@@ -1,12 +1,12 @@
 //! Cells (Worley 1996): the ground is shared out between jittered centres in space, each point to the nearest.
 //!
-//! Distances are squared and in cells. The difference of the squared distances to two centres is linear across the border
-//! between them, so slopes and cracks are straight and need no root.
+//! Distances are squared and in cells. The difference of the squared distances to two centres is linear across the
+//! border between them, so slopes and cracks are straight and need no root.
 //!
 //! Which cells to search: with centres at most [`JITTER`] from their cells' middles along each axis, the eight cells
-//! nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells beyond [`neighbourhood`] lie
-//! at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which makes sqrt([`HORIZON`]) = 1.5627. So the
-//! two nearest centres are always found, and nothing jumps as the search moves on.
+//! nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells beyond [`neighbourhood`]
+//! lie at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which makes sqrt([`HORIZON`]) =
+//! 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
 
 use super::octaves::{Weighted, series};
 use super::places::{Places, neighbour, unit};
@@ -98,8 +98,8 @@ impl Evaluate for Cells {
     }
 }
 
-/// The cells that must be searched, in steps towards the nearer side: all around a point, and one further along one axis at
-/// a time on its nearer side.
+/// The cells that must be searched, in steps towards the nearer side: all around a point, and one further along one
+/// axis at a time on its nearer side.
 fn neighbourhood() -> impl Iterator<Item = [i32; 3]> {
     let all = (0..64).map(|k| [(k & 3) - 1, ((k >> 2) & 3) - 1, (k >> 4) - 1]);
     all.filter(|step| step.iter().filter(|s| **s == 2).count() <= 1)
@@ -139,7 +139,8 @@ fn meet_body<R: Real>(
 for_each_simd!(fn meet_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<f32>);
 for_each_simd!(fn meet_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<Jet>);
 
-/// How quickly a plate's share falls off beyond its border; never so slowly that centres beyond the horizon would count.
+/// How quickly a plate's share falls off beyond its border; never so slowly that centres beyond
+/// the horizon would count.
 #[inline(always)]
 fn begin_body<R: Real>(n: usize, width: f32, first: &Jets, steepness: &mut Jets) {
     for i in 0..n.min(CHUNK) {
@@ -210,21 +211,7 @@ for_each_simd!(fn swell_gradients(n: usize, frequency: f32, first: &Jets, height
 
 #[cfg(test)]
 mod tests {
-    use super::super::check;
     use super::*;
-
-    fn cells(style: CellStyle) -> Cells {
-        Cells::new(&planet::Cells { style, cell_km: 700.0, octaves: 2, width: 0.4, ..Default::default() }, 7, 6371.0)
-    }
-
-    #[test]
-    fn cells_are_sound() {
-        for style in [CellStyle::Plates, CellStyle::Cracks, CellStyle::Bumps] {
-            check::kind(&cells(style), 0.02);
-            let (mean, deviation) = check::statistics(&cells(style));
-            assert!(mean.abs() < 0.6 && (0.15..0.6).contains(&deviation), "{style:?} {mean} {deviation}");
-        }
-    }
 
     /// Every cell that is left out is farther away than the two nearest centres can be.
     #[test]
@@ -249,14 +236,6 @@ mod tests {
                 assert!(distance(cell, false) > f64::from(HORIZON) - 1e-6, "{cell:?} from {p:?}");
             }
             assert!(farthest[1] < f64::from(HORIZON), "{p:?}");
-        }
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        for style in [CellStyle::Plates, CellStyle::Cracks] {
-            check::speed(&format!("{style:?}"), &cells(style));
         }
     }
 }

@@ -1,8 +1,8 @@
-//! Continents and oceans: warped fractal noise put through a hypsometric curve, which gives each part of the globe its share of
-//! the surface: abyssal plain, continental rise and slope, shelf, coastal plain, interior.
+//! Continents and oceans: warped fractal noise put through a hypsometric curve, which gives each part of the globe its
+//! share of the surface: abyssal plain, continental rise and slope, shelf, coastal plain, interior.
 //!
-//! A globe holds few continents, so the shares of the bare noise differ much from seed to seed. The curve is therefore laid
-//! through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
+//! A globe holds few continents, so the shares of the bare noise differ much from seed to seed. The curve is therefore
+//! laid through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
 
 use super::curve::Curve;
 use super::fbm::{LEAST_POINTS, add_octaves};
@@ -164,7 +164,7 @@ mod tests {
                 heights.iter().filter(|h| (from..to).contains(*h)).count() as f64 / heights.len() as f64
             };
             let (is_land, is_shelf) = (share(0.0, 2.0), share(SHELF_EDGE, 0.0) / (1.0 - land));
-            
+
             assert!((is_land - land).abs() < 0.03, "{is_land} of {land}");
             assert!((is_shelf - shelf).abs() < 0.04, "{is_shelf} of {shelf}");
         }

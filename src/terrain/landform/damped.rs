@@ -1,9 +1,9 @@
-//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave divided by `1 + damping * slope^2`, where the slope is
-//! that of the octaves up to it, undamped. Octaves are raised by 1 first, so that damping pulls slopes down: peaks stand out,
-//! valleys widen.
+//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave divided by `1 + damping * slope^2`, where the
+//! slope is that of the octaves up to it, undamped. Octaves are raised by 1 first, so that damping pulls slopes down:
+//! peaks stand out, valleys widen.
 //!
-//! Slopes are measured along the ground, in coarsest wavelengths, so that `damping` means the same on every planet. Where the
-//! gradient is wanted too, second derivatives of the noise make it exact.
+//! Slopes are measured along the ground, in coarsest wavelengths, so that `damping` means the same on every planet.
+//! Where the gradient is wanted too, second derivatives of the noise make it exact.
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
@@ -13,7 +13,8 @@ use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
 
-/// Cells to the radius, and against the coarsest octave, beyond which the square of a slope would leave the range of f32.
+/// Cells to the radius, and against the coarsest octave, beyond which the square of a slope
+/// would leave the range of f32.
 const FINEST: f64 = 1e10;
 const FINEST_TO_COARSEST: f64 = 1e12;
 

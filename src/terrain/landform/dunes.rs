@@ -1,11 +1,12 @@
 //! Dunes: phasor noise (Tricard et al. 2019), waves that run with the wind.
 //!
-//! Jittered points in 3D cells each send out a wave `e^iθ` along the wind at their own place, faded with distance. Their sum
-//! is a complex number whose angle is a phase without seam, and a profile drawn over that phase has crests of equal height
-//! that fork and end as those of real dunes do. Where the sum is zero the phase is undefined; dunes run out before that.
+//! Jittered points in 3D cells each send out a wave `e^iθ` along the wind at their own place, faded with distance.
+//! Their sum is a complex number whose angle is a phase without seam, and a profile drawn over that phase has
+//! crests of equal height that fork and end as those of real dunes do. Where the sum is zero the phase is
+//! undefined; dunes run out before that.
 //!
-//! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly. Reach
-//! and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
+//! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly.
+//! Reach and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
 
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
@@ -128,7 +129,15 @@ impl Evaluate for Dunes {
 
 /// Adds the waves that the points of one cell of the eight send out, to the real and the imaginary part.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) {
+fn send_body<R: Real>(
+    n: usize,
+    places: &Places,
+    corner: [i32; 3],
+    octave: &Octave,
+    wind: Wind,
+    re: &mut Jets,
+    im: &mut Jets,
+) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let cell_rad = (1.0 / octave.frequency) as f32;
     for i in 0..n.min(CHUNK) {
@@ -167,7 +176,15 @@ for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], oc
 
 /// The height of dunes from the sum of waves and the noise that bends them.
 #[inline(always)]
-fn pile_body<R: Real>(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) {
+fn pile_body<R: Real>(
+    n: usize,
+    re: &Jets,
+    im: &Jets,
+    bends: &Noise,
+    waviness: f32,
+    profile: Profile,
+    dunes: &mut Jets,
+) {
     for i in 0..n.min(CHUNK) {
         let (re, im) = (R::load(re, i), R::load(im, i));
         let square = re.square() + im.square();
@@ -193,7 +210,8 @@ impl Profile {
         Self { windward: 0.5 + 0.3 * asymmetry, brink: asymmetry }
     }
 
-    /// The height over the trough, 0 to 2, at a phase in turns. The windward side rises from trough to crest, the lee falls.
+    /// The height over the trough, 0 to 2, at a phase in turns. The windward side rises from trough
+    /// to crest, the lee falls.
     #[inline(always)]
     fn height<R: Real>(self, phase: R) -> R {
         let wrapped = approx::wrap(phase.value());
@@ -211,32 +229,21 @@ impl Profile {
 
 #[cfg(test)]
 mod tests {
-    use super::super::check;
+    use super::super::Landform;
+    use super::super::tests::{directions, gradients};
     use super::*;
     use crate::sphere::geo::east_north;
-    use crate::terrain::field::EXACT;
-    use crate::terrain::simd::Simd;
-
-    fn dunes() -> Dunes {
-        Dunes::new(&planet::Dunes { wavelength_km: 400.0, ..Default::default() }, 7, 6371.0)
-    }
-
-    #[test]
-    fn dunes_are_sound() {
-        check::kind(&dunes(), 0.02);
-        let (mean, deviation) = check::statistics(&dunes());
-        assert!((-0.5..0.1).contains(&mean) && (0.4..0.8).contains(&deviation), "{mean} {deviation}");
-    }
 
     /// With the wind the ground rises gently for most of the way and falls steeply.
     #[test]
     fn the_lee_is_steep_and_lies_where_the_wind_blows_to() {
         for heading_deg in [0.0, 90.0, 200.0] {
-            let params = planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
-            let dirs = check::directions(4000);
-            let (_, gradients) = check::evaluate(&Dunes::new(&params, 7, 6371.0), Simd::detect(), &dirs, EXACT);
+            let params =
+                planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
+            let dirs = directions(4000);
+            let landform = Landform::Dunes(Dunes::new(&params, 7, 6371.0));
             let (mut rising, mut steepest_rise, mut steepest_fall) = (0, 0.0_f64, 0.0_f64);
-            for (dir, gradient) in dirs.iter().zip(&gradients).filter(|(dir, _)| dir.z.abs() < 0.9) {
+            for (dir, gradient) in dirs.iter().zip(gradients(&landform, &dirs)).filter(|(dir, _)| dir.z.abs() < 0.9) {
                 let (east, north) = east_north(*dir);
                 let (sin, cos) = f64::to_radians(heading_deg).sin_cos();
                 let rise = gradient.dot(east * sin + north * cos);
@@ -247,11 +254,5 @@ mod tests {
             assert!(rising > 2300, "{heading_deg}: {rising}");
             assert!(steepest_fall > 1.5 * steepest_rise, "{heading_deg}: {steepest_fall} {steepest_rise}");
         }
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        check::speed("dunes", &dunes());
     }
 }

@@ -1,11 +1,11 @@
 //! Gullies: mountains as running water carves them, each point by itself, after the gradient-aligned waves of Clay John
 //! (2020) and Rune Skovbo Johansen (2025).
 //!
-//! A smooth relief of noise is given gullies that run down its slope: in each of the jittered cells around a point stands a
-//! wave whose crests follow the slope, and their sum is a phasor (see `dunes`), the cosine of which is the gullies' height. Each
-//! finer octave runs down the slope of the relief together with the gullies before it, so that gullies branch. Ground that
-//! is flat gets none: summits keep the height of a ridge and valley floors that of a valley, and ridges and valleys of one
-//! octave stay clear of the next.
+//! A smooth relief of noise is given gullies that run down its slope: in each of the jittered cells around a point
+//! stands a wave whose crests follow the slope, and their sum is a phasor (see `dunes`), the cosine of which is the
+//! gullies' height. Each finer octave runs down the slope of the relief together with the gullies before it, so that
+//! gullies branch. Ground that is flat gets none: summits keep the height of a ridge and valley floors that of a
+//! valley, and ridges and valleys of one octave stay clear of the next.
 //!
 //! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
 
@@ -32,8 +32,8 @@ const FAINT: f32 = 0.02;
 const STEEPNESS: f64 = 0.4;
 /// The slope at which ground has half its gullies, in reliefs for each unit of wavelength.
 const FLAT: f32 = 0.35;
-/// How many times coarser than the gullies an octave of the relief must be to lead them: they cannot follow a slope that turns
-/// within their own width.
+/// How many times coarser than the gullies an octave of the relief must be to lead them: they cannot follow a slope
+/// that turns within their own width.
 const COARSER: f64 = 2.5;
 /// How much gullies count in the slope that leads the next octave: less keeps the finer ones straighter.
 const BRANCH: f32 = 0.6;
@@ -163,8 +163,8 @@ struct Work {
     guide: [Jets; 3],
     /// Along the ground and across the slope; the shorter, the flatter the ground.
     side: [Jets; 3],
-    /// Real and imaginary part of the sum of waves; and as their gradients, those of the sum of waves each times the way
-    /// to its middle.
+    /// Real and imaginary part of the sum of waves; and as their gradients, those of the sum of waves each
+    /// times the way to its middle.
     waves: [Jets; 4],
     /// How much of the next octave there is.
     share: Jets,
@@ -290,27 +290,3 @@ fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work) {
 }
 for_each_simd!(fn carve_values(n: usize, gully: &Carved, work: &mut Work) = carve_body::<f32>);
 for_each_simd!(fn carve_gradients(n: usize, gully: &Carved, work: &mut Work) = carve_body::<Jet>);
-
-#[cfg(test)]
-mod tests {
-    use super::super::check;
-    use super::*;
-
-    fn gullies() -> Gullies {
-        let params = planet::Gullies { wavelength_km: 4000.0, gully_km: 900.0, gully_octaves: 3, ..Default::default() };
-        Gullies::new(&params, 7, 6371.0)
-    }
-
-    #[test]
-    fn gullies_are_sound() {
-        check::kind(&gullies(), 0.0);
-        let (mean, deviation) = check::statistics(&gullies());
-        assert!(mean.abs() < 0.2 && (0.2..0.5).contains(&deviation), "{mean} {deviation}");
-    }
-
-    #[test]
-    #[ignore = "prints figures"]
-    fn speed() {
-        check::speed("gullies", &gullies());
-    }
-}

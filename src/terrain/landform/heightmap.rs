@@ -1,5 +1,5 @@
-//! Heights from a picture (see [`crate::sphere::raster`]). Values come from its finest level; gradients from the level whose
-//! texels are as far apart as the points of the band.
+//! Heights from a picture (see [`crate::sphere::raster`]). Values come from its finest level; gradients from the level
+//! whose texels are as far apart as the points of the band.
 
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;

@@ -17,14 +17,12 @@
 //! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
-//! - `check`: what every kind must hold, for tests
+//! - `tests`: what every kind must hold
 //!
-//! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list below is
-//! the only other place that knows it. Its value must not depend on the spacing of the points that ask, and every
-//! operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
+//! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list
+//! below is the only other place that knows it. Its value must not depend on the spacing of the points that ask, and
+//! every operation that makes it must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
-#[cfg(test)]
-mod check;
 mod curve;
 mod octaves;
 mod places;
@@ -44,8 +42,8 @@ macro_rules! landforms {
     ($($kind:ident in $file:ident,)+) => {
         $(mod $file;)+
 
-        /// A layer's noise, compiled: everything its values depend on, and nothing else. Equal landforms have equal fields,
-        /// so this is the key under which a field is kept.
+        /// A layer's noise, compiled: everything its values depend on, and nothing else. Equal landforms have equal
+        /// fields, so this is the key under which a field is kept.
         #[derive(Clone, Debug, PartialEq)]
         pub(crate) enum Landform { $($kind($file::$kind),)+ }
 
@@ -120,9 +118,10 @@ trait Evaluate {
         self.bounds()
     }
 
-    /// Adds its values at the chunk's points to `scratch.sums.value` (all zero before), and to each of `scratch.sums.gradients`
-    /// what points as far apart as `chunk.spacings_rad` can show of its gradient. All else in `scratch` is free to use, with
-    /// anything in it. What `chunk.skips` may be left out, with all that is finer. If `spacings_rad` is empty, values alone are wanted; they must have the same bits.
+    /// Adds its values at the chunk's points to `scratch.sums.value` (all zero before), and to each of
+    /// `scratch.sums.gradients` what points as far apart as `chunk.spacings_rad` can show of its gradient. All else in
+    /// `scratch` is free to use, with anything in it. What `chunk.skips` may be left out, with all that is finer. If
+    /// `spacings_rad` is empty, values alone are wanted; they must have the same bits.
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch);
 }
 
@@ -153,8 +152,8 @@ impl Chunk<'_> {
         self.seen_only && fades.is_unseen()
     }
 
-    /// What each of the spacings can show of features so large (as an angle): all of it from `least` points for each feature
-    /// on, nothing below half as many.
+    /// What each of the spacings can show of features so large (as an angle): all of it from `least` points for each
+    /// feature on, nothing below half as many.
     pub(crate) fn fades(&self, feature_rad: f64, least: f64) -> Fades {
         let mut fades = Fades([0.0; MAX_BANDS]);
         for (share, spacing_rad) in fades.0.iter_mut().zip(self.spacings_rad) {
@@ -231,8 +230,8 @@ impl Sums {
         }
     }
 
-    /// Lets the octaves summed so far, of this share of all weight, stand for those left out, in the values: for octaves whose
-    /// mean is not zero, without which the ground would sink.
+    /// Lets the octaves summed so far, of this share of all weight, stand for those left out, in the values: for
+    /// octaves whose mean is not zero, without which the ground would sink.
     fn stand_for_all(&mut self, n: usize, share: f64) {
         if share > 0.0 {
             self.value[..n].iter_mut().for_each(|v| *v /= share);

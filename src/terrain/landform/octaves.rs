@@ -9,8 +9,8 @@ pub(super) struct Weighted {
     pub(super) weight: f32,
 }
 
-/// A series of octaves: `count` of them, from `frequency` cells to the planet's radius on, each `lacunarity` times finer and
-/// `gain` times as strong as the one before.
+/// A series of octaves: `count` of them, from `frequency` cells to the planet's radius on, each `lacunarity` times
+/// finer and `gain` times as strong as the one before.
 pub(super) fn series(seed: u64, frequency: f64, count: u32, gain: f64, lacunarity: f64) -> Vec<Weighted> {
     // The lattice must stay within what f64 can split; finer octaves would be below a nanometre.
     let frequencies: Vec<f64> = std::iter::successors(Some(frequency), |f| Some(f * lacunarity))

@@ -43,8 +43,8 @@ for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut
 pub(super) const CORNERS: [[i32; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
 
-/// The cell so many steps from that of the `i`th point, each axis counted towards the side on which the next cell is nearer;
-/// and how many cells it lies from the point's own.
+/// The cell so many steps from that of the `i`th point, each axis counted towards the side on which the next cell is
+/// nearer; and how many cells it lies from the point's own.
 #[inline(always)]
 pub(super) fn neighbour(places: &Places, step: [i32; 3], i: usize) -> ([u32; 3], [f32; 3]) {
     // The next cell is nearer below for a point in the lower half of its cell, above for one in the upper.

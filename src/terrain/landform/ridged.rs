@@ -1,5 +1,5 @@
-//! Ridged multifractal (Musgrave, in Ebert et al. 2003): noise folded at zero into crests, `(1 - |n|)^2`, each octave strong
-//! where the one before was.
+//! Ridged multifractal (Musgrave, in Ebert et al. 2003): noise folded at zero into crests, `(1 - |n|)^2`, each octave
+//! strong where the one before was.
 
 use super::octaves::{Weighted, series};
 use super::{Chunk, Evaluate, Scratch};
@@ -21,10 +21,7 @@ pub(crate) struct Ridged {
 impl Ridged {
     pub(super) fn new(params: &planet::Ridged, seed: u64, radius_km: f64) -> Self {
         let planet::Ridged { wavelength_km, octaves, gain, lacunarity, feedback } = *params;
-        Self {
-            octaves: series(seed, radius_km / wavelength_km, octaves, gain, lacunarity),
-            feedback: feedback as f32,
-        }
+        Self { octaves: series(seed, radius_km / wavelength_km, octaves, gain, lacunarity), feedback: feedback as f32 }
     }
 }
 

@@ -1,6 +1,7 @@
-//! What must hold for every kind of layer.
+//! What must hold for every kind of layer: exact gradients, no jumps, bounds, the same bits everywhere.
 
 use super::*;
+use crate::planet;
 use crate::planet::param::{Domain, ParamPath, Params, Unit, ValueMut};
 use crate::terrain::field::{EXACT, Field};
 use crate::terrain::points::Points;
@@ -8,29 +9,60 @@ use proptest::prelude::*;
 
 const RADIUS_KM: f64 = 6371.0;
 
-/// Directions spread evenly over the sphere (a Fibonacci lattice).
-fn directions(n: usize) -> Vec<DVec3> {
-    (0..n)
-        .map(|i| {
-            let z = 1.0 - (2 * i + 1) as f64 / n as f64;
-            let longitude = i as f64 * 2.399_963_229_728_653;
-            DVec3::new(libm::cos(longitude), libm::sin(longitude), 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
-        })
-        .collect()
+/// Directions all over the sphere (a Fibonacci lattice), the axes among them.
+pub(super) fn directions(n: usize) -> Vec<DVec3> {
+    let spiral = (0..n).map(|i| {
+        let z = 1.0 - (2 * i + 1) as f64 / n as f64;
+        let longitude = i as f64 * 2.399_963_229_728_653;
+        DVec3::new(libm::cos(longitude), libm::sin(longitude), 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
+    });
+    DVec3::AXES.into_iter().chain(DVec3::AXES.map(|axis| -axis)).chain(spiral).collect()
 }
 
 fn values(landform: &Landform, dirs: Vec<DVec3>) -> Vec<f64> {
     Field::new(landform, Simd::detect(), &Points::new(dirs), &[]).value
 }
 
-/// Each kind by its name, with at most so many octaves, and the size of its smallest feature as an angle.
+/// Gradients with every octave.
+pub(super) fn gradients(landform: &Landform, dirs: &[DVec3]) -> Vec<DVec3> {
+    let field = Field::new(landform, Simd::detect(), &Points::new(dirs.to_vec()), EXACT);
+    let [x, y, z] = field.gradient(0.0).unwrap();
+    (0..dirs.len()).map(|i| DVec3::new(x[i].into(), y[i].into(), z[i].into())).collect()
+}
+
+/// Each kind with a name: as it is by default, in its other styles, and with what its defaults leave out.
+fn shapes() -> Vec<(&'static str, Shape)> {
+    let cells = |style| Shape::Cells(planet::Cells { style, width: 0.4, octaves: 2, ..Default::default() });
+    let moon = planet::Craters {
+        octaves: 3,
+        density: 0.4,
+        power: 2.4,
+        floor: 0.5,
+        peak: 0.4,
+        age: 0.9,
+        fresh: 0.1,
+        ..Default::default()
+    };
+    let more = [
+        ("Craters of a moon", Shape::Craters(moon)),
+        ("Plates", cells(planet::CellStyle::Plates)),
+        ("Cracks", cells(planet::CellStyle::Cracks)),
+        ("Bumps", cells(planet::CellStyle::Bumps)),
+    ];
+    // A height map without a picture is flat; `heightmap` tests those that have one.
+    let has_relief = |(_, shape): &(&'static str, Shape)| !matches!(shape, Shape::HeightMap(_));
+    let plain = Shape::NAMES.iter().copied().zip(Shape::all()).filter(has_relief);
+    plain.chain(more).collect()
+}
+
+/// The same compiled, with at most so many octaves, and the size of the smallest feature as an angle.
 fn kinds(most_octaves: u32) -> Vec<(&'static str, Landform, f64)> {
-    let kind = |(mut shape, name): (Shape, &'static str)| {
+    let kind = |(name, mut shape): (&'static str, Shape)| {
         let (mut smallest_km, mut octave_count) = (f64::MAX, 1);
         shape.each_param(&mut ParamPath::default(), &mut |_, param, value| match value {
-            ValueMut::Count(octaves) if param.name == "octaves" => {
+            ValueMut::Count(octaves) if param.name.ends_with("octaves") => {
                 *octaves = most_octaves.min(*octaves);
-                octave_count = *octaves;
+                octave_count = octave_count.max(*octaves);
             }
             ValueMut::Number(size_km) if param.unit == Unit::Kilometres => smallest_km = smallest_km.min(*size_km),
             _ => {}
@@ -38,39 +70,38 @@ fn kinds(most_octaves: u32) -> Vec<(&'static str, Landform, f64)> {
         let smallest_rad = smallest_km / RADIUS_KM * 0.5_f64.powi(octave_count as i32 - 1);
         (name, Landform::new(&shape, 7, RADIUS_KM), smallest_rad)
     };
-    // A height map without a picture is flat; `heightmap` tests those that have one.
-    let has_relief = |shape: &Shape| !matches!(shape, Shape::HeightMap(_));
-    let all = Shape::all().into_iter().zip(Shape::NAMES.iter().copied());
-    all.filter(|(shape, _)| has_relief(shape)).map(kind).collect()
+    shapes().into_iter().map(kind).collect()
 }
 
 #[test]
 fn gradients_match_central_differences() {
     for (name, landform, smallest_rad) in kinds(3) {
         let step = 4e-4 * smallest_rad;
-        let dirs = directions(3000);
-        let gradients = Field::new(&landform, Simd::detect(), &Points::new(dirs.clone()), EXACT);
-        let gradients = gradients.gradient(0.0).unwrap();
+        let dirs = directions(4000);
+        let gradients = gradients(&landform, &dirs);
+        assert!(gradients.iter().all(|g| g.is_finite()), "{name}");
         let along: Vec<DVec3> = dirs.iter().map(|d| d.any_orthonormal_vector()).collect();
         let at = |k: f64| values(&landform, dirs.iter().zip(&along).map(|(d, a)| (*d + *a * k).normalize()).collect());
         let (lo, hi) = (at(-step), at(step));
         let (mut errors, mut slopes): (Vec<f64>, Vec<f64>) = (0..dirs.len())
             .map(|i| {
-                let gradient = DVec3::new(gradients[0][i].into(), gradients[1][i].into(), gradients[2][i].into());
                 let difference = (hi[i] - lo[i]) / (2.0 * step);
-                ((difference - gradient.dot(along[i])).abs(), difference.abs())
+                ((difference - gradients[i].dot(along[i])).abs(), difference.abs())
             })
             .unzip();
         errors.sort_by(f64::total_cmp);
         slopes.sort_by(f64::total_cmp);
-        let (typical, most) = (slopes[dirs.len() * 95 / 100], dirs.len() * 97 / 100);
-        // The few that straddle a crease have no slope to compare.
+        let steepest = gradients.iter().zip(&dirs).map(|(g, d)| g.reject_from(*d).length()).fold(0.0, f64::max);
+        let (typical, most) = (slopes[dirs.len() * 95 / 100], dirs.len() * 98 / 100);
+        // The few that straddle a crease have no slope to compare; but nothing jumps.
         assert!(errors[most] < 4e-3 * typical, "{name}: off by {:e} where slopes are {typical:e}", errors[most]);
+        assert!(slopes.iter().all(|slope| *slope < 1.1 * steepest), "{name}: steeper than {steepest:e}");
     }
 }
 
 #[test]
 fn values_keep_within_their_bounds_and_use_them() {
+    // What the artist's amplitude means depends on it: no kind is much flatter or higher than the others.
     for (name, landform, _) in kinds(24) {
         let values = values(&landform, directions(20_000));
         let (lo, hi) = landform.bounds();
@@ -78,22 +109,47 @@ fn values_keep_within_their_bounds_and_use_them() {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let deviation = (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / values.len() as f64).sqrt();
         assert!(lo <= least && greatest <= hi, "{name}: {least} to {greatest} is beyond {lo} to {hi}");
-        assert!(greatest - least > 0.25 * (hi - lo), "{name}: {least} to {greatest} of {lo} to {hi}");
-        assert!(mean.abs() < 0.75 && (0.02..0.8).contains(&deviation), "{name}: {mean} +- {deviation}");
+        assert!(greatest - least > 0.3 * (hi - lo), "{name}: {least} to {greatest} of {lo} to {hi}");
+        assert!(mean.abs() < 0.5 && (0.05..0.6).contains(&deviation), "{name}: {mean} +- {deviation}");
     }
 }
 
 #[test]
 fn heights_have_the_same_bits_with_and_without_gradients_on_every_instruction_set() {
-    let points = Points::new(directions(1000));
+    let points = Points::new(directions(4000));
+    let bits = |field: &Field| field.value.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     for (name, landform, _) in kinds(24) {
-        let plain = values(&landform, points.dirs.clone());
         let exact = Field::new(&landform, Simd::detect(), &points, EXACT);
-        assert_eq!(plain, exact.value, "{name}");
         for simd in Simd::available() {
-            assert!(exact == Field::new(&landform, simd, &points, EXACT), "{name}: {}", simd.name());
-            // Bands that see some octaves, and none.
-            assert_eq!(plain, Field::new(&landform, simd, &points, &[1e-3, 3e-2, 9.0]).value, "{name}");
+            let of = |spacings_rad: &[f64]| Field::new(&landform, simd, &points, spacings_rad);
+            assert!(exact == of(EXACT), "{name}: {}", simd.name());
+            // Values alone; bands that see all, some and none; one that sees nothing.
+            for spacings_rad in [&[] as &[f64], &[0.0, 1e-3, 3e-2, 1e9], &[1e9]] {
+                let same = of(spacings_rad);
+                assert_eq!(bits(&same), bits(&exact), "{name}: {}, {spacings_rad:?}", simd.name());
+                assert!(same.gradient(0.0).is_none_or(|g| Some(g) == exact.gradient(0.0)), "{name}: {}", simd.name());
+            }
+        }
+    }
+}
+
+/// How many million octave samples a second each instruction set makes, on one core; printed.
+#[test]
+#[ignore = "prints figures"]
+fn speed() {
+    let points = Points::new(directions(1 << 15));
+    for (name, landform, _) in kinds(24) {
+        for simd in Simd::available() {
+            let rate = |spacings_rad: &[f64]| {
+                let start = std::time::Instant::now();
+                let mut samples = 0;
+                while start.elapsed().as_secs_f64() < 0.2 {
+                    std::hint::black_box(Field::new(&landform, simd, &points, spacings_rad));
+                    samples += points.len() * landform.octave_count();
+                }
+                samples as f64 / start.elapsed().as_secs_f64() * 1e-6
+            };
+            eprintln!("{name} {}: {:.1} M octave samples/s, {:.1} with gradients", simd.name(), rate(&[]), rate(EXACT));
         }
     }
 }
@@ -110,8 +166,8 @@ proptest! {
             (dir + (a * turn.cos() + b * turn.sin()) * (angle_rad * share * 0.99).tan()).normalize()
         });
         let points = Points::new(around.collect());
-        for shape in Shape::all() {
-            let landform = Landform::new(&shape, seed, 6371.0);
+        for (_, shape) in shapes() {
+            let landform = Landform::new(&shape, seed, RADIUS_KM);
             let (lo, hi) = landform.bounds_near(dir, angle_rad);
             for v in Field::new(&landform, Simd::detect(), &points, &[]).value {
                 prop_assert!(lo <= v && v <= hi, "{shape:?}: {v} not in {lo}..{hi} within {angle_rad}");

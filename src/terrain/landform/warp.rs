@@ -1,7 +1,7 @@
 //! Domain warping: points displaced by a vector noise before a landform is evaluated at them.
 //!
-//! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian, which only
-//! turns gradients, in f32.
+//! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian,
+//! which only turns gradients, in f32.
 
 use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
@@ -9,8 +9,8 @@ use super::{Chunk, Sums, add_gradient};
 use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
 use crate::terrain::simd::for_each_simd;
 
-/// So many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32 is
-/// half a millimetre of 4 km.
+/// So many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
+/// is half a millimetre of 4 km.
 const PRECISE: usize = 2;
 
 /// Farthest displacement at a noise of 1, in radii.
@@ -53,7 +53,8 @@ impl Default for Displacement {
 }
 
 impl Warp {
-    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells to the radius, that displaces by `reach` radii.
+    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells to the radius, that
+    /// displaces by `reach` radii.
     pub(super) fn new(seed: u64, frequency: f64, octaves: u32, reach: f64) -> Self {
         // The lattice must stay within what f64 can split; a few radii away is as good as anywhere.
         let reach = reach.min(MAX_REACH);
@@ -141,8 +142,8 @@ impl Displaced {
         self.skewed.0.each_ref().map(|lane| &lane[..n])
     }
 
-    /// Turns the gradient of a noise at the displaced points (and its second derivatives, if `curved`) into those by the points,
-    /// as the first band shows them.
+    /// Turns the gradient of a noise at the displaced points (and its second derivatives, if `curved`) into those by
+    /// the points, as the first band shows them.
     pub(super) fn pull_back_noise(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise) {
         let Some(jacobian) = self.jacobians.first() else { return };
         if curved {
@@ -195,7 +196,8 @@ fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &m
 }
 for_each_simd!(fn add_curvature(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) = add_curvature_body);
 
-/// Second derivatives of a noise by the points, by the chain rule: `J' H J` and the gradient times those of the displacement.
+/// Second derivatives of a noise by the points, by the chain rule: `J' H J` and the gradient times
+/// those of the displacement.
 #[inline(always)]
 fn bend_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], curvatures: &[[Lane<f32>; 6]; 3], noise: &mut Noise) {
     let ([jx, jy, jz], [cx, cy, cz]) = (jacobian, curvatures);

@@ -47,8 +47,8 @@ mod tests {
     use crate::terrain::simd::Simd;
     use glam::DVec3;
 
-    /// Heights of the default kind with 4 km of amplitude on the Earth, along `count` points so far apart, and what f64 throughout
-    /// gives.
+    /// Heights of the default kind with 4 km of amplitude on the Earth, along `count` points so far apart, and
+    /// what f64 throughout gives.
     fn walk(start: DVec3, step_m: f64, count: usize) -> Vec<(f64, f64)> {
         let warped = Warped::new(&planet::Warped { warp_km: 500.0, ..Default::default() }, 11, 6371.0);
         let start = start.normalize();
@@ -90,6 +90,6 @@ mod tests {
                 worst_m = worst_m.max(bend_m.abs());
             }
         }
-         assert!(worst_m < 7e-4, "{worst_m}");
+        assert!(worst_m < 7e-4, "{worst_m}");
     }
 }

@@ -1,8 +1,8 @@
 //! One octave of noise at a chunk of points.
 //!
-//! Two loops: the lattice in f64 (cell number and fraction of each point), then the noise in f32 and u32 alone. Apart they
-//! are twice as fast as together, because the compiler takes the widest number in a loop to decide how many points go into
-//! a register.
+//! Two loops: the lattice in f64 (cell number and fraction of each point), then the noise in f32 and u32 alone. Apart
+//! they are twice as fast as together, because the compiler takes the widest number in a loop to decide how many
+//! points go into a register.
 
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
 use crate::terrain::simd::{Simd, for_each_simd};
@@ -60,8 +60,8 @@ impl Noise {
 
 #[inline(always)]
 fn find_cells_body(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) {
-    for axis in 0..3 {
-        let (p, cell, fraction) = (skewed[axis], &mut noise.cell[axis], &mut noise.fraction[axis]);
+    for (axis, p) in skewed.into_iter().enumerate() {
+        let (cell, fraction) = (&mut noise.cell[axis], &mut noise.fraction[axis]);
         for ((p, cell), fraction) in p.iter().zip(cell).zip(fraction) {
             (*cell, *fraction) = split(p * octave.frequency + octave.offset[axis]);
         }

@@ -1,15 +1,16 @@
 //! Gradient noise: the arithmetic at the bottom of every layer.
 //!
-//! 3D simplex noise (Perlin 2001, after Gustavson's formulation) with two changes that make it fast and exact at planet scale:
+//! 3D simplex noise (Perlin 2001, after Gustavson's formulation) with two changes that make it fast
+//! and exact at planet scale:
 //!
-//! - The skew onto the simplex grid is linear, so it is applied to a point once ([`skew`]) and each octave only scales the
-//!   skewed point. Lattice and fraction are found in f64, whose rounding at the Earth's scale is below a micrometre; only the
-//!   fraction goes on in f32. The answer does not depend on which tile asks.
+//! - The skew onto the simplex grid is linear, so it is applied to a point once ([`skew`]) and each octave only scales
+//!   the skewed point. Lattice and fraction are found in f64, whose rounding at the Earth's scale is below a
+//!   micrometre; only the fraction goes on in f32. The answer does not depend on which tile asks.
 //! - Gradients are three signed 10-bit numbers out of an integer hash, uniform in a cube: no table, no preferred axes.
 //!
-//! Everything is branch-free and uses only operations that IEEE 754 rounds correctly, never a fused multiply-add, so that
-//! the loops over points ([`batch`]) can be compiled for each instruction set (see [`super::simd`]) with the same bits
-//! everywhere.
+//! Everything is branch-free and uses only operations that IEEE 754 rounds correctly, never a fused multiply-add,
+//! so that the loops over points ([`batch`]) can be compiled for each instruction set (see [`super::simd`]) with
+//! the same bits everywhere.
 
 mod batch;
 pub(crate) mod precise;
@@ -19,8 +20,9 @@ pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
 pub(crate) const BOUND: f64 = 1.45;
 
-/// Bounds of the length of the gradient and of the greatest second derivative along any direction, by lattice coordinates:
-/// sums of the four corners' greatest contributions, each with the worst of gradients. True values are far smaller.
+/// Bounds of the length of the gradient and of the greatest second derivative along any direction, by
+/// lattice coordinates: sums of the four corners' greatest contributions, each with the worst of gradients.
+/// True values are far smaller.
 pub(crate) const SLOPE_BOUND: f64 = 11.4;
 pub(crate) const CURVATURE_BOUND: f64 = 131.0;
 
@@ -148,8 +150,8 @@ pub(crate) fn value_gradient(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> (
     ((v0 + v1 + (v2 + v3)) * SCALE, [sum(0), sum(1), sum(2)])
 }
 
-/// The noise, its gradient (the same bits as [`value_gradient`]) and its second derivatives xx, yy, zz, yz, zx, xy by the
-/// unskewed lattice coordinates.
+/// The noise, its gradient (the same bits as [`value_gradient`]) and its second derivatives xx, yy, zz, yz, zx, xy by
+/// the unskewed lattice coordinates.
 #[inline(always)]
 pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> (f32, [f32; 3], [f32; 6]) {
     let (v, g) = value_gradient(cell, fraction, seed);
@@ -169,8 +171,8 @@ pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed:
     (v, g, [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5)])
 }
 
-/// Lowest and highest noise of an octave within a distance of a skewed point (in the point's units). Conservative: from the
-/// value and gradient there, and what the derivatives can do at most on the way.
+/// Lowest and highest noise of an octave within a distance of a skewed point (in the point's units). Conservative: from
+/// the value and gradient there, and what the derivatives can do at most on the way.
 pub(crate) fn range_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, f64) {
     let [(ix, x), (iy, y), (iz, z)] =
         [0, 1, 2].map(|axis| split(point_skewed[axis] * octave.frequency + octave.offset[axis]));
@@ -223,9 +225,9 @@ mod tests {
                 let difference = |hi: f32, lo: f32| f64::from(hi - lo) / (2.0 * step);
                 let d = difference(at(hi).0, at(lo).0);
                 prop_assert!((d - f64::from(g[axis])).abs() < 2e-3, "{} {}", d, g[axis]);
-                for other in 0..3 {
+                for (other, second) in second[axis].into_iter().enumerate() {
                     let d = difference(at(hi).1[other], at(lo).1[other]);
-                    prop_assert!((d - f64::from(second[axis][other])).abs() < 2e-2, "{} {}", d, second[axis][other]);
+                    prop_assert!((d - f64::from(second)).abs() < 2e-2, "{} {}", d, second);
                 }
             }
         }
@@ -251,7 +253,8 @@ mod tests {
         assert!((0.31..0.35).contains(&deviation), "deviation {deviation}");
     }
 
-    /// How alike two points are depends on their distance, not on the direction from one to the other: no lattice shows.
+    /// How alike two points are depends on their distance, not on the direction from one to the
+    /// other: no lattice shows.
     #[test]
     fn no_direction_is_preferred() {
         let n = 60_000;

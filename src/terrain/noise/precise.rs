@@ -1,8 +1,8 @@
 //! The noise of one octave in f64, values alone, for where the rounding of f32 would show: displacements of hundreds of
 //! kilometres, distances to a zero line.
 //!
-//! It is the same function as the f32 kernel's, up to rounding, whose gradients therefore belong to it too. Several noises on
-//! one lattice share its corners and differ by the hash of their gradients.
+//! It is the same function as the f32 kernel's, up to rounding, whose gradients therefore belong to it too. Several
+//! noises on one lattice share its corners and differ by the hash of their gradients.
 
 use super::batch::{CHUNK, Lane, Points3};
 use super::{Octave, PRIME, ROUNDER, SCALE, scramble};
@@ -55,8 +55,8 @@ fn split(q: f64) -> (u32, f64) {
     (rounded.to_bits() as u32, q - (rounded - ROUNDER))
 }
 
-/// The four corners of the simplex around a skewed point: distances times weights, hashes of the cells. See `corners` of the
-/// f32 kernel.
+/// The four corners of the simplex around a skewed point: distances times weights, hashes of the cells. See
+/// `corners` of the f32 kernel.
 #[inline(always)]
 fn corners(p: [f64; 3], octave: &Octave) -> [([f64; 3], u32); 4] {
     let (ix, x) = split(p[0] * octave.frequency + octave.offset[0]);
@@ -119,8 +119,8 @@ mod tests {
         let mut noise = Noise::default();
         for (octave, sum) in components(&octave).iter().zip(&sums) {
             noise.values(Simd::detect(), skewed, octave);
-            for i in 0..CHUNK {
-                assert!((1.0 + 2.0 * f64::from(noise.value[i]) - sum[i]).abs() < 2e-6);
+            for (value, sum) in noise.value.iter().zip(sum) {
+                assert!((1.0 + 2.0 * f64::from(*value) - sum).abs() < 2e-6);
             }
         }
         for simd in Simd::available() {

@@ -1,7 +1,7 @@
 //! A flight from one pose to another along a great circle: up, across and down again.
 //!
-//! Height and way follow van Wijk and Nuij, Smooth and Efficient Zooming and Panning (2003): what passes by in the picture
-//! goes at an even pace, however far the places are apart and however high they are looked at from.
+//! Height and way follow van Wijk and Nuij, Smooth and Efficient Zooming and Panning (2003): what passes by in the
+//! picture goes at an even pace, however far the places are apart and however high they are looked at from.
 
 use super::Ground;
 use super::pose::Pose;

@@ -54,7 +54,8 @@ impl Fly {
         self.position_planet_m = self.position_planet_m.normalize_or(DVec3::Z) * radius_m;
     }
 
-    /// Goes on for a while; `floor_m` gives the distance of what lies below from the planet's centre. Whether anything moved.
+    /// Goes on for a while; `floor_m` gives the distance of what lies below from the planet's
+    /// centre. Whether anything moved.
     pub fn advance(
         &mut self,
         duration_secs: f64,

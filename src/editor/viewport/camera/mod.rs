@@ -210,8 +210,8 @@ impl Cameras {
         }
     }
 
-    /// Flies to a pose, smoothly: on foot if it is one of somebody who stands there, and in free flight if a camera around the
-    /// planet could not hold it.
+    /// Flies to a pose, smoothly: on foot if it is one of somebody who stands there, and in free flight if a camera
+    /// around the planet could not hold it.
     pub fn fly_to_pose(&mut self, to: Pose, ground: &dyn Ground) {
         let from = self.pose(ground);
         let attitude = Attitude::of(&to);

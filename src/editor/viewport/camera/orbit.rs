@@ -130,7 +130,8 @@ impl Orbit {
         self.grab = None;
     }
 
-    /// Goes nearer (`steps` > 0) or farther; a step is a factor of e in altitude. Keeps what is under the pointer there.
+    /// Goes nearer (`steps` > 0) or farther; a step is a factor of e in altitude. Keeps what is
+    /// under the pointer there.
     pub fn zoom(&mut self, steps: f64, pointer: Option<(f64, f64)>, aspect: f64, ground: &dyn Ground) {
         let camera = self.camera(ground);
         let surface_m = ground.surface_radius_m(self.place.direction());
@@ -184,8 +185,8 @@ impl Orbit {
         }
     }
 
-    /// The same camera a quarter as high, so that a point of the ground lies in the middle of the picture or, if that is at
-    /// the horizon, below it.
+    /// The same camera a quarter as high, so that a point of the ground lies in the middle of the picture or, if that
+    /// is at the horizon, below it.
     pub fn near(&self, point: DVec3, ground: &dyn Ground) -> Self {
         let up = point.normalize_or(DVec3::Z);
         let altitude_m = (self.altitude_m(ground) * 0.25).max(MIN_ALTITUDE_M);
@@ -264,8 +265,8 @@ fn heading(up: DVec3, ahead: DVec3) -> f64 {
     libm::atan2(ahead.dot(east), ahead.dot(north)).rem_euclid(2.0 * PI)
 }
 
-/// Where the star stands after a drag by `right` and `up` (shares of the picture's height), as seen by the camera: light
-/// and shadow follow the pointer.
+/// Where the star stands after a drag by `right` and `up` (shares of the picture's height), as seen by the camera:
+/// light and shadow follow the pointer.
 pub fn turn_sun(sun_dir_planet: DVec3, camera: &Camera, right: f64, up: f64) -> LatLon {
     let view_right = camera.planet_from_view * DVec3::X;
     let view_up = camera.planet_from_view * DVec3::Y;

@@ -1,4 +1,5 @@
-//! Where the eye is and how it is turned: what every camera can be read as and started from. Planet frame, metres, radians.
+//! Where the eye is and how it is turned: what every camera can be read as and started from.
+//! Planet frame, metres, radians.
 
 use crate::lod::Camera;
 use glam::{DMat3, DQuat, DVec3};

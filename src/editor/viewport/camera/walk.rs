@@ -1,5 +1,5 @@
-//! On foot: gravity, jumps, and a pace that follows the slope. Steps of physics have a fixed length, so that the same keys
-//! lead to the same place however many pictures a second are drawn.
+//! On foot: gravity, jumps, and a pace that follows the slope. Steps of physics have a fixed length, so that the same
+//! keys lead to the same place however many pictures a second are drawn.
 
 use super::Controls;
 use super::pose::{Attitude, Pose};
@@ -77,8 +77,8 @@ impl Walk {
         self.feet.standing
     }
 
-    /// Keeps the feet out of ground that has risen, and lets them fall where it has sunk. `floor_m` is its distance from the
-    /// planet's centre.
+    /// Keeps the feet out of ground that has risen, and lets them fall where it has sunk. `floor_m` is its distance
+    /// from the planet's centre.
     pub fn keep_above(&mut self, floor_m: f64) {
         if self.feet.radius_m < floor_m {
             self.feet = Feet { radius_m: floor_m, climb_m_s: 0.0, standing: true, ..self.feet };
@@ -94,7 +94,8 @@ impl Walk {
         self.before = self.feet;
     }
 
-    /// Goes on for a while; `floor_m` gives the distance of the ground from the planet's centre. Whether anything moves.
+    /// Goes on for a while; `floor_m` gives the distance of the ground from the planet's
+    /// centre. Whether anything moves.
     pub fn advance(&mut self, duration_secs: f64, controls: &Controls, floor_m: impl Fn(DVec3) -> f64) -> bool {
         if self.is_resting() && !controls.moves_feet() {
             self.left_secs = 0.0;
