@@ -9,7 +9,7 @@ use image::RgbImage;
 use std::path::PathBuf;
 use std::sync::Arc;
 use support::{Gpu, inside_disc, lights};
-use tellus::build::{Surface, build_now};
+use tellus::build::{Surface, add_detail, build_now};
 use tellus::lod::opening::{default_pitch_deg, opening_place, opening_view};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, shipped};
@@ -59,7 +59,8 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
     for (file, planet) in planets() {
         for altitude_m in [1.9 * planet.radius_m(), 10_000.0, 100.0] {
             let view = view(&planet, altitude_m);
-            let surface = build_now(&planet, &view);
+            let mut surface = build_now(&planet, &view);
+            add_detail(&mut surface, &view);
             let lowest_m = surface.leaves.iter().map(|leaf| leaf.tile.min_height_m).fold(f64::MAX, f64::min);
 
             let mut coverage = frame(&planet, &surface, view, LatLon::from_degrees(0.0, 0.0));
@@ -94,7 +95,8 @@ fn every_planet_looks_as_it_did() {
     for (file, planet) in planets() {
         let near = View { quality: Quality::Medium, ..view(&planet, 10_000.0) };
         for (name, view) in [("orbit", opening_view(&planet, SIZE_PX, Quality::Medium)), ("low", near)] {
-            let surface = build_now(&planet, &view);
+            let mut surface = build_now(&planet, &view);
+            add_detail(&mut surface, &view);
             let star = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg);
             let drawn = gpu.draw(&frame(&planet, &surface, view, star));
             let rgb: Vec<u8> = drawn.chunks(4).flat_map(|p| p[..3].to_vec()).collect();

@@ -30,11 +30,11 @@ fn values(planet: &Planet) -> String {
     text
 }
 
-/// A preset of version 1 means the same for ever. A later version may know more parameters, but those of version 1 keep
+/// A preset of any version means the same for ever. A later version may know more parameters, but those of the old one keep
 /// their values, given or default.
 #[test]
-fn presets_of_version_1_load_to_the_same_values_for_ever() {
-    for name in ["preset_v1", "preset_v1_defaults"] {
+fn presets_of_old_versions_load_to_the_same_values_for_ever() {
+    for name in ["preset_v1", "preset_v1_defaults", "preset_v2", "preset_v2_defaults"] {
         let planet = Planet::load(fixture(&format!("{name}.ron"))).unwrap_or_else(|error| panic!("{error}"));
         let now = values(&planet);
         let frozen = std::fs::read_to_string(fixture(&format!("{name}.values.txt"))).unwrap_or_default();

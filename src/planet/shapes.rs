@@ -48,6 +48,20 @@ shapes! {
     HeightMap,
 }
 
+impl Shape {
+    /// An amplitude that suits the kind at its default size: what a new layer begins with.
+    pub fn usual_amplitude_m(&self) -> f64 {
+        match self {
+            Shape::Continents(_) | Shape::HeightMap(_) => 5000.0,
+            Shape::Craters(_) => 4000.0,
+            Shape::Gullies(_) | Shape::Canyons(_) => 2000.0,
+            Shape::Billow(_) | Shape::Terraces(_) => 300.0,
+            Shape::Dunes(_) => 50.0,
+            Shape::Fbm(_) | Shape::Ridged(_) | Shape::Damped(_) | Shape::Warped(_) | Shape::Cells(_) => 1000.0,
+        }
+    }
+}
+
 params! {
     /// Fractal Brownian motion: octaves of gradient noise, each finer and weaker than the one before, summed and
     /// divided by the sum of their strengths.

@@ -4,7 +4,7 @@
 pub mod edits;
 
 use std::sync::Arc;
-use tellus::build::{Surface, build_now};
+use tellus::build::{Surface, add_detail, build_now};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
 use tellus::render::{DebugView, Frame, Renderer};
@@ -15,7 +15,10 @@ pub const SIZE_PX: [u32; 2] = [320, 180];
 
 /// The surface that a camera sees, coarse.
 pub fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
-    build_now(planet, &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
+    let view = View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low };
+    let mut surface = build_now(planet, &view);
+    add_detail(&mut surface, &view);
+    surface
 }
 
 /// A planet like the Earth, with everything on.

@@ -7,7 +7,8 @@ use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
 pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
     let shape = Shape::of_kind(kind)?;
     let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));
-    insert(planet, Layer { name, seed, shape, ..Layer::default() }, after)
+    let amplitude_m = shape.usual_amplitude_m();
+    insert(planet, Layer { name, seed, amplitude_m, shape, ..Layer::default() }, after)
 }
 
 /// Adds a copy behind the layer; gives its place.
