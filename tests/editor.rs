@@ -411,7 +411,7 @@ fn unsaved_work_outlives_a_crash() {
 fn the_performance_panel_tells_where_an_edit_went() {
     let mut harness = editor(vec![]);
     wait_for_picture(&mut harness);
-    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
     assert!(harness.query_by_label_contains("times of the next edit").is_some());
     click(&mut harness, "Climate");
     slide(&mut harness, "Region size of climate", 900.0);
