@@ -431,7 +431,7 @@ fn the_performance_panel_tells_where_an_edit_went() {
     assert!(ends.all(|end_secs| end_secs <= timeline.total.as_secs_f64()), "{timeline:?}");
     assert!(timeline.uploaded_bytes > 0 && timeline.build.octave_samples > 0);
     assert!(harness.state().viewport().memory().used_bytes > 0);
-    press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
     assert!(harness.query_by_label("Draw").is_none());
 }
 
