@@ -1,4 +1,7 @@
 //! A smooth curve through knots that never overshoots: monotone cubic Hermite pieces (Fritsch and Butland 1984).
+//!
+//! Level at both ends, so that a value stays within its bounds; the curves that artists draw go on straight instead, and
+//! stand with the heights that they bend.
 
 /// Knots in order, with the slope at each; constant beyond the ends.
 #[derive(Clone, Debug, PartialEq)]
