@@ -128,7 +128,7 @@ fn sky_says_the_same_by_physics_and_by_shaders() {
     let ask = |more: &[&str]| {
         let args = ["sky", air, "--sun-zenith", "60", "--view-zenith", "0", "--json"];
         let (status, out, err) = run(&[&args, more].concat());
-        assert!(status == 0 && err.is_empty(), "{err}");
+        assert_eq!(status, 0, "{err}");
         let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
         let rgb = |key: &str| -> [f64; 3] { std::array::from_fn(|i| answer[key][i].as_f64().unwrap()) };
         [rgb("transmittance"), rgb("radiance")]

@@ -150,8 +150,9 @@ fn a_layer_is_dragged_to_another_place_in_one_step() {
 #[test]
 fn a_curve_is_bent_by_its_points() {
     let mut harness = editor(vec![]);
-    let name = planet(&harness).layers[0].name.clone();
-    let curve = |harness: &Editor| planet(harness).layers[0].curve.clone();
+    let index = planet(&harness).layers.iter().position(|layer| layer.curve.is_empty()).unwrap();
+    let name = planet(&harness).layers[index].name.clone();
+    let curve = |harness: &Editor| planet(harness).layers[index].curve.clone();
     click(&mut harness, &format!("Layer {name}"));
     click(&mut harness, &format!("Bend Curve of {name}"));
     assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
