@@ -245,7 +245,8 @@ impl Worker {
             }
         };
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let done = find_detail(&mut surface, &request.view, &keep, &keep_going);
+        let wanted = || shared.is_newest(request.number);
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted);
         self.complete = (!done).then(|| (request.number, surface.clone()));
         (surface, done)
     }

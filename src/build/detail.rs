@@ -14,8 +14,8 @@ const STEEPEST: f64 = 1000.0;
 /// The greatest number a half float holds.
 const MOST: f64 = 65504.0;
 
-/// Finds what a tile's mesh is too coarse to show.
-pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile) -> DetailTile {
+/// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
+pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> bool) -> Option<DetailTile> {
     profiling::scope!("detail");
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let id = tile.id;
@@ -25,6 +25,9 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile) -> DetailTile {
     let count = DETAIL_SIDE * DETAIL_SIDE;
     let (mut slopes, mut rise_m) = (Vec::with_capacity(count), Vec::with_capacity(count));
     for start in (0..count).step_by(BATCH) {
+        if !wanted() {
+            return None;
+        }
         let places: Vec<(f64, f64)> = (start..(start + BATCH).min(count)).map(place).collect();
         let dirs: Vec<DVec3> = places.iter().map(|&(u, v)| id.direction(u, v)).collect();
         let seen = terrain.seen_relief(dirs.clone(), [own_rad, 2.0 * own_rad]);
@@ -38,7 +41,7 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile) -> DetailTile {
         }
     }
     let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
-    DetailTile { serial, heights_serial: tile.heights_serial, slopes, rise_m }
+    Some(DetailTile { serial, heights_serial: tile.heights_serial, slopes, rise_m })
 }
 
 #[cfg(test)]
@@ -55,12 +58,12 @@ mod tests {
         let planet = Arc::new(shipped::default_planet());
         let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
-        let detail = make_detail(&surface.terrain, tile);
+        let detail = make_detail(&surface.terrain, tile, &|| true).unwrap();
         assert_eq!(detail.slopes.len(), DETAIL_SIDE * DETAIL_SIDE);
         for edge in crate::sphere::Edge::ALL {
             let id = tile.id.neighbour(edge);
             let Some(other) = surface.leaves.iter().find(|leaf| leaf.tile.id == id) else { continue };
-            let other_detail = make_detail(&surface.terrain, &other.tile);
+            let other_detail = make_detail(&surface.terrain, &other.tile, &|| true).unwrap();
             let border = |detail: &DetailTile, id: crate::sphere::NodeId| -> Vec<(DVec3, DVec3)> {
                 let last = DETAIL_SIDE - 1;
                 let texels = (0..DETAIL_SIDE).flat_map(|i| [(i, 0), (i, last), (0, i), (last, i)]);

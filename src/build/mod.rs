@@ -64,16 +64,17 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
 
 /// Finds the detail of all tiles that a view shows of a surface, and waits for it.
 pub fn add_detail(surface: &mut Surface, view: &View) {
-    find_detail(surface, view, &|_, _| {}, &|| true);
+    find_detail(surface, view, &|_, _| {}, &|| true, &|| true);
 }
 
-/// Finds the detail of what a view shows of a surface, nearest tiles first, for as long as `keep_going` says so; each is also
-/// given to `keep`. Whether all of it is there now.
+/// Finds the detail of what a view shows of a surface, nearest tiles first, for as long as `keep_going` says so; a tile that
+/// was begun is finished while it is `wanted`. Each is also given to `keep`. Whether all of it is there now.
 pub(crate) fn find_detail(
     surface: &mut Surface,
     view: &View,
     keep: &(dyn Fn(&Tile, &Arc<DetailTile>) + Sync),
     keep_going: &(dyn Fn() -> bool + Sync),
+    wanted: &(dyn Fn() -> bool + Sync),
 ) -> bool {
     let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
     let eye = view.camera.position_planet_m;
@@ -85,14 +86,13 @@ pub(crate) fn find_detail(
     // In rounds of a tile for each thread: strictly in order, and it can be stopped in between.
     let side = rayon::current_num_threads().max(1);
     missing.chunks_mut(side).all(|round| {
-        let wanted = keep_going();
-        if wanted {
+        let goes_on = keep_going();
+        if goes_on {
             round.par_iter_mut().for_each(|leaf| {
-                let detail = Arc::new(detail::make_detail(terrain, &leaf.tile));
-                keep(&leaf.tile, &detail);
-                leaf.detail = Some(detail);
+                leaf.detail = detail::make_detail(terrain, &leaf.tile, wanted).map(Arc::new);
+                leaf.detail.iter().for_each(|detail| keep(&leaf.tile, detail));
             });
         }
-        wanted
+        goes_on && round.iter().all(|leaf| leaf.detail.is_some())
     })
 }
