@@ -233,12 +233,12 @@ impl Worker {
             Some((_, surface)) => surface,
             None => {
                 let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
-                let built = surface.stats.tiles_built > stats.tiles_built;
-                if surface.complete {
-                    self.complete = Some((request.number, surface.clone()));
+                if !surface.complete {
+                    return (surface, false);
                 }
                 // Where tiles had to be built, they are shown before time is spent on their detail.
-                if built || !surface.complete {
+                if surface.stats.tiles_built > stats.tiles_built {
+                    self.complete = Some((request.number, surface.clone()));
                     return (surface, false);
                 }
                 surface

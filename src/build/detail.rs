@@ -60,6 +60,7 @@ mod tests {
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
         let detail = make_detail(&surface.terrain, tile, &|| true).unwrap();
         assert_eq!(detail.slopes.len(), DETAIL_SIDE * DETAIL_SIDE);
+        let mut neighbours = 0;
         for edge in crate::sphere::Edge::ALL {
             let id = tile.id.neighbour(edge);
             let Some(other) = surface.leaves.iter().find(|leaf| leaf.tile.id == id) else { continue };
@@ -85,7 +86,9 @@ mod tests {
                 }
             }
             assert!(shared >= DETAIL_SIDE, "{shared}");
+            neighbours += 1;
         }
+        assert!(neighbours > 0, "no neighbour of the same level was compared");
         // On a vertex the mesh is the ground, but for what is too fine to be seen.
         let relief_m = tile.max_height_m - tile.min_height_m;
         let vertex_rise_m = f64::from(detail.rise_m[0].to_f32());

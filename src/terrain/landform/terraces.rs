@@ -4,6 +4,7 @@
 use super::fbm::Fbm;
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet;
+use glam::DVec3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Terraces {
@@ -23,6 +24,10 @@ impl Evaluate for Terraces {
 
     fn bounds(&self) -> (f64, f64) {
         self.waves.bounds()
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.waves.bounds_near(dir_planet, angle_rad)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
