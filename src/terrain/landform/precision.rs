@@ -1,0 +1,55 @@
+//! How far heights are from what f64 throughout would make of them: every kind, walked in steps of 0.1 m.
+//!
+//! The measure is each kind's own formula with every operation that makes its value in f64.
+
+use super::tests::shapes;
+use super::*;
+use crate::terrain::field::Field;
+use crate::terrain::points::Points;
+
+const RADIUS_KM: f64 = 6371.0;
+
+/// Where walks begin: poles, corners and edges of the cube's faces, and places between.
+fn starts(count: u32) -> Vec<DVec3> {
+    let corners = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|side| f64::from(2 * side - 1)));
+    let marks = corners.chain([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, 0.0]]);
+    let between = (0..count).map(|k| {
+        let turn = f64::from(k) * 2.4;
+        [turn.cos(), turn.sin(), (f64::from(k) + 0.5) * 2.0 / f64::from(count) - 1.0]
+    });
+    marks.chain(between).map(|start| DVec3::from_array(start).normalize()).collect()
+}
+
+/// The farthest that the values of a kind are from those in f64.
+fn farthest(shape: &Shape, arithmetic: Arithmetic, starts: &[DVec3]) -> f64 {
+    let [landform, exact] = [arithmetic, Arithmetic::Full].map(|a| Landform::new(shape, 11, RADIUS_KM, a));
+    let mut worst = 0.0_f64;
+    for start in starts {
+        let along = start.any_orthonormal_vector() * (0.1e-3 / RADIUS_KM);
+        let points = Points::new((0..CHUNK).map(|i| (start + along * i as f64).normalize()).collect());
+        let [values, exact] = [&landform, &exact].map(|landform| Field::new(landform, Simd::detect(), &points, &[]).value);
+        worst = values.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(worst, f64::max);
+    }
+    worst
+}
+
+/// The amplitude at which a kind is measured: 8 km, but for dunes, which are never a tenth as high.
+fn amplitude_m(shape: &Shape) -> f64 {
+    if matches!(shape, Shape::Dunes(_)) { 800.0 } else { 8000.0 }
+}
+
+#[test]
+fn every_kind_is_within_a_millimetre_of_f64() {
+    let starts = starts(60);
+    let mut table = String::new();
+    for (name, shape) in shapes() {
+        let [fine, classic] = [Arithmetic::Fine, Arithmetic::Classic]
+            .map(|arithmetic| farthest(&shape, arithmetic, &starts) * amplitude_m(&shape) * 1e3);
+        table += &format!("{name}: {fine:.2} mm, as presets before version 3: {classic:.2} mm\n");
+    }
+    eprintln!("{table}");
+    for line in table.lines() {
+        let fine: f64 = line.split([':', ' ']).nth(2).and_then(|mm| mm.parse().ok()).unwrap_or(f64::MAX);
+        assert!(fine < 1.0, "{line}");
+    }
+}
