@@ -12,7 +12,8 @@ mod grounds;
 
 use super::param::Stage;
 use super::{
-    Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, Star, Water, validate,
+    Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, Star, Water,
+    validate,
 };
 use dice::{Dice, three_digits};
 

@@ -46,6 +46,24 @@ impl Interval {
 /// What is asked about: all directions within an angle of one, or the whole planet.
 type Near = Option<(DVec3, f64)>;
 
+/// Places wider than this are not split.
+const WIDEST_SPLIT_RAD: f64 = 0.1;
+
+/// The middles and angles of places that together cover all within an angle of a direction: a hexagon of hexagons, two
+/// around the one in the middle.
+fn parts(dir_planet: DVec3, angle_rad: f64) -> impl Iterator<Item = (DVec3, f64)> {
+    // Circles around the hexagons; the nearest gap is sqrt(13) of their radii away. A little more for the sphere.
+    let radius_rad = angle_rad / 3.6 * 1.02;
+    let step_rad = angle_rad / 3.6 * 3.0_f64.sqrt();
+    let (a, b) = dir_planet.any_orthonormal_pair();
+    let cells = (-2..=2_i32).flat_map(|q| (-2..=2_i32).map(move |r| (q, r))).filter(|(q, r)| (q + r).abs() <= 2);
+    cells.map(move |(q, r)| {
+        let (q, r) = (f64::from(q), f64::from(r));
+        let (x, y) = (step_rad * (q + 0.5 * r), step_rad * r * 0.75_f64.sqrt());
+        ((dir_planet + a * x + b * y).normalize(), radius_rad)
+    })
+}
+
 impl LayerStack {
     /// Lowest and greatest height over the whole planet. Conservative.
     pub(crate) fn bounds_m(&self) -> (f64, f64) {
@@ -54,7 +72,13 @@ impl LayerStack {
 
     /// Lowest and greatest height within an angle of a direction. Conservative.
     pub(crate) fn bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.bounds(Some((dir_planet, angle_rad)))
+        if angle_rad > WIDEST_SPLIT_RAD {
+            return self.bounds(Some((dir_planet, angle_rad)));
+        }
+        // What bounds leave open grows with the square of the angle: smaller places, taken together, are known better.
+        let parts =
+            parts(dir_planet, angle_rad).map(|(dir_planet, angle_rad)| self.bounds(Some((dir_planet, angle_rad))));
+        parts.fold((f64::MAX, f64::MIN), |(lo, hi), (low, high)| (lo.min(low), hi.max(high)))
     }
 
     fn bounds(&self, near: Near) -> (f64, f64) {

@@ -6,8 +6,9 @@ use super::octaves::{Weighted, series};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise};
+use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: hills are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
@@ -41,6 +42,21 @@ impl Evaluate for Billow {
     fn bounds(&self) -> (f64, f64) {
         // The weights sum to 1 but for their rounding.
         (-1.0 - 1e-5, 1.0 + 1e-5)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        let crease = f64::from(CREASE);
+        let hill = |noise: f64| {
+            let fold = (noise * noise + crease * crease).sqrt() - crease;
+            1.0 - (1.0 - fold).max(0.0).powi(2)
+        };
+        let sum = self.octaves.iter().fold((0.0, 0.0), |(lo, hi), Weighted { octave, weight }| {
+            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            let (nearest, farthest) = (low.max(-high).max(0.0), high.max(-low));
+            (lo + hill(nearest) * f64::from(*weight), hi + hill(farthest) * f64::from(*weight))
+        });
+        (2.0 * sum.0 - 1.0 - 1e-5, 2.0 * sum.1 - 1.0 + 1e-5)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -5,12 +5,12 @@
 //! laid through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
 
 use super::curve::Curve;
-use super::fbm::{LEAST_POINTS, add_octaves};
+use super::fbm::{LEAST_POINTS, add_octaves, range_near};
 use super::octaves::{Weighted, series};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::noise::CHUNK;
+use crate::terrain::noise::{self, CHUNK};
 use crate::terrain::points::Points;
 use crate::terrain::simd::Simd;
 use glam::DVec3;
@@ -26,7 +26,7 @@ const WARP_OCTAVES: u32 = 4;
 const WARPED_OCTAVES: usize = 4;
 
 /// Weight of the octaves that f32 is enough for: the profile is several times steeper than the noise.
-const REST: f64 = 0.06;
+const REST: f64 = 0.03;
 
 /// Height of the edge of the shelf.
 const SHELF_EDGE: f64 = -0.05;
@@ -144,6 +144,15 @@ impl Evaluate for Continents {
 
     fn bounds(&self) -> (f64, f64) {
         (-1.0, 1.0)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
+        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
+        let (low, high) = range_near(coarse, there, distance);
+        let (more_low, more_high) = range_near(fine, noise::skew(dir_planet.to_array()), angle_rad);
+        // The curve only rises.
+        (self.curve.at(low + more_low).0 - 1e-9, self.curve.at(high + more_high).0 + 1e-9)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

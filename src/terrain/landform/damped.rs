@@ -12,6 +12,7 @@ use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
 /// Weight of the octaves that f32 is enough for.
 const REST: f64 = 0.07;
@@ -46,6 +47,29 @@ impl Evaluate for Damped {
 
     fn bounds(&self) -> (f64, f64) {
         (-noise::BOUND, noise::BOUND)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        let Some(first) = self.octaves.first() else { return self.bounds() };
+        let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
+        // The slope at the direction, and how far from it the slope can be.
+        let (mut sum, mut slope, mut spread) = ((0.0, 0.0), DVec3::ZERO, 0.0);
+        for Weighted { octave, weight } in &self.octaves {
+            let rise = f64::from(*weight) * unit * octave.frequency;
+            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            let (_, gradient, off) = noise::slope_near(skewed, octave, angle_rad);
+            slope += gradient * rise;
+            spread += off * rise;
+            let along = slope.reject_from_normalized(dir_planet).length();
+            let reach = spread + slope.length() * angle_rad;
+            let left = |along: f64| 1.0 / (1.0 + f64::from(self.damping) * along * along);
+            let (least, most) = (left(along + reach), left((along - reach).max(0.0)));
+            let raised = (low + 1.0, high + 1.0);
+            sum.0 += (raised.0 * if raised.0 < 0.0 { most } else { least }) * f64::from(*weight);
+            sum.1 += (raised.1 * if raised.1 < 0.0 { least } else { most }) * f64::from(*weight);
+        }
+        (sum.0 - 1.0 - 1e-5, sum.1 - 1.0 + 1e-5)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -174,9 +174,7 @@ fn send_body<R: Real>(
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
-        let towards = |axis: usize, bits: u32| {
-            step[axis] + low + span * unit(bits) - places.fraction[axis][i]
-        };
+        let towards = |axis: usize, bits: u32| step[axis] + low + span * unit(bits) - places.fraction[axis][i];
         let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
         let square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
         let near = (one - square * scale(1.0 / (REACH * REACH))).max(of(0.0));

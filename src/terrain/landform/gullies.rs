@@ -9,7 +9,7 @@
 //!
 //! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
 
-use super::fbm::LEAST_POINTS;
+use super::fbm::{LEAST_POINTS, range_near};
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
@@ -18,6 +18,7 @@ use crate::terrain::approx;
 use crate::terrain::jet::{Jet, Jets, Real, Scalar};
 use crate::terrain::noise::{self, CHUNK, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 use std::f32::consts::TAU;
 
 /// Weight of the octaves of the relief, and height of the gullies, that f32 is enough for.
@@ -110,6 +111,13 @@ impl Evaluate for Gullies {
     fn bounds(&self) -> (f64, f64) {
         let bound = noise::BOUND + self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>();
         (-bound, bound)
+    }
+
+    /// The gullies may be anywhere in their range: only the relief is known better nearby.
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let (low, high) = range_near(&self.relief, noise::skew(dir_planet.to_array()), angle_rad);
+        let carved = self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>() * (1.0 + 1e-5);
+        (low - carved, high + carved)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
@@ -297,9 +305,7 @@ fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave:
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
-        let towards = |axis: usize, bits: u32| {
-            step[axis] + low + span * unit(bits) - places.fraction[axis][i]
-        };
+        let towards = |axis: usize, bits: u32| step[axis] + low + span * unit(bits) - places.fraction[axis][i];
         let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
         let square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
         let near = (R::S::of(1.0) - square * scale(1.0 / (REACH * REACH))).max(zero);

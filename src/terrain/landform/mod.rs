@@ -17,7 +17,8 @@
 //! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
-//! - `tests`: what every kind must hold; `precision`: how exact they are
+//! - `tests`: what every kind must hold;
+//!   `precision`: how exact they are; `tightness`: how close their bounds are
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list
 //! below is the only other place that knows it. Its value must not depend on the spacing of the points that ask, and
@@ -30,6 +31,8 @@ mod places;
 mod precision;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tightness;
 mod warp;
 
 use super::jet::Jets;

@@ -9,6 +9,7 @@ use super::{Chunk, Sums, add_gradient};
 use crate::terrain::jet::Scalar;
 use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
 /// At least so many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
 /// is half a millimetre of 4 km.
@@ -66,6 +67,23 @@ impl Warp {
     /// How many octaves of noise it takes at a point.
     pub(super) fn octave_count(&self) -> usize {
         3 * self.octaves.len()
+    }
+
+    /// Where a direction goes, skewed, and how far from there the directions within an angle of it can go.
+    pub(super) fn reach_near(&self, dir_planet: DVec3, angle_rad: f64) -> ([f64; 3], f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        let (mut there, mut stretch) = (dir_planet, 1.0);
+        for Weighted { octave, weight } in &self.octaves {
+            let reach = self.reach * f64::from(*weight);
+            let mut square = 0.0;
+            for (axis, octave) in precise::components(octave).iter().enumerate() {
+                let (value, gradient, off) = noise::slope_near(skewed, octave, angle_rad);
+                there[axis] += value * reach;
+                square += (gradient.length() + off).min(noise::SLOPE_BOUND).powi(2);
+            }
+            stretch += square.sqrt() * octave.frequency * reach;
+        }
+        (noise::skew(there.to_array()), angle_rad * stretch + 1e-13)
     }
 
     /// By how much features of the warped noise are typically squeezed.

@@ -1,11 +1,12 @@
 //! Fractal noise at displaced points: swirls and folds.
 
-use super::fbm::REST;
+use super::fbm::{REST, range_near};
 use super::octaves::{Weighted, series};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::noise;
+use glam::DVec3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Warped {
@@ -35,6 +36,11 @@ impl Evaluate for Warped {
 
     fn bounds(&self) -> (f64, f64) {
         (-noise::BOUND, noise::BOUND)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
+        range_near(&self.octaves, there, distance)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -17,6 +17,7 @@ pub(crate) mod precise;
 
 use super::jet::Scalar;
 pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
+use glam::DVec3;
 
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
 pub(crate) const BOUND: f64 = 1.45;
@@ -185,6 +186,16 @@ pub(crate) fn range_near(point_skewed: [f64; 3], octave: &Octave, distance: f64)
     // A little more than exact arithmetic has it, for the rounding of f32.
     let reach = ((slope + 0.5 * CURVATURE_BOUND * cells) * cells).min(SLOPE_BOUND * cells) + 1e-5;
     ((v - reach).max(-BOUND), (v + reach).min(BOUND))
+}
+
+/// Value and gradient of an octave at a skewed point, by the lattice; and how far the gradient can be from that within a
+/// distance of it (in the point's units). Conservative.
+pub(crate) fn slope_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, DVec3, f64) {
+    let [(ix, x), (iy, y), (iz, z)] =
+        [0, 1, 2].map(|axis| split::<f64>(point_skewed[axis] * octave.frequency + octave.offset[axis]));
+    let (value, gradient) = value_gradient([ix, iy, iz], [x, y, z], octave.seed);
+    let cells = distance * octave.frequency;
+    (value, DVec3::from_array(gradient), (CURVATURE_BOUND * cells).min(2.0 * SLOPE_BOUND) + 1e-4)
 }
 
 /// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.
