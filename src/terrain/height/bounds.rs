@@ -1,7 +1,7 @@
 //! How low and how high the ground can be, by interval arithmetic: each layer's noise may be anywhere in its range,
 //! whatever the others do.
 
-use super::{CompiledLayer, CompiledMask, Edge, LayerStack, Source};
+use super::{CompiledLayer, CompiledMask, Edge, LayerStack, Source, Steps};
 use crate::planet::Blend;
 use glam::DVec3;
 
@@ -139,8 +139,7 @@ impl CompiledLayer {
     /// What its blend makes of the height below.
     fn joined(&self, height: Interval, near: Near) -> Interval {
         let mut noise = match &self.steps {
-            // At most half a step either way, whatever the waves.
-            Some(steps) => Interval { lo: -0.5 * steps.sharpness, hi: 0.5 * steps.sharpness },
+            Some(steps) => steps.range(height, self.noise(near)),
             None => self.noise(near),
         };
         if let Some(curve) = &self.curve {
@@ -161,6 +160,34 @@ impl CompiledLayer {
             Blend::SmoothMax => height.with(output, |h, y| h.max(y) + soft(y - h)),
             Blend::SmoothMin => height.with(output, |h, y| h.min(y) - soft(y - h)),
         }
+    }
+}
+
+impl Steps {
+    /// How far the ground between two heights is from its step, in steps: see `lanes::cut`.
+    fn range(&self, height: Interval, waves: Interval) -> Interval {
+        let place = height.with(waves, |height, wave| height / self.height_m + self.waviness * wave);
+        let half = 0.5 * self.sharpness;
+        // At most half a step either way, whatever the waves.
+        if !(place.hi - place.lo < 1.0 && place.lo.abs().max(place.hi.abs()) < 1e9) {
+            return Interval { lo: -half, hi: half };
+        }
+        let riser = 0.5 - 0.4 * self.sharpness;
+        let (start, per_riser) = (0.5 - riser, 0.5 / riser);
+        let cut = |place: f64| {
+            let t = place - place.floor();
+            let s = ((t - start) * per_riser).clamp(0.0, 1.0);
+            self.sharpness * (s * s * (3.0 - 2.0 * s) - t)
+        };
+        // It turns where the riser is as steep as the ground.
+        let turn = (0.25 - 1.0 / (6.0 * per_riser)).max(0.0).sqrt();
+        let turns = [0.5 - turn, 0.5 + turn].map(|s| start + s / per_riser);
+        let whole = [place.lo.floor(), place.lo.floor() + 1.0];
+        let inner = whole.into_iter().flat_map(|whole| turns.map(|turn| whole + turn));
+        let inner = inner.filter(|turn| (place.lo..=place.hi).contains(turn));
+        let values: Vec<f64> = inner.chain([place.lo, place.hi]).map(cut).collect();
+        let Interval { lo, hi } = Interval::of(&values);
+        Interval { lo: lo - 1e-6, hi: hi + 1e-6 }
     }
 }
 

@@ -10,8 +10,9 @@ use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
 use crate::planet;
 use crate::terrain::field::EXACT;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise, precise};
+use crate::terrain::noise::{self, CHUNK, Noise, precise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
 /// Weight of the octaves that f32 is enough for.
 const REST: f64 = 0.02;
@@ -76,6 +77,32 @@ impl Evaluate for Canyons {
 
     fn bounds(&self) -> (f64, f64) {
         (-1.0 - 1e-5, 1e-5)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let Some(largest) = self.octaves.first() else { return self.bounds() };
+        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
+        let stretch = distance / angle_rad.max(1e-12);
+        let step = |x: f64, from: f32, to: f32| {
+            let (from, to) = (f64::from(from), f64::from(to));
+            let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        };
+        let (mut uncut, mut wet, mut carved) = ((1.0, 1.0), (1.0, 1.0), (0.0, 0.0));
+        for Weighted { octave, weight } in &self.octaves {
+            let depth = f64::from(weight / largest.weight);
+            let (low, high) = noise::range_near(there, octave, distance);
+            let (_, gradient, off) = noise::slope_near(there, octave, distance);
+            let steepest = (gradient.length() + off).min(noise::SLOPE_BOUND) * stretch;
+            let least = f64::from(LEAST_GRADIENT);
+            let away = (low.max(-high).max(0.0) / steepest.hypot(least), high.max(-low) / least);
+            let wall = |away: f64| step(away * f64::from(self.channel.narrowness), self.channel.floor, 1.0);
+            let cut = ((1.0 - wall(away.1)) * wet.0 * depth, (1.0 - wall(away.0)) * wet.1 * depth);
+            carved = (carved.0 + uncut.0 * cut.0, carved.1 + uncut.1 * cut.1);
+            uncut = (uncut.0 * (1.0 - cut.1).max(0.0), uncut.1 * (1.0 - cut.0));
+            wet = (wet.0 * (1.0 - step(away.1, WET, DRY)), wet.1 * (1.0 - step(away.0, WET, DRY)));
+        }
+        (-carved.1 - 1e-5, -carved.0 + 1e-5)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -196,7 +196,7 @@ impl Near {
 
     fn bumps(&self) -> (f64, f64) {
         let (least, most) = self.squares(self.centres[0].0);
-        (1.0 - 2.0 * most, 1.0 - 2.0 * least)
+        ((1.0 - 2.0 * most).max(-1.0), (1.0 - 2.0 * least).max(-1.0))
     }
 
     fn cracks(&self, width: f64) -> (f64, f64) {

@@ -4,8 +4,12 @@
 
 use super::tests::shapes;
 use super::*;
+use crate::planet::{Planet, Precision, shipped};
+use crate::terrain::Terrain;
 use crate::terrain::field::Field;
 use crate::terrain::points::Points;
+use std::sync::Arc;
+use std::time::Instant;
 
 const RADIUS_KM: f64 = 6371.0;
 
@@ -53,4 +57,28 @@ fn every_kind_is_within_a_millimetre_of_f64() {
         }
     }
     assert!(too_far.is_empty(), "{too_far:#?}");
+}
+
+/// How many times longer the shipped planets take than they would in f32, on one core; printed.
+#[test]
+#[ignore = "prints figures"]
+fn cost() {
+    let points = Points::new(starts(4083));
+    for shipped in shipped::ALL {
+        let Ok(planet) = shipped.load() else { continue };
+        let [fine, classic] = [Precision::Millimetre, Precision::Classic]
+            .map(|precision| Terrain::new(Arc::new(Planet { precision, ..planet.clone() })));
+        let seconds = |terrain: &Terrain, spacings_rad: &[f64]| {
+            let run = |_| {
+                let start = Instant::now();
+                std::hint::black_box(terrain.fields(&points, spacings_rad));
+                start.elapsed().as_secs_f64()
+            };
+            (0..9).map(run).fold(f64::MAX, f64::min)
+        };
+        // Values alone; with the gradients of a tile seen from space and its parent's; with all gradients.
+        let ratio = |spacings_rad: &[f64]| seconds(&fine, spacings_rad) / seconds(&classic, spacings_rad);
+        let [values, far, near] = [&[] as &[f64], &[4e-3, 8e-3], &[0.0]].map(ratio);
+        eprintln!("{}: {values:.2} values, {far:.2} with gradients from space, {near:.2} with all", shipped.file);
+    }
 }
