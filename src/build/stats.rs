@@ -12,7 +12,7 @@ pub struct BuildStats {
     pub vertices: usize,
     /// Tiles (re)built for it: its own, and their ancestors.
     pub tiles_built: usize,
-    /// Octaves of noise times points that were evaluated.
+    /// Octaves of noise times points that were evaluated, for tiles and to compile the planet.
     pub octave_samples: usize,
     /// Seconds from the request to the finished surface.
     pub duration_secs: f64,
