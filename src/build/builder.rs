@@ -209,7 +209,8 @@ impl Worker {
                     state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
                 }
             }
-            state.memory = self.cache.memory();
+            let coarse_bytes = self.terrain.as_ref().map_or(0, |terrain| terrain.coarse_bytes());
+            state.memory = self.cache.memory().and(coarse_bytes);
             drop(state);
             wake();
         }

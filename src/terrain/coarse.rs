@@ -21,6 +21,11 @@ pub(crate) struct CoarseFields {
 }
 
 impl CoarseFields {
+    /// Resident size.
+    pub(crate) fn bytes(&self) -> usize {
+        self.batches.iter().map(KeptFields::bytes).sum()
+    }
+
     /// The same, for which nothing had to be evaluated.
     pub(crate) fn as_known(&self) -> Self {
         Self { octave_samples: 0, ..self.clone() }

@@ -125,6 +125,11 @@ impl Terrain {
         terrain
     }
 
+    /// Resident size of what the shores were found with.
+    pub(crate) fn coarse_bytes(&self) -> usize {
+        self.coarse.bytes()
+    }
+
     /// Octaves of noise times points that were evaluated to compile it.
     pub(crate) fn octave_samples(&self) -> usize {
         self.coarse.octave_samples
