@@ -1,11 +1,16 @@
 //! Detail tiles on the GPU: layers of a few pairs of large texture arrays, keyed by [`DetailTile::serial`], filled once and kept until
-//! another needs the room and nobody has drawn them for a while.
+//! another needs the room and nobody has asked for them for a while.
 
 use crate::lod::tile::{DETAIL_SIDE, DetailTile};
 use std::collections::HashMap;
 
 /// Layers of one pair: 21 MB.
 const LAYERS: u32 = 128;
+/// Tiles that have not been asked for in so many frames may lose their layers. A surface that is uploaded ahead is not drawn before
+/// the last of it is there.
+const KEPT_FRAMES: u64 = 4;
+/// Bytes of a tile: four halves of slopes and one of rise for each texel.
+pub(crate) const DETAIL_BYTES: u64 = (DETAIL_SIDE * DETAIL_SIDE * 5 * size_of::<half::f16>()) as u64;
 
 /// Where a detail tile is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +22,7 @@ pub(crate) struct DetailPlace {
 
 struct Held {
     place: DetailPlace,
-    drawn_in_frame: u64,
+    wanted_in_frame: u64,
 }
 
 /// All layers, and a bind group for each array.
@@ -29,6 +34,7 @@ pub(crate) struct DetailPool {
     free: Vec<DetailPlace>,
     held: HashMap<u64, Held>,
     frame: u64,
+    uploaded_bytes: u64,
 }
 
 impl DetailPool {
@@ -58,12 +64,13 @@ impl DetailPool {
             free: Vec::new(),
             held: HashMap::new(),
             frame: 0,
+            uploaded_bytes: 0,
         };
         pool.grow(device);
         pool
     }
 
-    /// Call once a frame, before the first [`DetailPool::place`].
+    /// Call once a frame, before the first [`DetailPool::place`] of what is drawn.
     pub(crate) fn begin_frame(&mut self) {
         self.frame += 1;
     }
@@ -71,6 +78,17 @@ impl DetailPool {
     /// The bind group of an array.
     pub(crate) fn group(&self, array: usize) -> Option<&wgpu::BindGroup> {
         self.groups.get(array)
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.uploaded_bytes
+    }
+
+    /// Whether a detail tile is here; if so it keeps its layer.
+    pub(crate) fn holds(&mut self, tile: &DetailTile) -> bool {
+        let held = self.held.get_mut(&tile.serial);
+        held.map(|held| held.wanted_in_frame = self.frame).is_some()
     }
 
     /// Where a detail tile is; uploads it if it is new. `None` for one that is not a whole grid.
@@ -81,7 +99,7 @@ impl DetailPool {
         tile: &DetailTile,
     ) -> Option<DetailPlace> {
         if let Some(held) = self.held.get_mut(&tile.serial) {
-            held.drawn_in_frame = self.frame;
+            held.wanted_in_frame = self.frame;
             return Some(held.place);
         }
         if tile.slopes.len() != DETAIL_SIDE * DETAIL_SIDE || tile.rise_m.len() != tile.slopes.len() {
@@ -94,7 +112,8 @@ impl DetailPool {
         };
         write(queue, slopes, place.layer, &bytes(&mut tile.slopes.iter().flatten().copied()));
         write(queue, rise, place.layer, &bytes(&mut tile.rise_m.iter().copied()));
-        self.held.insert(tile.serial, Held { place, drawn_in_frame: self.frame });
+        self.uploaded_bytes += DETAIL_BYTES;
+        self.held.insert(tile.serial, Held { place, wanted_in_frame: self.frame });
         Some(place)
     }
 
@@ -103,7 +122,7 @@ impl DetailPool {
             let frame = self.frame;
             let free = &mut self.free;
             self.held.retain(|_, held| {
-                let keep = held.drawn_in_frame + 1 > frame;
+                let keep = held.wanted_in_frame + KEPT_FRAMES > frame;
                 if !keep {
                     free.push(held.place);
                 }

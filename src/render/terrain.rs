@@ -1,6 +1,6 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
 
-use super::detail_pool::DetailPool;
+use super::detail_pool::{DETAIL_BYTES, DetailPool};
 use super::gpu;
 use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
@@ -163,29 +163,50 @@ impl TerrainResources {
         }
     }
 
-    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
-    /// there now.
+    /// Uploads tiles of a surface that is to be drawn soon and their detail, at most so many bytes (but at least one tile).
+    /// Whether all are there now.
     pub(crate) fn upload(
         &mut self,
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         surface: &Surface,
         budget_bytes: u64,
     ) -> bool {
         self.pool.begin_round();
-        let missing: Vec<&Tile> =
-            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
-        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
-        for tile in missing.iter().take(affordable) {
-            self.pool.place(device, encoder, tile);
+        let mut left = budget_bytes.max(TILE_BYTES);
+        let mut affordable = |bytes| {
+            let fits = bytes <= left;
+            left = if fits { left - bytes } else { 0 };
+            fits
+        };
+        // No short cut at the first that does not fit: those that are here are to stay.
+        let mut done = true;
+        for leaf in &surface.leaves {
+            if !self.pool.holds(&leaf.tile) {
+                if affordable(TILE_BYTES) {
+                    self.pool.place(device, encoder, &leaf.tile);
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.detail.as_deref()) {
+            if !self.details.holds(tile) {
+                if affordable(DETAIL_BYTES) {
+                    self.details.place(device, queue, tile);
+                } else {
+                    done = false;
+                }
+            }
         }
         self.pool.end_round(encoder);
-        missing.len() <= affordable
+        done
     }
 
     /// Bytes uploaded since the start.
     pub(crate) fn uploaded_bytes(&self) -> u64 {
-        self.pool.uploaded_bytes()
+        self.pool.uploaded_bytes() + self.details.uploaded_bytes()
     }
 
     /// Chooses the tiles to draw, uploads those that are not there yet.
