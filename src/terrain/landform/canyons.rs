@@ -11,7 +11,7 @@ use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
 use crate::planet;
 use crate::terrain::field::EXACT;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise, precise};
+use crate::terrain::noise::{CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
@@ -149,7 +149,7 @@ impl Evaluate for Canyons {
             }
             // Lines must lie where they are to the millimetre, though they are hundreds of kilometres apart.
             let mut value = [0.0; CHUNK];
-            precise::add(chunk.simd, there, octave, 1.0, &mut value);
+            noise.add_exact(chunk.simd, there, octave, 1.0, &mut value);
             if fades.is_unseen() {
                 noise.gradients(chunk.simd, there, octave);
                 displaced.pull_back_noise(chunk, false, noise);

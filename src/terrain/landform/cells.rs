@@ -25,7 +25,7 @@ const JITTER: f32 = 0.395;
 /// Square of the distance within which all centres are known: 2 (1.5 - JITTER)^2.
 const HORIZON: f32 = 2.442;
 /// Weight of the octaves that f32 is enough for.
-const REST: f64 = 0.02;
+const REST: f64 = 0.12;
 /// Points for each border's width, or for half a dome, from which on they show in full.
 const LEAST_POINTS: f64 = 1.2;
 

@@ -20,7 +20,7 @@ use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
 /// Weight of the sizes that f32 is enough for.
-const REST: f64 = 0.05;
+const REST: f64 = 0.56;
 /// Most radius of a crater, in cells.
 const RADIUS: f32 = 0.45;
 /// Most reach of the ejecta, in crater radii.

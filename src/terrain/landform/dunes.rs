@@ -23,7 +23,7 @@ use glam::DVec3;
 use std::f32::consts::TAU;
 
 /// Weight of the sizes that f32 is enough for.
-const REST: f64 = 0.02;
+const REST: f64 = 0.2;
 /// Wavelengths to a cell: more makes longer, straighter crests.
 const WAVES: f32 = 2.2;
 /// How far a wave reaches, in cells.

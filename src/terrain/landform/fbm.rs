@@ -4,7 +4,7 @@ use super::octaves::{Weighted, series};
 use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Sums};
 use crate::planet;
-use crate::terrain::noise::{self, Noise, precise};
+use crate::terrain::noise::{self, Noise};
 use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: a wave is about two cells long.
@@ -70,9 +70,9 @@ pub(super) fn add_octaves(
             break;
         }
         if k < chunk.exact(exact) {
-            precise::add(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
+            noise.add_exact(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
             if !fades.is_unseen() {
-                noise.gradients(chunk.simd, chunk.skewed, octave);
+                noise.exact_gradients(chunk.simd, chunk.len(), octave);
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
             }
             continue;

@@ -109,7 +109,7 @@ impl Warp {
         let least_points = LEAST_POINTS * self.squeeze();
         let (coarse, fine) = octaves.split_at(exact.max(PRECISE).min(octaves.len()));
         for Weighted { octave, weight } in coarse {
-            precise::add(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
+            noise.add_exact(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
             let fades = chunk.fades(1.0 / octave.frequency, least_points);
             if !fades.is_unseen() {
                 noise.gradients(chunk.simd, there.skewed, octave);
@@ -137,7 +137,7 @@ impl Warp {
         }
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            precise::add_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
+            noise.add_exact_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if fades.is_unseen() {
                 continue;
