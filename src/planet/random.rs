@@ -34,7 +34,8 @@ pub fn random(seed: u64) -> Planet {
     });
     let air = kind != Kind::Bare && (water.is_some() || dice.chance(0.7));
     let clouds = (air && dice.chance(if water.is_some() { 0.9 } else { 0.4 })).then(|| Clouds {
-        coverage: dice.rounded(0.2, 0.7),
+        // On ice they would hide white behind white.
+        coverage: if kind == Kind::Cold { dice.rounded(0.1, 0.35) } else { dice.rounded(0.2, 0.5) },
         scale_km: three_digits(radius_km * dice.between(0.2, 0.5)),
         curl: dice.rounded(0.3, 1.2),
         seed: dice.seed(),
@@ -119,7 +120,7 @@ enum Kind {
 fn climate(kind: Kind, radius_km: f64, dice: &mut Dice) -> Climate {
     let equator_c = match kind {
         Kind::Temperate => dice.rounded(22.0, 34.0),
-        Kind::Cold => dice.rounded(-15.0, 8.0),
+        Kind::Cold => dice.rounded(-12.0, 10.0),
         Kind::Hot => dice.rounded(60.0, 200.0),
         Kind::Dry => dice.rounded(5.0, 45.0),
         Kind::Bare => dice.rounded(-60.0, 60.0),
@@ -141,11 +142,12 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
     let earth = Atmosphere::default();
     // Thin on cold worlds, thick on hot ones; dust makes the sky yellow and red.
     let thickness = match kind {
-        Kind::Hot => dice.between(1.0, 3.0),
+        Kind::Hot => dice.between(0.6, 1.6),
+        Kind::Dry => dice.between(0.1, 0.7),
         Kind::Cold => dice.between(0.3, 1.0),
         _ => dice.between(0.7, 1.5),
     };
-    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(1.0, 5.0) };
+    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(0.7, 2.5) };
     let tint = dice.color([0.7, 0.7, 0.7], [1.3, 1.3, 1.3]);
     let scaled = |color: [f64; 3], factor: f64| color.map(|c| three_digits(c * factor));
     let mut rayleigh_per_km = scaled(earth.rayleigh_per_km, thickness);
