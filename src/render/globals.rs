@@ -197,7 +197,8 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     g.eye_wrap_m = vec4(wrapped(eye / WRAP_M) * WRAP_M, planet.climate.lapse_c_per_km * 1e-3);
     g.eye_wrap_far_m = vec4(wrapped(eye / WRAP_FAR_M) * WRAP_FAR_M, 0.0);
     g.misc = [
-        0.0,
+        // Shaders count to it: a loop that is written out makes software drivers compile for minutes.
+        10.0,
         setup.height_range_m.0 as f32,
         setup.height_range_m.1 as f32,
         frame.exposure_ev.exp2() as f32,
