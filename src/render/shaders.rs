@@ -27,6 +27,8 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "histogram.wgsl",
     "irradiance.wgsl",
     "light.wgsl",
+    "material.wgsl",
+    "material_pattern.wgsl",
     "math.wgsl",
     "meter.wgsl",
     "mottle.wgsl",
