@@ -3,7 +3,7 @@
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
 //! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`: what outlives a frame, made anew only when what
 //!   it depends on changed
-//! - `terrain` with `pool`: the ground into radiance and depth
+//! - `terrain` with `pool`, and `layer_pool` for `detail_pool` and `horizon_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
@@ -24,6 +24,8 @@ mod detail_pool;
 mod exposure;
 mod globals;
 mod gpu;
+mod horizon_pool;
+mod layer_pool;
 mod noise_tile;
 mod pool;
 mod scene_pass;

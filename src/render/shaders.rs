@@ -25,6 +25,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "exposure.wgsl",
     "globals.wgsl",
     "histogram.wgsl",
+    "horizon.wgsl",
     "irradiance.wgsl",
     "light.wgsl",
     "math.wgsl",

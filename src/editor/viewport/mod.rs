@@ -92,10 +92,11 @@ impl PictureKey {
 
 /// Whether two surfaces are made of the same tiles and stand for as much.
 fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
-    let detail = |leaf: &Leaf| leaf.detail.as_ref().map(|detail| detail.serial);
-    let same = |(a, b): (&Leaf, &Leaf)| {
-        a.tile.serial == b.tile.serial && a.coarser_edges == b.coarser_edges && detail(a) == detail(b)
+    let serials = |leaf: &Leaf| {
+        let (detail, horizon) = (leaf.detail.as_ref(), leaf.horizon.as_ref());
+        (leaf.tile.serial, detail.map(|detail| detail.serial), horizon.map(|horizon| horizon.serial))
     };
+    let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && a.coarser_edges == b.coarser_edges;
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
     Arc::ptr_eq(a, b) || (a.complete == b.complete && all())
 }
