@@ -188,6 +188,7 @@ impl Cache {
             used_bytes: state.bytes,
             budget_bytes: self.budget_bytes,
             tiles: state.entries.values().filter(|entry| entry.tile.is_some()).count(),
+            horizons: state.entries.values().filter(|entry| entry.horizon.is_some()).count(),
             fields: state.entries.values().map(|entry| entry.fields.len()).sum(),
         }
     }

@@ -116,6 +116,8 @@ pub struct Memory {
     pub budget_bytes: usize,
     /// Tiles.
     pub tiles: usize,
+    /// Horizons of nodes.
+    pub horizons: usize,
     /// Layer fields of the present planet and of earlier ones.
     pub fields: usize,
 }

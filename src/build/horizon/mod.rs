@@ -298,3 +298,6 @@ fn every_second(image: &[f16]) -> Vec<f16> {
     let at = |i: usize| image[2 * (i / COARSE_SIDE) * TILE_SIDE + 2 * (i % COARSE_SIDE)];
     (0..COARSE_SIDE * COARSE_SIDE).map(at).collect()
 }
+
+#[cfg(test)]
+mod tests;
