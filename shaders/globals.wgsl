@@ -55,8 +55,7 @@ struct Globals {
     cliff_color: vec4f,
     // x: cosine of the slope where only rock is left; y, z: lowest and highest height, metres; w: exposure factor
     misc: vec4f,
-    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: steps of
-    // mottling
+    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: tone
     modes: vec4u,
     // The eye that the tiles were chosen for, greater part and rest, metres; w: change of the biome table's row (0 to 1) with
     // each metre of height, below 0 where rows go by temperature; w of the rest: angle of its pixels, radians

@@ -4,6 +4,7 @@
 
 mod support;
 
+use glam::DVec3;
 use std::sync::Arc;
 use std::time::Duration;
 use support::{Gpu, lights};
@@ -11,10 +12,10 @@ use tellus::build::{Builder, Surface, add_detail, build_now};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, shipped};
 use tellus::render::{DebugView, Frame};
-use tellus::sphere::LatLon;
+use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
 
-const SIZE_PX: [u32; 2] = [160, 100];
+const SIZE_PX: [u32; 2] = [112, 70];
 
 /// A shipped planet as a moon of one colour: what is dark is in shadow.
 fn bare(file: &str) -> Arc<Planet> {
@@ -34,26 +35,32 @@ fn view(planet: &Arc<Planet>, lat_deg: f64, lon_deg: f64, altitude_m: f64, pitch
     View { camera, size_px: SIZE_PX, quality: Quality::Medium }
 }
 
-fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun: LatLon) -> Frame<'a> {
+fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
     Frame {
         surface,
         planet,
         view,
         frozen: None,
-        sun_dir_planet: sun.direction(),
+        sun_dir_planet,
         time_secs: 0.0,
         exposure_ev: 2.0,
         debug_view: DebugView::Shaded,
     }
 }
 
-/// Share of pixels that are lit or dark as rays from the ground to the star say, among those on the ground that are not next to a
-/// change; and the same without horizons.
-fn agreement(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun: LatLon) -> [f64; 2] {
+/// What rays from the ground to the star say of a picture, of the pixels that are not next to a change: how many are in shadow and how
+/// many lit, the share of the former that is drawn lit, and the share of the latter that horizons make dark.
+struct Verdict {
+    shadowed: usize,
+    lit: usize,
+    missing: f64,
+    wrong: f64,
+}
+
+fn verdict(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun_dir: DVec3) -> Verdict {
     let mut surface = build_now(planet, &view);
     add_detail(&mut surface, &view);
     let [width, height] = SIZE_PX.map(|side| side as usize);
-    let sun_dir = sun.direction();
     let truth: Vec<Option<bool>> = (0..width * height)
         .map(|i| {
             let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
@@ -62,53 +69,58 @@ fn agreement(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun: LatLon) -> [f
             let ray = view.camera.ray_dir_planet(x, y, view.aspect());
             let distance_m = surface.terrain.raycast(eye, ray)?;
             let ground = eye + ray * distance_m;
-            // From a little above, as small relief is nothing but shading.
-            let above_m = distance_m * view.pixel_rad() * 0.2;
-            let from = ground + ground.normalize() * above_m;
+            // From a little above, as relief smaller than a pixel is nothing but shading.
+            let from = ground + ground.normalize() * (distance_m * view.pixel_rad() * 0.2);
             Some(surface.terrain.raycast(from, sun_dir).is_none())
         })
         .collect();
-    let score = |picture: &[u8]| {
-        let light = lights(picture);
-        let (mut right, mut all) = (0, 0);
-        for y in 1..height - 1 {
-            for x in 1..width - 1 {
-                let around = [-1_i64, 0, 1].into_iter().flat_map(|dy| [-1_i64, 0, 1].map(|dx| (dx, dy)));
-                let at = |(dx, dy): (i64, i64)| ((y as i64 + dy) as usize) * width + (x as i64 + dx) as usize;
-                let here = truth[y * width + x];
-                if here.is_some() && around.into_iter().all(|off| truth[at(off)] == here) {
-                    all += 1;
-                    right += usize::from(Some(light[y * width + x] > 12) == here);
-                }
+    let with = lights(&gpu.draw(&frame(planet, &surface, view, sun_dir)));
+    surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
+    let without = lights(&gpu.draw(&frame(planet, &surface, view, sun_dir)));
+    let is_lit = |light: u32| light > 12;
+    let (mut shadowed, mut lit, mut missing, mut wrong) = (0, 0, 0, 0);
+    for y in 1..height - 1 {
+        for x in 1..width - 1 {
+            let mut around = (0..9).map(|i| truth[(y + i / 3 - 1) * width + x + i % 3 - 1]);
+            let i = y * width + x;
+            let Some(sees_star) = truth[i].filter(|_| around.all(|other| other == truth[i])) else { continue };
+            if sees_star {
+                lit += 1;
+                wrong += usize::from(!is_lit(with[i]) && is_lit(without[i]));
+            } else {
+                shadowed += 1;
+                missing += usize::from(is_lit(with[i]));
             }
         }
-        right as f64 / f64::from(all)
-    };
-    let with = score(&gpu.draw(&frame(planet, &surface, view, sun)));
-    surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
-    [with, score(&gpu.draw(&frame(planet, &surface, view, sun)))]
+    }
+    let share = |part: usize, all: usize| part as f64 / all.max(1) as f64;
+    Verdict { shadowed, lit, missing: share(missing, shadowed), wrong: share(wrong, lit) }
 }
 
 #[test]
 fn what_is_dark_is_what_cannot_see_the_star() {
     let mut gpu = Gpu::new();
-    // Several faces, from orbit to the ground; the star some degrees high.
-    for (file, lat, lon, altitude_m, pitch, height_deg) in [
-        ("pallor.ron", 10.0, 20.0, 400e3, -90.0, 8.0),
-        ("pallor.ron", -35.0, 140.0, 50e3, -60.0, 5.0),
-        ("pallor.ron", 70.0, -100.0, 5e3, -30.0, 10.0),
-        ("pallor.ron", 10.0, 20.0, 200.0, -20.0, 10.0),
-        ("aurel.ron", 30.0, 10.0, 50e3, -50.0, 6.0),
+    // Several faces of the cube, from orbit to the ground; how high the star stands and in which azimuth, degrees.
+    for (file, lat, lon, altitude_m, pitch, (height_deg, azimuth_deg)) in [
+        ("pallor.ron", 10.0, 20.0, 300e3, -90.0, (5.0_f64, 80.0_f64)),
+        ("pallor.ron", -35.0, 140.0, 20e3, -60.0, (6.0, 250.0)),
+        ("pallor.ron", 75.0, -100.0, 400e3, -90.0, (4.0, 10.0)),
+        ("aurel.ron", 30.0, 10.0, 50e3, -50.0, (6.0, 130.0)),
     ] {
         let planet = bare(file);
         let view = view(&planet, lat, lon, altitude_m, pitch);
-        let (down, lat_rad) = ((90.0 - f64::from(height_deg)).to_radians(), f64::to_radians(lat));
-        // Westward along the circle of latitude until the star is so low.
-        let turn = ((libm::cos(down) - libm::sin(lat_rad).powi(2)) / libm::cos(lat_rad).powi(2)).clamp(-1.0, 1.0);
-        let sun = LatLon { lat_rad, lon_rad: f64::to_radians(lon) - libm::acos(turn) };
-        let [with, without] = agreement(&mut gpu, &planet, view, sun);
-        println!("{file} from {altitude_m} m: {with:.3}, without horizons {without:.3}");
-        assert!(with > 0.93 && with > without, "{file} from {altitude_m} m: {with}, without horizons {without}");
+        let up = LatLon::from_degrees(lat, lon).direction();
+        let (east, north) = geo::east_north(up);
+        let (sin, cos) = azimuth_deg.to_radians().sin_cos();
+        let (rise, along) = height_deg.to_radians().sin_cos();
+        let found = verdict(&mut gpu, &planet, view, up * rise + (north * cos + east * sin) * along);
+        let Verdict { shadowed, lit, missing, wrong } = found;
+        let told = format!(
+            "{file} from {altitude_m} m: of {shadowed} in shadow {missing:.3} are lit, of {lit} others {wrong:.3} are dark"
+        );
+        println!("{told}");
+        assert!(shadowed > 100 && lit > 200, "{told}");
+        assert!(missing < 0.08 && wrong < 0.04, "{told}");
     }
 }
 
@@ -119,7 +131,7 @@ fn at_noon_nothing_is_in_shadow() {
     let view = view(&planet, 10.0, 20.0, 100e3, -90.0);
     let mut surface = build_now(&planet, &view);
     add_detail(&mut surface, &view);
-    let noon = LatLon::from_degrees(10.0, 20.0);
+    let noon = LatLon::from_degrees(10.0, 20.0).direction();
     let with = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));
     surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
     let without = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));

@@ -1,6 +1,6 @@
 //! The uniform buffer that every pass reads: the frame in the units of the shaders. Must match `shaders/globals.wgsl`.
 
-use super::{DebugView, Frame, gpu};
+use super::{DebugView, Frame, Tone, gpu};
 use crate::lod::Quality;
 use crate::planet::{Planet, TableRows};
 use glam::{DMat3, DVec3, Mat4};
@@ -62,6 +62,8 @@ pub(crate) struct Setup {
     pub(crate) weather_side_px: u32,
     /// Whether the target encodes sRGB by itself.
     pub(crate) srgb_target: bool,
+    /// Which curve makes the picture.
+    pub(crate) tone: Tone,
 }
 
 /// The buffer, the two samplers, and their bind group (group 0 of every pass).
@@ -199,7 +201,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         frame.exposure_ev.exp2() as f32,
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
-    g.modes = [view, setup.scale, u32::from(setup.srgb_target), 0];
+    g.modes = [view, setup.scale, u32::from(setup.srgb_target), setup.tone as u32];
     g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     g

@@ -8,7 +8,7 @@
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
 //! - `exposure`: how bright the picture is, and what exposure suits it
-//! - `tonemap`: radiance to display
+//! - `tonemap` with `tone`: radiance to display
 //!
 //! `sky_probe` asks the shaders of the air about single rays.
 //!
@@ -34,12 +34,14 @@ mod sky_probe;
 mod tables;
 mod targets;
 mod terrain;
+mod tone;
 mod tonemap;
 mod water;
 
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
+pub use tone::Tone;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};
@@ -210,6 +212,8 @@ impl Inputs {
 pub struct Renderer {
     /// Whether exposure is set by hand or by what there is to see.
     pub metering: Metering,
+    /// The curve from radiance to the picture.
+    pub tone: Tone,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
@@ -239,6 +243,7 @@ impl Renderer {
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
         Ok(Self {
             metering: Metering::Manual,
+            tone: Tone::default(),
             target_format,
             globals,
             tables,
@@ -292,6 +297,7 @@ impl Renderer {
             height_range_m,
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: self.target_format.is_srgb(),
+            tone: self.tone,
         };
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });

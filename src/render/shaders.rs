@@ -42,6 +42,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "surface.wgsl",
     "tables.wgsl",
     "terrain.wgsl",
+    "tone.wgsl",
     "tonemap.wgsl",
     "water.wgsl",
 ];

@@ -26,7 +26,7 @@ use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns};
+use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns, Tone};
 use crate::sphere::LatLon;
 use adaptation::Adaptation;
 use camera::pose::Pose;
@@ -57,6 +57,8 @@ pub struct ViewSettings {
     pub exposure_ev: f64,
     /// Whether the exposure is a correction to what suits the picture.
     pub auto_exposure: bool,
+    /// The curve from radiance to the picture.
+    pub tone: Tone,
     /// Seconds since time zero.
     pub time_secs: f64,
     /// Whether time goes on.
@@ -74,6 +76,7 @@ struct PictureKey {
     time_secs: f64,
     exposure_ev: f64,
     auto_exposure: bool,
+    tone: Tone,
     debug_view: DebugView,
 }
 
@@ -86,6 +89,7 @@ impl PictureKey {
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
             && self.auto_exposure == other.auto_exposure
+            && self.tone == other.tone
             && self.debug_view == other.debug_view
     }
 }
@@ -162,6 +166,7 @@ impl Viewport {
                 freeze_detail: false,
                 exposure_ev: 0.0,
                 auto_exposure: true,
+                tone: Tone::default(),
                 time_secs: 0.0,
                 playing: false,
                 time_speed: 600.0,
@@ -388,6 +393,7 @@ impl Viewport {
             time_secs: self.settings.time_secs,
             exposure_ev: self.settings.exposure_ev,
             auto_exposure: self.settings.auto_exposure,
+            tone: self.settings.tone,
             debug_view: self.settings.debug_view,
         };
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
@@ -401,6 +407,7 @@ impl Viewport {
             return;
         }
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
+        renderer.tone = key.tone;
         let star = &planet.star;
         let begin = Instant::now();
         self.stats = renderer.render(
