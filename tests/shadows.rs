@@ -118,7 +118,6 @@ fn what_is_dark_is_what_cannot_see_the_star() {
         let told = format!(
             "{file} from {altitude_m} m: of {shadowed} in shadow {missing:.3} are lit, of {lit} others {wrong:.3} are dark"
         );
-        println!("{told}");
         assert!(shadowed > 100 && lit > 200, "{told}");
         assert!(missing < 0.08 && wrong < 0.04, "{told}");
     }

@@ -6,8 +6,8 @@
 //! however heavy the planet is. No stale work is carried on, and no surface is ever made of two planets.
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
-use super::refine::refine;
 use super::horizon::HorizonFinder;
+use super::refine::refine;
 use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
 use crate::lod::tile::{DetailTile, Tile};
@@ -210,7 +210,8 @@ impl Worker {
                     state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
                 }
             }
-            state.memory = self.cache.memory();
+            let coarse_bytes = self.terrain.as_ref().map_or(0, |terrain| terrain.coarse_bytes());
+            state.memory = self.cache.memory().and(coarse_bytes);
             drop(state);
             wake();
         }
@@ -219,10 +220,11 @@ impl Worker {
     /// A surface, and whether it has all that the request asks for. First come all tiles, then their detail.
     fn slice(&mut self, shared: &Shared, request: &Request, is_first: bool, mut stats: BuildStats) -> (Surface, bool) {
         let begun = Instant::now();
-        let terrain = self.compile(&request.planet);
+        let (terrain, compiled_samples) = self.compile(&request.planet);
         if is_first {
             self.cache.begin_request();
             stats.compile_secs = begun.elapsed().as_secs_f64();
+            stats.octave_samples += compiled_samples;
         }
         let keep_going = || {
             let elapsed = begun.elapsed();
@@ -255,11 +257,11 @@ impl Worker {
         (surface, done)
     }
 
-    /// The evaluator of a planet; tiles stay valid when nothing that they hold has changed.
-    fn compile(&mut self, planet: &Arc<Planet>) -> Arc<Terrain> {
+    /// The evaluator of a planet, and how many octave samples it took to find; tiles stay valid when nothing that they hold has changed.
+    fn compile(&mut self, planet: &Arc<Planet>) -> (Arc<Terrain>, usize) {
         let before = self.terrain.take();
-        let terrain = match before {
-            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => terrain,
+        let (terrain, samples) = match before {
+            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => (terrain, 0),
             before => {
                 profiling::scope!("compile");
                 let terrain = Arc::new(match &before {
@@ -269,11 +271,12 @@ impl Worker {
                 if let Some(before) = before {
                     self.cache.invalidate(stale_stages(&before, &terrain));
                 }
-                terrain
+                let samples = terrain.octave_samples();
+                (terrain, samples)
             }
         };
         self.terrain = Some(terrain.clone());
-        terrain
+        (terrain, samples)
     }
 }
 

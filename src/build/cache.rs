@@ -4,7 +4,6 @@
 //! what unseen tiles were made from, then unseen tiles, at last what the tiles on screen were made from. The tiles that the
 //! present request needs always stay.
 
-use super::kept::KeptFields;
 use super::make::{Before, Parts, make_tile};
 use super::stats::{Memory, Work};
 use crate::lod::horizon::HorizonTile;
@@ -12,6 +11,7 @@ use crate::lod::tile::{DetailTile, Tile, Vertex};
 use crate::planet::param::Stages;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use crate::terrain::kept::KeptFields;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;

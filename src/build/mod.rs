@@ -1,7 +1,6 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
 //! - `make`: one tile from one node, stage by stage; `mesh`: its vertices
-//! - `kept`: the layer fields of one tile, present and past
 //! - `detail`: what is finer than the mesh of one node; `horizon`: how high the ground around it stands
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
@@ -11,7 +10,6 @@ pub mod builder;
 mod cache;
 mod detail;
 mod horizon;
-mod kept;
 mod make;
 mod mesh;
 mod refine;
@@ -64,7 +62,9 @@ pub struct Leaf {
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
     let terrain = Arc::new(Terrain::new(planet.clone()));
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
-    refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
+    let mut stats = BuildStats::default();
+    stats.octave_samples = terrain.octave_samples();
+    refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true)
 }
 
 /// Finds the horizons and the detail of all tiles that a view shows of a surface, and waits for them.

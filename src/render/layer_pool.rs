@@ -1,7 +1,11 @@
 //! Images of tiles on the GPU: layers of a few large texture arrays, keyed by serial, filled once and kept until another needs
-//! the room and nobody has drawn them for a while.
+//! the room and nobody has asked for them for a while.
 
 use std::collections::HashMap;
+
+/// Tiles that have not been asked for in so many frames may lose their layers. A surface that is uploaded ahead is not drawn before
+/// the last of it is there.
+const KEPT_FRAMES: u64 = 4;
 
 /// What is kept for each tile.
 #[derive(Clone, Copy)]
@@ -25,7 +29,7 @@ pub(crate) struct LayerPlace {
 
 struct Held {
     place: LayerPlace,
-    drawn_in_frame: u64,
+    wanted_in_frame: u64,
 }
 
 /// All layers, and a bind group for each array.
@@ -38,6 +42,7 @@ pub(crate) struct LayerPool {
     free: Vec<LayerPlace>,
     held: HashMap<u64, Held>,
     frame: u64,
+    uploaded_bytes: u64,
 }
 
 impl LayerKind {
@@ -57,6 +62,12 @@ impl LayerKind {
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(self.label), entries: &entries })
     }
 
+    /// Bytes of a tile.
+    pub(crate) fn tile_bytes(&self) -> u64 {
+        let texel = |format: &wgpu::TextureFormat| format.block_copy_size(None).unwrap_or(0);
+        u64::from(self.side_px * self.side_px * self.formats.iter().map(texel).sum::<u32>())
+    }
+
     fn extent(&self) -> wgpu::Extent3d {
         wgpu::Extent3d { width: self.side_px, height: self.side_px, depth_or_array_layers: 1 }
     }
@@ -73,12 +84,13 @@ impl LayerPool {
             free: Vec::new(),
             held: HashMap::new(),
             frame: 0,
+            uploaded_bytes: 0,
         };
         pool.grow(device);
         pool
     }
 
-    /// Call once a frame, before the first [`LayerPool::place`].
+    /// Call once a frame, before the first [`LayerPool::place`] of what is drawn.
     pub(crate) fn begin_frame(&mut self) {
         self.frame += 1;
     }
@@ -86,6 +98,17 @@ impl LayerPool {
     /// The bind group of an array.
     pub(crate) fn group(&self, array: usize) -> Option<&wgpu::BindGroup> {
         self.groups.get(array)
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.uploaded_bytes
+    }
+
+    /// Whether a tile is here; if so it keeps its layer.
+    pub(crate) fn holds(&mut self, serial: u64) -> bool {
+        let held = self.held.get_mut(&serial);
+        held.map(|held| held.wanted_in_frame = self.frame).is_some()
     }
 
     /// Where a tile is; if it is new it is uploaded: `texels` gives the bytes of each image, or nothing for one that cannot be drawn.
@@ -97,15 +120,16 @@ impl LayerPool {
         texels: impl FnOnce() -> Option<Vec<Vec<u8>>>,
     ) -> Option<LayerPlace> {
         if let Some(held) = self.held.get_mut(&serial) {
-            held.drawn_in_frame = self.frame;
+            held.wanted_in_frame = self.frame;
             return Some(held.place);
         }
         let images = texels()?;
         let place = self.take_layer(device)?;
         for (texture, bytes) in self.textures.get(place.array)?.iter().zip(&images) {
             write(queue, texture, place.layer, self.kind.extent(), bytes);
+            self.uploaded_bytes += bytes.len() as u64;
         }
-        self.held.insert(serial, Held { place, drawn_in_frame: self.frame });
+        self.held.insert(serial, Held { place, wanted_in_frame: self.frame });
         Some(place)
     }
 
@@ -114,7 +138,7 @@ impl LayerPool {
             let frame = self.frame;
             let free = &mut self.free;
             self.held.retain(|_, held| {
-                let keep = held.drawn_in_frame + 1 > frame;
+                let keep = held.wanted_in_frame + KEPT_FRAMES > frame;
                 if !keep {
                     free.push(held.place);
                 }

@@ -259,7 +259,7 @@ impl Renderer {
     pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, surface: &Surface, budget_bytes: u64) -> bool {
         profiling::scope!("upload");
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("upload") });
-        let done = self.terrain.upload(device, &mut encoder, surface, budget_bytes);
+        let done = self.terrain.upload(device, queue, &mut encoder, surface, budget_bytes);
         queue.submit([encoder.finish()]);
         done
     }

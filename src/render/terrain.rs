@@ -175,29 +175,59 @@ impl TerrainResources {
         }
     }
 
-    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
-    /// there now.
+    /// Uploads tiles of a surface that is to be drawn soon, their horizons and their detail, at most so many bytes (but at least one tile).
+    /// Whether all are there now.
     pub(crate) fn upload(
         &mut self,
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         surface: &Surface,
         budget_bytes: u64,
     ) -> bool {
         self.pool.begin_round();
-        let missing: Vec<&Tile> =
-            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
-        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
-        for tile in missing.iter().take(affordable) {
-            self.pool.place(device, encoder, tile);
+        let mut left = budget_bytes.max(TILE_BYTES);
+        let mut affordable = |bytes| {
+            let fits = bytes <= left;
+            left = if fits { left - bytes } else { 0 };
+            fits
+        };
+        // No short cut at the first that does not fit: those that are here are to stay.
+        let mut done = true;
+        for leaf in &surface.leaves {
+            if !self.pool.holds(&leaf.tile) {
+                if affordable(TILE_BYTES) {
+                    self.pool.place(device, encoder, &leaf.tile);
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.horizon.as_deref()) {
+            if !self.horizons.holds(tile.serial) {
+                if affordable(HORIZON.tile_bytes()) {
+                    self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile));
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.detail.as_deref()) {
+            if !self.details.holds(tile.serial) {
+                if affordable(DETAIL.tile_bytes()) {
+                    self.details.place(device, queue, tile.serial, || detail_pool::texels(tile));
+                } else {
+                    done = false;
+                }
+            }
         }
         self.pool.end_round(encoder);
-        missing.len() <= affordable
+        done
     }
 
     /// Bytes uploaded since the start.
     pub(crate) fn uploaded_bytes(&self) -> u64 {
-        self.pool.uploaded_bytes()
+        self.pool.uploaded_bytes() + self.details.uploaded_bytes() + self.horizons.uploaded_bytes()
     }
 
     /// Chooses the tiles to draw, uploads those that are not there yet.
@@ -226,9 +256,10 @@ impl TerrainResources {
             let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, chosen);
-            let detail = leaf.detail.as_ref().and_then(|tile| {
-                self.details.place(device, queue, tile.serial, || detail_pool::texels(tile))
-            });
+            let detail = leaf
+                .detail
+                .as_ref()
+                .and_then(|tile| self.details.place(device, queue, tile.serial, || detail_pool::texels(tile)));
             let horizon = leaf.horizon.as_ref().and_then(|tile| {
                 let place = self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
                 Some((place, leaf.tile.id.within(tile.id)))
@@ -237,9 +268,8 @@ impl TerrainResources {
             instances.push(Instance {
                 morph_level_layer: [start as f32, end as f32, f32::from(level), layer],
                 slope_axis: slope_axis(leaf.tile.id.face).as_vec3().to_array(),
-                horizon: horizon.map_or([-1.0; 4], |(place, [width, x, y])| {
-                    [place.layer as f32, width as f32, x as f32, y as f32]
-                }),
+                horizon: horizon
+                    .map_or([-1.0; 4], |(place, [width, x, y])| [place.layer as f32, width as f32, x as f32, y as f32]),
             });
             let arrays = [detail, horizon.map(|(place, _)| place)].map(|place| place.map_or(0, |place| place.array));
             self.draws.push(Draw { place, arrays, mask: usize::from(leaf.coarser_edges & 15) });

@@ -63,14 +63,7 @@ pub(super) struct Step {
 /// Raises `tangents` to what is seen over these steps. Where it does, `nearness` becomes the inverse of the distance in vertex
 /// spacings.
 #[inline(always)]
-fn march_body(
-    patch: &Patch,
-    dir: [f32; 2],
-    along: &Along,
-    steps: &[Step],
-    tangents: &mut [f32],
-    nearness: &mut [f32],
-) {
+fn march_body(patch: &Patch, dir: [f32; 2], along: &Along, steps: &[Step], tangents: &mut [f32], nearness: &mut [f32]) {
     let at = |x: i64, y: i64| {
         let (x, y) = (x + patch.margin as i64, y + patch.margin as i64);
         (y * patch.side as i64 + x) as usize

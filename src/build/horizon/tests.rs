@@ -40,7 +40,6 @@ fn surface_of(view: &View, height_m: impl Fn(DVec3) -> f64) -> Surface {
         leaf.tile = Arc::new(Tile { vertices, min_height_m: -10.0, max_height_m: 6000.0, ..*tile_parts(tile) });
     }
     assert!(HorizonFinder::new(&surface, view).find(&mut surface, &|_| None, &|_| {}, &|| true));
-    println!("{:?} on {} threads", surface.stats.horizons, rayon::current_num_threads());
     surface
 }
 
@@ -125,8 +124,7 @@ fn the_shadow_of_a_mountain_is_as_long_as_geometry_says() {
     for sun_deg in [5.0_f64, 10.0] {
         let truth_m = shadow_end_m(sun_deg.to_radians());
         // The level that sees the mountain from the end of its shadow.
-        let spacing_m =
-            (0..=level).map(|l| spacing_rad(l) * RADIUS_M).find(|s| truth_m >= 16.0 * s).unwrap();
+        let spacing_m = (0..=level).map(|l| spacing_rad(l) * RADIUS_M).find(|s| truth_m >= 16.0 * s).unwrap();
         let mut worst_m = [0.0_f64; 2];
         for azimuth in 0..64 {
             // Half of them in the middle between the azimuths that are kept.
@@ -144,8 +142,10 @@ fn the_shadow_of_a_mountain_is_as_long_as_geometry_says() {
             let worst = &mut worst_m[azimuth as usize % 2];
             *worst = worst.max((end_m - truth_m).abs());
         }
-        println!("{sun_deg}: {worst_m:?} of {truth_m}, spacing {spacing_m}");
-        assert!(worst_m[0] < 2.0 * spacing_m, "{worst_m:?} of {truth_m} at {sun_deg}, {spacing_m} from vertex to vertex");
+        assert!(
+            worst_m[0] < 2.0 * spacing_m,
+            "{worst_m:?} of {truth_m} at {sun_deg}, {spacing_m} from vertex to vertex"
+        );
         assert!(worst_m[1] < 0.2 * truth_m, "{worst_m:?} of {truth_m} at {sun_deg}");
     }
 }
@@ -203,7 +203,8 @@ fn neighbours_of_a_level_agree_on_their_border() {
         if other_id.face == id.face {
             for image in 0..HORIZON_IMAGES {
                 for y in 0..TILE_SIDE {
-                    let at = |tile: &HorizonTile, x: usize| tile.own[image * TILE_VERTICES + y * TILE_SIDE + x].to_f32();
+                    let at =
+                        |tile: &HorizonTile, x: usize| tile.own[image * TILE_VERTICES + y * TILE_SIDE + x].to_f32();
                     let (a, b) = (at(tile, TILE_QUADS), at(other, 0));
                     // The openness knows a slope by one vertex on either side; all else is the same to rounding.
                     assert!((a - b).abs() < 2e-3, "{id:?} {image} {y}: {a} {b}");
