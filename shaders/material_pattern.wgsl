@@ -65,7 +65,7 @@ fn plane_shares(n: vec3f) -> vec3f {
     w = w * w * w;
     w /= w.x + w.y + w.z;
     let most = max(w.x, max(w.y, w.z));
-    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.modes.w == 0u);
+    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.eye_wrap_far_m.w == 0.0);
     return w / (w.x + w.y + w.z);
 }
 
@@ -90,7 +90,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
 
     let planes = plane_shares(seen.n);
     // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
-    let scales = select(1u, 2u, globals.modes.w > 0u && lod < 7.0);
+    let scales = select(1u, 2u, globals.eye_wrap_far_m.w > 0.0 && lod < 7.0);
     let taps = 3u * scales * select(1u, 2u, flows);
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
@@ -113,7 +113,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
             x = turned(x) * finer;
             y = turned(y) * finer;
         }
-        if globals.modes.w == 0u {
+        if globals.eye_wrap_far_m.w == 0.0 {
             // As wide one way as the other: one tap.
             let width = seen.footprint_m / size.x;
             x = vec2f(width, 0.0);
