@@ -18,8 +18,6 @@ pub(super) struct Gpu {
     pub(super) queue: wgpu::Queue,
     /// Adapter and backend, for people.
     pub(super) name: String,
-    /// Whether the adapter is no GPU at all but a program.
-    pub(super) is_software: bool,
     /// The first thing that went wrong on the device.
     error: Arc<Mutex<Option<String>>>,
 }
@@ -55,8 +53,7 @@ impl Gpu {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             first.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());
         }));
-        let is_software = info.device_type == wgpu::DeviceType::Cpu;
-        Ok(Self { device, queue, name, is_software, error })
+        Ok(Self { device, queue, name, error })
     }
 
     /// What `draw` puts into a texture, as rows of RGBA bytes from the top.

@@ -117,7 +117,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let gpu = headless::Gpu::open(args.size)?;
     let mut renderer =
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
-    renderer.set_anisotropic(&gpu.device, !gpu.is_software);
     renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     renderer.tone = args.tone;
     let view = view(args, &planet);

@@ -90,13 +90,33 @@ impl GlobalsBuffer {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let group = group(device, &layout, &buffer, 1);
+        let sampler = |label, mode, anisotropy_clamp| {
+            device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(label),
+                address_mode_u: mode,
+                address_mode_v: mode,
+                address_mode_w: mode,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                anisotropy_clamp,
+                ..wgpu::SamplerDescriptor::default()
+            })
+        };
+        let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge, 1);
+        let repeated = sampler("repeated", wgpu::AddressMode::Repeat, 1);
+        let patterned = sampler("patterned", wgpu::AddressMode::Repeat, 8);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("globals"),
+            layout: &layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&clamped) },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
+                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&patterned) },
+            ],
+        });
         Self { layout, group, buffer, written: None, writes: 0 }
-    }
-
-    /// Sets how many samples the ground's patterns may take along a slanting pixel, 1 to 16.
-    pub(crate) fn set_anisotropy(&mut self, device: &wgpu::Device, most: u16) {
-        self.group = group(device, &self.layout, &self.buffer, most);
     }
 
     /// Sets the frame that the passes submitted next will see.
@@ -114,41 +134,6 @@ impl GlobalsBuffer {
     pub(crate) fn writes(&self) -> u64 {
         self.writes
     }
-}
-
-/// The bind group of group 0. `anisotropy` is that of the ground's patterns.
-fn group(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    buffer: &wgpu::Buffer,
-    anisotropy: u16,
-) -> wgpu::BindGroup {
-    let sampler = |label, mode, anisotropy_clamp| {
-        device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some(label),
-            address_mode_u: mode,
-            address_mode_v: mode,
-            address_mode_w: mode,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            anisotropy_clamp,
-            ..wgpu::SamplerDescriptor::default()
-        })
-    };
-    let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge, 1);
-    let repeated = sampler("repeated", wgpu::AddressMode::Repeat, 1);
-    let patterned = sampler("patterned", wgpu::AddressMode::Repeat, anisotropy.clamp(1, 16));
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("globals"),
-        layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&clamped) },
-            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
-            wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&patterned) },
-        ],
-    })
 }
 
 fn vec4(v: DVec3, w: f64) -> [f32; 4] {

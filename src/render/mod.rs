@@ -257,11 +257,6 @@ impl Renderer {
             shader_error,
         })
     }
-    /// Lets the patterns of the ground be sampled as finely as a GPU does it in passing. Off unless told: a software
-    /// adapter would take minutes for a picture.
-    pub fn set_anisotropic(&mut self, device: &wgpu::Device, on: bool) {
-        self.globals.set_anisotropy(device, if on { 8 } else { 1 });
-    }
     /// Uploads tiles of a surface ahead of the frame that will draw it, at most so many bytes (but at least one tile). Whether
     /// all are there now. Without it [`Renderer::render`] uploads what it needs at once.
     pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, surface: &Surface, budget_bytes: u64) -> bool {

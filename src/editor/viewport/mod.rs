@@ -144,14 +144,9 @@ pub struct Viewport {
 impl Viewport {
     /// A viewport that draws with eframe's device, or shows why it cannot.
     pub fn new(ctx: &egui::Context, render_state: Option<&RenderState>, planet: &Planet) -> Self {
-        // On a software adapter the pictures in between, and finer samples, would cost more than they please.
-        let by_eye = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
         let drawing = match render_state {
             Some(state) => match Renderer::new(&state.device, &state.queue, target::FORMAT) {
-                Ok(mut renderer) => {
-                    renderer.set_anisotropic(&state.device, by_eye);
-                    Drawing::Ready(Box::new(renderer), state.clone())
-                }
+                Ok(renderer) => Drawing::Ready(Box::new(renderer), state.clone()),
                 Err(error) => Drawing::Failed(error.to_string()),
             },
             None => Drawing::Failed("There is no graphics device to draw with.".to_owned()),
@@ -161,6 +156,8 @@ impl Viewport {
             wgpu::DeviceType::DiscreteGpu => Quality::High,
             _ => Quality::Medium,
         });
+        // On a software adapter the pictures in between would cost more than they please.
+        let by_eye = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
         let (ctx, pointer_ctx) = (ctx.clone(), ctx.clone());
         Self {
             settings: ViewSettings {
