@@ -25,6 +25,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "exposure.wgsl",
     "globals.wgsl",
     "histogram.wgsl",
+    "horizon.wgsl",
     "irradiance.wgsl",
     "light.wgsl",
     "material.wgsl",
@@ -43,6 +44,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "surface.wgsl",
     "tables.wgsl",
     "terrain.wgsl",
+    "tone.wgsl",
     "tonemap.wgsl",
     "water.wgsl",
 ];
