@@ -14,6 +14,7 @@
 //! - [`random`]: random planets that are always valid
 
 mod airs;
+mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
