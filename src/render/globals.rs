@@ -1,5 +1,6 @@
 //! The uniform buffer that every pass reads: the frame in the units of the shaders. Must match `shaders/globals.wgsl`.
 
+use super::biome_table::{WRAP_FAR_M, WRAP_M};
 use super::{DebugView, Frame, Tone, gpu};
 use crate::lod::Quality;
 use crate::planet::{Planet, TableRows};
@@ -43,7 +44,8 @@ struct Globals {
     cloud_turn: [f32; 4],
     cloud_seed: [u32; 4],
     mottle: [[f32; 4]; 7],
-    cliff_color: [f32; 4],
+    eye_wrap_m: [f32; 4],
+    eye_wrap_far_m: [f32; 4],
     misc: [f32; 4],
     modes: [u32; 4],
     chosen_eye_high_m: [f32; 4],
@@ -77,14 +79,18 @@ pub(crate) struct GlobalsBuffer {
 
 impl GlobalsBuffer {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let layout = gpu::layout(device, "globals", &[gpu::Slot::Uniform, gpu::Slot::Sampler, gpu::Slot::Sampler]);
+        let layout = gpu::layout(
+            device,
+            "globals",
+            &[gpu::Slot::Uniform, gpu::Slot::Sampler, gpu::Slot::Sampler, gpu::Slot::Sampler],
+        );
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("globals"),
             size: size_of::<Globals>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let sampler = |label, mode| {
+        let sampler = |label, mode, anisotropy_clamp| {
             device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(label),
                 address_mode_u: mode,
@@ -93,11 +99,13 @@ impl GlobalsBuffer {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                anisotropy_clamp,
                 ..wgpu::SamplerDescriptor::default()
             })
         };
-        let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge);
-        let repeated = sampler("repeated", wgpu::AddressMode::Repeat);
+        let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge, 1);
+        let repeated = sampler("repeated", wgpu::AddressMode::Repeat, 1);
+        let patterned = sampler("patterned", wgpu::AddressMode::Repeat, 8);
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("globals"),
             layout: &layout,
@@ -105,6 +113,7 @@ impl GlobalsBuffer {
                 wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&clamped) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
+                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&patterned) },
             ],
         });
         Self { layout, group, buffer, written: None, writes: 0 }
@@ -191,11 +200,16 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         *slot = vec4(wrapped(place / period), period);
         place = OCTAVE_TURN * place;
     }
-    let biomes = &planet.biomes;
-    let (start, full) = (biomes.cliff_start_deg, biomes.cliff_full_deg.max(biomes.cliff_start_deg + 0.5));
-    g.cliff_color = rgbw(biomes.cliff_color, start.to_radians().cos());
+    g.eye_wrap_m = vec4(wrapped(eye / WRAP_M) * WRAP_M, planet.climate.lapse_c_per_km * 1e-3);
+    let patterns = match frame.view.quality {
+        Quality::Low => 0.0,
+        Quality::Medium => 1.0,
+        Quality::High => 2.0,
+    };
+    g.eye_wrap_far_m = vec4(wrapped(eye / WRAP_FAR_M) * WRAP_FAR_M, patterns);
     g.misc = [
-        full.to_radians().cos() as f32,
+        // Shaders count to it: a loop that is written out makes software drivers compile for minutes.
+        10.0,
         setup.height_range_m.0 as f32,
         setup.height_range_m.1 as f32,
         frame.exposure_ev.exp2() as f32,

@@ -1,8 +1,8 @@
 //! Draws a planet with wgpu into any texture view on the caller's own device.
 //!
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
-//! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`: what outlives a frame, made anew only when what
-//!   it depends on changed
+//! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`, `material_maps` (of `material_kinds`, by
+//!   `material_noise`): what outlives a frame, made anew only when what it depends on changed
 //! - `terrain` with `pool`, and `layer_pool` for `detail_pool` and `horizon_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
@@ -26,6 +26,9 @@ mod globals;
 mod gpu;
 mod horizon_pool;
 mod layer_pool;
+mod material_kinds;
+mod material_maps;
+mod material_noise;
 mod noise_tile;
 mod pool;
 mod scene_pass;

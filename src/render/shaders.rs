@@ -28,6 +28,8 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "horizon.wgsl",
     "irradiance.wgsl",
     "light.wgsl",
+    "material.wgsl",
+    "material_pattern.wgsl",
     "math.wgsl",
     "meter.wgsl",
     "mottle.wgsl",

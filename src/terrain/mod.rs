@@ -10,6 +10,7 @@
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `climate`: temperature, moisture, the place in the biome table
 //! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
+//! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
 //!
@@ -21,6 +22,7 @@ pub(crate) mod climate;
 mod coarse;
 pub(crate) mod coast;
 pub(crate) mod field;
+pub(crate) mod ground;
 pub(crate) mod height;
 mod jet;
 pub(crate) mod kept;
@@ -173,15 +175,18 @@ impl Terrain {
         let inland_rad = self.climate.inland_rad(&[dir]).first().copied().unwrap_or(NO_SEA);
         let noise = [noise.temperature[0], noise.moisture[0]];
         let climate = Rules::new(&self.planet).at(dir.z, height_m, noise, inland_rad);
+        let slope_rad = libm::atan(slope.length());
+        let biome = biome_index(&self.planet, climate.moisture, climate.row);
+        let site = ground::Site { biome, height_m, slope_rad, temperature_c: climate.temperature_c };
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
-            slope_rad: libm::atan(slope.length()),
+            slope_rad,
             temperature_c: climate.temperature_c,
             temperature: climate.temperature,
             moisture: climate.moisture,
             precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
-            biome: biome_index(&self.planet, climate.moisture, climate.row),
+            biome: ground::biome_by_rules(&self.planet, site),
             layers_m,
         }
     }

@@ -58,7 +58,8 @@ fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
         let mut season_deg = star.season_deg().round();
         let value = egui::DragValue::new(&mut season_deg).range(-90.0..=90.0).speed(0.5).suffix("°");
         let response = ui.add(value).labelled_by(label.id);
-        let told = "From -90, midwinter in the north, to 90, midsummer; sets the star's latitude by the tilt of the axis";
+        let told =
+            "From -90, midwinter in the north, to 90, midsummer; sets the star's latitude by the tilt of the axis";
         if response.on_hover_text(told).changed() {
             star.set_season(season_deg);
         }

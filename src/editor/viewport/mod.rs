@@ -319,7 +319,8 @@ impl Viewport {
             self.ground_radius_m = ground.radius_m();
         }
         self.cameras.keep_above(&ground);
-        let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, (draft, self.settings.time_secs));
+        let moved =
+            input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, (draft, self.settings.time_secs));
 
         let settings = &mut self.settings;
         if settings.playing {
