@@ -6,6 +6,7 @@
 //! however heavy the planet is. No stale work is carried on, and no surface is ever made of two planets.
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
+use super::horizon::HorizonFinder;
 use super::refine::refine;
 use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
@@ -156,8 +157,8 @@ type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -
 struct Worker {
     cache: Cache,
     terrain: Option<Arc<Terrain>>,
-    /// All tiles of a request whose detail is being found.
-    complete: Option<(u64, Surface)>,
+    /// All tiles of a request whose horizons and detail are being found.
+    complete: Option<(u64, Surface, Option<HorizonFinder>)>,
     refine: Refine,
 }
 
@@ -231,8 +232,8 @@ impl Worker {
             if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
         // Once all tiles are there, only their detail is left to find.
-        let mut surface = match self.complete.take().filter(|(number, _)| *number == request.number) {
-            Some((_, surface)) => surface,
+        let (mut surface, finder) = match self.complete.take().filter(|(number, ..)| *number == request.number) {
+            Some((_, surface, finder)) => (surface, finder),
             None => {
                 let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
                 if !surface.complete {
@@ -240,16 +241,19 @@ impl Worker {
                 }
                 // Where tiles had to be built, they are shown before time is spent on their detail.
                 if surface.stats.tiles_built > stats.tiles_built {
-                    self.complete = Some((request.number, surface.clone()));
+                    self.complete = Some((request.number, surface.clone(), None));
                     return (surface, false);
                 }
-                surface
+                (surface, None)
             }
         };
+        let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, &request.view));
+        let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
+        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
         let wanted = || shared.is_newest(request.number);
-        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted);
-        self.complete = (!done).then(|| (request.number, surface.clone()));
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted) && has_horizons;
+        self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
         (surface, done)
     }
 
@@ -280,8 +284,8 @@ impl Worker {
 fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
     let touched = diff::touched_stages(before.planet(), after.planet());
     // Heights depend on both more and less than single parameters say: on the order of the layers and on which one a mask's
-    // name means, but on no layer that is off.
-    let same = before.stack.joins_like(&after.stack);
+    // name means, on climate and table where biomes have relief, but on no layer that is off.
+    let same = before.stack.joins_like(&after.stack) && before.relief == after.relief;
     let height = Stages::of(&[Stage::Height]);
     let touched = if same { touched.without(height.and(Stages::of(&[Stage::Field]))) } else { touched.and(height) };
     touched.with_consequences().within(Stages::OF_TILES)

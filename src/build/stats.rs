@@ -1,5 +1,6 @@
 //! What building took: how often each stage ran, when and for how long, and what is kept in memory.
 
+use super::horizon::HorizonWork;
 use crate::planet::param::{Stage, Stages};
 use std::time::Instant;
 
@@ -22,6 +23,8 @@ pub struct BuildStats {
     pub select_secs: f64,
     /// Slices that the work was done in; each ended in a complete surface.
     pub slices: usize,
+    /// What its horizons took, in the background once its tiles were there.
+    pub horizons: HorizonWork,
     stages: PerStage,
 }
 
@@ -113,6 +116,8 @@ pub struct Memory {
     pub budget_bytes: usize,
     /// Tiles.
     pub tiles: usize,
+    /// Horizons of nodes.
+    pub horizons: usize,
     /// Layer fields of the present planet and of earlier ones.
     pub fields: usize,
 }

@@ -1,8 +1,8 @@
 //! What a planet is: plain data, its description, its file.
 //!
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
-//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; where they act;
-//!   everything else; the biome table); `kinds` writes the enums whose values carry parameters
+//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`biome`], [`table`]: the preset's data (terrain layers; their kinds; where
+//!   they act; everything else; one kind of ground; the biome table); `kinds` writes the enums whose values carry parameters
 //! - `airs`, `star_color`: atmospheres to start from; the colour of a star by its temperature
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
@@ -14,6 +14,8 @@
 //! - [`random`]: random planets that are always valid
 
 mod airs;
+pub mod biome;
+mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
@@ -35,11 +37,12 @@ pub(crate) mod text;
 pub mod validate;
 
 pub use airs::{STARTING_AIRS, StartingAir};
+pub use biome::{Biome, Detail, Steep};
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
-pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
+pub use parts::{Atmosphere, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use picture::PictureLayout;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,

@@ -11,6 +11,7 @@ pub(crate) enum Slot {
     Uniform,
     Sampler,
     Float2d,
+    Float2dArray,
     Float3d,
     Cube,
     Depth,
@@ -36,6 +37,7 @@ pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu
                 },
                 Slot::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
                 Slot::Float2d => texture(float, wgpu::TextureViewDimension::D2),
+                Slot::Float2dArray => texture(float, wgpu::TextureViewDimension::D2Array),
                 Slot::Float3d => texture(float, wgpu::TextureViewDimension::D3),
                 Slot::Cube => texture(float, wgpu::TextureViewDimension::Cube),
                 Slot::Depth => texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
@@ -77,7 +79,9 @@ pub(crate) fn target(
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
     });
     texture.create_view(&wgpu::TextureViewDescriptor::default())

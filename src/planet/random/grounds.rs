@@ -2,36 +2,45 @@
 
 use super::Kind;
 use super::dice::{Dice, three_digits};
-use crate::planet::{Biome, Biomes, Climate, Table, TableRows};
+use crate::planet::{Biome, Biomes, Climate, Detail, Table, TableRows};
 
 /// A biome with the climate in which it lies: it is found where it is colder than this and at least so moist.
 struct Ground {
     key: char,
     name: &'static str,
     color: [f64; 3],
+    /// What it looks like from near, and the size of that.
+    detail: (Detail, f64),
     below_c: f64,
     from_moisture: f64,
 }
 
-const fn ground(key: char, name: &'static str, color: [f64; 3], below_c: f64, from_moisture: f64) -> Ground {
-    Ground { key, name, color, below_c, from_moisture }
+const fn ground(
+    key: char,
+    name: &'static str,
+    color: [f64; 3],
+    detail: (Detail, f64),
+    below_c: f64,
+    from_moisture: f64,
+) -> Ground {
+    Ground { key, name, color, detail, below_c, from_moisture }
 }
 
 /// For worlds with weather. The coldest that fits wins; among those, the wettest.
 const LIVING: &[Ground] = &[
-    ground('i', "Ice", [0.78, 0.82, 0.87], -14.0, 0.0),
-    ground('b', "Blue ice", [0.36, 0.50, 0.62], -14.0, 0.52),
-    ground('s', "Snow", [0.70, 0.73, 0.76], -6.0, 0.0),
-    ground('t', "Tundra", [0.19, 0.18, 0.12], 1.0, 0.0),
-    ground('c', "Cold steppe", [0.21, 0.19, 0.11], 8.0, 0.0),
-    ground('k', "Taiga", [0.055, 0.09, 0.045], 8.0, 0.35),
-    ground('g', "Grassland", [0.15, 0.18, 0.065], 20.0, 0.25),
-    ground('x', "Dry scrub", [0.27, 0.22, 0.12], 20.0, 0.0),
-    ground('f', "Forest", [0.045, 0.085, 0.03], 20.0, 0.5),
-    ground('d', "Desert", [0.45, 0.32, 0.17], 500.0, 0.0),
-    ground('a', "Savanna", [0.24, 0.2, 0.075], 500.0, 0.3),
-    ground('w', "Woodland", [0.09, 0.12, 0.04], 500.0, 0.5),
-    ground('j', "Rain forest", [0.025, 0.065, 0.018], 500.0, 0.72),
+    ground('i', "Ice", [0.78, 0.82, 0.87], (Detail::Ice, 6.0), -14.0, 0.0),
+    ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::Ice, 6.0), -14.0, 0.52),
+    ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, 4.0), -6.0, 0.0),
+    ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, 2.0), 1.0, 0.0),
+    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Grass, 1.5), 8.0, 0.0),
+    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Litter, 1.2), 8.0, 0.35),
+    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, 1.5), 20.0, 0.25),
+    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Gravel, 1.6), 20.0, 0.0),
+    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, 1.2), 20.0, 0.5),
+    ground('d', "Desert", [0.45, 0.32, 0.17], (Detail::Sand, 2.5), 500.0, 0.0),
+    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Grass, 1.8), 500.0, 0.3),
+    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, 1.5), 500.0, 0.5),
+    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), 500.0, 0.72),
 ];
 
 /// Shades of the ground of a world without weather, the darkest first.
@@ -96,17 +105,25 @@ pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
             color: g.color.map(|c| three_digits((c * dice.between(0.88, 1.12)).min(1.0))),
             variation: dice.rounded(0.15, 0.4),
             roughness: if matches!(g.key, 'i' | 's' | 'b') { 0.6 } else { 0.9 },
+            detail: g.detail.0,
+            detail_m: g.detail.1,
+            ..Biome::default()
         })
         .collect();
-    Biomes { coldest_c, hottest_c, palette, table, ..Biomes::default() }
+    Biomes { coldest_c, hottest_c, palette, table, cliff_detail: Detail::Rock, ..Biomes::default() }
 }
 
 /// Bands of ground that follow the height, frayed by what the climate calls moisture: dust and bedrock.
 fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
     const COLUMNS: usize = 12;
     const ROWS: usize = 12;
-    const NAMES: [(char, &str); 5] =
-        [('m', "Dark rock"), ('d', "Gravel"), ('g', "Plain"), ('p', "Pale dust"), ('b', "Bright ground")];
+    const NAMES: [(char, &str, Detail, f64); 5] = [
+        ('m', "Dark rock", Detail::Rock, 6.0),
+        ('d', "Gravel", Detail::Gravel, 2.0),
+        ('g', "Plain", Detail::Gravel, 1.6),
+        ('p', "Pale dust", Detail::Sand, 2.5),
+        ('b', "Bright ground", Detail::Sand, 2.5),
+    ];
     let shades = *dice.pick(if kind == Kind::Bare { MOONS } else { DESERTS });
     // Lava darkens the lowlands of moons; sand brightens those of many deserts.
     let upside_down = kind != Kind::Bare && dice.chance(0.5);
@@ -122,15 +139,27 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
     let palette = NAMES
         .iter()
         .zip(shades)
-        .map(|((key, name), color)| Biome {
+        .map(|((key, name, detail, detail_m), color)| Biome {
             key: *key,
             name: (*name).to_owned(),
             color: color.map(|c| three_digits(c * dice.between(0.94, 1.06))),
             variation: dice.rounded(0.12, 0.25),
             roughness: 0.95,
+            detail: *detail,
+            detail_m: *detail_m,
+            ..Biome::default()
         })
         .collect();
     let (lowest_m, highest_m) = if kind == Kind::Bare { (-2000.0, 2500.0) } else { (-2500.0, 4500.0) };
     let cliff_color = shades[1].map(|c| three_digits(c * 0.8));
-    Biomes { rows: TableRows::Elevation, lowest_m, highest_m, cliff_color, palette, table, ..Biomes::default() }
+    Biomes {
+        rows: TableRows::Elevation,
+        lowest_m,
+        highest_m,
+        cliff_color,
+        cliff_detail: Detail::Rock,
+        palette,
+        table,
+        ..Biomes::default()
+    }
 }
