@@ -44,10 +44,10 @@ pub(super) struct Args {
     /// Opening angle from the bottom to the top of the picture
     #[arg(long, value_name = "DEG", default_value = "50", allow_hyphen_values = true, value_parser = args::opening_angle)]
     fov: f64,
-    /// Where the star stands overhead [default: as the preset says]
+    /// Where the star stands overhead [default: as the preset says for that time]
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::place)]
     sun: Option<(f64, f64)>,
-    /// Time since the start: clouds drift, waves run
+    /// Time since the start: days pass, clouds drift, waves run
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
     /// Exposure in stops, 0 for a sunlit planet [default: as suits what there is to see]
@@ -122,13 +122,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let view = view(args, &planet);
     let mut surface = build_now(&planet, &view);
     add_detail(&mut surface, &view);
-    let sun = args.sun.unwrap_or((planet.star.latitude_deg, planet.star.longitude_deg));
+    let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
     let frame = Frame {
         surface: &surface,
         planet: &planet,
         view,
         frozen: None,
-        sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
+        sun_dir_planet: sun.direction(),
         time_secs: args.time,
         exposure_ev: args.exposure.unwrap_or(0.0),
         debug_view: args.view,

@@ -250,8 +250,10 @@ impl eframe::App for EditorApp {
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
                 let under_pointer = self.viewport.under_pointer();
-                let mut draft =
-                    Draft { planet: &mut planet, label: None, browse: None, problems: &problems, under_pointer };
+                let (_, lon_deg) = self.viewport.eye(&planet).1.to_degrees();
+                let here = (lon_deg, self.viewport.settings.time_secs);
+                let planet = &mut planet;
+                let mut draft = Draft { planet, label: None, browse: None, problems: &problems, under_pointer, here };
                 self.panels.show(ui, &mut draft);
                 label = draft.label;
                 browse = draft.browse;

@@ -15,6 +15,7 @@
 
 mod airs;
 pub mod biome;
+mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;

@@ -222,6 +222,8 @@ pub struct Renderer {
     tables: tables::Tables,
     terrain: terrain::TerrainResources,
     targets: Option<(targets::Targets, Inputs)>,
+    /// Which radiance target the newest frame ended in.
+    scene: usize,
     passes: Passes,
     watch: shaders::Watch,
     shader_error: Option<String>,
@@ -252,6 +254,7 @@ impl Renderer {
             tables,
             terrain,
             targets,
+            scene: 0,
             passes,
             watch,
             shader_error,
@@ -327,7 +330,37 @@ impl Renderer {
         self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], target);
         queue.submit([encoder.finish()]);
         self.targets = Some((targets, inputs));
+        self.scene = scene;
         stats
+    }
+    /// The radiance of the newest frame before exposure and curve: size of the picture as it was drawn, and red, green and blue of
+    /// each pixel (1: white ground at noon). Waits for the device.
+    pub fn radiance(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<([u32; 2], Vec<[f32; 3]>), RenderError> {
+        let Some((targets, _)) = &self.targets else { return Ok(([0, 0], Vec::new())) };
+        let [width, height] = targets.size_px;
+        // Four halves a pixel; rows begin at multiples of 256 bytes.
+        let row = (width * 8).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("radiance"),
+            size: u64::from(row * height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("radiance") });
+        let texture = targets.hdr[self.scene].texture();
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+        let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+        encoder.copy_texture_to_buffer(texture.as_image_copy(), to, texture.size());
+        queue.submit([encoder.finish()]);
+        let bytes = gpu::read(device, &buffer)?;
+        let half = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
+        let pixel = |bytes: &[u8]| [half(bytes), half(&bytes[2..]), half(&bytes[4..])];
+        let line = |line: &[u8]| line[..width as usize * 8].chunks_exact(8).map(pixel).collect::<Vec<_>>();
+        Ok((targets.size_px, bytes.chunks(row as usize).flat_map(line).collect()))
     }
     /// What is wrong with a shader that was just edited on disk (debug builds); the last good one goes on drawing.
     pub fn shader_error(&self) -> Option<&str> {

@@ -12,7 +12,7 @@ pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16
 /// Distance of the clouds.
 pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
-/// Two radiance targets that passes read and write in turn, depth, and what the clouds pass leaves behind.
+/// Two radiance targets (which may be read back) that passes read and write in turn, depth, and what the clouds pass leaves behind.
 pub(crate) struct Targets {
     pub(crate) size_px: [u32; 2],
     pub(crate) hdr: [wgpu::TextureView; 2],

@@ -66,6 +66,8 @@ pub struct Draft<'a> {
     pub problems: &'a [(ParamPath, String)],
     /// The ground under the pointer.
     pub under_pointer: Option<&'a UnderPointer>,
+    /// Longitude of the eye, and seconds since time zero.
+    pub here: (f64, f64),
 }
 
 impl Draft<'_> {

@@ -319,7 +319,8 @@ impl Viewport {
             self.ground_radius_m = ground.radius_m();
         }
         self.cameras.keep_above(&ground);
-        let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, draft);
+        let moved =
+            input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, (draft, self.settings.time_secs));
 
         let settings = &mut self.settings;
         if settings.playing {
@@ -408,7 +409,6 @@ impl Viewport {
         }
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
         renderer.tone = key.tone;
-        let star = &planet.star;
         let begin = Instant::now();
         self.stats = renderer.render(
             &state.device,
@@ -419,7 +419,7 @@ impl Viewport {
                 planet,
                 view,
                 frozen: key.frozen,
-                sun_dir_planet: LatLon::from_degrees(star.latitude_deg, star.longitude_deg).direction(),
+                sun_dir_planet: planet.star.place(key.time_secs).direction(),
                 time_secs: key.time_secs,
                 exposure_ev: key.exposure_ev,
                 debug_view: key.debug_view,
