@@ -2,7 +2,7 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use tellus::planet::diff;
-use tellus::planet::param::{Domain, Param, ParamPath, Stage, Stages, Value, ValueMut};
+use tellus::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
 use tellus::planet::{
     Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Table, TableRows, Water, param::Choice as _,
 };
