@@ -68,5 +68,3 @@ struct Globals {
 @group(0) @binding(0) var<uniform> globals: Globals;
 @group(0) @binding(1) var clamped: sampler;
 @group(0) @binding(2) var repeated: sampler;
-// Repeats too; sees patterns from the side as sharp as from above
-@group(0) @binding(3) var patterned: sampler;

@@ -91,36 +91,39 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let planes = plane_shares(seen.n);
     // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
     let scales = select(1u, 2u, globals.eye_wrap_far_m.w > 0.0 && lod < 7.0);
-    let taps = 3u * scales * select(1u, 2u, flows);
+    // Seen from the side, a pixel is long: a few taps along it stay sharper than one as wide as it is long.
+    let steps = 1u << u32(globals.eye_wrap_far_m.w);
+    let copies = 3u * scales * steps;
+    let taps = copies * select(1u, 2u, flows);
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
     var rest = vec3f(0.0);
     for (var tap = 0u; tap < taps; tap++) {
         let axis = tap % 3u;
         let is_fine = (tap / 3u) % scales == 1u;
-        let is_second = tap / 3u >= scales;
+        let step = (tap / (3u * scales)) % steps;
+        let is_second = tap >= copies;
         var weight = planes[axis];
         let phase = fract(turn + select(0.0, 0.5, is_second));
         if flows { weight *= 1.0 - abs(2.0 * phase - 1.0); }
         if weight <= 0.002 { continue; }
+        weight /= f32(steps);
         let carried_m = select(vec3f(0.0), way_m * (phase - 0.5), flows);
-        var p = flat_on(globals.eye_wrap_m.xyz + seen.rel_m - carried_m, axis) / size.x;
-        var x = flat_on(seen.rel_x, axis) / size.x;
-        var y = flat_on(seen.rel_y, axis) / size.x;
+        let x = flat_on(seen.rel_x, axis);
+        let y = flat_on(seen.rel_y, axis);
+        let is_x_longer = dot(x, x) > dot(y, y);
+        let long_m = select(y, x, is_x_longer);
+        let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) / f32(steps));
+        var p = flat_on(globals.eye_wrap_m.xyz + seen.rel_m - carried_m, axis);
+        p += long_m * ((f32(step) + 0.5) / f32(steps) - 0.5);
+        var period_m = size.x;
         if is_fine {
-            let finer = size.x / glow.w;
-            p = turned(p) * finer;
-            x = turned(x) * finer;
-            y = turned(y) * finer;
+            p = turned(p);
+            period_m = glow.w;
         }
-        if globals.eye_wrap_far_m.w == 0.0 {
-            // As wide one way as the other: one tap.
-            let width = seen.footprint_m / size.x;
-            x = vec2f(width, 0.0);
-            y = vec2f(0.0, width);
-        }
-        let t = textureSampleGrad(material_tint, patterned, p, layer, x, y);
-        let s = textureSampleGrad(material_surface, patterned, p, layer, x, y);
+        let level = log2(max(wide_m, 1e-6) * PATTERN_SIDE / period_m);
+        let t = textureSampleLevel(material_tint, repeated, p / period_m, layer, level);
+        let s = textureSampleLevel(material_surface, repeated, p / period_m, layer, level);
         var tilt = s.xy - 0.5;
         if is_fine { tilt = turned_back(tilt); }
         let strength = weight * select(1.0, 0.5, is_fine);

@@ -15,7 +15,10 @@
 //! Coarser levels, each half as fine, serve what is seen from afar. Everything is f64 with correctly rounded operations
 //! and `libm`: the same bits on every machine.
 
+mod near;
+
 use glam::DVec3;
+use near::Ranges;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -51,6 +54,8 @@ impl Texel for f32 {
 pub struct Raster<T> {
     /// The finest first.
     levels: Vec<Level<T>>,
+    /// Of the finest level's texels.
+    ranges: Ranges<T>,
     bounds: (f64, f64),
 }
 
@@ -95,7 +100,14 @@ impl<T: Texel> Raster<T> {
             Level::Globe(globe) => globe.bounds(),
             Level::Cube(cube) => range(&cube.texels),
         });
-        Self { levels, bounds }
+        let ranges = levels.first().map_or_else(
+            || Ranges::new(&[], 1),
+            |finest| match finest {
+                Level::Globe(globe) => Ranges::new(&globe.texels, 2 * globe.height),
+                Level::Cube(cube) => Ranges::new(&cube.texels, cube.side + 2 * MARGIN),
+            },
+        );
+        Self { levels, ranges, bounds }
     }
 
     /// Lowest and greatest number a sample can be.
@@ -423,16 +435,23 @@ impl<T: Texel> Cube<T> {
     /// What one face has at a point on it.
     #[inline(always)]
     fn sample_face(&self, face: usize, at: &OnFace) -> (f64, DVec3) {
+        let half = 0.5 * self.side as f64;
+        let (value, by_x, by_y) = self.spline(face, at);
+        let [grad_s, grad_t] = at.gradients(face);
+        (value, grad_s * (by_x * half) - grad_t * (by_y * half))
+    }
+
+    /// The spline of a face, and its derivatives by texels to the right and down.
+    #[inline(always)]
+    fn spline(&self, face: usize, at: &OnFace) -> (f64, f64, f64) {
         let width = self.side + 2 * MARGIN;
         let half = 0.5 * self.side as f64;
         let texels = &self.texels[face * width * width..][..width * width];
-        let (value, by_x, by_y) = bicubic(half * (1.0 + at.s), half * (1.0 - at.t), |row, column| {
+        bicubic(half * (1.0 + at.s), half * (1.0 - at.t), |row, column| {
             let at = (row + MARGIN as isize) * width as isize + column + MARGIN as isize;
             let four = &texels[at as usize..][..4];
             [four[0].get(), four[1].get(), four[2].get(), four[3].get()]
-        });
-        let [grad_s, grad_t] = at.gradients(face);
-        (value, grad_s * (by_x * half) - grad_t * (by_y * half))
+        })
     }
 
     /// The mean of all faces that reach so far.
@@ -606,6 +625,31 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    #[test]
+    fn bounds_near_a_direction_hold_around_it_and_are_tight() {
+        for raster in [globe(96, rough), cube(48, rough), globe(96, pattern), cube(48, pattern)] {
+            let edges = [DVec3::Z, DVec3::NEG_Z, DVec3::NEG_X, DVec3::new(1.0, 1.0, 0.2), DVec3::ONE];
+            let near_edges = directions(200).into_iter().flat_map(|d| edges.map(|e| e.normalize() + d * 0.03));
+            let mut looseness = Vec::new();
+            for (k, dir) in directions(2000).into_iter().chain(near_edges).map(DVec3::normalize).enumerate() {
+                let angle_rad = libm::pow(10.0, -0.2 - (k % 37) as f64 * 0.1);
+                let (lo, hi) = raster.bounds_near(dir, angle_rad);
+                let (a, b) = dir.any_orthonormal_pair();
+                let (mut least, mut most) = (f64::MAX, f64::MIN);
+                for i in 0..100 {
+                    let (sin, cos) = libm::sincos(f64::from(i) * 2.4);
+                    let away = libm::tan(angle_rad * (f64::from(i) / 99.0).sqrt() * 0.999);
+                    let (value, _) = at(&raster, (dir + (a * cos + b * sin) * away).normalize(), 0);
+                    assert!(lo <= value && value <= hi, "{value} not in {lo}..{hi} within {angle_rad} of {dir}");
+                    (least, most) = (least.min(value), most.max(value));
+                }
+                looseness.push((hi - lo) / (most - least));
+            }
+            looseness.sort_by(f64::total_cmp);
+            assert!(looseness[looseness.len() / 2] < 3.5, "{}", looseness[looseness.len() / 2]);
         }
     }
 

@@ -3,10 +3,11 @@
 //! would be drawn as saw teeth.
 
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK, Noise};
+use crate::terrain::noise::{CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
@@ -45,14 +46,14 @@ impl Evaluate for Billow {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let skewed = noise::skew(dir_planet.to_array());
+        let point = Point::new(Around { dir_planet, angle_rad });
         let crease = f64::from(CREASE);
         let hill = |noise: f64| {
             let fold = (noise * noise + crease * crease).sqrt() - crease;
             1.0 - (1.0 - fold).max(0.0).powi(2)
         };
         let sum = self.octaves.iter().fold((0.0, 0.0), |(lo, hi), Weighted { octave, weight }| {
-            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            let (low, high) = point.noise(octave).range();
             let (nearest, farthest) = (low.max(-high).max(0.0), high.max(-low));
             (lo + hill(nearest) * f64::from(*weight), hi + hill(farthest) * f64::from(*weight))
         });

@@ -5,12 +5,13 @@
 //! ones, so that it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
 
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point, Varying};
 use super::warp::{ExactJacobian, Warp};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
 use crate::planet;
 use crate::terrain::field::EXACT;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK, Noise, precise};
+use crate::terrain::noise::{CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
@@ -81,28 +82,29 @@ impl Evaluate for Canyons {
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let Some(largest) = self.octaves.first() else { return self.bounds() };
-        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
-        let stretch = distance / angle_rad.max(1e-12);
-        let step = |x: f64, from: f32, to: f32| {
-            let (from, to) = (f64::from(from), f64::from(to));
-            let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-            t * t * (3.0 - 2.0 * t)
-        };
-        let (mut uncut, mut wet, mut carved) = ((1.0, 1.0), (1.0, 1.0), (0.0, 0.0));
+        let around = Around { dir_planet, angle_rad };
+        let (there, jacobian) = self.warp.near(around);
+        let [px, py, pz] = Point::new(around).coordinates;
+        let one = Varying::constant(around, 1.0);
+        let (mut uncut, mut wet, mut carved) = (one, one, Varying::between(around, -1e-5, 1e-5));
         for Weighted { octave, weight } in &self.octaves {
-            let depth = f64::from(weight / largest.weight);
-            let (low, high) = noise::range_near(there, octave, distance);
-            let (_, gradient, off) = noise::slope_near(there, octave, distance);
-            let steepest = (gradient.length() + off).min(noise::SLOPE_BOUND) * stretch;
-            let least = f64::from(LEAST_GRADIENT);
-            let away = (low.max(-high).max(0.0) / steepest.hypot(least), high.max(-low) / least);
-            let wall = |away: f64| step(away * f64::from(self.channel.narrowness), self.channel.floor, 1.0);
-            let cut = ((1.0 - wall(away.1)) * wet.0 * depth, (1.0 - wall(away.0)) * wet.1 * depth);
-            carved = (carved.0 + uncut.0 * cut.0, carved.1 + uncut.1 * cut.1);
-            uncut = (uncut.0 * (1.0 - cut.1).max(0.0), uncut.1 * (1.0 - cut.0));
-            wet = (wet.0 * (1.0 - step(away.1, WET, DRY)), wet.1 * (1.0 - step(away.0, WET, DRY)));
+            let (noise, slope) = there.noise_and_slope(octave);
+            let by = |axis: usize| {
+                slope[0] * jacobian[0][axis] + slope[1] * jacobian[1][axis] + slope[2] * jacobian[2][axis]
+            };
+            let (x, y, z) = (by(0), by(1), by(2));
+            let upward = x * px + y * py + z * pz;
+            let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
+            let steepness = along.plus(f64::from(LEAST_GRADIENT * LEAST_GRADIENT));
+            let distance = noise.abs() * steepness.recip_sqrt();
+            let wall =
+                distance.scale(f64::from(self.channel.narrowness)).smoothstep(f64::from(self.channel.floor), 1.0);
+            let cut = (one - wall) * wet.scale(f64::from(weight / largest.weight));
+            carved = carved + uncut * cut;
+            uncut = uncut * (one - cut);
+            wet = wet * (one - distance.smoothstep(f64::from(WET), f64::from(DRY)));
         }
-        (-carved.1 - 1e-5, -carved.0 + 1e-5)
+        (-carved).range()
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
@@ -147,7 +149,7 @@ impl Evaluate for Canyons {
             }
             // Lines must lie where they are to the millimetre, though they are hundreds of kilometres apart.
             let mut value = [0.0; CHUNK];
-            precise::add(chunk.simd, there, octave, 1.0, &mut value);
+            noise.add_exact(chunk.simd, there, octave, 1.0, &mut value);
             if fades.is_unseen() {
                 noise.gradients(chunk.simd, there, octave);
                 displaced.pull_back_noise(chunk, false, noise);

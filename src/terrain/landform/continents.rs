@@ -5,12 +5,13 @@
 //! laid through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
 
 use super::curve::Curve;
-use super::fbm::{LEAST_POINTS, add_octaves, range_near};
+use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::noise::{self, CHUNK};
+use crate::terrain::noise::CHUNK;
 use crate::terrain::points::Points;
 use crate::terrain::simd::Simd;
 use glam::DVec3;
@@ -148,11 +149,10 @@ impl Evaluate for Continents {
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
-        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
-        let (low, high) = range_near(coarse, there, distance);
-        let (more_low, more_high) = range_near(fine, noise::skew(dir_planet.to_array()), angle_rad);
+        let around = Around { dir_planet, angle_rad };
+        let (low, high) = (self.warp.near(around).0.sum(coarse) + Point::new(around).sum(fine)).range();
         // The curve only rises.
-        (self.curve.at(low + more_low).0 - 1e-9, self.curve.at(high + more_high).0 + 1e-9)
+        (self.curve.at(low).0 - 1e-9, self.curve.at(high).0 + 1e-9)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -7,6 +7,7 @@
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point, Varying};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
@@ -50,26 +51,25 @@ impl Evaluate for Damped {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let skewed = noise::skew(dir_planet.to_array());
         let Some(first) = self.octaves.first() else { return self.bounds() };
         let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
-        // The slope at the direction, and how far from it the slope can be.
-        let (mut sum, mut slope, mut spread) = ((0.0, 0.0), DVec3::ZERO, 0.0);
+        let around = Around { dir_planet, angle_rad };
+        let point = Point::new(around);
+        let mut slope = [Varying::constant(around, 0.0); 3];
+        let mut sum = Varying::between(around, -1e-5, 1e-5);
         for Weighted { octave, weight } in &self.octaves {
-            let rise = f64::from(*weight) * unit * octave.frequency;
-            let (low, high) = noise::range_near(skewed, octave, angle_rad);
-            let (_, gradient, off) = noise::slope_near(skewed, octave, angle_rad);
-            slope += gradient * rise;
-            spread += off * rise;
-            let along = slope.reject_from_normalized(dir_planet).length();
-            let reach = spread + slope.length() * angle_rad;
-            let left = |along: f64| 1.0 / (1.0 + f64::from(self.damping) * along * along);
-            let (least, most) = (left(along + reach), left((along - reach).max(0.0)));
-            let raised = (low + 1.0, high + 1.0);
-            sum.0 += (raised.0 * if raised.0 < 0.0 { most } else { least }) * f64::from(*weight);
-            sum.1 += (raised.1 * if raised.1 < 0.0 { least } else { most }) * f64::from(*weight);
+            let weight = f64::from(*weight);
+            let (noise, gradient) = point.noise_and_slope(octave);
+            for (slope, gradient) in slope.iter_mut().zip(gradient) {
+                *slope = *slope + gradient.scale(weight * unit * octave.frequency);
+            }
+            let ([x, y, z], [px, py, pz]) = (slope, point.coordinates);
+            let upward = x * px + y * py + z * pz;
+            let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
+            let left = along.scale(f64::from(self.damping)).plus(1.0).recip();
+            sum = sum + (noise.plus(1.0) * left).scale(weight);
         }
-        (sum.0 - 1.0 - 1e-5, sum.1 - 1.0 + 1e-5)
+        sum.plus(-1.0).range()
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -8,18 +8,22 @@
 //! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly.
 //! Reach and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
 
+mod near;
+
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
+use super::varying::Around;
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet;
 use crate::terrain::approx;
 use crate::terrain::jet::{Jet, Jets, Real, Scalar};
 use crate::terrain::noise::{self, CHUNK, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 use std::f32::consts::TAU;
 
 /// Weight of the sizes that f32 is enough for.
-const REST: f64 = 0.02;
+const REST: f64 = 0.2;
 /// Wavelengths to a cell: more makes longer, straighter crests.
 const WAVES: f32 = 2.2;
 /// How far a wave reaches, in cells.
@@ -58,6 +62,17 @@ struct Size {
 struct Wind {
     east: f32,
     north: f32,
+}
+
+impl Wind {
+    /// Its direction at a place. At the very pole it blows nowhere.
+    #[inline(always)]
+    fn at<S: Scalar>(self, [x, y, z]: [S; 3]) -> [S; 3] {
+        let flat = x * x + y * y;
+        let part = S::of(1.0) / flat.max(S::of(1e-20)).sqrt();
+        let (east, north) = (S::from_f32(self.east) * part, S::from_f32(self.north) * part);
+        [-(east * y) - north * (z * x), east * x - north * (z * y), north * flat]
+    }
 }
 
 impl Dunes {
@@ -99,6 +114,14 @@ impl Evaluate for Dunes {
 
     fn bounds(&self) -> (f64, f64) {
         (-1.001, 1.001)
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let around = Around { dir_planet, angle_rad };
+        self.sizes.iter().fold((-5e-5, 5e-5), |(lo, hi), size| {
+            let (low, high) = size.near(around, self).range();
+            (lo + low * f64::from(size.weight), hi + high * f64::from(size.weight))
+        })
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
@@ -155,6 +178,30 @@ impl Evaluate for Dunes {
     }
 }
 
+/// What the point of one cell sends out.
+struct Wave<S> {
+    /// Where it stands, in cells from the point that asks.
+    to: [S; 3],
+    /// The wind there.
+    along: [S; 3],
+    /// Its phase there, in turns.
+    start: S,
+}
+
+/// The wave out of one cell around the `i`th point.
+#[inline(always)]
+fn wave<S: Scalar>(places: &Places<S>, corner: [i32; 3], octave: &Octave, wind: Wind, i: usize) -> Wave<S> {
+    let (low, span) = (S::from_f32(0.5 - JITTER), S::from_f32(2.0 * JITTER));
+    let (cell, step) = neighbour(places, corner, i);
+    let random = noise::cell_hash(cell, octave.seed);
+    let towards = |axis: usize, bits: u32| step[axis] + low + span * unit(bits) - places.fraction[axis][i];
+    let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
+    let cell_rad = S::of(1.0 / octave.frequency);
+    let from = |axis: usize| places.dir[axis][i] + to[axis] * cell_rad;
+    let along = wind.at([from(0), from(1), from(2)]);
+    Wave { to, along, start: unit(noise::scramble(random)) }
+}
+
 /// Adds the waves that the points of one cell of the eight send out, to the real and the imaginary part.
 #[inline(always)]
 fn send_body<R: Real>(
@@ -168,27 +215,13 @@ fn send_body<R: Real>(
 ) {
     let of = R::S::of;
     let (one, scale) = (of(1.0), R::S::from_f32);
-    let (seed, frequency) = (octave.seed, of(octave.frequency));
-    let (cell_rad, low, span) = (of(1.0 / octave.frequency), scale(0.5 - JITTER), scale(2.0 * JITTER));
-    let (wind_east, wind_north) = (scale(wind.east), scale(wind.north));
+    let frequency = of(octave.frequency);
     for i in 0..n.min(CHUNK) {
-        let (cell, step) = neighbour(places, corner, i);
-        let random = noise::cell_hash(cell, seed);
-        let towards = |axis: usize, bits: u32| step[axis] + low + span * unit(bits) - places.fraction[axis][i];
-        let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
+        let Wave { to, along, start } = wave(places, corner, octave, wind, i);
         let square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
         let near = (one - square * scale(1.0 / (REACH * REACH))).max(of(0.0));
         let weight = near * near * near;
 
-        // Where the wave comes from, and the wind there. At the very pole it blows nowhere.
-        let from = |axis: usize| places.dir[axis][i] + to[axis] * cell_rad;
-        let (x, y, z) = (from(0), from(1), from(2));
-        let flat = x * x + y * y;
-        let part = one / flat.max(of(1e-20)).sqrt();
-        let (east, north) = (wind_east * part, wind_north * part);
-        let along = [-(east * y) - north * (z * x), east * x - north * (z * y), north * flat];
-
-        let start = unit::<R::S>(noise::scramble(random));
         let waves = (to[0] * along[0] + to[1] * along[1] + to[2] * along[2]) * scale(WAVES);
         let (sin, cos) = approx::sin_cos(start - waves);
         let fall = near * near * scale(6.0 / (REACH * REACH)) * frequency;
@@ -246,18 +279,25 @@ impl Profile {
     /// to crest, the lee falls.
     #[inline(always)]
     fn height<R: Real>(self, phase: R) -> R {
-        let of = R::S::of;
+        let (height, slope) = self.section(phase.value());
+        phase.chain(height, slope)
+    }
+
+    /// The height and its slope.
+    #[inline(always)]
+    fn section<S: Scalar>(self, turns: S) -> (S, S) {
+        let of = S::of;
         let (zero, one, two) = (of(0.0), of(1.0), of(2.0));
-        let wrapped = approx::wrap(phase.value());
+        let wrapped = approx::wrap(turns);
         let t = if wrapped < zero { wrapped + one } else { wrapped };
-        let up = t < R::S::from_f32(self.windward);
-        let run = R::S::from_f32(if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) });
+        let up = t < S::from_f32(self.windward);
+        let run = S::from_f32(if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) });
         let s = (if up { t * run } else { (t - one) * run }).clamp(zero, one);
-        let round = R::S::from_f32(1.0 - if up { 0.0 } else { self.brink });
+        let round = S::from_f32(1.0 - if up { 0.0 } else { self.brink });
         // From round, s^2 (3 - 2 s), to broken off, s^2.
         let height = two * s * s * (one + round * two * (one - s));
         let slope = of(4.0) * s * (one + round * (two - of(3.0) * s));
-        phase.chain(height, slope * run)
+        (height, slope * run)
     }
 }
 

@@ -1,9 +1,10 @@
 //! Fractal Brownian motion: octaves of noise summed.
 
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Sums};
 use crate::planet;
-use crate::terrain::noise::{self, Noise, precise};
+use crate::terrain::noise::{self, Noise};
 use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: a wave is about two cells long.
@@ -44,37 +45,13 @@ impl Evaluate for Fbm {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        range_near(&self.octaves, noise::skew(dir_planet.to_array()), angle_rad)
+        Point::new(Around { dir_planet, angle_rad }).sum(&self.octaves).range()
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, .. } = scratch;
         add_octaves(&self.octaves, self.exact, chunk, LEAST_POINTS, noise, sums);
     }
-}
-
-/// Lattice cells within which an octave's slope is much the same.
-const STRAIGHT: f64 = 0.06;
-
-/// Lowest and highest sum of octaves within a distance of a skewed point. The slopes of octaves much coarser than the
-/// distance are summed before their length counts, as they often cancel.
-pub(super) fn range_near(octaves: &[Weighted], point_skewed: [f64; 3], distance: f64) -> (f64, f64) {
-    let (mut lo, mut hi, mut slope) = (0.0, 0.0, DVec3::ZERO);
-    for Weighted { octave, weight } in octaves {
-        let (weight, cells) = (f64::from(*weight), distance * octave.frequency);
-        if cells < STRAIGHT {
-            let (value, gradient, _) = noise::slope_near(point_skewed, octave, distance);
-            let bend = 0.5 * noise::CURVATURE_BOUND * cells * cells + 1e-7;
-            (lo, hi) = (lo + (value - bend) * weight, hi + (value + bend) * weight);
-            slope += gradient * (octave.frequency * weight);
-        } else {
-            let (low, high) = noise::range_near(point_skewed, octave, distance);
-            (lo, hi) = (lo + low * weight, hi + high * weight);
-        }
-    }
-    let reach = slope.length() * distance;
-    // For the rounding of weights that are f32.
-    (lo - reach - 1e-6, hi + reach + 1e-6)
 }
 
 /// Adds octaves, the first `exact` of them in f64, each shown in full from `least_points` points for each lattice cell
@@ -93,9 +70,9 @@ pub(super) fn add_octaves(
             break;
         }
         if k < chunk.exact(exact) {
-            precise::add(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
+            noise.add_exact(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
             if !fades.is_unseen() {
-                noise.gradients(chunk.simd, chunk.skewed, octave);
+                noise.exact_gradients(chunk.simd, chunk.len(), octave);
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
             }
             continue;

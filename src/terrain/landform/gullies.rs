@@ -9,9 +9,10 @@
 //!
 //! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
 
-use super::fbm::{LEAST_POINTS, range_near};
+use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
+use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::approx;
@@ -115,7 +116,7 @@ impl Evaluate for Gullies {
 
     /// The gullies may be anywhere in their range: only the relief is known better nearby.
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let (low, high) = range_near(&self.relief, noise::skew(dir_planet.to_array()), angle_rad);
+        let (low, high) = Point::new(Around { dir_planet, angle_rad }).sum(&self.relief).range();
         let carved = self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>() * (1.0 + 1e-5);
         (low - carved, high + carved)
     }

@@ -21,18 +21,27 @@ impl HeightMap {
     }
 }
 
+impl HeightMap {
+    /// Heights between two numbers of the picture.
+    fn of(&self, (lo, hi): (f64, f64)) -> (f64, f64) {
+        let (a, b) = (self.low + (self.high - self.low) * lo, self.low + (self.high - self.low) * hi);
+        // A spline's weights sum to one up to rounding only.
+        let rounding = 1e-9 * (1.0 + a.abs().max(b.abs()));
+        (a.min(b) - rounding, a.max(b) + rounding)
+    }
+}
+
 impl Evaluate for HeightMap {
     fn octave_count(&self) -> usize {
         0
     }
 
     fn bounds(&self) -> (f64, f64) {
-        let Some(picture) = &self.picture else { return (0.0, 0.0) };
-        let (lo, hi) = picture.bounds();
-        let (a, b) = (self.low + (self.high - self.low) * lo, self.low + (self.high - self.low) * hi);
-        // A spline's weights sum to one up to rounding only.
-        let rounding = 1e-9 * (1.0 + a.abs().max(b.abs()));
-        (a.min(b) - rounding, a.max(b) + rounding)
+        self.picture.as_ref().map_or((0.0, 0.0), |picture| self.of(picture.bounds()))
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.picture.as_ref().map_or((0.0, 0.0), |picture| self.of(picture.bounds_near(dir_planet, angle_rad)))
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

@@ -16,6 +16,7 @@
 //! - `cells`: plates, cracks and domes around scattered centres
 //! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
+//! - `varying`: numbers around a direction, for bounds
 //! - `places`: cells of a lattice around points, for kinds that scatter things
 //! - `tests`: what every kind must hold;
 //!   `precision`: how exact they are; `tightness`: how close their bounds are
@@ -33,6 +34,7 @@ mod precision;
 mod tests;
 #[cfg(test)]
 mod tightness;
+mod varying;
 mod warp;
 
 use super::jet::Jets;

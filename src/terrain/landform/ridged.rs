@@ -2,10 +2,11 @@
 //! strong where the one before was.
 
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK, Noise};
+use crate::terrain::noise::{CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
@@ -41,11 +42,11 @@ impl Evaluate for Ridged {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let skewed = noise::skew(dir_planet.to_array());
+        let point = Point::new(Around { dir_planet, angle_rad });
         let feedback = f64::from(self.feedback);
         let (mut sum, mut feed) = ((0.0, 0.0), (1.0, 1.0));
         for Weighted { octave, weight } in &self.octaves {
-            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            let (low, high) = point.noise(octave).range();
             // Folding turns the noise nearest to zero into the highest crest.
             let nearest = low.max(-high).max(0.0);
             let farthest = high.max(-low);

@@ -5,11 +5,11 @@
 
 use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
+use super::varying::{Around, Point, Varying};
 use super::{Chunk, Sums, add_gradient};
 use crate::terrain::jet::Scalar;
 use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
 use crate::terrain::simd::for_each_simd;
-use glam::DVec3;
 
 /// At least so many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
 /// is half a millimetre of 4 km.
@@ -69,21 +69,23 @@ impl Warp {
         3 * self.octaves.len()
     }
 
-    /// Where a direction goes, skewed, and how far from there the directions within an angle of it can go.
-    pub(super) fn reach_near(&self, dir_planet: DVec3, angle_rad: f64) -> ([f64; 3], f64) {
-        let skewed = noise::skew(dir_planet.to_array());
-        let (mut there, mut stretch) = (dir_planet, 1.0);
+    /// Where the directions around one go; and their derivatives by the direction, `[coordinate displaced][coordinate]`.
+    pub(super) fn near(&self, around: Around) -> (Point, [[Varying; 3]; 3]) {
+        let point = Point::new(around);
+        let mut there = point.coordinates;
+        let unit = |on: bool| Varying::constant(around, if on { 1.0 } else { 0.0 });
+        let mut jacobian = [0, 1, 2].map(|row| [0, 1, 2].map(|column| unit(row == column)));
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            let mut square = 0.0;
             for (axis, octave) in precise::components(octave).iter().enumerate() {
-                let (value, gradient, off) = noise::slope_near(skewed, octave, angle_rad);
-                there[axis] += value * reach;
-                square += (gradient.length() + off).min(noise::SLOPE_BOUND).powi(2);
+                let (noise, slope) = point.noise_and_slope(octave);
+                there[axis] = there[axis] + noise.scale(reach);
+                for (derivative, slope) in jacobian[axis].iter_mut().zip(slope) {
+                    *derivative = *derivative + slope.scale(reach * octave.frequency);
+                }
             }
-            stretch += square.sqrt() * octave.frequency * reach;
         }
-        (noise::skew(there.to_array()), angle_rad * stretch + 1e-13)
+        (Point::displaced(around, there), jacobian)
     }
 
     /// By how much features of the warped noise are typically squeezed.
@@ -107,7 +109,7 @@ impl Warp {
         let least_points = LEAST_POINTS * self.squeeze();
         let (coarse, fine) = octaves.split_at(exact.max(PRECISE).min(octaves.len()));
         for Weighted { octave, weight } in coarse {
-            precise::add(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
+            noise.add_exact(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
             let fades = chunk.fades(1.0 / octave.frequency, least_points);
             if !fades.is_unseen() {
                 noise.gradients(chunk.simd, there.skewed, octave);
@@ -135,7 +137,7 @@ impl Warp {
         }
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            precise::add_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
+            noise.add_exact_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if fades.is_unseen() {
                 continue;

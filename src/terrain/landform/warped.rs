@@ -1,7 +1,8 @@
 //! Fractal noise at displaced points: swirls and folds.
 
-use super::fbm::{REST, range_near};
+use super::fbm::REST;
 use super::octaves::{Weighted, series};
+use super::varying::Around;
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
@@ -39,8 +40,7 @@ impl Evaluate for Warped {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
-        range_near(&self.octaves, there, distance)
+        self.warp.near(Around { dir_planet, angle_rad }).0.sum(&self.octaves).range()
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

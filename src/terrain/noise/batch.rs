@@ -4,6 +4,7 @@
 //! they are twice as fast as together, because the compiler takes the widest number in a loop to decide how many
 //! points go into a register.
 
+use super::precise::Lattice;
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
 use crate::terrain::jet::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
@@ -25,26 +26,36 @@ pub(crate) struct Noise<S = f32> {
     pub(crate) gradient: [Lane<S>; 3],
     /// Second derivatives xx, yy, zz, yz, zx, xy.
     pub(crate) curvature: [Lane<S>; 6],
+    /// Where it is found in f64.
+    lattice: Lattice,
 }
 
 impl<S: Scalar> Default for Noise<S> {
     fn default() -> Self {
         let none = [S::default(); CHUNK];
-        Self { cell: [[0; CHUNK]; 3], fraction: [none; 3], value: none, gradient: [none; 3], curvature: [none; 6] }
+        Self {
+            cell: [[0; CHUNK]; 3],
+            fraction: [none; 3],
+            value: none,
+            gradient: [none; 3],
+            curvature: [none; 6],
+            lattice: Lattice::default(),
+        }
     }
 }
 
 impl Noise<f64> {
     /// Values alone, at skewed points.
     pub(crate) fn values(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
-        find_exact_cells(simd, skewed, octave, self);
-        fill_exact_values(simd, skewed[0].len(), octave.seed, self);
+        self.lattice.find(simd, skewed, octave);
+        self.lattice.values(simd, skewed[0].len(), &mut self.value);
     }
 
     /// Values (the same bits) and gradients.
     pub(crate) fn gradients(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
-        find_exact_cells(simd, skewed, octave, self);
-        fill_exact_gradients(simd, skewed[0].len(), octave, self);
+        let Self { value, gradient, lattice, .. } = self;
+        lattice.find(simd, skewed, octave);
+        lattice.gradients(simd, skewed[0].len(), octave.frequency, value, gradient);
     }
 }
 
@@ -61,6 +72,38 @@ impl Noise {
         fill_gradients(simd, skewed[0].len(), octave, self);
     }
 
+    /// Adds the noise, found in f64, times a weight to a sum.
+    pub(crate) fn add_exact(
+        &mut self,
+        simd: Simd,
+        skewed: Points3<'_>,
+        octave: &Octave,
+        weight: f64,
+        sum: &mut Lane<f64>,
+    ) {
+        self.lattice.find(simd, skewed, octave);
+        self.lattice.add(simd, skewed[0].len(), weight, sum);
+    }
+
+    /// The gradients of the noise that [`Noise::add_exact`] found last.
+    pub(crate) fn exact_gradients(&mut self, simd: Simd, n: usize, octave: &Octave) {
+        self.lattice.rounded_gradients(simd, n, octave.frequency, &mut self.gradient);
+    }
+
+    /// Adds three noises on the lattice of an octave, found in f64, times a weight to sums; see
+    /// [`precise::components`](super::precise::components).
+    pub(crate) fn add_exact_vector(
+        &mut self,
+        simd: Simd,
+        skewed: Points3<'_>,
+        octave: &Octave,
+        weight: f64,
+        sums: &mut [Lane<f64>; 3],
+    ) {
+        self.lattice.find_vector(simd, skewed, octave);
+        self.lattice.add_vector(simd, skewed[0].len(), weight, sums);
+    }
+
     /// Values and gradients (the same bits), and second derivatives.
     pub(crate) fn curvatures(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_cells(simd, skewed, octave, self);
@@ -69,7 +112,7 @@ impl Noise {
 }
 
 #[inline(always)]
-fn find_cells_body<S: Scalar>(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise<S>) {
+fn find_cells_body(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) {
     for (axis, p) in skewed.into_iter().enumerate() {
         let (cell, fraction) = (&mut noise.cell[axis], &mut noise.fraction[axis]);
         for ((p, cell), fraction) in p.iter().zip(cell).zip(fraction) {
@@ -77,22 +120,20 @@ fn find_cells_body<S: Scalar>(skewed: Points3<'_>, octave: &Octave, noise: &mut 
         }
     }
 }
-for_each_simd!(fn find_cells(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) = find_cells_body::<f32>);
-for_each_simd!(fn find_exact_cells(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise<f64>) = find_cells_body::<f64>);
+for_each_simd!(fn find_cells(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) = find_cells_body);
 
 #[inline(always)]
-fn fill_values_body<S: Scalar>(n: usize, seed: u32, noise: &mut Noise<S>) {
+fn fill_values_body(n: usize, seed: u32, noise: &mut Noise) {
     let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, .. } = noise;
     for i in 0..n.min(CHUNK) {
         v[i] = value([cx[i], cy[i], cz[i]], [x[i], y[i], z[i]], seed);
     }
 }
-for_each_simd!(fn fill_values(n: usize, seed: u32, noise: &mut Noise) = fill_values_body::<f32>);
-for_each_simd!(fn fill_exact_values(n: usize, seed: u32, noise: &mut Noise<f64>) = fill_values_body::<f64>);
+for_each_simd!(fn fill_values(n: usize, seed: u32, noise: &mut Noise) = fill_values_body);
 
 #[inline(always)]
-fn fill_gradients_body<S: Scalar>(n: usize, octave: &Octave, noise: &mut Noise<S>) {
-    let (seed, frequency) = (octave.seed, S::of(octave.frequency));
+fn fill_gradients_body(n: usize, octave: &Octave, noise: &mut Noise) {
+    let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, gradient: [gx, gy, gz], .. } = noise;
     for i in 0..n.min(CHUNK) {
         let (value, g) = value_gradient([cx[i], cy[i], cz[i]], [x[i], y[i], z[i]], seed);
@@ -102,14 +143,13 @@ fn fill_gradients_body<S: Scalar>(n: usize, octave: &Octave, noise: &mut Noise<S
         gz[i] = g[2] * frequency;
     }
 }
-for_each_simd!(fn fill_gradients(n: usize, octave: &Octave, noise: &mut Noise) = fill_gradients_body::<f32>);
-for_each_simd!(fn fill_exact_gradients(n: usize, octave: &Octave, noise: &mut Noise<f64>) = fill_gradients_body::<f64>);
+for_each_simd!(fn fill_gradients(n: usize, octave: &Octave, noise: &mut Noise) = fill_gradients_body);
 
 #[inline(always)]
 fn fill_curvatures_body(n: usize, octave: &Octave, noise: &mut Noise) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let square = frequency * frequency;
-    let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, gradient: [gx, gy, gz], curvature } = noise;
+    let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, gradient: [gx, gy, gz], curvature, .. } = noise;
     let [hxx, hyy, hzz, hyz, hzx, hxy] = curvature;
     for i in 0..n.min(CHUNK) {
         let (value, g, h) = value_gradient_curvature([cx[i], cy[i], cz[i]], [x[i], y[i], z[i]], seed);

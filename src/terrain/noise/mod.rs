@@ -13,20 +13,15 @@
 //! the same bits everywhere.
 
 mod batch;
+mod near;
 pub(crate) mod precise;
 
 use super::jet::Scalar;
 pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
-use glam::DVec3;
+pub(crate) use near::{Nearby, SLOPE_BOUND, near};
 
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
 pub(crate) const BOUND: f64 = 1.45;
-
-/// Bounds of the length of the gradient and of the greatest second derivative along any direction, by
-/// lattice coordinates: sums of the four corners' greatest contributions, each with the worst of gradients.
-/// True values are far smaller.
-pub(crate) const SLOPE_BOUND: f64 = 11.4;
-pub(crate) const CURVATURE_BOUND: f64 = 131.0;
 
 /// Scales the sum of corners so that the noise's standard deviation is about 0.33.
 const SCALE: f32 = 90.0 / 512.0;
@@ -157,7 +152,7 @@ pub(crate) fn value_gradient<S: Scalar>(cell: [u32; 3], fraction: [S; 3], seed: 
 /// The noise, its gradient (the same bits as [`value_gradient`]) and its second derivatives xx, yy, zz, yz, zx, xy by
 /// the unskewed lattice coordinates.
 #[inline(always)]
-pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> (f32, [f32; 3], [f32; 6]) {
+pub(crate) fn value_gradient_curvature<S: Scalar>(cell: [u32; 3], fraction: [S; 3], seed: u32) -> (S, [S; 3], [S; 6]) {
     let (v, g) = value_gradient(cell, fraction, seed);
     let (d, corner_gradients) = corners(cell, fraction, seed);
     let corner = |i: usize| {
@@ -165,37 +160,14 @@ pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed:
         let w = falloff(d);
         let (w2, slope) = (w * w, dot(g, d));
         // d/dp of w^4 g - 8 w^3 (g.d) d = -8 w^3 (g d' + d g' + (g.d) 1) + 48 w^2 (g.d) d d'
-        let (cubic, square) = (w2 * w * -8.0, w2 * slope * 48.0);
-        let same = |a: usize| cubic * (2.0 * g[a] * d[a] + slope) + square * (d[a] * d[a]);
+        let (cubic, square) = (w2 * w * S::of(-8.0), w2 * slope * S::of(48.0));
+        let same = |a: usize| cubic * (S::of(2.0) * g[a] * d[a] + slope) + square * (d[a] * d[a]);
         let cross = |a: usize, b: usize| cubic * (g[a] * d[b] + g[b] * d[a]) + square * (d[a] * d[b]);
         [same(0), same(1), same(2), cross(1, 2), cross(2, 0), cross(0, 1)]
     };
     let (c0, c1, c2, c3) = (corner(0), corner(1), corner(2), corner(3));
-    let sum = |k: usize| ((c0[k] + c1[k]) + (c2[k] + c3[k])) * SCALE;
+    let sum = |k: usize| ((c0[k] + c1[k]) + (c2[k] + c3[k])) * S::from_f32(SCALE);
     (v, g, [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5)])
-}
-
-/// Lowest and highest noise of an octave within a distance of a skewed point (in the point's units). Conservative: from
-/// the value and gradient there, and what the derivatives can do at most on the way.
-pub(crate) fn range_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, f64) {
-    let [(ix, x), (iy, y), (iz, z)] =
-        [0, 1, 2].map(|axis| split::<f32>(point_skewed[axis] * octave.frequency + octave.offset[axis]));
-    let (v, g) = value_gradient([ix, iy, iz], [x, y, z], octave.seed);
-    let (v, slope) = (f64::from(v), f64::from(dot(g, g)).sqrt());
-    let cells = distance * octave.frequency;
-    // A little more than exact arithmetic has it, for the rounding of f32.
-    let reach = ((slope + 0.5 * CURVATURE_BOUND * cells) * cells).min(SLOPE_BOUND * cells) + 1e-5;
-    ((v - reach).max(-BOUND), (v + reach).min(BOUND))
-}
-
-/// Value and gradient of an octave at a skewed point, by the lattice; and how far the gradient can be from that within a
-/// distance of it (in the point's units). Conservative.
-pub(crate) fn slope_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, DVec3, f64) {
-    let [(ix, x), (iy, y), (iz, z)] =
-        [0, 1, 2].map(|axis| split::<f64>(point_skewed[axis] * octave.frequency + octave.offset[axis]));
-    let (value, gradient) = value_gradient([ix, iy, iz], [x, y, z], octave.seed);
-    let cells = distance * octave.frequency;
-    (value, DVec3::from_array(gradient), (CURVATURE_BOUND * cells).min(2.0 * SLOPE_BOUND) + 1e-4)
 }
 
 /// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.
@@ -208,6 +180,7 @@ pub(crate) fn mix(state: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use super::near::{CURVATURE_BOUND, TWIST_BOUND};
     use super::*;
     use proptest::prelude::*;
 
@@ -301,7 +274,7 @@ mod tests {
     #[test]
     fn bounds_hold_with_the_worst_of_gradients() {
         let longest = 511.0 * 3.0_f64.sqrt() * f64::from(SCALE);
-        let (mut value, mut slope, mut curvature) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut value, mut slope, mut curvature, mut twist) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         let n = 80;
         for (i, j, k) in (0..=n).flat_map(|i| (0..=i).flat_map(move |j| (0..=j).map(move |k| (i, j, k)))) {
             let (d, _) = corners([0; 3], [i, j, k].map(|w| w as f32 / n as f32), 0);
@@ -321,8 +294,17 @@ mod tests {
                 let along = (r * w * w * (24.0 * w - 48.0 * r * r)).abs().max(across);
                 along.hypot(across)
             }));
+            // Along a unit step u with a = d.u: (144 a w^2 - 192 a^3 w) (g.d) + 3 (48 a^2 w^2 - 8 w^3) (g.u).
+            twist = twist.max(sum(&|r, w| {
+                let of = |a: f64| {
+                    let (p, q) = (144.0 * a * w * w - 192.0 * a.powi(3) * w, 144.0 * a * a * w * w - 24.0 * w.powi(3));
+                    (p * p * r * r + 2.0 * p * q * a + q * q).max(0.0).sqrt()
+                };
+                (0..=16).map(|k| of(r * f64::from(k) / 16.0)).fold(0.0, f64::max)
+            }));
         }
-        for (found, bound) in [(value, BOUND), (slope, SLOPE_BOUND), (curvature, CURVATURE_BOUND)] {
+        for (found, bound) in [(value, BOUND), (slope, SLOPE_BOUND), (curvature, CURVATURE_BOUND), (twist, TWIST_BOUND)]
+        {
             assert!(found <= bound && found > 0.95 * bound, "{found} {bound}");
         }
     }
