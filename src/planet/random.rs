@@ -1,6 +1,7 @@
 //! Random planets: always valid, plausible, and the same for the same seed on every machine.
 //!
 //! - `dice`: the pseudo-random numbers
+//! - `lands`: layers that suit a kind of world
 //! - `grounds`: biomes that follow from a climate
 //!
 //! [`random`] makes a planet from nothing: a few layers that build on each other, a climate, and biomes that follow
@@ -9,31 +10,32 @@
 
 mod dice;
 mod grounds;
+mod lands;
 
 use super::param::Stage;
-use super::{
-    Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, Star, Water,
-    validate,
-};
+use super::{Atmosphere, Climate, Clouds, Mask, Planet, Precision, Star, Water, validate};
 use dice::{Dice, three_digits};
 
 /// A random planet that is always valid; the same seed gives the same planet.
 pub fn random(seed: u64) -> Planet {
     let mut dice = Dice(seed);
     // The climate decides the rest: what is frozen has no clouds, what is hot no sea.
-    let kind = *dice.pick(&[Kind::Temperate, Kind::Temperate, Kind::Temperate, Kind::Cold, Kind::Hot, Kind::Bare]);
+    let kind =
+        *dice.pick(&[Kind::Temperate, Kind::Temperate, Kind::Temperate, Kind::Cold, Kind::Hot, Kind::Dry, Kind::Bare]);
     let radius_km = dice.rounded_log(if kind == Kind::Bare { 400.0 } else { 2500.0 }, 12_000.0);
     let climate = climate(kind, radius_km, &mut dice);
-    let layers = layers(kind, radius_km, &mut dice);
-    let water = (kind != Kind::Bare && kind != Kind::Hot && dice.chance(0.85)).then(|| Water {
-        level_m: (dice.between(-0.25, 0.25) * layers.first().map_or(0.0, |l| l.amplitude_m)).round(),
+    let sea = kind == Kind::Temperate || kind == Kind::Cold && dice.chance(0.7);
+    let layers = lands::layers(kind, sea, radius_km, &mut dice);
+    let water = sea.then(|| Water {
+        level_m: dice.rounded(-80.0, 40.0),
         wind_m_s: dice.rounded(2.0, 15.0),
         color: dice.color([0.002, 0.02, 0.03], [0.01, 0.04, 0.07]),
         ..Water::default()
     });
     let air = kind != Kind::Bare && (water.is_some() || dice.chance(0.7));
     let clouds = (air && dice.chance(if water.is_some() { 0.9 } else { 0.4 })).then(|| Clouds {
-        coverage: dice.rounded(0.2, 0.7),
+        // On ice they would hide white behind white.
+        coverage: if kind == Kind::Cold { dice.rounded(0.1, 0.35) } else { dice.rounded(0.2, 0.5) },
         scale_km: three_digits(radius_km * dice.between(0.2, 0.5)),
         curl: dice.rounded(0.3, 1.2),
         seed: dice.seed(),
@@ -109,99 +111,18 @@ enum Kind {
     Temperate,
     Cold,
     Hot,
+    /// Without a sea, but not so hot.
+    Dry,
     /// Without air: a moon.
     Bare,
-}
-
-/// Ground, mountains where a mask lets them, and what else the dice say.
-fn layers(kind: Kind, radius_km: f64, dice: &mut Dice) -> Vec<Layer> {
-    // Smaller planets bear higher mountains, but not without end.
-    let relief_m = 4000.0 * (6371.0 / radius_km).powf(0.3) * dice.between(0.6, 1.4);
-    let wavelength = |dice: &mut Dice, low: f64, high: f64| three_digits(radius_km * dice.between(low, high));
-    let metres = |share: f64| three_digits(relief_m * share);
-    let named = |name: &str, dice: &mut Dice| Layer { name: name.to_owned(), seed: dice.seed(), ..Layer::default() };
-    let mask =
-        |layer: &str, from: f64, to: f64| Mask::Layer(LayerMask { layer: layer.to_owned(), from, to, invert: false });
-
-    let first = if kind == Kind::Bare { "Highlands" } else { "Continents" };
-    let mut layers = vec![Layer {
-        amplitude_m: metres(1.0),
-        bias: dice.rounded(-0.15, 0.1),
-        shape: Shape::Fbm(Fbm {
-            wavelength_km: wavelength(dice, 0.5, 1.1),
-            octaves: 14,
-            gain: dice.rounded(0.42, 0.52),
-            ..Fbm::default()
-        }),
-        ..named(first, dice)
-    }];
-    layers.push(Layer {
-        amplitude_m: metres(dice.between(0.8, 1.3)),
-        bias: dice.rounded(0.6, 1.0),
-        shape: Shape::Ridged(Ridged {
-            wavelength_km: wavelength(dice, 0.06, 0.18),
-            octaves: 14,
-            gain: dice.rounded(0.42, 0.55),
-            ..Ridged::default()
-        }),
-        masks: vec![mask(first, dice.rounded(-0.1, 0.1), dice.rounded(0.2, 0.6))],
-        ..named("Mountains", dice)
-    });
-    layers.push(Layer {
-        amplitude_m: metres(dice.between(0.05, 0.15)),
-        shape: Shape::Fbm(Fbm {
-            wavelength_km: wavelength(dice, 0.01, 0.03),
-            octaves: 12,
-            gain: dice.rounded(0.45, 0.6),
-            ..Fbm::default()
-        }),
-        ..named("Hills", dice)
-    });
-    if dice.chance(0.5) {
-        layers.push(Layer {
-            amplitude_m: metres(dice.between(0.15, 0.4)),
-            blend: Blend::Subtract,
-            bias: 0.8,
-            shape: Shape::Ridged(Ridged {
-                wavelength_km: wavelength(dice, 0.08, 0.3),
-                octaves: 8,
-                gain: dice.rounded(0.35, 0.45),
-                ..Ridged::default()
-            }),
-            masks: vec![mask("Hills", dice.rounded(0.2, 0.4), dice.rounded(-0.3, 0.0))],
-            ..named("Rifts", dice)
-        });
-    }
-    if dice.chance(0.4) {
-        layers.push(Layer {
-            amplitude_m: metres(dice.between(0.2, 0.5)),
-            bias: dice.rounded(-0.2, 0.2),
-            shape: Shape::Fbm(Fbm { wavelength_km: wavelength(dice, 0.15, 0.4), octaves: 10, ..Fbm::default() }),
-            ..named("Plateaus", dice)
-        });
-    }
-    if dice.chance(0.3) {
-        layers.push(Layer {
-            amplitude_m: metres(0.4),
-            bias: 0.9,
-            shape: Shape::Ridged(Ridged {
-                wavelength_km: wavelength(dice, 0.02, 0.05),
-                octaves: 10,
-                gain: 0.5,
-                ..Ridged::default()
-            }),
-            masks: vec![mask("Mountains", dice.rounded(0.3, 0.6), dice.rounded(-0.2, 0.1))],
-            ..named("Foothills", dice)
-        });
-    }
-    layers
 }
 
 fn climate(kind: Kind, radius_km: f64, dice: &mut Dice) -> Climate {
     let equator_c = match kind {
         Kind::Temperate => dice.rounded(22.0, 34.0),
-        Kind::Cold => dice.rounded(-15.0, 8.0),
+        Kind::Cold => dice.rounded(-12.0, 10.0),
         Kind::Hot => dice.rounded(60.0, 200.0),
+        Kind::Dry => dice.rounded(5.0, 45.0),
         Kind::Bare => dice.rounded(-60.0, 60.0),
     };
     Climate {
@@ -221,11 +142,12 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
     let earth = Atmosphere::default();
     // Thin on cold worlds, thick on hot ones; dust makes the sky yellow and red.
     let thickness = match kind {
-        Kind::Hot => dice.between(1.0, 3.0),
+        Kind::Hot => dice.between(0.6, 1.6),
+        Kind::Dry => dice.between(0.1, 0.7),
         Kind::Cold => dice.between(0.3, 1.0),
         _ => dice.between(0.7, 1.5),
     };
-    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(1.0, 5.0) };
+    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(0.7, 2.5) };
     let tint = dice.color([0.7, 0.7, 0.7], [1.3, 1.3, 1.3]);
     let scaled = |color: [f64; 3], factor: f64| color.map(|c| three_digits(c * factor));
     let mut rayleigh_per_km = scaled(earth.rayleigh_per_km, thickness);
@@ -243,6 +165,8 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::planet::Shape;
+    use crate::planet::param::Choice;
     use proptest::prelude::*;
 
     fn assert_valid(planet: &Planet) -> Result<(), TestCaseError> {
@@ -256,7 +180,7 @@ mod tests {
         fn random_planets_are_valid_and_repeatable(seed: u64) {
             let planet = random(seed);
             assert_valid(&planet)?;
-            prop_assert!((3..=6).contains(&planet.layers.len()));
+            prop_assert!((4..=12).contains(&planet.layers.len()));
             prop_assert!(planet.biomes.palette.len() >= 2, "{:?}", planet.biomes.table);
             prop_assert_eq!(planet, random(seed));
         }
@@ -273,6 +197,17 @@ mod tests {
         assert_eq!(vary(&planet, 9, 0.0), planet);
         assert_ne!(vary(&planet, 9, 0.1), planet);
         assert_eq!(vary(&planet, 9, 0.3), vary(&planet, 9, 0.3));
+    }
+
+    /// All that the evaluator can do turns up, but for pictures, which there are none of.
+    #[test]
+    fn every_kind_of_layer_is_used() {
+        let planets: Vec<_> = (0..64).map(random).collect();
+        for (index, name) in Shape::NAMES.iter().enumerate().filter(|(_, name)| **name != "HeightMap") {
+            let has = |p: &&Planet| p.layers.iter().any(|layer| layer.shape.index() == index);
+            let count = planets.iter().filter(has).count();
+            assert!(count >= 6, "{name}: {count} of 64");
+        }
     }
 
     #[test]

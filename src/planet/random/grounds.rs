@@ -2,7 +2,7 @@
 
 use super::Kind;
 use super::dice::{Dice, three_digits};
-use crate::planet::{Biome, Biomes, Climate, Detail, Table};
+use crate::planet::{Biome, Biomes, Climate, Detail, Table, TableRows};
 
 /// A biome with the climate in which it lies: it is found where it is colder than this and at least so moist.
 struct Ground {
@@ -29,6 +29,7 @@ const fn ground(
 /// For worlds with weather. The coldest that fits wins; among those, the wettest.
 const LIVING: &[Ground] = &[
     ground('i', "Ice", [0.78, 0.82, 0.87], (Detail::Ice, 6.0), -14.0, 0.0),
+    ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::Ice, 6.0), -14.0, 0.52),
     ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, 4.0), -6.0, 0.0),
     ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, 2.0), 1.0, 0.0),
     ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Grass, 1.5), 8.0, 0.0),
@@ -42,24 +43,35 @@ const LIVING: &[Ground] = &[
     ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), 500.0, 0.72),
 ];
 
-/// For worlds without life.
-const BARREN: &[Ground] = &[
-    ground('i', "Frost", [0.62, 0.64, 0.66], (Detail::Snow, 4.0), -60.0, 0.3),
-    ground('p', "Pale dust", [0.33, 0.31, 0.28], (Detail::Sand, 2.5), -10.0, 0.0),
-    ground('r', "Regolith", [0.20, 0.18, 0.165], (Detail::Gravel, 2.0), 60.0, 0.0),
-    ground('m', "Dark plain", [0.085, 0.08, 0.078], (Detail::Rock, 6.0), 60.0, 0.5),
-    ground('o', "Ochre", [0.38, 0.23, 0.12], (Detail::Sand, 2.5), 500.0, 0.0),
-    ground('b', "Baked rock", [0.16, 0.09, 0.06], (Detail::Mud, 2.0), 500.0, 0.5),
+/// Shades of the ground of a world without weather, the darkest first.
+type Shades = [[f64; 3]; 5];
+
+const DESERTS: &[Shades] = &[
+    // Rust.
+    [[0.10, 0.045, 0.03], [0.20, 0.09, 0.05], [0.33, 0.16, 0.085], [0.42, 0.25, 0.14], [0.50, 0.36, 0.23]],
+    // Ochre.
+    [[0.09, 0.07, 0.05], [0.20, 0.14, 0.08], [0.34, 0.24, 0.13], [0.43, 0.33, 0.20], [0.52, 0.44, 0.32]],
+    // Ash.
+    [[0.05, 0.05, 0.055], [0.11, 0.10, 0.10], [0.19, 0.17, 0.155], [0.30, 0.26, 0.22], [0.42, 0.37, 0.31]],
+    // Bone.
+    [[0.16, 0.12, 0.10], [0.28, 0.21, 0.16], [0.38, 0.31, 0.24], [0.48, 0.42, 0.34], [0.56, 0.52, 0.45]],
+];
+
+const MOONS: &[Shades] = &[
+    // Basalt and dust.
+    [[0.05, 0.049, 0.052], [0.095, 0.092, 0.088], [0.165, 0.158, 0.148], [0.245, 0.236, 0.22], [0.36, 0.35, 0.335]],
+    // Browned by age.
+    [[0.06, 0.05, 0.045], [0.12, 0.10, 0.085], [0.19, 0.165, 0.14], [0.27, 0.24, 0.21], [0.38, 0.35, 0.32]],
 ];
 
 /// A palette and a table that follow from the climate.
 pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
     const COLUMNS: usize = 16;
     const ROWS: usize = 12;
-    let choices = if matches!(kind, Kind::Temperate | Kind::Cold) { LIVING } else { BARREN };
+    if !matches!(kind, Kind::Temperate | Kind::Cold) {
+        return strata(kind, dice);
+    }
     let (coldest_c, hottest_c) = ((climate.pole_c - 12.0).round(), (climate.equator_c + 4.0).round());
-    // Barren grounds are named after their place in the range of the world, not after a thermometer.
-    let (offset, stretch) = if choices.len() == LIVING.len() { (0.0, 1.0) } else { (hottest_c - 70.0, 0.6) };
     let shift = dice.between(-3.0, 3.0);
     let mut table = Table::uniform('?', COLUMNS, ROWS);
     let mut used = Vec::new();
@@ -68,17 +80,14 @@ pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
         let temperature = hottest_c + (coldest_c - hottest_c) * share + shift;
         for column in 0..COLUMNS {
             let moisture = (column as f64 + 0.5) / COLUMNS as f64;
-            let fits = |g: &&Ground| {
-                moisture >= g.from_moisture
-                    && temperature < offset + g.below_c * if offset == 0.0 { 1.0 } else { stretch }
-            };
-            let coldest = choices.iter().filter(fits).map(|g| g.below_c).fold(f64::MAX, f64::min);
-            let best = choices
+            let fits = |g: &&Ground| moisture >= g.from_moisture && temperature < g.below_c;
+            let coldest = LIVING.iter().filter(fits).map(|g| g.below_c).fold(f64::MAX, f64::min);
+            let best = LIVING
                 .iter()
                 .filter(fits)
                 .filter(|g| g.below_c == coldest)
                 .max_by(|a, b| a.from_moisture.total_cmp(&b.from_moisture))
-                .or(choices.last());
+                .or(LIVING.last());
             if let Some(best) = best {
                 table.set_key(column, row, best.key);
                 if !used.contains(&best.key) {
@@ -87,7 +96,7 @@ pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
             }
         }
     }
-    let palette = choices
+    let palette = LIVING
         .iter()
         .filter(|g| used.contains(&g.key))
         .map(|g| Biome {
@@ -95,11 +104,62 @@ pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
             name: g.name.to_owned(),
             color: g.color.map(|c| three_digits((c * dice.between(0.88, 1.12)).min(1.0))),
             variation: dice.rounded(0.15, 0.4),
-            roughness: if matches!(g.key, 'i' | 's') { 0.6 } else { 0.9 },
+            roughness: if matches!(g.key, 'i' | 's' | 'b') { 0.6 } else { 0.9 },
             detail: g.detail.0,
             detail_m: g.detail.1,
             ..Biome::default()
         })
         .collect();
     Biomes { coldest_c, hottest_c, palette, table, cliff_detail: Detail::Rock, ..Biomes::default() }
+}
+
+/// Bands of ground that follow the height, frayed by what the climate calls moisture: dust and bedrock.
+fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
+    const COLUMNS: usize = 12;
+    const ROWS: usize = 12;
+    const NAMES: [(char, &str, Detail, f64); 5] = [
+        ('m', "Dark rock", Detail::Rock, 6.0),
+        ('d', "Gravel", Detail::Gravel, 2.0),
+        ('g', "Plain", Detail::Gravel, 1.6),
+        ('p', "Pale dust", Detail::Sand, 2.5),
+        ('b', "Bright ground", Detail::Sand, 2.5),
+    ];
+    let shades = *dice.pick(if kind == Kind::Bare { MOONS } else { DESERTS });
+    // Lava darkens the lowlands of moons; sand brightens those of many deserts.
+    let upside_down = kind != Kind::Bare && dice.chance(0.5);
+    let fray = dice.between(0.3, 0.6);
+    let mut table = Table::uniform('g', COLUMNS, ROWS);
+    for (row, column) in (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column))) {
+        let height = 1.0 - row as f64 / (ROWS - 1) as f64;
+        let level = if upside_down { 1.0 - height } else { height };
+        let along = column as f64 / (COLUMNS - 1) as f64 - 0.5;
+        let shade = ((level + fray * along).clamp(0.0, 0.999) * NAMES.len() as f64) as usize;
+        table.set_key(column, row, NAMES[shade].0);
+    }
+    let palette = NAMES
+        .iter()
+        .zip(shades)
+        .map(|((key, name, detail, detail_m), color)| Biome {
+            key: *key,
+            name: (*name).to_owned(),
+            color: color.map(|c| three_digits(c * dice.between(0.94, 1.06))),
+            variation: dice.rounded(0.12, 0.25),
+            roughness: 0.95,
+            detail: *detail,
+            detail_m: *detail_m,
+            ..Biome::default()
+        })
+        .collect();
+    let (lowest_m, highest_m) = if kind == Kind::Bare { (-2000.0, 2500.0) } else { (-2500.0, 4500.0) };
+    let cliff_color = shades[1].map(|c| three_digits(c * 0.8));
+    Biomes {
+        rows: TableRows::Elevation,
+        lowest_m,
+        highest_m,
+        cliff_color,
+        cliff_detail: Detail::Rock,
+        palette,
+        table,
+        ..Biomes::default()
+    }
 }

@@ -23,7 +23,7 @@ use glam::DVec3;
 use std::f32::consts::TAU;
 
 /// Weight of the octaves of the relief, and height of the gullies, that f32 is enough for.
-const REST: f64 = 0.03;
+const REST: f64 = 0.09;
 /// Gullies to a cell.
 const WAVES: f32 = 1.0;
 /// How far a wave reaches, in cells.

@@ -8,7 +8,9 @@ use crate::planet::{Planet, Precision, shipped};
 use crate::terrain::Terrain;
 use crate::terrain::field::Field;
 use crate::terrain::points::Points;
+use std::hint::black_box;
 use std::sync::Arc;
+use std::time::Instant;
 
 const RADIUS_KM: f64 = 6371.0;
 
@@ -58,44 +60,41 @@ fn every_kind_is_within_a_millimetre_of_f64() {
     assert!(too_far.is_empty(), "{too_far:#?}");
 }
 
-/// How long this thread has been running, as the kernel counts it, which other programs do not change.
-fn busy_secs() -> f64 {
-    let counts = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    counts.split(' ').next().and_then(|nanoseconds| nanoseconds.parse::<f64>().ok()).unwrap_or(f64::NAN) * 1e-9
+/// How many times longer one thing takes than another: the least of many short runs in turn, which other programs on
+/// the machine disturb the least.
+fn times_longer(long: impl Fn(), short: impl Fn()) -> f64 {
+    let seconds = |run: &dyn Fn()| {
+        let start = Instant::now();
+        run();
+        start.elapsed().as_secs_f64()
+    };
+    let least = (0..60).fold((f64::MAX, f64::MAX), |(a, b), _| (a.min(seconds(&long)), b.min(seconds(&short))));
+    least.0 / least.1
 }
 
-/// How many times longer the shipped planets take than they would in f32, on one core; printed.
+/// How many times longer each kind and the shipped planets take than they would in f32, on one core; printed.
 #[test]
 #[ignore = "prints figures"]
 fn cost() {
-    let points = Points::new(starts(4083));
+    let points = Points::new(starts(1011));
+    let simd = Simd::detect();
     for (name, shape) in shapes() {
         let [fine, classic] = [Arithmetic::Fine, Arithmetic::Classic].map(|a| Landform::new(&shape, 11, RADIUS_KM, a));
-        let seconds = |landform: &Landform, spacings_rad: &[f64]| {
-            let run = |_| {
-                let start_secs = busy_secs();
-                std::hint::black_box(Field::new(landform, Simd::detect(), &points, spacings_rad));
-                busy_secs() - start_secs
-            };
-            (0..9).map(run).fold(f64::MAX, f64::min)
+        let ratio = |spacings_rad: &[f64]| {
+            let run = |landform: &Landform| drop(black_box(Field::new(landform, simd, &points, spacings_rad)));
+            times_longer(|| run(&fine), || run(&classic))
         };
-        let ratio = |spacings_rad: &[f64]| seconds(&fine, spacings_rad) / seconds(&classic, spacings_rad);
         eprintln!("{name}: {:.2} values, {:.2} with all gradients", ratio(&[]), ratio(&[0.0]));
     }
     for shipped in shipped::ALL {
         let Ok(planet) = shipped.load() else { continue };
         let [fine, classic] = [Precision::Millimetre, Precision::Classic]
             .map(|precision| Terrain::new(Arc::new(Planet { precision, ..planet.clone() })));
-        let seconds = |terrain: &Terrain, spacings_rad: &[f64]| {
-            let run = |_| {
-                let start_secs = busy_secs();
-                std::hint::black_box(terrain.fields(&points, spacings_rad));
-                busy_secs() - start_secs
-            };
-            (0..9).map(run).fold(f64::MAX, f64::min)
+        let ratio = |spacings_rad: &[f64]| {
+            let run = |terrain: &Terrain| drop(black_box(terrain.fields(&points, spacings_rad)));
+            times_longer(|| run(&fine), || run(&classic))
         };
         // Values alone; with the gradients of a tile seen from space and its parent's; with all gradients.
-        let ratio = |spacings_rad: &[f64]| seconds(&fine, spacings_rad) / seconds(&classic, spacings_rad);
         let [values, far, near] = [&[] as &[f64], &[4e-3, 8e-3], &[0.0]].map(ratio);
         eprintln!("{}: {values:.2} values, {far:.2} with gradients from space, {near:.2} with all", shipped.file);
     }
