@@ -2,6 +2,7 @@
 // beaches and snow make of them, and the patterns of the two strongest. The rules are those of src/terrain/ground.rs, with soft
 // edges where it has half-way marks. Must match the texels of src/render/biome_table.rs.
 #include "mottle.wgsl"
+#include "border.wgsl"
 #include "material_pattern.wgsl"
 
 // Columns of `biome_params` beside those of the palette: the rock that biomes share, and the rules for all.
@@ -163,7 +164,7 @@ fn mixture_at(site: Site) -> Mixture {
     // The cells around, as a texture's linear filter has them.
     let at = site.table * vec2f(textureDimensions(biome_ids)) - 0.5;
     let cell = vec2i(floor(at));
-    let f = at - floor(at);
+    let f = border_blend(at - floor(at));
     let ids = vec4i(
         biome_at(cell), biome_at(cell + vec2i(1, 0)), biome_at(cell + vec2i(0, 1)), biome_at(cell + vec2i(1, 1))
     );

@@ -18,6 +18,7 @@
 mod air;
 mod air_tables;
 mod biome_table;
+mod border_tile;
 mod cloud_map;
 mod clouds;
 mod detail_pool;
@@ -38,6 +39,7 @@ mod terrain;
 mod tonemap;
 mod water;
 
+pub use biome_table::MarkedCells;
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
@@ -46,6 +48,7 @@ use crate::build::Surface;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// What is drawn of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -211,6 +214,8 @@ impl Inputs {
 pub struct Renderer {
     /// Whether exposure is set by hand or by what there is to see.
     pub metering: Metering,
+    /// Cells of the biome table whose places light up; clouds are left away meanwhile.
+    pub marked: Option<Arc<MarkedCells>>,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
@@ -240,6 +245,7 @@ impl Renderer {
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
         Ok(Self {
             metering: Metering::Manual,
+            marked: None,
             target_format,
             globals,
             tables,
@@ -293,12 +299,13 @@ impl Renderer {
             height_range_m,
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: self.target_format.is_srgb(),
+            marked: self.marked.is_some(),
         };
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
         let globals = &self.globals.group;
-        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
+        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet, self.marked.as_ref());
         let groups = [globals, self.tables.group()];
 
         let stats = self.terrain.draw(&mut encoder, &self.passes.terrain, groups, &targets, frame.debug_view);
@@ -308,7 +315,8 @@ impl Renderer {
                 self.passes.water.draw(&mut encoder, groups, &inputs.water[scene], &targets, scene);
                 scene = 1 - scene;
             }
-            if frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) {
+            let cloudy = frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0);
+            if cloudy && self.marked.is_none() {
                 self.passes.clouds.draw(&mut encoder, groups, &inputs.clouds[scene], &targets);
             }
             self.passes.air.draw(&mut encoder, groups, &inputs.air[scene], &targets, scene);
