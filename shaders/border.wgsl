@@ -28,6 +28,7 @@ fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
         let octave = globals.border[i];
         let lod = log2(max(footprint_m, 1e-6) * 32.0 / octave.w);
         let share = 1.0 - smoothstep(0.0, 3.0, lod);
+        if share <= 0.0 { break; }
         sum += weight * share * textureSampleLevel(border_tile, repeated, octave.xyz + place_m / octave.w, max(lod, 0.0)).rg;
         place_m = BORDER_TURN * place_m;
         weight *= 0.25;

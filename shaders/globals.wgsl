@@ -55,7 +55,7 @@ struct Globals {
     eye_wrap_m: vec4f,
     // xyz: the eye's position modulo 2^20 m
     eye_wrap_far_m: vec4f,
-    // y, z: lowest and highest height, metres; w: exposure factor
+    // x: entries of a mixture of biomes, 10; y, z: lowest and highest height, metres; w: exposure factor
     misc: vec4f,
     // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: quality of
     // the ground's patterns, 0 (one tap) to 2
@@ -73,5 +73,3 @@ struct Globals {
 @group(0) @binding(0) var<uniform> globals: Globals;
 @group(0) @binding(1) var clamped: sampler;
 @group(0) @binding(2) var repeated: sampler;
-// Repeats too; sees patterns from the side as sharp as from above
-@group(0) @binding(3) var patterned: sampler;

@@ -106,85 +106,77 @@ struct Mixture {
     albedo: vec3f,
     roughness: f32,
     specular: f32,
-    first: i32,
-    second: i32,
+    ids: vec2i,
     weights: vec2f,
+    first_color: vec3f,
+    second_color: vec3f,
 }
 
-fn patch_share(place: vec4f, patches: vec4f, site: Site) -> f32 {
-    if patches.w <= 0.0 { return 0.0; }
-    let lod = log2(site.footprint_m * 64.0 / place.z);
+fn patch_share(tile_m: f32, patches: f32, site: Site) -> f32 {
+    let lod = log2(site.footprint_m * 64.0 / tile_m);
     let away = smoothstep(-1.0, 2.5, lod);
-    if away >= 1.0 { return patches.w; }
-    let at = (globals.eye_wrap_far_m.xyz + site.rel_m) / place.z;
+    if patches <= 0.0 || away >= 1.0 { return patches; }
+    let at = (globals.eye_wrap_far_m.xyz + site.rel_m) / tile_m;
     let noise = textureSampleLevel(noise_tile, repeated, at.zxy, max(lod, 0.0)).g;
-    let edge = min(0.12, min(patches.w, 1.0 - patches.w));
-    return mix(smoothstep(-edge, edge, patches.w - noise), patches.w, away);
+    let edge = min(0.12, min(patches, 1.0 - patches));
+    return mix(smoothstep(-edge, edge, patches - noise), patches, away);
 }
 
-fn color_of(id: i32, site: Site) -> vec3f {
-    let color = biome_param(id, 0);
-    let patches = biome_param(id, 1);
-    let share = patch_share(biome_param(id, 2), patches, site);
-    return mix(color.rgb, patches.rgb, share) * (1.0 + site.mottle * color.a);
-}
-
+// Adds a biome with its weight.
 fn put(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
-    if weight <= 0.001 { return; }
+    let plain = biome_param(id, 0);
+    let patches = biome_param(id, 1);
     let surface = biome_param(id, 2);
-    (*mixture).albedo += weight * color_of(id, site);
+    let color = mix(plain.rgb, patches.rgb, patch_share(surface.z, patches.w, site)) * (1.0 + site.mottle * plain.a);
+    (*mixture).albedo += weight * color;
     (*mixture).roughness += weight * surface.x;
     (*mixture).specular += weight * surface.y;
-    if id == (*mixture).first {
+    if id == (*mixture).ids.x {
         (*mixture).weights.x += weight;
-    } else if id == (*mixture).second {
+    } else if id == (*mixture).ids.y {
         (*mixture).weights.y += weight;
     } else if weight > (*mixture).weights.x {
-        (*mixture).second = (*mixture).first;
-        (*mixture).weights.y = (*mixture).weights.x;
-        (*mixture).first = id;
-        (*mixture).weights.x = weight;
+        (*mixture).ids = vec2i(id, (*mixture).ids.x);
+        (*mixture).weights = vec2f(weight, (*mixture).weights.x);
+        (*mixture).second_color = (*mixture).first_color;
+        (*mixture).first_color = color;
     } else if weight > (*mixture).weights.y {
-        (*mixture).second = id;
+        (*mixture).ids.y = id;
         (*mixture).weights.y = weight;
+        (*mixture).second_color = color;
     }
 }
 
-fn put_with_slopes(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
-    if weight <= 0.001 { return; }
-    let steep = steep_of(id, site.slope_cosine + site.mottle * 0.04);
-    put(mixture, id, weight * (1.0 - steep.share), site);
-    put(mixture, steep.id, weight * steep.share, site);
-}
-
 fn mixture_at(site: Site) -> Mixture {
-    var mixture = Mixture(vec3f(0.0), 0.0, 0.0, -1, -1, vec2f(0.0));
     let cover = covers(site);
     let bare = (1.0 - cover.x) * (1.0 - cover.y);
     // The cells around, as a texture's linear filter has them.
     let at = site.table * vec2f(textureDimensions(biome_ids)) - 0.5;
     let cell = vec2i(floor(at));
     let f = border_blend(at - floor(at));
-    let ids = vec4i(
-        biome_at(cell), biome_at(cell + vec2i(1, 0)), biome_at(cell + vec2i(0, 1)), biome_at(cell + vec2i(1, 1))
-    );
-    if bare > 0.001 {
-        if all(ids == ids.xxxx) {
-            put_with_slopes(&mixture, ids.x, bare, site);
-        } else {
-            put_with_slopes(&mixture, ids.x, bare * (1.0 - f.x) * (1.0 - f.y), site);
-            put_with_slopes(&mixture, ids.y, bare * f.x * (1.0 - f.y), site);
-            put_with_slopes(&mixture, ids.z, bare * (1.0 - f.x) * f.y, site);
-            put_with_slopes(&mixture, ids.w, bare * f.x * f.y, site);
-        }
+    var ids: array<i32, 10>;
+    var weights: array<f32, 10>;
+    for (var i = 0; i < 4; i++) {
+        let corner = vec2i(i & 1, i >> 1u);
+        let share = mix(1.0 - f, f, vec2f(corner));
+        ids[2 * i] = biome_at(cell + corner);
+        let steep = steep_of(ids[2 * i], site.slope_cosine + site.mottle * 0.04);
+        let weight = bare * share.x * share.y;
+        weights[2 * i] = weight * (1.0 - steep.share);
+        ids[2 * i + 1] = steep.id;
+        weights[2 * i + 1] = weight * steep.share;
     }
-    if cover.x > 0.0 { put(&mixture, i32(biome_param(RULES, 0).x), cover.x * (1.0 - cover.y), site); }
-    if cover.y > 0.0 { put(&mixture, i32(biome_param(RULES, 1).x), cover.y, site); }
-    if mixture.weights.y > mixture.weights.x {
-        let first = mixture.first;
-        mixture.first = mixture.second;
-        mixture.second = first;
-        mixture.weights = mixture.weights.yx;
+    ids[8] = max(i32(biome_param(RULES, 0).x), 0);
+    weights[8] = cover.x * (1.0 - cover.y);
+    ids[9] = max(i32(biome_param(RULES, 1).x), 0);
+    weights[9] = cover.y;
+    // Most often all are the same.
+    for (var i = 1; i < 8; i++) {
+        if ids[i] == ids[0] { weights[0] += weights[i]; weights[i] = 0.0; }
+    }
+    var mixture = Mixture(vec3f(0.0), 0.0, 0.0, vec2i(-1), vec2f(0.0), vec3f(0.0), vec3f(0.0));
+    for (var i = 0; i < i32(globals.misc.x); i++) {
+        if weights[i] > 0.001 { put(&mixture, ids[i], weights[i], site); }
     }
     return mixture;
 }
@@ -192,27 +184,28 @@ fn mixture_at(site: Site) -> Mixture {
 // Everything at a pixel. `rel_x`, `rel_y`: from pixel to pixel, metres; `n`, `up`: of the ground and of the sphere.
 fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> Material {
     let mixture = mixture_at(site);
-    var out = Material(mixture.albedo, mixture.roughness, mixture.specular, vec3f(0.0), vec3f(0.0));
-    let view = Seen(site.rel_m, n, up, rel_x, rel_y, site.footprint_m);
-    let first = pattern_of(mixture.first, view);
-    var tint = first.tint;
-    var pattern = first;
     let both = mixture.weights.x + mixture.weights.y;
     let share = mixture.weights.y / max(both, 1e-6);
-    if share > 0.01 && globals.modes.w > 0u {
-        // The higher one shows, as far as the mean stays what the weights say.
-        let second = pattern_of(mixture.second, view);
-        let shown = share_by_height(first, second, share);
-        let colors = mix(first.tint * color_of(mixture.first, site), second.tint * color_of(mixture.second, site), shown)
-            - mix(color_of(mixture.first, site), color_of(mixture.second, site), share);
-        out.albedo = max(out.albedo + both * colors, vec3f(0.0));
-        pattern = mixed(first, second, shown);
-    } else {
-        out.albedo *= mix(vec3f(1.0), first.tint, 1.0 - share);
+    let seen = Seen(site.rel_m, n, up, rel_x, rel_y, site.footprint_m);
+    // Low quality has the pattern of the strongest alone.
+    let strongest = select(0, 1, share > 0.5);
+    var patterns: array<Pattern, 2>;
+    patterns[0] = no_pattern();
+    patterns[1] = no_pattern();
+    for (var i = 0; i < 2; i++) {
+        let shown = select(i == strongest, i == 0 || share > 0.01, globals.modes.w > 0u);
+        if shown { patterns[i] = pattern_of(mixture.ids[i], seen); }
     }
-    out.roughness = clamp(out.roughness + pattern.roughness, 0.04, 1.0);
-    out.slope = pattern.slope;
-    out.glow = pattern.glow;
-    out.specular *= 0.08;
+    let a = patterns[0];
+    let b = patterns[1];
+    var out: Material;
+    var t = share;
+    if globals.modes.w > 0u { t = share_by_height(a, b, share); }
+    let tinted = mix(mixture.first_color * a.tint, mixture.second_color * b.tint, t);
+    out.albedo = max(mixture.albedo + both * (tinted - mix(mixture.first_color, mixture.second_color, share)), vec3f(0.0));
+    out.roughness = clamp(mixture.roughness + mix(a.roughness, b.roughness, t), 0.04, 1.0);
+    out.slope = mix(a.slope, b.slope, t);
+    out.glow = mix(a.glow, b.glow, t);
+    out.specular = mixture.specular * 0.08;
     return out;
 }

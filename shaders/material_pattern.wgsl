@@ -32,15 +32,6 @@ struct Pattern {
 
 fn no_pattern() -> Pattern { return Pattern(vec3f(1.0), 0.5, vec3f(0.0), 0.0, vec3f(0.0), 1.0, 0.0); }
 
-fn mixed(a: Pattern, b: Pattern, share: f32) -> Pattern {
-    var out = a;
-    out.tint = mix(a.tint, b.tint, share);
-    out.slope = mix(a.slope, b.slope, share);
-    out.roughness = mix(a.roughness, b.roughness, share);
-    out.glow = mix(a.glow, b.glow, share);
-    return out;
-}
-
 // How much of the second shows where it has this share (at most a half) on the whole: where it is so much higher than the first.
 // Of two heights that are spread evenly, or one and a plane, so much of the ground is beyond the threshold.
 fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
@@ -51,107 +42,101 @@ fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
     return mix(smoothstep(threshold - edge, threshold + edge, b.height - a.height), share, max(a.far, b.far));
 }
 
-struct Texel {
-    tint: vec4f,
-    surface: vec4f,
-}
-
-// Low quality has one tap on one plane.
-fn texel_at(uv: vec2f, x: vec2f, y: vec2f, layer: i32, lod: f32) -> Texel {
-    if globals.modes.w == 0u {
-        return Texel(
-            textureSampleLevel(material_tint, repeated, uv, layer, lod),
-            textureSampleLevel(material_surface, repeated, uv, layer, lod),
-        );
-    }
-    return Texel(
-        textureSampleGrad(material_tint, patterned, uv, layer, x, y),
-        textureSampleGrad(material_surface, patterned, uv, layer, x, y),
-    );
-}
-
 // Turned by the angle of the triangle with sides 3, 4 and 5: what repeats after 1024 m still does.
 fn turned(p: vec2f) -> vec2f { return vec2f(0.6 * p.x + 0.8 * p.y, 0.6 * p.y - 0.8 * p.x); }
 fn turned_back(p: vec2f) -> vec2f { return vec2f(0.6 * p.x - 0.8 * p.y, 0.6 * p.y + 0.8 * p.x); }
 
-// One plane: tint and height; slopes along its axes, roughness, glow.
-fn plane_at(p: vec2f, x: vec2f, y: vec2f, layer: i32, size: vec4f, fine_m: f32, lod: f32) -> Texel {
-    var out = texel_at(p / size.x, x / size.x, y / size.x, layer, lod);
-    var tint = 1.0 + (2.0 * out.tint.rgb - 1.0) * size.y;
-    var slope = (out.surface.xy - 0.5) * (2.0 * PATTERN_STEEPEST * size.y);
-    if globals.modes.w > 0u {
-        // Finer, for what is right before one's feet; it also hides that the coarser one repeats.
-        let fine = texel_at(turned(p) / fine_m, turned(x) / fine_m, turned(y) / fine_m, layer, lod + 1.7);
-        tint *= 1.0 + (2.0 * fine.tint.rgb - 1.0) * size.y * 0.5;
-        slope += turned_back(fine.surface.xy - 0.5) * (2.0 * PATTERN_STEEPEST * 0.5 * size.y);
-        out.surface.z = mix(out.surface.z, fine.surface.z, 0.35);
-    }
-    out.tint = vec4f(max(tint, vec3f(0.0)), out.tint.a);
-    out.surface = vec4f(slope, (out.surface.z - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0)), out.surface.w);
-    return out;
+// The two coordinates of a plane across an axis, and back.
+fn flat_on(p: vec3f, axis: u32) -> vec2f {
+    if axis == 0u { return p.yz; }
+    if axis == 1u { return p.zx; }
+    return p.xy;
+}
+fn raised_from(p: vec2f, axis: u32) -> vec3f {
+    if axis == 0u { return vec3f(0.0, p.xy); }
+    if axis == 1u { return vec3f(p.y, 0.0, p.x); }
+    return vec3f(p.xy, 0.0);
 }
 
-fn planes_at(p: vec3f, view: Seen, layer: i32, size: vec4f, fine_m: f32, lod: f32) -> Pattern {
-    // The plane that the ground faces, and the others where it faces both; sharply, or patterns show through each other.
-    var w = view.n * view.n;
+// How much each plane shows: the one that the ground faces, and others where it faces both; sharply, or patterns show through
+// each other. Low quality has one.
+fn plane_shares(n: vec3f) -> vec3f {
+    var w = n * n;
     w = w * w * w;
     w /= w.x + w.y + w.z;
     let most = max(w.x, max(w.y, w.z));
-    w = select(max(w - 0.08, vec3f(0.0)), select(vec3f(0.0), vec3f(1.0), w == vec3f(most)), globals.modes.w == 0u);
-    w /= w.x + w.y + w.z;
-    var tint = vec4f(0.0);
-    var slope = vec3f(0.0);
-    var rest = vec2f(0.0);
-    if w.x > 0.0 {
-        let t = plane_at(p.yz, view.rel_x.yz, view.rel_y.yz, layer, size, fine_m, lod);
-        tint += w.x * t.tint;
-        slope += w.x * vec3f(0.0, t.surface.xy);
-        rest += w.x * t.surface.zw;
-    }
-    if w.y > 0.0 {
-        let t = plane_at(p.zx, view.rel_x.zx, view.rel_y.zx, layer, size, fine_m, lod);
-        tint += w.y * t.tint;
-        slope += w.y * vec3f(t.surface.y, 0.0, t.surface.x);
-        rest += w.y * t.surface.zw;
-    }
-    if w.z > 0.0 {
-        let t = plane_at(p.xy, view.rel_x.xy, view.rel_y.xy, layer, size, fine_m, lod);
-        tint += w.z * t.tint;
-        slope += w.z * vec3f(t.surface.xy, 0.0);
-        rest += w.z * t.surface.zw;
-    }
-    return Pattern(tint.rgb, tint.a, slope, rest.x, vec3f(rest.y), 0.0, 1.0);
+    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.modes.w == 0u);
+    return w / (w.x + w.y + w.z);
 }
 
-// The pattern of a biome (a column of `biome_params`); -1 has none.
-fn pattern_of(id: i32, view: Seen) -> Pattern {
-    if id < 0 { return no_pattern(); }
-    let layer = textureLoad(biome_params, vec2i(id, 2), 0).w;
-    if layer < 0.0 { return no_pattern(); }
+// The pattern of a biome (a column of `biome_params`); -1 has none. One loop over all taps: a program that has each of them spelled
+// out takes a software driver minutes to compile.
+fn pattern_of(id: i32, seen: Seen) -> Pattern {
+    var out = no_pattern();
+    if id < 0 { return out; }
+    let layer = i32(textureLoad(biome_params, vec2i(id, 2), 0).w);
     let size = textureLoad(biome_params, vec2i(id, 3), 0);
     let glow = textureLoad(biome_params, vec2i(id, 4), 0);
-    let lod = log2(view.footprint_m * PATTERN_SIDE / size.x);
+    let lod = log2(seen.footprint_m * PATTERN_SIDE / size.x);
     // Where not even the coarsest level would show more than its mean, a glow excepted.
-    if lod > 8.5 && size.w <= 0.0 { return no_pattern(); }
-    let p = globals.eye_wrap_m.xyz + view.rel_m;
-    var out: Pattern;
-    if size.z > 0.0 && lod < 6.0 {
-        // Downhill; each of two copies is carried for a while and starts anew while the other is shown.
-        let downhill = view.n - view.up * dot(view.n, view.up);
-        let steep = length(downhill);
-        let way = downhill / max(steep, 0.02) * saturate1(0.15 + 3.0 * steep);
-        let turns = globals.ray_forward.w * size.z / (0.5 * size.x);
-        let a = fract(turns);
-        let b = fract(turns + 0.5);
-        out = mixed(
-            planes_at(p - way * (a - 0.5) * 0.5 * size.x, view, i32(layer), size, glow.w, lod),
-            planes_at(p - way * (b - 0.5) * 0.5 * size.x, view, i32(layer), size, glow.w, lod),
-            abs(2.0 * a - 1.0),
-        );
-    } else {
-        out = planes_at(p, view, i32(layer), size, glow.w, lod);
+    if layer < 0 || (lod > 8.5 && size.w <= 0.0) { return out; }
+
+    // Downhill; each of two copies is carried for a while and starts anew while the other is shown.
+    let flows = size.z > 0.0 && lod < 6.0;
+    let downhill = seen.n - seen.up * dot(seen.n, seen.up);
+    let steep = length(downhill);
+    let way_m = downhill / max(steep, 0.02) * saturate1(0.15 + 3.0 * steep) * 0.5 * size.x;
+    let turn = fract(globals.ray_forward.w * size.z / (0.5 * size.x));
+
+    let planes = plane_shares(seen.n);
+    // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
+    let scales = select(1u, 2u, globals.modes.w > 0u && lod < 7.0);
+    // Seen from the side, a pixel is long: a few taps along it stay sharper than one as wide as it is long.
+    let steps = 1u << globals.modes.w;
+    let copies = 3u * scales * steps;
+    let taps = copies * select(1u, 2u, flows);
+    var tint = vec3f(0.0);
+    var slope = vec3f(0.0);
+    var rest = vec3f(0.0);
+    for (var tap = 0u; tap < taps; tap++) {
+        let axis = tap % 3u;
+        let is_fine = (tap / 3u) % scales == 1u;
+        let step = (tap / (3u * scales)) % steps;
+        let is_second = tap >= copies;
+        var weight = planes[axis];
+        let phase = fract(turn + select(0.0, 0.5, is_second));
+        if flows { weight *= 1.0 - abs(2.0 * phase - 1.0); }
+        if weight <= 0.002 { continue; }
+        weight /= f32(steps);
+        let carried_m = select(vec3f(0.0), way_m * (phase - 0.5), flows);
+        let x = flat_on(seen.rel_x, axis);
+        let y = flat_on(seen.rel_y, axis);
+        let is_x_longer = dot(x, x) > dot(y, y);
+        let long_m = select(y, x, is_x_longer);
+        let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) / f32(steps));
+        var p = flat_on(globals.eye_wrap_m.xyz + seen.rel_m - carried_m, axis);
+        p += long_m * ((f32(step) + 0.5) / f32(steps) - 0.5);
+        var period_m = size.x;
+        if is_fine {
+            p = turned(p);
+            period_m = glow.w;
+        }
+        let level = log2(max(wide_m, 1e-6) * PATTERN_SIDE / period_m);
+        let t = textureSampleLevel(material_tint, repeated, p / period_m, layer, level);
+        let s = textureSampleLevel(material_surface, repeated, p / period_m, layer, level);
+        var tilt = s.xy - 0.5;
+        if is_fine { tilt = turned_back(tilt); }
+        let strength = weight * select(1.0, 0.5, is_fine);
+        tint += strength * (2.0 * t.rgb - 1.0);
+        slope += strength * raised_from(tilt, axis);
+        if !is_fine { rest += weight * vec3f(t.a, s.zw); }
     }
-    out.glow *= glow.rgb * size.w;
+    out.tint = max(1.0 + tint * size.y, vec3f(0.0));
+    out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);
+    out.height = rest.x;
+    out.roughness = (rest.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
+    out.glow = rest.z * glow.rgb * size.w;
     out.far = smoothstep(1.0, 5.0, lod);
+    out.shown = 1.0;
     return out;
 }

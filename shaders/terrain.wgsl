@@ -224,7 +224,6 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
-    // Its loop inside a case would never end on Mesa's software driver where no pixel takes that case.
     let place = table_place(in.climate, in.rel_m, 0.0);
     switch globals.modes.x {
         case 1u: {
@@ -272,7 +271,11 @@ fn shade(on_mesh: Ground) -> vec4f {
     let site = site_of(in, place, risen_m, dot(n, up), footprint_m, relief.x);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
-    n = normalize(n - ground.slope + n * dot(n, ground.slope));
+    // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
+    // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
+    let tilt = ground.slope - n * dot(n, ground.slope);
+    let area = sqrt(1.0 + dot(tilt, tilt));
+    n = (n - tilt) / area;
     let n_v = max(dot(n, v), 0.0);
 
     let sun = globals.sun_dir.xyz;
@@ -284,11 +287,11 @@ fn shade(on_mesh: Ground) -> vec4f {
     let sky_share = overcast(shadow);
     let diffuse = rough_diffuse(max(dot(n, sun), 0.0), n_v, dot(sun, v), ground.roughness);
     let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
-    let open = 0.5 + 0.5 * dot(n, up);
+    let open = saturate1(0.5 + 0.5 * dot(n, up) * area);
     // What the ground around sends back to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
-    let radiance = ground.albedo * (sunlight * shadow * diffuse + (sky * open + bounce) / PI)
+    let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;
     let shown = lit_up(radiance, place, globals.sun_irradiance.rgb / PI);
     return vec4f(min(shown, vec3f(60000.0)), over_sea_m);

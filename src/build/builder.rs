@@ -277,8 +277,8 @@ impl Worker {
 fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
     let touched = diff::touched_stages(before.planet(), after.planet());
     // Heights depend on both more and less than single parameters say: on the order of the layers and on which one a mask's
-    // name means, but on no layer that is off.
-    let same = before.stack.joins_like(&after.stack);
+    // name means, on climate and table where biomes have relief, but on no layer that is off.
+    let same = before.stack.joins_like(&after.stack) && before.relief == after.relief;
     let height = Stages::of(&[Stage::Height]);
     let touched = if same { touched.without(height.and(Stages::of(&[Stage::Field]))) } else { touched.and(height) };
     touched.with_consequences().within(Stages::OF_TILES)

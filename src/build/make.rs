@@ -1,4 +1,4 @@
-//! One tile from one node: directions, layer fields, height, climate, mesh (see `mesh`). Stages whose inputs did not change are
+//! One tile from one node: directions, layer fields, climate noise, height, climate, mesh (see `mesh`). Stages whose inputs did not change are
 //! taken from the tile that stood there before, and samples that the parent has from the parent.
 
 use super::kept::KeptFields;
@@ -15,6 +15,7 @@ use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
+use crate::terrain::relief::ReliefFields;
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -26,6 +27,7 @@ pub(crate) struct Parts {
     heights: Arc<Heights>,
     /// See [`Tile::heights_serial`].
     heights_serial: u64,
+    relief_fields: ReliefFields,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
     coast: Option<Arc<Coast>>,
@@ -39,7 +41,8 @@ impl Parts {
         let point = size_of::<DVec3>() + 3 * size_of::<f64>();
         let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
         let climate = 3 * size_of::<f64>();
-        TILE_VERTICES * (point + height + climate)
+        let relief: usize = self.relief_fields.iter().map(|(_, field)| field.bytes()).sum();
+        TILE_VERTICES * (point + height + climate) + relief
     }
 }
 
@@ -89,16 +92,6 @@ pub(crate) fn make_tile(
         }
     }
 
-    static NEXT_HEIGHTS: AtomicU64 = AtomicU64::new(1);
-    let (heights, heights_serial) = match before.parts {
-        Some(parts) if !before.stale.contains(Stage::Height) => (parts.heights.clone(), parts.heights_serial),
-        _ => work.run(Stage::Height, || {
-            profiling::scope!("height");
-            let heights = height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {});
-            (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
-        }),
-    };
-
     let climate_noises = terrain.climate.noises().cloned();
     let of_this_planet = |parts: &&Parts| parts.climate_noises == climate_noises;
     let climate = match before.parts.filter(of_this_planet) {
@@ -121,12 +114,39 @@ pub(crate) fn make_tile(
         _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
     };
 
+    let mut relief_fields: ReliefFields = Vec::new();
+    for noise in terrain.relief.iter().flat_map(|relief| relief.noises()) {
+        let known = before.parts.and_then(|parts| parts.relief_fields.iter().find(|(known, _)| known == noise));
+        let field = known.map_or_else(
+            || {
+                work.octave_samples += noise.octave_count() * TILE_VERTICES;
+                work.run(Stage::Field, || Arc::new(Field::new(noise, simd, &points, &spacings_rad)))
+            },
+            |(_, field)| field.clone(),
+        );
+        relief_fields.push((noise.clone(), field));
+    }
+
+    static NEXT_HEIGHTS: AtomicU64 = AtomicU64::new(1);
+    let (heights, heights_serial) = match before.parts {
+        Some(parts) if !before.stale.contains(Stage::Height) => (parts.heights.clone(), parts.heights_serial),
+        _ => work.run(Stage::Height, || {
+            profiling::scope!("height");
+            let mut heights = height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {});
+            if let Some(relief) = &terrain.relief {
+                let noises: Vec<Arc<Field>> = relief_fields.iter().map(|(_, field)| field.clone()).collect();
+                relief.add(&mut heights, &spacings_rad, &points, &noises, &climate, &inland_rad);
+            }
+            (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
+        }),
+    };
+
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
         let tile = mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad);
         Tile { heights_serial, ..tile }
     });
-    (fields, Some((tile, Parts { points, heights, heights_serial, climate_noises, climate, coast, inland_rad })))
+    (fields, Some((tile, Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad })))
 }
 
 fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {

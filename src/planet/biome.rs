@@ -142,3 +142,39 @@ impl Biomes {
         }
     }
 }
+
+/// The relief of each cell of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Reliefs {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    /// Height and size in metres, row by row; height 0 is none, whatever its size.
+    pub(crate) cells: Vec<(f64, f64)>,
+}
+
+impl Reliefs {
+    /// The sizes for which there is noise.
+    pub(crate) fn sizes_m(&self) -> impl Iterator<Item = f64> {
+        self.cells.iter().filter(|(height_m, _)| *height_m > 0.0).map(|(_, size_m)| *size_m)
+    }
+}
+
+impl Biomes {
+    /// The relief of each cell of the table; None where no biome in it has one.
+    pub(crate) fn reliefs(&self) -> Option<Reliefs> {
+        if !self.palette.iter().any(Biome::has_relief) {
+            return None;
+        }
+        let (columns, rows) = (self.table.columns(), self.table.rows().len());
+        let of = |biome: &Biome| if biome.has_relief() { (biome.relief_m, biome.relief_size_m) } else { (0.0, 1.0) };
+        let by_key: std::collections::BTreeMap<char, (f64, f64)> =
+            self.palette.iter().rev().map(|biome| (biome.key, of(biome))).collect();
+        let rows_of_cells = self.table.rows().iter().map(|row| {
+            let cells = row.chars().map(|key| by_key.get(&key).copied().unwrap_or((0.0, 1.0)));
+            cells.chain(std::iter::repeat((0.0, 1.0))).take(columns)
+        });
+        let reliefs = Reliefs { columns, rows, cells: rows_of_cells.flatten().collect() };
+        let any = reliefs.sizes_m().next().is_some();
+        any.then_some(reliefs)
+    }
+}

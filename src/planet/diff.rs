@@ -1,6 +1,7 @@
 //! What changed between two planets, and which stages of a rebuild that makes stale.
 
 use super::Planet;
+use super::biome::Reliefs;
 use super::param::{ParamPath, Params, Segment, Stage, Stages, Value};
 use std::collections::HashMap;
 
@@ -36,7 +37,34 @@ pub fn diff(before: &Planet, after: &Planet) -> Vec<Change> {
         let path = ParamPath::from(vec![Segment::Field("biomes"), Segment::Field("table")]);
         changes.push(Change { path, stages: Stages::of(&[Stage::Material]) });
     }
+    follow_relief(before, after, &mut changes);
     changes
+}
+
+/// Biomes with a relief make heights follow the table, the palette and the climate. Without one in the table, its parameters touch
+/// nothing.
+fn follow_relief(before: &Planet, after: &Planet, changes: &mut [Change]) {
+    let (old, new) = (before.biomes.reliefs(), after.biomes.reliefs());
+    let relief = Stages::of(&[Stage::Field, Stage::Height]);
+    let sizes = |reliefs: Option<&Reliefs>| reliefs.into_iter().flat_map(Reliefs::sizes_m).collect::<Vec<f64>>();
+    let known = sizes(old.as_ref());
+    let needs_noise = sizes(new.as_ref()).iter().any(|size_m| !known.contains(size_m));
+    for change in changes {
+        let is_of = |part| change.path.segments().get(1) == Some(&Segment::Field(part));
+        let in_biomes = change.path.segments().first() == Some(&Segment::Field("biomes"));
+        if in_biomes && (is_of("palette") || is_of("table")) {
+            let more = if old == new {
+                Stages::NONE
+            } else if needs_noise {
+                relief
+            } else {
+                Stages::of(&[Stage::Height])
+            };
+            change.stages = change.stages.without(relief).and(more);
+        } else if new.is_some() && change.stages.with_consequences().contains(Stage::Climate) {
+            change.stages = change.stages.and(Stages::of(&[Stage::Height]));
+        }
+    }
 }
 
 /// The stages that the differences touch; what takes their results follows ([`Stages::with_consequences`]).

@@ -79,7 +79,7 @@ impl CompiledClimate {
 pub(crate) const NO_SEA: f64 = f64::INFINITY;
 
 /// How climate follows from place, height and noise: the parameters of a planet, as numbers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rules {
     equator_c: f64,
     /// From the equator to a pole.
@@ -153,6 +153,20 @@ impl Rules {
             moisture: moisture.clamp(0.0, 1.0),
             row: row.clamp(0.0, 1.0),
         }
+    }
+
+    /// How much moisture and row change with each metre of height, where they do.
+    pub(crate) fn by_height(&self, height_m: f64, climate: &PointClimate) -> [f64; 2] {
+        let over_sea = height_m > self.sea_m;
+        let inside = |x: f64| x > 0.0 && x < 1.0;
+        let moisture = if over_sea && inside(climate.moisture) { -self.drying_per_km / 1000.0 } else { 0.0 };
+        let row = match self.by_temperature {
+            _ if !inside(climate.row) => 0.0,
+            true if !over_sea => 0.0,
+            true => -self.lapse_c_per_km / 1000.0 / self.span,
+            false => 1.0 / self.span,
+        };
+        [moisture, row]
     }
 }
 

@@ -7,6 +7,7 @@
 //! - `landform`: the kinds of layer, one file each
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
 //! - `height`: layers joined by amplitude, curves, blends and masks
+//! - `relief`: what biomes add to the height
 //! - `climate`: temperature, moisture, the place in the biome table
 //! - `border`: noise that moves the borders between biomes
 //! - [`survey`]: where the planet lies in its biome table
@@ -30,6 +31,7 @@ pub(crate) mod landform;
 pub(crate) mod noise;
 pub(crate) mod points;
 mod raycast;
+pub(crate) mod relief;
 pub mod simd;
 pub mod survey;
 
@@ -40,9 +42,10 @@ use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
 use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
-use height::{CompiledLayer, LayerStack};
+use height::{CompiledLayer, Heights, LayerStack};
 use landform::Landform;
 use points::Points;
+use relief::Relief;
 use rayon::prelude::*;
 use simd::Simd;
 use std::sync::Arc;
@@ -56,6 +59,8 @@ pub struct Terrain {
     simd: Simd,
     pub(crate) stack: LayerStack,
     pub(crate) climate: CompiledClimate,
+    /// What biomes add to the height that the layers make.
+    pub(crate) relief: Option<Relief>,
     height_bounds_m: (f64, f64),
 }
 
@@ -81,7 +86,8 @@ pub struct Sample {
     pub cell: [usize; 2],
     /// Index of the biome in the palette: the cell's, or what a rule for steep ground, beaches or snow puts there.
     pub biome: usize,
-    /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off.
+    /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off. What biomes add
+    /// ([`crate::planet::Biome::relief_m`]) is in none of them.
     pub layers_m: Vec<f64>,
 }
 
@@ -107,8 +113,9 @@ impl Terrain {
     fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
         let stack = LayerStack::new(&planet);
         let climate = CompiledClimate::new(&planet);
-        let height_bounds_m = stack.bounds_m();
-        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, height_bounds_m };
+        let relief = Relief::new(&planet, &climate, stack.limits_m());
+        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, relief, height_bounds_m: (0.0, 0.0) };
+        terrain.height_bounds_m = terrain.with_relief(terrain.stack.bounds_m());
         // Found here rather than when first asked for: asked on a worker of a thread pool, it
         // would wait for its own pool.
         if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
@@ -156,10 +163,11 @@ impl Terrain {
         let points = Points::new(vec![dir]);
         let fields = self.fields(&points, EXACT);
         let (mut layers_m, mut before_m) = (vec![0.0; self.stack.layers.len()], 0.0);
-        let heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |layer, heights_m| {
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |layer, heights_m| {
             layers_m[layer] = heights_m[0] - before_m;
             before_m = heights_m[0];
         });
+        self.raise(&mut heights, &points, EXACT, false);
         let height_m = heights.height_m[0];
         let gradient = DVec3::from_array(heights.gradients[0].each_ref().map(|component| f64::from(component[0])));
         let slope = tangent_slope(dir, gradient, self.planet.radius_m() + height_m);
@@ -215,15 +223,30 @@ impl Terrain {
     /// The same for the ground within an angle of a direction: narrower, or equal.
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let ((lo, hi), (lowest, highest)) =
-            (self.stack.bounds_near_m(unit(dir_planet), angle_rad), self.height_bounds_m);
+            (self.with_relief(self.stack.bounds_near_m(unit(dir_planet), angle_rad)), self.height_bounds_m);
         (lo.max(lowest), hi.min(highest))
+    }
+
+    /// Bounds of what the layers make, widened by what biomes add.
+    fn with_relief(&self, (lo, hi): (f64, f64)) -> (f64, f64) {
+        let Some(relief) = &self.relief else { return (lo, hi) };
+        let ((less, more), (lowest, highest)) = (relief.bounds_m(), self.stack.limits_m());
+        ((lo + less).clamp(lowest, highest), (hi + more).clamp(lowest, highest))
+    }
+
+    /// Adds what biomes have of their own to heights that the layers made.
+    fn raise(&self, heights: &mut Heights, points: &Points, spacings_rad: &[f64], seen_only: bool) {
+        let Some(relief) = &self.relief else { return };
+        let fields = relief::fields(relief, self.simd, points, spacings_rad, seen_only);
+        let (climate, inland_rad) = (self.climate.field(self.simd, points), self.climate.inland_rad(&points.dirs));
+        relief.add(heights, spacings_rad, points, &fields, &climate, &inland_rad);
     }
 
     /// How many octaves of noise one point takes.
     pub fn octaves_per_point(&self) -> usize {
         let layers: usize = self.stack.layers.iter().filter(|l| l.needed).map(|l| l.landform.octave_count()).sum();
         let climate: usize = self.climate.noises().into_iter().flatten().map(Landform::octave_count).sum();
-        layers + climate
+        layers + climate + self.relief.as_ref().map_or(0, Relief::octave_count)
     }
 
     /// A field for each needed layer, with gradients at the spacings asked for and at those that slopes need.
@@ -247,7 +270,8 @@ impl Terrain {
         let points = Points::new(dirs_planet);
         let radius_m = self.planet.radius_m();
         let fields = self.seen_fields(&points, &spacings_rad);
-        let heights = height::combine(&self.stack, self.simd, &points, &fields, &spacings_rad, |_, _| {});
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &spacings_rad, |_, _| {});
+        self.raise(&mut heights, &points, &spacings_rad, true);
         let slope = |band: usize, i: usize| {
             let gradient = heights.gradients[band].each_ref().map(|component| f64::from(component[i]));
             tangent_slope(points.dirs[i], DVec3::from_array(gradient), radius_m + heights.height_m[i])
@@ -259,7 +283,9 @@ impl Terrain {
     fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {
         let points = Points::new(dirs_planet);
         let fields = self.fields(&points, &[]);
-        height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {}).height_m
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {});
+        self.raise(&mut heights, &points, &[], false);
+        heights.height_m
     }
 }
 

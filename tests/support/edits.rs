@@ -1,6 +1,7 @@
 //! A planet with everything on, and an edit of each of its parameters.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
+use tellus::planet::diff;
 use tellus::planet::param::{Domain, Param, ParamPath, Stage, Stages, Value, ValueMut};
 use tellus::planet::{
     Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Table, TableRows, Water, param::Choice as _,
@@ -78,13 +79,21 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
                     value.set(&new);
                 }
             });
-            let declared = stages.with_consequences();
+            // What stands beside the parameter, but for relief: heights follow the biomes only where one has it.
+            let found = diff::touched_stages(planet, &edited);
+            let relief = Stages::of(&[Stage::Field, Stage::Height]);
+            if planet.biomes.palette.iter().all(|biome| biome.relief_m == 0.0) && !path.to_string().contains("relief") {
+                assert_eq!(found, if edited == *planet { Stages::NONE } else { stages }, "{path}");
+            }
+            assert!(found.without(relief) == stages.without(relief) || edited == *planet, "{path}");
+            let declared = found.with_consequences();
             (edited != *planet).then(|| Edit { path: path.to_string(), declared, planet: edited })
         })
         .collect();
     let mut painted = planet.clone();
     painted.biomes.table.set_key(0, 0, 'b');
-    edits.push(Edit { path: "biomes.table".to_owned(), declared: Stages::of(&[Stage::Material]), planet: painted });
+    let declared = diff::touched_stages(planet, &painted).with_consequences();
+    edits.push(Edit { path: "biomes.table".to_owned(), declared, planet: painted });
     edits
 }
 

@@ -171,7 +171,7 @@ impl LayerStack {
 
     /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths
     /// of the way to the centre, ten radii out.
-    fn limits_m(&self) -> (f64, f64) {
+    pub(crate) fn limits_m(&self) -> (f64, f64) {
         (-0.9 * self.radius_m, 10.0 * self.radius_m)
     }
 }
