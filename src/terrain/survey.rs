@@ -38,7 +38,8 @@ impl Terrain {
     fn grounds_of(&self, dirs: &[DVec3]) -> Vec<Ground> {
         let points = Points::new(dirs.to_vec());
         let fields = self.fields(&points, EXACT);
-        let heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |_, _| {});
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |_, _| {});
+        self.raise(&mut heights, &points, EXACT, false);
         let noise = self.climate.field(self.simd, &points);
         let inland_rad = self.climate.inland_rad(dirs);
         let rules = Rules::new(&self.planet);
