@@ -146,7 +146,13 @@ pub(crate) fn make_tile(
         let tile = mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad);
         Tile { heights_serial, ..tile }
     });
-    (fields, Some((tile, Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad })))
+    (
+        fields,
+        Some((
+            tile,
+            Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad },
+        )),
+    )
 }
 
 fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {

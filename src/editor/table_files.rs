@@ -49,8 +49,8 @@ impl EditorApp {
     pub(super) fn export_table(&mut self, file: &Path) {
         let file = if file.extension().is_none() { file.with_extension("png") } else { file.to_owned() };
         let biomes = &self.document.planet().biomes;
-        let written = table_png::encode(biomes)
-            .and_then(|bytes| std::fs::write(&file, bytes).map_err(|error| error.to_string()));
+        let written =
+            table_png::encode(biomes).and_then(|bytes| std::fs::write(&file, bytes).map_err(|error| error.to_string()));
         if let Err(why) = written {
             self.messages.push(Message {
                 title: "The biome table could not be exported".to_owned(),

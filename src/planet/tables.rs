@@ -33,8 +33,16 @@ pub const STARTING_TABLES: &[StartingTable] = &[
         note: "The classic: beaches, plains, forests, rock and snow by height and moisture",
         text: include_str!("tables/height.ron"),
     },
-    StartingTable { name: "Mars", note: "Rust, dust and black sand under polar frost", text: include_str!("tables/mars.ron") },
-    StartingTable { name: "Ice", note: "Snow, firn, blue ice; moraine where it thaws", text: include_str!("tables/ice.ron") },
+    StartingTable {
+        name: "Mars",
+        note: "Rust, dust and black sand under polar frost",
+        text: include_str!("tables/mars.ron"),
+    },
+    StartingTable {
+        name: "Ice",
+        note: "Snow, firn, blue ice; moraine where it thaws",
+        text: include_str!("tables/ice.ron"),
+    },
     StartingTable {
         name: "Desert",
         note: "Dunes, salt and red rock, green in the wettest places alone",
@@ -59,7 +67,12 @@ mod tests {
             assert_eq!(table.biomes().as_ref(), Some(&biomes));
             assert!(biomes.table.columns() >= 8 && biomes.table.rows().len() >= 8, "{}", table.name);
             for biome in &biomes.palette {
-                assert!(biomes.table.rows().iter().any(|row| row.contains(biome.key)), "{}: {}", table.name, biome.name);
+                assert!(
+                    biomes.table.rows().iter().any(|row| row.contains(biome.key)),
+                    "{}: {}",
+                    table.name,
+                    biome.name
+                );
             }
             let planet = Planet { biomes, ..Planet::default() };
             assert_eq!(validate::problems(&planet), vec![], "{}", table.name);

@@ -1,12 +1,12 @@
 //! What outlives a frame: the tables of the air, the weather map, the noise tile, the patterns of the ground and the biomes. Each is made again
 //! only when what it depends on has changed.
 
+use super::border_tile;
 use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
 use super::{Passes, biome_table, cloud_map, noise_tile};
-use super::border_tile;
-use biome_table::MarkedCells;
 use crate::planet::{Atmosphere, Biomes, Planet};
+use biome_table::MarkedCells;
 use std::sync::Arc;
 
 /// Format of the tables: filterable and wide enough for radiance.

@@ -45,8 +45,8 @@ use glam::DVec3;
 use height::{CompiledLayer, Heights, LayerStack};
 use landform::Landform;
 use points::Points;
-use relief::Relief;
 use rayon::prelude::*;
+use relief::Relief;
 use simd::Simd;
 use std::sync::Arc;
 

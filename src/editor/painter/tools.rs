@@ -43,7 +43,9 @@ impl Tool {
             Tool::Line => "Drag a straight line as wide as the brush. Shift keeps it level, upright or diagonal.",
             Tool::Rectangle => "Drag a filled rectangle. Shift draws its outline alone.",
             Tool::Fill => "Fill all neighbouring cells of one biome. Shift fills every cell of that biome.",
-            Tool::Pick => "Choose the biome under the pointer, in the table or on the planet. Alt does so with any tool.",
+            Tool::Pick => {
+                "Choose the biome under the pointer, in the table or on the planet. Alt does so with any tool."
+            }
             Tool::Select => "Drag a selection: it lights up on the planet, and tools paint within it. A click ends it.",
         }
     }
@@ -140,7 +142,15 @@ pub struct Gesture {
 
 impl Gesture {
     /// Begins at a place: paints with `key`, within a selection if there is one.
-    pub fn new(tool: Tool, key: char, brush: Brush, within: Option<Block>, table: &Table, at: Place, number: u32) -> Self {
+    pub fn new(
+        tool: Tool,
+        key: char,
+        brush: Brush,
+        within: Option<Block>,
+        table: &Table,
+        at: Place,
+        number: u32,
+    ) -> Self {
         let covered = vec![0.0; table.columns() * table.rows().len()];
         let mut gesture = Self { tool, key, brush, within, before: table.clone(), from: at, to: at, covered, number };
         gesture.cover(at, at);
@@ -194,8 +204,10 @@ impl Gesture {
         match self.tool {
             Tool::Brush | Tool::Line => {
                 let columns = self.before.columns();
-                all.filter(|&[column, row]| self.covered[row * columns + column] > threshold([column, row], self.number))
-                    .collect()
+                all.filter(|&[column, row]| {
+                    self.covered[row * columns + column] > threshold([column, row], self.number)
+                })
+                .collect()
             }
             Tool::Rectangle => {
                 let edge = |[column, row]: Cell| {

@@ -69,7 +69,12 @@ impl Canvas {
         for &cell in &overlay.preview {
             let rect = self.cell(cell);
             painter.rect_filled(rect.shrink(gap), 0.0, overlay.color);
-            painter.rect_stroke(rect, 0.0, Stroke::new(1.0, ink_on(overlay.color).gamma_multiply(0.7)), StrokeKind::Inside);
+            painter.rect_stroke(
+                rect,
+                0.0,
+                Stroke::new(1.0, ink_on(overlay.color).gamma_multiply(0.7)),
+                StrokeKind::Inside,
+            );
         }
         if let Some(selection) = overlay.selection {
             outline(&painter, self.block(selection), Color32::WHITE);

@@ -36,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
                     return;
                 }
                 let share = shares.get(index).map_or_else(String::new, |share| percent(*share));
-                let share = egui::RichText::new(share).weak().small();
+                let share = egui::RichText::new(share).weak();
                 let atoms = (egui::Atom::from(biome.name.as_str()).atom_shrink(true), egui::Atom::grow(), share);
                 let button = egui::Button::selectable(state.selected == index, atoms)
                     .truncate()

@@ -23,6 +23,8 @@ pub struct PainterState {
     /// Where tools paint, if not everywhere; it lights up on the planet.
     pub selection: Option<Block>,
     gesture: Option<Gesture>,
+    /// Whether the gesture began in an earlier frame: the pointer's way in this one belongs to it.
+    moves: bool,
     strokes: u32,
     /// Where the last stroke ended: Shift draws a line from there.
     last_end: Option<Place>,
@@ -111,7 +113,8 @@ impl PainterState {
         if matches!(self.tool, Tool::Pick | Tool::Select) || modifiers.alt {
             return vec![cell_at(&biomes.table, at)];
         }
-        let new = |from| Gesture::new(self.tool, biome.key, self.brush, self.selection, &biomes.table, from, self.strokes);
+        let new =
+            |from| Gesture::new(self.tool, biome.key, self.brush, self.selection, &biomes.table, from, self.strokes);
         let line_from = self.last_end.filter(|_| self.tool == Tool::Brush && modifiers.shift);
         let mut gesture = new(line_from.unwrap_or(at));
         gesture.go_to(at, false);
@@ -168,10 +171,11 @@ impl PainterState {
         selected: usize,
         output: &mut TableOutput,
     ) {
-        let (modifiers, origin, down, secondary) = ui.input(|i| {
-            (i.modifiers, i.pointer.press_origin(), i.pointer.primary_down(), i.pointer.secondary_down())
-        });
-        let Some(pos) = response.interact_pointer_pos() else {
+        let (modifiers, origin, down, secondary) =
+            ui.input(|i| (i.modifiers, i.pointer.press_origin(), i.pointer.primary_down(), i.pointer.secondary_down()));
+        // A frame may see the button let go far from where the last one saw it: the stroke goes there all the same.
+        let still = self.gesture.is_some().then(|| ui.input(|i| i.pointer.interact_pos())).flatten();
+        let Some(pos) = response.interact_pointer_pos().or(still) else {
             self.end();
             return;
         };
@@ -196,6 +200,17 @@ impl PainterState {
             });
             // A fill belongs to where it began: what it has filled would be other ground.
             if gesture.tool() != Tool::Fill {
+                // All of the way since the last frame, not its end alone.
+                let way = ui.input(|i| {
+                    let moved = i.events.iter().filter_map(|event| match event {
+                        egui::Event::PointerMoved(pos) if self.moves => Some(*pos),
+                        _ => None,
+                    });
+                    moved.collect::<Vec<_>>()
+                });
+                for pos in way {
+                    gesture.go_to(canvas.place(pos), modifiers.shift);
+                }
                 gesture.go_to(at, modifiers.shift);
             }
             if gesture.tool() == Tool::Select {
@@ -210,6 +225,7 @@ impl PainterState {
                 self.quiet = Some(cell_at(&biomes.table, at));
             }
             self.gesture = Some(gesture);
+            self.moves = true;
         }
         if !(held && down) {
             self.end();
@@ -217,6 +233,7 @@ impl PainterState {
     }
 
     fn end(&mut self) {
+        self.moves = false;
         if let Some(gesture) = self.gesture.take() {
             self.last_end = Some(gesture.place());
         }

@@ -118,7 +118,9 @@ fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
         if matches!(state.painter.tool, Tool::Brush | Tool::Line) {
             let brush = &mut state.painter.brush;
             let size = egui::DragValue::new(&mut brush.size).range(1..=Brush::LARGEST).speed(0.1).prefix("Size ");
-            ui.add(size).on_hover_text("Cells across; [ and ] make it smaller and larger").accessible_name("Brush size");
+            ui.add(size)
+                .on_hover_text("Cells across; [ and ] make it smaller and larger")
+                .accessible_name("Brush size");
             let mut percent = f64::from(brush.softness) * 100.0;
             let softness = egui::DragValue::new(&mut percent).range(0.0..=100.0).fixed_decimals(0).speed(1.0);
             let softness = softness.prefix("Soft ").suffix(" %");
@@ -169,7 +171,8 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> T
     }
     let biomes = &draft.planet.biomes;
     let described = |[column, row]: Cell| {
-        let biome = biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).and_then(|i| biomes.palette.get(i));
+        let biome =
+            biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).and_then(|i| biomes.palette.get(i));
         let name = biome.map_or("No biome", |biome| biome.name.as_str());
         format!("{name}: {}", biome_edit::cell_range(biomes, column, row))
     };
