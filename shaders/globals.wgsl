@@ -53,12 +53,11 @@ struct Globals {
     mottle: array<vec4f, 7>,
     // xyz: the eye's position modulo 1024 m, for patterns that repeat; w: how much colder it gets with each metre of height
     eye_wrap_m: vec4f,
-    // xyz: the eye's position modulo 2^20 m
+    // xyz: the eye's position modulo 2^20 m; w: quality of the ground's patterns, 0 (one tap) to 2
     eye_wrap_far_m: vec4f,
     // x: entries of a mixture of biomes, 10; y, z: lowest and highest height, metres; w: exposure factor
     misc: vec4f,
-    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: quality of
-    // the ground's patterns, 0 (one tap) to 2
+    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: tone
     modes: vec4u,
     // The eye that the tiles were chosen for, greater part and rest, metres; w: change of the biome table's row (0 to 1) with
     // each metre of height, below 0 where rows go by temperature; w of the rest: angle of its pixels, radians

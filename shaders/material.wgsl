@@ -193,14 +193,14 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     patterns[0] = no_pattern();
     patterns[1] = no_pattern();
     for (var i = 0; i < 2; i++) {
-        let shown = select(i == strongest, i == 0 || share > 0.01, globals.modes.w > 0u);
+        let shown = select(i == strongest, i == 0 || share > 0.01, globals.eye_wrap_far_m.w > 0.0);
         if shown { patterns[i] = pattern_of(mixture.ids[i], seen); }
     }
     let a = patterns[0];
     let b = patterns[1];
     var out: Material;
     var t = share;
-    if globals.modes.w > 0u { t = share_by_height(a, b, share); }
+    if globals.eye_wrap_far_m.w > 0.0 { t = share_by_height(a, b, share); }
     let tinted = mix(mixture.first_color * a.tint, mixture.second_color * b.tint, t);
     out.albedo = max(mixture.albedo + both * (tinted - mix(mixture.first_color, mixture.second_color, share)), vec3f(0.0));
     out.roughness = clamp(mixture.roughness + mix(a.roughness, b.roughness, t), 0.04, 1.0);

@@ -65,7 +65,7 @@ fn plane_shares(n: vec3f) -> vec3f {
     w = w * w * w;
     w /= w.x + w.y + w.z;
     let most = max(w.x, max(w.y, w.z));
-    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.modes.w == 0u);
+    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.eye_wrap_far_m.w == 0.0);
     return w / (w.x + w.y + w.z);
 }
 
@@ -90,9 +90,9 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
 
     let planes = plane_shares(seen.n);
     // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
-    let scales = select(1u, 2u, globals.modes.w > 0u && lod < 7.0);
+    let scales = select(1u, 2u, globals.eye_wrap_far_m.w > 0.0 && lod < 7.0);
     // Seen from the side, a pixel is long: a few taps along it stay sharper than one as wide as it is long.
-    let steps = 1u << globals.modes.w;
+    let steps = 1u << u32(globals.eye_wrap_far_m.w);
     let copies = 3u * scales * steps;
     let taps = copies * select(1u, 2u, flows);
     var tint = vec3f(0.0);

@@ -2,6 +2,7 @@
 #include "cloud_model.wgsl"
 #include "material.wgsl"
 #include "highlight.wgsl"
+#include "horizon.wgsl"
 
 // The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents have
 // them; height above the mesh, metres.
@@ -20,6 +21,8 @@ struct Vertex {
     @location(7) tile: vec4f,
     // The axis that the first tangent of the slopes follows.
     @location(8) slope_axis: vec3f,
+    // See `exposed`.
+    @location(9) horizon: vec4f,
 }
 
 struct Ground {
@@ -37,6 +40,7 @@ struct Ground {
     // Layer of the detail tile.
     @location(8) @interpolate(flat) layer: f32,
     @location(9) @interpolate(flat) slope_axis: vec3f,
+    @location(10) @interpolate(flat) horizon: vec4f,
 }
 
 // Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
@@ -72,6 +76,7 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.place = vec3f(vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
     out.layer = in.tile.w;
     out.slope_axis = in.slope_axis;
+    out.horizon = in.horizon;
     return out;
 }
 
@@ -246,7 +251,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
     }
 }
 
-fn shade(on_mesh: Ground) -> vec4f {
+fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
     let detail = relief_of(on_mesh, up);
@@ -285,9 +290,10 @@ fn shade(on_mesh: Ground) -> vec4f {
     var shadow = 1.0;
     if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
     let sky_share = overcast(shadow);
+    shadow *= from_ground.star;
     let diffuse = rough_diffuse(max(dot(n, sun), 0.0), n_v, dot(sun, v), ground.roughness);
     let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
-    let open = saturate1(0.5 + 0.5 * dot(n, up) * area);
+    let open = saturate1(0.5 + 0.5 * dot(n, up) * area) * from_ground.sky;
     // What the ground around sends back to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
@@ -300,10 +306,13 @@ fn shade(on_mesh: Ground) -> vec4f {
 struct Output {
     // Radiance; height over the sea in metres
     @location(0) light: vec4f,
-    @location(1) temperature_c: vec4f,
+    // °C; share of the star's light that the ground around takes
+    @location(1) surface: vec4f,
 }
 
 @fragment
 fn fragment(in: Ground) -> Output {
-    return Output(shade(in), vec4f(in.temperature_c, 0.0, 0.0, 0.0));
+    let up = normalize(globals.eye_km.xyz + in.rel_m * 0.001);
+    let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, in.place.z, up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
+    return Output(shade(in, from_ground), vec4f(in.temperature_c, 1.0 - from_ground.star, 0.0, 0.0));
 }

@@ -88,7 +88,7 @@ fn patterns_show_from_near_and_fade_away() {
         (pixels.iter().map(|p| (f64::from(p[1]) - mean).powi(2)).sum::<f64>() / pixels.len() as f64).sqrt()
     };
     let (near, far) = (spread(3.0), spread(2e4));
-    assert!(near > 8.0 && far < 2.0, "{near} {far}");
+    assert!(near > 8.0 && far < 3.5, "{near} {far}");
 }
 
 /// Lava glows at night, and what glows moves with the time where it flows.
@@ -162,4 +162,27 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
     }
     assert!(points > 1500 && seen.len() >= 4, "{points} points of the biomes {seen:?}");
     assert!(f64::from(right) >= 0.99 * f64::from(points), "{right} of {points} agree");
+}
+
+/// Milliseconds of a frame from 2 m with and without patterns; to be read, not to be passed.
+#[test]
+#[ignore = "a report: what patterns cost"]
+fn report_what_patterns_cost() {
+    let mut gpu = Gpu::new();
+    for (name, kind) in [("none", Detail::None), ("gravel", Detail::Gravel)] {
+        let planet = Arc::new(ball(Biome { detail: kind, ..grey(0.25) }));
+        let camera = camera(&planet, PLACE.0, PLACE.1, 2.0, 0.0, -10.0);
+        let surface = surface(&planet, &camera);
+        for quality in tellus::lod::Quality::ALL {
+            let mut frame = frame(&surface, &planet, camera, PLACE);
+            frame.view.quality = quality;
+            gpu.draw_only(&frame, 2);
+            let best = (0..8).map(|_| {
+                let begun = std::time::Instant::now();
+                gpu.draw_only(&frame, 1);
+                begun.elapsed().as_secs_f64() * 1e3
+            });
+            println!("{name}, {quality:?}: {:.1} ms", best.fold(f64::MAX, f64::min));
+        }
+    }
 }

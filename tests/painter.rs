@@ -273,9 +273,8 @@ fn the_eyedropper_picks_on_the_planet_and_alt_paints_its_climate() {
 fn the_palette_is_reordered_by_dragging_and_renamed_in_place() {
     let mut harness = editor(vec![]);
     let before = biomes(&harness);
-    let row = |harness: &Editor, index: usize| {
-        harness.get_by_label(&format!("Biome {}", before.palette[index].name)).rect()
-    };
+    let row =
+        |harness: &Editor, index: usize| harness.get_by_label(&format!("Biome {}", before.palette[index].name)).rect();
     let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
     harness.drag_at(from);
     harness.run_steps(2);

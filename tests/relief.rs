@@ -78,7 +78,7 @@ fn relief_lies_where_its_biome_does_and_within_the_bounds() {
         let (lo, hi) = with.height_bounds_near_m(*dir, 1e-3);
         assert!(lo <= height_m && height_m <= hi, "{lo} {height_m} {hi}");
     }
-    assert!(bare > 200 && raised > 200, "{bare} {raised}");
+    assert!(bare > 100 && raised > 200, "{bare} {raised}");
 }
 
 #[test]

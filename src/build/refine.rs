@@ -147,8 +147,8 @@ fn leaves(split: &HashSet<NodeId>, cache: &Cache) -> Vec<Leaf> {
             let coarser = |edge: &Edge| id.neighbour(*edge).parent().is_some_and(|parent| !split.contains(&parent));
             let coarser_edges = Edge::ALL.iter().filter(|edge| coarser(edge)).fold(0, |mask, edge| mask | edge.bit());
             let tile = cache.tile(id)?;
-            let detail = cache.detail(&tile);
-            Some(Leaf { tile, coarser_edges, detail })
+            let (detail, horizon) = (cache.detail(&tile), cache.nearest_horizon(id));
+            Some(Leaf { tile, coarser_edges, detail, horizon })
         })
         .collect()
 }

@@ -260,12 +260,14 @@ impl eframe::App for EditorApp {
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
                 let under_pointer = self.viewport.under_pointer();
+                let (_, lon_deg) = self.viewport.eye(&planet).1.to_degrees();
                 let mut draft = Draft {
                     planet: &mut planet,
                     label: None,
                     browse: None,
                     problems: &problems,
                     under_pointer,
+                    here: (lon_deg, self.viewport.settings.time_secs),
                     survey: self.surveyor.survey(),
                     commands: Vec::new(),
                 };

@@ -1,8 +1,8 @@
 //! What changed between two planets, and which stages of a rebuild that makes stale.
 
-use super::Planet;
 use super::biome::Reliefs;
 use super::param::{ParamPath, Params, Segment, Stage, Stages, Value};
+use super::{Planet, TableRows};
 use std::collections::HashMap;
 
 /// One parameter that two planets differ in. Of a whole part or list element that only one of them has,
@@ -49,6 +49,7 @@ fn follow_relief(before: &Planet, after: &Planet, changes: &mut [Change]) {
     let sizes = |reliefs: Option<&Reliefs>| reliefs.into_iter().flat_map(Reliefs::sizes_m).collect::<Vec<f64>>();
     let known = sizes(old.as_ref());
     let needs_noise = sizes(new.as_ref()).iter().any(|size_m| !known.contains(size_m));
+    let by_temperature = [before, after].iter().all(|planet| planet.biomes.rows == TableRows::Temperature);
     for change in changes {
         let is_of = |part| change.path.segments().get(1) == Some(&Segment::Field(part));
         let in_biomes = change.path.segments().first() == Some(&Segment::Field("biomes"));
@@ -61,6 +62,8 @@ fn follow_relief(before: &Planet, after: &Planet, changes: &mut [Change]) {
                 Stages::of(&[Stage::Height])
             };
             change.stages = change.stages.without(relief).and(more);
+        } else if by_temperature && in_biomes && (is_of("lowest_m") || is_of("highest_m")) {
+            // The table does not look at heights.
         } else if new.is_some() && change.stages.with_consequences().contains(Stage::Climate) {
             change.stages = change.stages.and(Stages::of(&[Stage::Height]));
         }

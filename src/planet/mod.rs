@@ -15,6 +15,7 @@
 
 mod airs;
 pub mod biome;
+mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
@@ -52,12 +53,12 @@ pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
 
-use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};
+use param::{Curve, Domain, ParamPath, Params, Stage, Unit, choice, log, params};
 use serde::{Deserialize, Serialize};
 
 /// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
 /// version is migrated when it is read, and keeps its exact heights.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// Most layers a planet may have.
 pub const MAX_LAYERS: usize = 64;
@@ -83,6 +84,9 @@ params! {
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
         radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
+        /// How exactly heights are found. Classic is how presets before version 3 were made, and keeps their heights to
+        /// the bit; Millimetre is smooth underfoot on the highest mountains.
+        precision: Precision = Precision::Millimetre, "Precision", Unit::None, Domain::Choice, Stage::Field;
         /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it
         /// is; beyond its ends the curve goes on straight.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;
@@ -120,6 +124,17 @@ impl Planet {
     /// Calls `visit` for each parameter of the planet, in the order of the file.
     pub fn each(&mut self, visit: &mut param::Visit<'_>) {
         self.each_param(&mut ParamPath::default(), visit);
+    }
+}
+
+choice! {
+    /// How exactly heights are found.
+    pub enum Precision {
+        /// Within a millimetre of f64 throughout at 8 km of amplitude.
+        Millimetre = "Millimetre",
+        /// As before version 3: a third of a millimetre off for each kilometre of amplitude, and more for some kinds of
+        /// layer.
+        Classic = "Classic",
     }
 }
 

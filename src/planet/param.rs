@@ -141,6 +141,7 @@ pub enum Unit {
     MetresPerSecond,
     KilometresPerHour,
     Millimetres,
+    Hours,
 }
 
 impl Unit {
@@ -158,6 +159,7 @@ impl Unit {
             Unit::MetresPerSecond => "m/s",
             Unit::KilometresPerHour => "km/h",
             Unit::Millimetres => "mm",
+            Unit::Hours => "h",
         }
     }
 }

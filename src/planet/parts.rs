@@ -186,12 +186,16 @@ params! {
 }
 
 params! {
-    /// The star that lights the planet: where it stands over the planet at time zero.
+    /// The star that lights the planet: where it stands over the planet at time zero, and how the planet turns under it.
     pub struct Star {
         /// Latitude over which the star stands overhead.
         latitude_deg: f64 = 12.0, "Latitude", Unit::Degrees, linear(-90.0, 90.0), Stage::Uniform;
         /// Longitude over which the star stands overhead.
         longitude_deg: f64 = 0.0, "Longitude", Unit::Degrees, linear(-180.0, 180.0), Stage::Uniform;
+        /// Time from noon to noon; 0 if the star stands still.
+        day_hours: f64 = 24.0, "Day", Unit::Hours, log(0.0, 10_000.0), Stage::Uniform;
+        /// Tilt of the planet's axis: how far north and south the star gets in a year. Seasons are set by it.
+        tilt_deg: f64 = 23.4, "Axial tilt", Unit::Degrees, linear(0.0, 90.0), Stage::Label;
         /// Colour of its light (linear sRGB).
         color: [f64; 3] = [1.0, 0.97, 0.93], "Colour", Unit::None, Domain::Color, Stage::Uniform;
         /// Strength of its light on the planet; 1 is the Sun on the Earth.

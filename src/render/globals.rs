@@ -1,7 +1,7 @@
 //! The uniform buffer that every pass reads: the frame in the units of the shaders. Must match `shaders/globals.wgsl`.
 
 use super::biome_table::{WRAP_FAR_M, WRAP_M};
-use super::{DebugView, Frame, gpu};
+use super::{DebugView, Frame, Tone, gpu};
 use crate::lod::Quality;
 use crate::planet::{Planet, TableBlend, TableRows};
 use crate::terrain::border::{self, OCTAVE_TURN};
@@ -69,6 +69,8 @@ pub(crate) struct Setup {
     pub(crate) srgb_target: bool,
     /// Whether cells of the biome table are marked: clouds would hide the places that light up.
     pub(crate) marked: bool,
+    /// Which curve makes the picture.
+    pub(crate) tone: Tone,
 }
 
 /// The buffer, the two samplers, and their bind group (group 0 of every pass).
@@ -197,7 +199,12 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         place = OCTAVE_TURN * place;
     }
     g.eye_wrap_m = vec4(wrapped(eye / WRAP_M) * WRAP_M, planet.climate.lapse_c_per_km * 1e-3);
-    g.eye_wrap_far_m = vec4(wrapped(eye / WRAP_FAR_M) * WRAP_FAR_M, 0.0);
+    let patterns = match frame.view.quality {
+        Quality::Low => 0.0,
+        Quality::Medium => 1.0,
+        Quality::High => 2.0,
+    };
+    g.eye_wrap_far_m = vec4(wrapped(eye / WRAP_FAR_M) * WRAP_FAR_M, patterns);
     g.misc = [
         // Shaders count to it: a loop that is written out makes software drivers compile for minutes.
         10.0,
@@ -206,12 +213,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         frame.exposure_ev.exp2() as f32,
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
-    let patterns = match frame.view.quality {
-        Quality::Low => 0,
-        Quality::Medium => 1,
-        Quality::High => 2,
-    };
-    g.modes = [view, setup.scale, u32::from(setup.srgb_target), patterns];
+    g.modes = [view, setup.scale, u32::from(setup.srgb_target), setup.tone as u32];
     g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     set_table(&mut g, planet, up * radius_m, setup.marked);

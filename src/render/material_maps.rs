@@ -83,6 +83,7 @@ fn upload<'a>(
 impl Layer {
     fn new(spots: &[Spot]) -> Self {
         let mut tints: Vec<[f32; 3]> = spots.iter().map(|spot| spot.tint).collect();
+        even_out(&mut tints);
         neutralize(&mut tints);
         let ranks = ranks(&spots.iter().map(|spot| spot.height).collect::<Vec<_>>());
         let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
@@ -92,6 +93,30 @@ impl Layer {
             [signed(x, STEEPEST), signed(y, STEEPEST), signed(spot.roughness, MOST_ROUGHNESS), spot.glow]
         });
         Self { tint: levels(tint), surface: levels(surface.collect()) }
+    }
+}
+
+/// Takes most of what is broad out of the colours: seen from some way off, it is what repeats.
+fn even_out(tints: &mut [[f32; 3]]) {
+    const CELLS: usize = 8;
+    const TAKEN: f32 = 0.75;
+    let width = SIDE / CELLS;
+    let mut means = [0.0_f32; CELLS * CELLS];
+    let light = |tint: &[f32; 3]| (tint[0] + tint[1] + tint[2]) / 3.0;
+    for (i, tint) in tints.iter().enumerate() {
+        means[i / SIDE / width * CELLS + i % SIDE / width] += light(tint) / (width * width) as f32;
+    }
+    let all = means.iter().sum::<f32>() / means.len() as f32;
+    for (i, tint) in tints.iter_mut().enumerate() {
+        // Between the middles of four cells.
+        let at = |w: usize| (w as f32 + 0.5) / width as f32 - 0.5 + CELLS as f32;
+        let (x, y) = (at(i % SIDE), at(i / SIDE));
+        let mean = |dx: usize, dy: usize| means[(y as usize + dy) % CELLS * CELLS + (x as usize + dx) % CELLS];
+        let (u, v) = (x.fract(), y.fract());
+        let here =
+            (mean(0, 0) * (1.0 - u) + mean(1, 0) * u) * (1.0 - v) + (mean(0, 1) * (1.0 - u) + mean(1, 1) * u) * v;
+        let scale = 1.0 + TAKEN * (all / here.max(1e-3) - 1.0);
+        *tint = tint.map(|c| c * scale);
     }
 }
 

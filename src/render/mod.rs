@@ -3,12 +3,12 @@
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
 //! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`, `material_maps` (of `material_kinds`, by
 //!   `material_noise`): what outlives a frame, made anew only when what it depends on changed
-//! - `terrain` with `pool`: the ground into radiance and depth
+//! - `terrain` with `pool`, and `layer_pool` for `detail_pool` and `horizon_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
 //! - `exposure`: how bright the picture is, and what exposure suits it
-//! - `tonemap`: radiance to display
+//! - `tonemap` with `tone`: radiance to display
 //!
 //! `sky_probe` asks the shaders of the air about single rays.
 //!
@@ -25,6 +25,8 @@ mod detail_pool;
 mod exposure;
 mod globals;
 mod gpu;
+mod horizon_pool;
+mod layer_pool;
 mod material_kinds;
 mod material_maps;
 mod material_noise;
@@ -36,6 +38,7 @@ mod sky_probe;
 mod tables;
 mod targets;
 mod terrain;
+mod tone;
 mod tonemap;
 mod water;
 
@@ -43,6 +46,7 @@ pub use biome_table::MarkedCells;
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
+pub use tone::Tone;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};
@@ -216,11 +220,15 @@ pub struct Renderer {
     pub metering: Metering,
     /// Cells of the biome table whose places light up; clouds are left away meanwhile.
     pub marked: Option<Arc<MarkedCells>>,
+    /// The curve from radiance to the picture.
+    pub tone: Tone,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
     terrain: terrain::TerrainResources,
     targets: Option<(targets::Targets, Inputs)>,
+    /// Which radiance target the newest frame ended in.
+    scene: usize,
     passes: Passes,
     watch: shaders::Watch,
     shader_error: Option<String>,
@@ -246,11 +254,13 @@ impl Renderer {
         Ok(Self {
             metering: Metering::Manual,
             marked: None,
+            tone: Tone::default(),
             target_format,
             globals,
             tables,
             terrain,
             targets,
+            scene: 0,
             passes,
             watch,
             shader_error,
@@ -261,7 +271,7 @@ impl Renderer {
     pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, surface: &Surface, budget_bytes: u64) -> bool {
         profiling::scope!("upload");
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("upload") });
-        let done = self.terrain.upload(device, &mut encoder, surface, budget_bytes);
+        let done = self.terrain.upload(device, queue, &mut encoder, surface, budget_bytes);
         queue.submit([encoder.finish()]);
         done
     }
@@ -300,6 +310,7 @@ impl Renderer {
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: self.target_format.is_srgb(),
             marked: self.marked.is_some(),
+            tone: self.tone,
         };
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
@@ -327,7 +338,37 @@ impl Renderer {
         self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], target);
         queue.submit([encoder.finish()]);
         self.targets = Some((targets, inputs));
+        self.scene = scene;
         stats
+    }
+    /// The radiance of the newest frame before exposure and curve: size of the picture as it was drawn, and red, green and blue of
+    /// each pixel (1: white ground at noon). Waits for the device.
+    pub fn radiance(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<([u32; 2], Vec<[f32; 3]>), RenderError> {
+        let Some((targets, _)) = &self.targets else { return Ok(([0, 0], Vec::new())) };
+        let [width, height] = targets.size_px;
+        // Four halves a pixel; rows begin at multiples of 256 bytes.
+        let row = (width * 8).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("radiance"),
+            size: u64::from(row * height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("radiance") });
+        let texture = targets.hdr[self.scene].texture();
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+        let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+        encoder.copy_texture_to_buffer(texture.as_image_copy(), to, texture.size());
+        queue.submit([encoder.finish()]);
+        let bytes = gpu::read(device, &buffer)?;
+        let half = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
+        let pixel = |bytes: &[u8]| [half(bytes), half(&bytes[2..]), half(&bytes[4..])];
+        let line = |line: &[u8]| line[..width as usize * 8].chunks_exact(8).map(pixel).collect::<Vec<_>>();
+        Ok((targets.size_px, bytes.chunks(row as usize).flat_map(line).collect()))
     }
     /// What is wrong with a shader that was just edited on disk (debug builds); the last good one goes on drawing.
     pub fn shader_error(&self) -> Option<&str> {

@@ -27,6 +27,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "globals.wgsl",
     "highlight.wgsl",
     "histogram.wgsl",
+    "horizon.wgsl",
     "irradiance.wgsl",
     "light.wgsl",
     "material.wgsl",
@@ -45,6 +46,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "surface.wgsl",
     "tables.wgsl",
     "terrain.wgsl",
+    "tone.wgsl",
     "tonemap.wgsl",
     "water.wgsl",
 ];

@@ -80,6 +80,7 @@ impl Renderer {
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: false,
             marked: false,
+            tone: super::Tone::Plain,
         };
         self.globals.write(queue, &frame, &setup);
     }

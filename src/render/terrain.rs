@@ -1,9 +1,11 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
 
-use super::detail_pool::DetailPool;
+use super::detail_pool::{self, DETAIL};
 use super::gpu;
+use super::horizon_pool::{self, HORIZON};
+use super::layer_pool::LayerPool;
 use super::pool::{Place, TILE_BYTES, TilePool};
-use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
+use super::targets::{DEPTH_FORMAT, HDR_FORMAT, SURFACE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
 use crate::build::Surface;
 use crate::lod::tile::{Tile, Vertex, slope_axis};
@@ -15,7 +17,8 @@ use wgpu::util::DeviceExt;
 const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Unorm16x2, 5 => Snorm16x2, 6 => Snorm16x2
 ];
-const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3];
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3, 9 => Float32x4];
 
 /// What the shader knows of a tile beside its vertices.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -25,6 +28,8 @@ struct Instance {
     morph_level_layer: [f32; 4],
     /// See [`slope_axis`].
     slope_axis: [f32; 3],
+    /// Layer of a horizon tile, -1 without one; width of this tile in that tile's node, and where it lies there.
+    horizon: [f32; 4],
 }
 
 /// Pipelines of the ground.
@@ -43,7 +48,12 @@ impl TerrainPass {
         let module = shaders::module(device, ENTRY)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(ENTRY),
-            bind_group_layouts: &[Some(globals), Some(tables), Some(&DetailPool::layout(device))],
+            bind_group_layouts: &[
+                Some(globals),
+                Some(tables),
+                Some(&DETAIL.layout(device)),
+                Some(&HORIZON.layout(device)),
+            ],
             immediate_size: 0,
         });
         let make = |topology, cull_mode| {
@@ -72,7 +82,7 @@ impl TerrainPass {
                         module: &module,
                         entry_point: Some("fragment"),
                         compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        targets: &[Some(HDR_FORMAT.into()), Some(TEMPERATURE_FORMAT.into())],
+                        targets: &[Some(HDR_FORMAT.into()), Some(SURFACE_FORMAT.into())],
                     }),
                     primitive: wgpu::PrimitiveState { topology, cull_mode, ..wgpu::PrimitiveState::default() },
                     depth_stencil: Some(wgpu::DepthStencilState {
@@ -138,8 +148,8 @@ fn edges(triangles: &[u16]) -> Vec<u16> {
 
 struct Draw {
     place: Place,
-    /// Texture arrays of the detail tile.
-    detail: usize,
+    /// Texture arrays of the detail and the horizon tile.
+    arrays: [usize; 2],
     mask: usize,
 }
 
@@ -147,7 +157,8 @@ struct Draw {
 pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
-    details: DetailPool,
+    details: LayerPool,
+    horizons: LayerPool,
     instances: wgpu::Buffer,
     draws: Vec<Draw>,
 }
@@ -157,35 +168,66 @@ impl TerrainResources {
         Self {
             indices: Indices::new(device),
             pool: TilePool::new(device),
-            details: DetailPool::new(device),
+            details: LayerPool::new(device, DETAIL),
+            horizons: LayerPool::new(device, HORIZON),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
     }
 
-    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
-    /// there now.
+    /// Uploads tiles of a surface that is to be drawn soon, their horizons and their detail, at most so many bytes (but at least one tile).
+    /// Whether all are there now.
     pub(crate) fn upload(
         &mut self,
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         surface: &Surface,
         budget_bytes: u64,
     ) -> bool {
         self.pool.begin_round();
-        let missing: Vec<&Tile> =
-            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
-        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
-        for tile in missing.iter().take(affordable) {
-            self.pool.place(device, encoder, tile);
+        let mut left = budget_bytes.max(TILE_BYTES);
+        let mut affordable = |bytes| {
+            let fits = bytes <= left;
+            left = if fits { left - bytes } else { 0 };
+            fits
+        };
+        // No short cut at the first that does not fit: those that are here are to stay.
+        let mut done = true;
+        for leaf in &surface.leaves {
+            if !self.pool.holds(&leaf.tile) {
+                if affordable(TILE_BYTES) {
+                    self.pool.place(device, encoder, &leaf.tile);
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.horizon.as_deref()) {
+            if !self.horizons.holds(tile.serial) {
+                if affordable(HORIZON.tile_bytes()) {
+                    self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile));
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.detail.as_deref()) {
+            if !self.details.holds(tile.serial) {
+                if affordable(DETAIL.tile_bytes()) {
+                    self.details.place(device, queue, tile.serial, || detail_pool::texels(tile));
+                } else {
+                    done = false;
+                }
+            }
         }
         self.pool.end_round(encoder);
-        missing.len() <= affordable
+        done
     }
 
     /// Bytes uploaded since the start.
     pub(crate) fn uploaded_bytes(&self) -> u64 {
-        self.pool.uploaded_bytes()
+        self.pool.uploaded_bytes() + self.details.uploaded_bytes() + self.horizons.uploaded_bytes()
     }
 
     /// Chooses the tiles to draw, uploads those that are not there yet.
@@ -202,6 +244,7 @@ impl TerrainResources {
         let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
         self.pool.begin_round();
         self.details.begin_frame();
+        self.horizons.begin_frame();
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
         // Near tiles first: what they hide is not shaded.
@@ -213,14 +256,23 @@ impl TerrainResources {
             let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
             let level = leaf.tile.id.level;
             let (start, end) = lod::morph_range_m(level, radius_m, chosen);
-            let detail = leaf.detail.as_ref().and_then(|tile| self.details.place(device, queue, tile));
+            let detail = leaf
+                .detail
+                .as_ref()
+                .and_then(|tile| self.details.place(device, queue, tile.serial, || detail_pool::texels(tile)));
+            let horizon = leaf.horizon.as_ref().and_then(|tile| {
+                let place = self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
+                Some((place, leaf.tile.id.within(tile.id)))
+            });
             let layer = detail.map_or(-1.0, |place| place.layer as f32);
             instances.push(Instance {
                 morph_level_layer: [start as f32, end as f32, f32::from(level), layer],
                 slope_axis: slope_axis(leaf.tile.id.face).as_vec3().to_array(),
+                horizon: horizon
+                    .map_or([-1.0; 4], |(place, [width, x, y])| [place.layer as f32, width as f32, x as f32, y as f32]),
             });
-            let detail = detail.map_or(0, |place| place.array);
-            self.draws.push(Draw { place, detail, mask: usize::from(leaf.coarser_edges & 15) });
+            let arrays = [detail, horizon.map(|(place, _)| place)].map(|place| place.map_or(0, |place| place.array));
+            self.draws.push(Draw { place, arrays, mask: usize::from(leaf.coarser_edges & 15) });
         }
         let bytes: &[u8] = bytemuck::cast_slice(&instances);
         if self.instances.size() < bytes.len() as u64 {
@@ -253,7 +305,7 @@ impl TerrainResources {
         };
         let mut draw = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("terrain"),
-            color_attachments: &[cleared(&targets.hdr[0]), cleared(&targets.temperature)],
+            color_attachments: &[cleared(&targets.hdr[0]), cleared(&targets.surface)],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
@@ -266,12 +318,14 @@ impl TerrainResources {
         draw.set_bind_group(1, groups[1], &[]);
         draw.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint16);
         draw.set_vertex_buffer(1, self.instances.slice(..));
-        let (mut bound, mut bound_detail) = (None, None);
+        let (mut bound, mut bound_arrays) = (None, [None; 2]);
         let mut triangles = 0;
-        for (i, Draw { place, detail, mask }) in (0..).zip(&self.draws) {
-            if bound_detail != Some(*detail) {
-                draw.set_bind_group(2, self.details.group(*detail), &[]);
-                bound_detail = Some(*detail);
+        for (i, Draw { place, arrays, mask }) in (0..).zip(&self.draws) {
+            for (group, pool, k) in [(2, &self.details, 0), (3, &self.horizons, 1)] {
+                if bound_arrays[k] != Some(arrays[k]) {
+                    draw.set_bind_group(group, pool.group(arrays[k]), &[]);
+                    bound_arrays[k] = Some(arrays[k]);
+                }
             }
             if bound != Some(place.buffer) {
                 draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));

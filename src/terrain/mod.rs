@@ -6,12 +6,13 @@
 //! - `jet`: numbers that carry their gradient
 //! - `landform`: the kinds of layer, one file each
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
+//! - `kept`: the fields of all layers at a batch, present and past
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `relief`: what biomes add to the height
 //! - `climate`: temperature, moisture, the place in the biome table
 //! - `border`: noise that moves the borders between biomes
 //! - [`survey`]: where the planet lies in its biome table
-//! - `coast`: how far it is to the sea
+//! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
 //! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
@@ -22,11 +23,13 @@ mod approx;
 pub mod bench;
 pub(crate) mod border;
 pub(crate) mod climate;
+mod coarse;
 pub(crate) mod coast;
 pub(crate) mod field;
 pub(crate) mod ground;
 pub(crate) mod height;
 mod jet;
+pub(crate) mod kept;
 pub(crate) mod landform;
 pub(crate) mod noise;
 pub(crate) mod points;
@@ -39,6 +42,7 @@ use crate::planet::Planet;
 pub use height::curve_at;
 
 use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
+use coarse::{CoarseFields, coarse_heights_m};
 use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
@@ -61,6 +65,8 @@ pub struct Terrain {
     pub(crate) climate: CompiledClimate,
     /// What biomes add to the height that the layers make.
     pub(crate) relief: Option<Relief>,
+    /// What the shores were found with, if they matter.
+    coarse: CoarseFields,
     height_bounds_m: (f64, f64),
 }
 
@@ -114,26 +120,36 @@ impl Terrain {
         let stack = LayerStack::new(&planet);
         let climate = CompiledClimate::new(&planet);
         let relief = Relief::new(&planet, &climate, stack.limits_m());
-        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, relief, height_bounds_m: (0.0, 0.0) };
+        let coarse = CoarseFields::default();
+        let simd = Simd::detect();
+        let mut terrain = Self { planet, simd, stack, climate, relief, coarse, height_bounds_m: (0.0, 0.0) };
         terrain.height_bounds_m = terrain.with_relief(terrain.stack.bounds_m());
         // Found here rather than when first asked for: asked on a worker of a thread pool, it
         // would wait for its own pool.
         if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
-            let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
-            let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, 0.5 * coast::CELL_RAD));
-            terrain.climate.coast = Some(kept.unwrap_or_else(|| Arc::new(coast())));
+            let known = before.filter(|before| before.climate.coast.is_some());
+            if let Some(before) = known.filter(|before| before.has_coast_of(&terrain)) {
+                terrain.climate.coast = before.climate.coast.clone();
+                terrain.coarse = before.coarse.as_known();
+            } else {
+                let (points, known) = (Coast::points(), known.map(|before| &before.coarse));
+                let (heights_m, coarse) =
+                    coarse_heights_m(&terrain.stack, terrain.simd, points, 0.5 * coast::CELL_RAD, known);
+                terrain.climate.coast = Some(Arc::new(Coast::new(sea_m, &heights_m)));
+                terrain.coarse = coarse;
+            }
         }
         terrain
     }
 
-    /// Heights much as they are, but without what points so far apart cannot show; on all cores.
-    fn coarse_heights_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
-        let heights = |dirs: &[DVec3]| {
-            let points = Points::new(dirs.to_vec());
-            let fields = self.seen_fields(&points, &[spacing_rad]);
-            height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {}).height_m
-        };
-        dirs_planet.par_chunks(1024).flat_map_iter(heights).collect()
+    /// Resident size of what the shores were found with.
+    pub(crate) fn coarse_bytes(&self) -> usize {
+        self.coarse.bytes()
+    }
+
+    /// Octaves of noise times points that were evaluated to compile it.
+    pub(crate) fn octave_samples(&self) -> usize {
+        self.coarse.octave_samples
     }
 
     /// Whether both have the same shores: everything that they depend on.

@@ -75,6 +75,8 @@ pub struct Draft<'a> {
     pub survey: Option<&'a Survey>,
     /// What is asked for beside edits.
     pub commands: Vec<Command>,
+    /// Longitude of the eye, and seconds since time zero.
+    pub here: (f64, f64),
 }
 
 impl Draft<'_> {

@@ -35,10 +35,56 @@ pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
             draft.planet.star.color = star_color(kelvin);
         }
     });
+    calendar(ui, draft);
     ui.add_space(4.0);
     whole(ui, "star", &mut draft.planet.star, &mut Star::default(), draft.problems);
     ui.add_space(4.0);
     ui.weak("Shift and drag on the planet turns the star.");
+}
+
+/// The star's place by the hour where one looks from, and by the season.
+fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
+    let (lon_deg, time_secs) = draft.here;
+    let star = &mut draft.planet.star;
+    ui.horizontal(|ui| {
+        let label = ui.label("Hour here");
+        let mut hour = (star.hour(lon_deg, time_secs) * 100.0).round() / 100.0;
+        let value = egui::DragValue::new(&mut hour).range(0.0..=24.0).speed(0.02).suffix(" h");
+        let response = ui.add(value).labelled_by(label.id);
+        if response.on_hover_text("Of a day of 24 where the camera is; sets the star's longitude").changed() {
+            star.set_hour(hour, lon_deg, time_secs);
+        }
+        let label = ui.label("Season");
+        let mut season_deg = star.season_deg().round();
+        let value = egui::DragValue::new(&mut season_deg).range(-90.0..=90.0).speed(0.5).suffix("°");
+        let response = ui.add(value).labelled_by(label.id);
+        let told =
+            "From -90, midwinter in the north, to 90, midsummer; sets the star's latitude by the tilt of the axis";
+        if response.on_hover_text(told).changed() {
+            star.set_season(season_deg);
+        }
+    });
+}
+
+/// What scatters, as one colour and a strength: another way to set red, green and blue.
+fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
+    let strength = per_km.iter().copied().fold(0.0, f64::max);
+    let share = |c: &f64| if strength > 0.0 { (c / strength) as f32 } else { 1.0 };
+    let mut color: [f32; 3] = std::array::from_fn(|i| share(&per_km[i]));
+    let mut changed = strength;
+    ui.horizontal(|ui| {
+        let label = ui.label(format!("{name} as colour and strength"));
+        let button = ui.color_edit_button_rgb(&mut color).labelled_by(label.id);
+        let value = egui::DragValue::new(&mut changed).range(0.0..=2.0).speed(strength.max(1e-4) * 0.01).suffix(" 1/km");
+        let drag = ui.add(value.max_decimals(6)).labelled_by(label.id);
+        let told = "The same as the three coefficients: what the strongest colour scatters, and how strong the others are to it";
+        if button.on_hover_text(told).changed() || drag.on_hover_text(told).changed() {
+            let most = color.iter().copied().fold(1e-6, f32::max);
+            // Five digits: more would only clutter the file.
+            let tidy = |x: f64| format!("{x:.4e}").parse().unwrap_or(x);
+            *per_km = color.map(|c| tidy(f64::from(c / most) * changed).clamp(0.0, 2.0));
+        }
+    });
 }
 
 /// Temperature and moisture.
@@ -63,6 +109,10 @@ pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Dr
             }
         }
     });
+    if let Some(air) = &mut draft.planet.atmosphere {
+        scatterer(ui, "Rayleigh", &mut air.rayleigh_per_km);
+        scatterer(ui, "Mie", &mut air.mie_scattering_per_km);
+    }
     ui.add_space(4.0);
     let (part, kept) = (&mut draft.planet.atmosphere, &mut remembered.atmosphere);
     let label = optional(ui, "atmosphere", part, kept, draft.problems);

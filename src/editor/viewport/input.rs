@@ -3,7 +3,6 @@
 use super::camera::orbit::turn_sun;
 use super::camera::{Cameras, Controls, Ground, Mode};
 use crate::planet::Planet;
-use crate::sphere::LatLon;
 use eframe::egui;
 
 /// Label of the undo step of a drag of the sun.
@@ -30,7 +29,7 @@ pub fn handle(
     drag: &mut Drag,
     cameras: &mut Cameras,
     ground: &dyn Ground,
-    planet: &mut Planet,
+    (planet, time_secs): (&mut Planet, f64),
 ) -> Moved {
     let rect = response.rect;
     let aspect = f64::from(rect.width() / rect.height());
@@ -70,10 +69,9 @@ pub fn handle(
             }
             Drag::Head if delta != egui::Vec2::ZERO => cameras.look(-right, -up, ground),
             Drag::Sun if delta != egui::Vec2::ZERO => {
-                let sun = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg).direction();
+                let sun = planet.star.place(time_secs).direction();
                 let (lat_deg, lon_deg) = turn_sun(sun, &cameras.camera(ground), right, up).to_degrees();
-                planet.star.latitude_deg = round_hundredth(lat_deg).clamp(-90.0, 90.0);
-                planet.star.longitude_deg = round_hundredth(lon_deg).clamp(-180.0, 180.0);
+                planet.star.set_place(lat_deg, lon_deg, time_secs);
                 moved.sun = true;
             }
             Drag::Head | Drag::Sun => {}
@@ -151,8 +149,4 @@ fn keys(ui: &egui::Ui, id: egui::Id, cameras: &mut Cameras, ground: &dyn Ground)
         cameras.look(right * turned, up * turned, ground);
     }
     controls
-}
-
-fn round_hundredth(degrees: f64) -> f64 {
-    (degrees * 100.0).round() / 100.0
 }

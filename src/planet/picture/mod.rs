@@ -52,6 +52,17 @@ impl Picture {
         }
     }
 
+    /// Lowest and greatest number that a sample can be within an angle of a unit direction. Conservative.
+    pub fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        match &self.texels {
+            Texels::Grey16(raster) => {
+                let (lo, hi) = raster.bounds_near(dir_planet, angle_rad);
+                (lo / 65535.0, hi / 65535.0)
+            }
+            Texels::Float(raster) => raster.bounds_near(dir_planet, angle_rad),
+        }
+    }
+
     /// The finest level that points so far apart (as an angle) can show; 0 is the picture itself.
     pub fn level_for(&self, spacing_rad: f64) -> usize {
         match &self.texels {

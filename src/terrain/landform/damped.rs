@@ -7,11 +7,16 @@
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
-use super::{Chunk, Evaluate, Scratch, place};
+use super::varying::{Around, Point, Varying};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
+
+/// Weight of the octaves that f32 is enough for.
+const REST: f64 = 0.07;
 
 /// Cells to the radius, and against the coarsest octave, beyond which the square of a slope
 /// would leave the range of f32.
@@ -21,16 +26,18 @@ const FINEST_TO_COARSEST: f64 = 1e12;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Damped {
     octaves: Vec<Weighted>,
+    /// So many of them are found in f64.
+    exact: usize,
     damping: f32,
 }
 
 impl Damped {
-    pub(super) fn new(params: &planet::Damped, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Damped, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Damped { wavelength_km, octaves, gain, lacunarity, damping } = *params;
         let frequency = radius_km / wavelength_km;
         let mut octaves = series(seed, frequency, octaves, gain, lacunarity);
         octaves.retain(|o| o.octave.frequency < FINEST.min(FINEST_TO_COARSEST * frequency));
-        Self { octaves, damping: damping as f32 }
+        Self { exact: arithmetic.exact_of(&octaves, REST), octaves, damping: damping as f32 }
     }
 }
 
@@ -43,21 +50,67 @@ impl Evaluate for Damped {
         (-noise::BOUND, noise::BOUND)
     }
 
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let Some(first) = self.octaves.first() else { return self.bounds() };
+        let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
+        let around = Around { dir_planet, angle_rad };
+        let point = Point::new(around);
+        let mut slope = [Varying::constant(around, 0.0); 3];
+        let mut sum = Varying::between(around, -1e-5, 1e-5);
+        for Weighted { octave, weight } in &self.octaves {
+            let weight = f64::from(*weight);
+            let (noise, gradient) = point.noise_and_slope(octave);
+            for (slope, gradient) in slope.iter_mut().zip(gradient) {
+                *slope = *slope + gradient.scale(weight * unit * octave.frequency);
+            }
+            let ([x, y, z], [px, py, pz]) = (slope, point.coordinates);
+            let upward = x * px + y * py + z * pz;
+            let along = (x.square() + y.square() + z.square() - upward.square()).at_least(0.0);
+            let left = along.scale(f64::from(self.damping)).plus(1.0).recip();
+            sum = sum + (noise.plus(1.0) * left).scale(weight);
+        }
+        sum.plus(-1.0).range()
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [damped, px, py, pz, slope_x, slope_y, slope_z, ..], .. } = scratch;
+        let Scratch { sums, noise, jets: [damped, px, py, pz, slope_x, slope_y, slope_z, ..], wide, .. } = scratch;
+        let Wide { noise: exact_noise, jets: [exact_damped, ex, ey, ez, exact_slope @ .., _] } = wide;
+        let [exact_slope_x, exact_slope_y, exact_slope_z] = exact_slope;
+        let exact = chunk.exact(self.exact);
         let n = chunk.len();
         place(chunk, [px, py, pz]);
         let (dir, slope) = ([&*px, &*py, &*pz], &mut [slope_x, slope_y, slope_z]);
         for lane in slope.iter_mut() {
             lane.fill(n, 0.0);
         }
+        let exact_slope = &mut [exact_slope_x, exact_slope_y, exact_slope_z];
+        if exact > 0 {
+            place_exact(chunk, [ex, ey, ez]);
+            exact_slope.iter_mut().for_each(|lane| lane.fill(n, 0.0));
+        }
+        let exact_dir = [&*ex, &*ey, &*ez];
         let Some(first) = self.octaves.first() else { return };
         let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
-        for Weighted { octave, weight } in &self.octaves {
+        for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
             let rise = (f64::from(*weight) * unit) as f32;
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
+            }
+            if k < exact {
+                exact_noise.gradients(chunk.simd, chunk.skewed, octave);
+                let (noise64, simd) = (&*exact_noise, chunk.simd);
+                damp_exact(simd, n, noise64, rise, self.damping, exact_dir, exact_slope, exact_damped);
+                sums.add_exact(chunk, &exact_damped.value, f64::from(*weight));
+                if !fades.is_unseen() {
+                    noise.curvatures(chunk.simd, chunk.skewed, octave);
+                    damp_gradients(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
+                    sums.add_gradients(chunk, &damped.gradient, *weight, &fades);
+                }
+                for (slope, exact) in slope.iter_mut().zip(&*exact_slope) {
+                    slope.round_from(n, exact);
+                }
+                continue;
             }
             // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
             if fades.is_unseen() {
@@ -78,12 +131,12 @@ impl Evaluate for Damped {
 #[inline(always)]
 fn damp_body<R: Real>(
     n: usize,
-    noise: &Noise,
+    noise: &Noise<R::S>,
     rise: f32,
     damping: f32,
-    dir: [&Jets; 3],
-    slope: &mut [&mut Jets; 3],
-    damped: &mut Jets,
+    dir: [&Jets<R::S>; 3],
+    slope: &mut [&mut Jets<R::S>; 3],
+    damped: &mut Jets<R::S>,
 ) {
     let [px, py, pz] = dir;
     let [sx, sy, sz] = slope;
@@ -101,4 +154,5 @@ fn damp_body<R: Real>(
     }
 }
 for_each_simd!(fn damp_values(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<f32>);
+for_each_simd!(fn damp_exact(n: usize, noise: &Noise<f64>, rise: f32, damping: f32, dir: [&Jets<f64>; 3], slope: &mut [&mut Jets<f64>; 3], damped: &mut Jets<f64>) = damp_body::<f64>);
 for_each_simd!(fn damp_gradients(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<Jet>);

@@ -1,7 +1,7 @@
 //! Heights from a picture (see [`crate::sphere::raster`]). Values come from its finest level; gradients from the level
 //! whose texels are as far apart as the points of the band.
 
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::planet::picture::Picture;
 use glam::DVec3;
@@ -15,9 +15,19 @@ pub(crate) struct HeightMap {
 }
 
 impl HeightMap {
-    pub(super) fn new(params: &planet::HeightMap, _seed: u64, _radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::HeightMap, _seed: u64, _radius_km: f64, _arithmetic: Arithmetic) -> Self {
         let planet::HeightMap { file, layout, low, high } = params;
         Self { picture: file.picture(*layout).cloned(), low: *low, high: *high }
+    }
+}
+
+impl HeightMap {
+    /// Heights between two numbers of the picture.
+    fn of(&self, (lo, hi): (f64, f64)) -> (f64, f64) {
+        let (a, b) = (self.low + (self.high - self.low) * lo, self.low + (self.high - self.low) * hi);
+        // A spline's weights sum to one up to rounding only.
+        let rounding = 1e-9 * (1.0 + a.abs().max(b.abs()));
+        (a.min(b) - rounding, a.max(b) + rounding)
     }
 }
 
@@ -27,12 +37,11 @@ impl Evaluate for HeightMap {
     }
 
     fn bounds(&self) -> (f64, f64) {
-        let Some(picture) = &self.picture else { return (0.0, 0.0) };
-        let (lo, hi) = picture.bounds();
-        let (a, b) = (self.low + (self.high - self.low) * lo, self.low + (self.high - self.low) * hi);
-        // A spline's weights sum to one up to rounding only.
-        let rounding = 1e-9 * (1.0 + a.abs().max(b.abs()));
-        (a.min(b) - rounding, a.max(b) + rounding)
+        self.picture.as_ref().map_or((0.0, 0.0), |picture| self.of(picture.bounds()))
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.picture.as_ref().map_or((0.0, 0.0), |picture| self.of(picture.bounds_near(dir_planet, angle_rad)))
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

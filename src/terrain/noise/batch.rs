@@ -4,7 +4,9 @@
 //! they are twice as fast as together, because the compiler takes the widest number in a loop to decide how many
 //! points go into a register.
 
+use super::precise::Lattice;
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
+use crate::terrain::jet::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
 /// Points worked on at a time: few enough for all arrays to stay in the first-level cache.
@@ -17,24 +19,43 @@ pub(crate) type Lane<T> = [T; CHUNK];
 pub(crate) type Points3<'a> = [&'a [f64]; 3];
 
 /// The noise of one octave at a chunk of points, by the coordinates of the points (not of the lattice).
-pub(crate) struct Noise {
+pub(crate) struct Noise<S = f32> {
     cell: [Lane<u32>; 3],
-    fraction: [Lane<f32>; 3],
-    pub(crate) value: Lane<f32>,
-    pub(crate) gradient: [Lane<f32>; 3],
+    fraction: [Lane<S>; 3],
+    pub(crate) value: Lane<S>,
+    pub(crate) gradient: [Lane<S>; 3],
     /// Second derivatives xx, yy, zz, yz, zx, xy.
-    pub(crate) curvature: [Lane<f32>; 6],
+    pub(crate) curvature: [Lane<S>; 6],
+    /// Where it is found in f64.
+    lattice: Lattice,
 }
 
-impl Default for Noise {
+impl<S: Scalar> Default for Noise<S> {
     fn default() -> Self {
+        let none = [S::default(); CHUNK];
         Self {
             cell: [[0; CHUNK]; 3],
-            fraction: [[0.0; CHUNK]; 3],
-            value: [0.0; CHUNK],
-            gradient: [[0.0; CHUNK]; 3],
-            curvature: [[0.0; CHUNK]; 6],
+            fraction: [none; 3],
+            value: none,
+            gradient: [none; 3],
+            curvature: [none; 6],
+            lattice: Lattice::default(),
         }
+    }
+}
+
+impl Noise<f64> {
+    /// Values alone, at skewed points.
+    pub(crate) fn values(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
+        self.lattice.find(simd, skewed, octave);
+        self.lattice.values(simd, skewed[0].len(), &mut self.value);
+    }
+
+    /// Values (the same bits) and gradients.
+    pub(crate) fn gradients(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
+        let Self { value, gradient, lattice, .. } = self;
+        lattice.find(simd, skewed, octave);
+        lattice.gradients(simd, skewed[0].len(), octave.frequency, value, gradient);
     }
 }
 
@@ -49,6 +70,38 @@ impl Noise {
     pub(crate) fn gradients(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_cells(simd, skewed, octave, self);
         fill_gradients(simd, skewed[0].len(), octave, self);
+    }
+
+    /// Adds the noise, found in f64, times a weight to a sum.
+    pub(crate) fn add_exact(
+        &mut self,
+        simd: Simd,
+        skewed: Points3<'_>,
+        octave: &Octave,
+        weight: f64,
+        sum: &mut Lane<f64>,
+    ) {
+        self.lattice.find(simd, skewed, octave);
+        self.lattice.add(simd, skewed[0].len(), weight, sum);
+    }
+
+    /// The gradients of the noise that [`Noise::add_exact`] found last.
+    pub(crate) fn exact_gradients(&mut self, simd: Simd, n: usize, octave: &Octave) {
+        self.lattice.rounded_gradients(simd, n, octave.frequency, &mut self.gradient);
+    }
+
+    /// Adds three noises on the lattice of an octave, found in f64, times a weight to sums; see
+    /// [`precise::components`](super::precise::components).
+    pub(crate) fn add_exact_vector(
+        &mut self,
+        simd: Simd,
+        skewed: Points3<'_>,
+        octave: &Octave,
+        weight: f64,
+        sums: &mut [Lane<f64>; 3],
+    ) {
+        self.lattice.find_vector(simd, skewed, octave);
+        self.lattice.add_vector(simd, skewed[0].len(), weight, sums);
     }
 
     /// Values and gradients (the same bits), and second derivatives.
@@ -96,7 +149,7 @@ for_each_simd!(fn fill_gradients(n: usize, octave: &Octave, noise: &mut Noise) =
 fn fill_curvatures_body(n: usize, octave: &Octave, noise: &mut Noise) {
     let (seed, frequency) = (octave.seed, octave.frequency as f32);
     let square = frequency * frequency;
-    let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, gradient: [gx, gy, gz], curvature } = noise;
+    let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, gradient: [gx, gy, gz], curvature, .. } = noise;
     let [hxx, hyy, hzz, hyz, hzx, hxy] = curvature;
     for i in 0..n.min(CHUNK) {
         let (value, g, h) = value_gradient_curvature([cx[i], cy[i], cz[i]], [x[i], y[i], z[i]], seed);

@@ -1,0 +1,265 @@
+//! The air as it is drawn: pictures that somebody looked at (goldens, blessed on Mesa's software driver with `TELLUS_BLESS=1`),
+//! a climb without a jump, no radiance that is not a number, and the curves that make pictures of it.
+#![cfg(feature = "editor")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod support;
+
+use glam::DVec3;
+use image::RgbImage;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::sync::Arc;
+use support::{Gpu, camera};
+use tellus::build::{Surface, add_detail, build_now};
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::param::{Domain, ValueMut};
+use tellus::planet::{Atmosphere, Fbm, Layer, Planet, STARTING_AIRS, Shape};
+use tellus::render::{DebugView, Frame, Metering, Tone};
+use tellus::sphere::LatLon;
+
+const SIZE_PX: [u32; 2] = [160, 100];
+
+/// Hills under an air, nothing else.
+fn under(air: Atmosphere, radius_km: f64, color: [f64; 3]) -> Planet {
+    let shape = Shape::Fbm(Fbm { wavelength_km: 400.0, octaves: 10, ..Fbm::default() });
+    let hills = Layer { name: "Hills".to_owned(), amplitude_m: 1500.0, shape, ..Layer::default() };
+    let mut planet = Planet { radius_km, layers: vec![hills], atmosphere: Some(air), ..Planet::default() };
+    for biome in &mut planet.biomes.palette {
+        (biome.color, biome.variation) = (color, 0.2);
+    }
+    planet
+}
+
+/// Planets like the Earth, Mars and Titan.
+fn planets() -> [(&'static str, Planet); 3] {
+    let air = |name: &str| STARTING_AIRS.iter().find(|air| air.name == name).unwrap().atmosphere();
+    [
+        ("earth", under(air("Earth"), 6360.0, [0.12, 0.12, 0.06])),
+        ("mars", under(air("Mars"), 3390.0, [0.35, 0.17, 0.08])),
+        ("titan", under(air("Titan"), 2575.0, [0.2, 0.13, 0.07])),
+    ]
+}
+
+fn surface(planet: &Arc<Planet>, camera: &Camera, quality: Quality) -> (Surface, View) {
+    let view = View { camera: *camera, size_px: SIZE_PX, quality };
+    let mut surface = build_now(planet, &view);
+    add_detail(&mut surface, &view);
+    (surface, view)
+}
+
+fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
+    Frame {
+        surface,
+        planet,
+        view,
+        frozen: None,
+        sun_dir_planet,
+        time_secs: 0.0,
+        exposure_ev: 0.0,
+        debug_view: DebugView::Shaded,
+    }
+}
+
+/// Name, altitude, pitch, degrees from the place eastward to the star: the camera looks east.
+fn poses(planet: &Planet) -> [(&'static str, f64, f64, f64); 6] {
+    let radius_m = planet.radius_m();
+    [
+        ("noon", 2.0, 5.0, 25.0),
+        ("sunset", 2.0, 4.0, 88.0),
+        ("dusk", 2.0, 8.0, 94.0),
+        ("terminator", 1.9 * radius_m, -90.0, 100.0),
+        ("limb", 400e3, -19.0, 60.0),
+        ("disc", 1.9 * radius_m, -90.0, 20.0),
+    ]
+}
+
+#[test]
+fn airs_look_as_they_did() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/goldens");
+    let mut gpu = Gpu::new();
+    gpu.renderer.metering = Metering::Instant;
+    let mut problems = Vec::new();
+    for (name, planet) in planets() {
+        let planet = Arc::new(planet);
+        for (pose, altitude_m, pitch, east) in poses(&planet) {
+            let camera = camera(&planet, 5.0, 10.0, altitude_m, 90.0, pitch);
+            let (surface, view) = surface(&planet, &camera, Quality::Medium);
+            let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
+            let drawn = gpu.draw(&frame(&planet, &surface, view, sun));
+            let rgb: Vec<u8> = drawn.chunks(4).flat_map(|p| p[..3].to_vec()).collect();
+            let path = folder.join(format!("air_{name}_{pose}.png"));
+            if std::env::var_os("TELLUS_BLESS").is_some() {
+                RgbImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgb).unwrap().save(&path).unwrap();
+                continue;
+            }
+            let golden = image::open(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())).to_rgb8();
+            let difference: f64 = rgb.iter().zip(golden.as_raw()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+            let mean = difference / rgb.len() as f64;
+            if mean > 1.5 {
+                let seen = std::env::temp_dir().join(path.file_name().unwrap());
+                RgbImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgb).unwrap().save(&seen).unwrap();
+                problems.push(format!("{}: differs by {mean:.2} of 255; see {}", path.display(), seen.display()));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "on {}:\n{}", gpu.adapter, problems.join("\n"));
+}
+
+/// Mean of a part of the newest frame's radiance.
+fn mean_radiance(gpu: &Gpu, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> [f64; 3] {
+    let ([width, _], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let mut sum = [0.0; 3];
+    for y in rows.clone() {
+        for pixel in &pixels[y * width as usize..][columns.clone()] {
+            (0..3).for_each(|k| sum[k] += f64::from(pixel[k]));
+        }
+    }
+    sum.map(|c| c / (rows.len() * columns.len()) as f64)
+}
+
+#[test]
+fn sunsets_are_red_on_earth_and_blue_on_mars() {
+    let mut gpu = Gpu::new();
+    for (name, planet) in planets() {
+        let planet = Arc::new(planet);
+        let camera = camera(&planet, 5.0, 10.0, 2.0, 90.0, 4.0);
+        let (surface, view) = surface(&planet, &camera, Quality::Low);
+        let sun = LatLon::from_degrees(5.0, 10.0 + 88.0).direction();
+        gpu.draw(&Frame { view: View { quality: Quality::Medium, ..view }, ..frame(&planet, &surface, view, sun) });
+        // Beside the star, a little over the horizon.
+        let [red, _, blue] = mean_radiance(&gpu, 60..72, 50..54);
+        match name {
+            "earth" => assert!(red > 1.5 * blue, "{name} {red} {blue}"),
+            "mars" => assert!(blue > 1.1 * red, "{name} {red} {blue}"),
+            _ => assert!(red > 2.0 * blue, "{name} {red} {blue}"),
+        }
+    }
+}
+
+#[test]
+fn a_climb_to_space_has_no_jump() {
+    let mut gpu = Gpu::new();
+    let (_, planet) = planets()[0].clone();
+    let planet = Arc::new(planet);
+    // At the sky over the horizon away from the star: no ground whose relief would come and go.
+    const STEPS: usize = 120;
+    let mut last: Option<Vec<[f32; 3]>> = None;
+    let mut changes: Vec<(f64, f64)> = Vec::new();
+    for step in 0..STEPS {
+        let altitude_m = 1.7 * (400e3_f64 / 1.7).powf(step as f64 / (STEPS - 1) as f64);
+        let camera = camera(&planet, 5.0, 10.0, altitude_m, 200.0, 12.0);
+        let (surface, view) = surface(&planet, &camera, Quality::Low);
+        let view = View { quality: Quality::Medium, ..view };
+        gpu.draw(&frame(&planet, &surface, view, LatLon::from_degrees(20.0, 50.0).direction()));
+        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+        if let Some(last) = &last {
+            let light = |p: &[f32; 3]| f64::from(p[0] + p[1] + p[2]);
+            // Stars are points that move.
+            let each = pixels.iter().zip(last).map(|(a, b)| (light(a) - light(b)).abs().min(0.2));
+            let mean = each.clone().sum::<f64>() / pixels.len() as f64;
+            let mut sorted: Vec<f64> = each.collect();
+            sorted.sort_by(f64::total_cmp);
+            changes.push((mean, sorted[sorted.len() * 99 / 100]));
+        }
+        last = Some(pixels);
+    }
+    // No step changes the picture much more than those around it.
+    for (i, (mean, most)) in changes.iter().enumerate() {
+        let around = &changes[i.saturating_sub(4)..(i + 5).min(changes.len())];
+        let others = |k: fn(&(f64, f64)) -> f64| {
+            let mut all: Vec<f64> = around.iter().map(k).collect();
+            all.sort_by(f64::total_cmp);
+            all[all.len() / 2]
+        };
+        assert!(*mean < 3.0 * others(|c| c.0) + 0.002, "step {i}: mean {mean} among {around:?}");
+        assert!(*most < 3.0 * others(|c| c.1) + 0.01, "step {i}: 99 in 100 {most} among {around:?}");
+    }
+}
+
+/// An atmosphere with every parameter at a place of its range, 0 to 1.
+fn air_at(places: &[f64]) -> Atmosphere {
+    let (mut planet, mut next) = (Planet { atmosphere: Some(Atmosphere::default()), ..Planet::default() }, 0);
+    planet.each(&mut |path, param, value| {
+        if !path.to_string().starts_with("atmosphere") {
+            return;
+        }
+        let mut place = || {
+            next += 1;
+            places[(next - 1) % places.len()]
+        };
+        let between = |min: f64, max: f64, place: f64| match param.domain {
+            Domain::Number { logarithmic: true, .. } => {
+                let min = min.max(max * 1e-6);
+                min * (max / min).powf(place)
+            }
+            _ => min + (max - min) * place,
+        };
+        match (value, param.domain) {
+            (ValueMut::Number(number), Domain::Number { min, max, .. }) => *number = between(min, max, place()),
+            (ValueMut::Triple(triple), Domain::Triple { max, .. }) => {
+                // Most airs are thin; the cube spreads the small ones.
+                *triple = [(); 3].map(|()| max * place().powi(3));
+            }
+            (ValueMut::Triple(triple), _) => *triple = [(); 3].map(|()| place()),
+            _ => {}
+        }
+    });
+    planet.atmosphere.unwrap()
+}
+
+#[test]
+fn whatever_the_air_every_radiance_is_a_number() {
+    let gpu = RefCell::new(Gpu::new());
+    let mut runner = TestRunner::new(Config { cases: 40, max_shrink_iters: 60, ..Config::default() });
+    let places = prop::collection::vec(0.0..=1.0_f64, 24);
+    let cases = (places, 0.0..1.0_f64, -90.0..90.0_f64, -180.0..180.0_f64);
+    let result = runner.run(&cases, |(places, altitude, pitch, sun_lon)| {
+        let planet = Arc::new(under(air_at(&places), 6360.0, [0.2; 3]));
+        let altitude_m = 2.0 * 1e7_f64.powf(altitude);
+        let camera = camera(&planet, 5.0, 10.0, altitude_m, 90.0, pitch);
+        let view = View { camera, size_px: [48, 32], quality: Quality::Medium };
+        let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+        let mut gpu = gpu.borrow_mut();
+        gpu.draw(&frame(&planet, &surface, view, LatLon::from_degrees(8.0, sun_lon).direction()));
+        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+        prop_assert!(!pixels.is_empty());
+        for (i, pixel) in pixels.iter().enumerate() {
+            prop_assert!(pixel.iter().all(|c| c.is_finite() && *c >= 0.0), "pixel {} is {:?}", i, pixel);
+        }
+        Ok(())
+    });
+    result.unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn the_curves_of_the_shader_are_those_of_the_reference() {
+    let mut gpu = Gpu::new();
+    let (_, planet) = planets()[1].clone();
+    let planet = Arc::new(planet);
+    let camera = camera(&planet, 5.0, 10.0, 2.0, 90.0, 5.0);
+    let (surface, view) = surface(&planet, &camera, Quality::Medium);
+    let mut compared = 0;
+    for tone in Tone::ALL {
+        gpu.renderer.tone = tone;
+        for (east, exposure_ev) in [(25.0, 0.0), (70.0, 3.0), (85.0, -1.0)] {
+            let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
+            let drawn = gpu.draw(&Frame { exposure_ev, ..frame(&planet, &surface, view, sun) });
+            let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+            for (pixel, shown) in pixels.iter().zip(drawn.chunks(4)) {
+                let wanted = tone.shown(pixel.map(|c| f64::from(c) * exposure_ev.exp2()));
+                for k in 0..3 {
+                    let c = wanted[k];
+                    let encoded = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+                    // A step for the dither, half a one for rounding, and a little for 32 bits.
+                    let off = (f64::from(shown[k]) - encoded * 255.0).abs();
+                    assert!(off < 2.0, "{tone:?}: {pixel:?} is {:?}, not {wanted:?}", &shown[..3]);
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 100_000);
+}
