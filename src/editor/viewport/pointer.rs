@@ -92,7 +92,9 @@ impl Probe {
     /// The answer to the question that was asked last, once: what is there, or None where there is only sky.
     pub fn take(&mut self) -> Option<Option<UnderPointer>> {
         let first = self.first;
-        self.answers.try_iter().filter(|(number, _)| *number >= first).last().map(|(_, answer)| answer)
+        let newest = self.answers.try_iter().filter(|(number, _)| *number >= first).last().map(|(_, answer)| answer);
+        // It may have come while the question was still being asked.
+        newest.or_else(|| self.answer.take().map(Some))
     }
 
     /// The pointer is not over the picture.
