@@ -54,6 +54,36 @@ fn glare(dir: vec3f) -> vec3f {
     return globals.sun_irradiance.rgb / PI * clear * (shape * open);
 }
 
+struct Clouds {
+    // a: what they let through
+    light: vec4f,
+    at_km: f32,
+}
+
+// The clouds before a pixel. Neighbouring pixels marched a little apart; any three by three of them together have looked
+// everywhere along the way (the noise that sets them apart is made so), those before ground at another distance left out.
+fn clouds_around(pixel: vec2i) -> Clouds {
+    let last = vec2i(textureDimensions(cloud_light)) - 1;
+    let depth = textureLoad(scene_depth, pixel, 0);
+    var light = vec4f(0.0);
+    var distance = 0.0;
+    var seen = 0.0;
+    var count = 0.0;
+    for (var i = 0; i < 9; i++) {
+        let at = clamp(pixel + vec2i(i % 3 - 1, i / 3 - 1), vec2i(0), last);
+        let there = textureLoad(scene_depth, at, 0);
+        if min(depth, there) * 1.25 < max(depth, there) { continue; }
+        let clouds = textureLoad(cloud_light, at, 0);
+        light += clouds;
+        count += 1.0;
+        if clouds.a < 1.0 {
+            distance += (1.0 - clouds.a) * textureLoad(cloud_distance, at, 0).r;
+            seen += 1.0 - clouds.a;
+        }
+    }
+    return Clouds(light / count, select(NOTHING_KM, distance / seen, seen > 1e-5));
+}
+
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
@@ -65,8 +95,9 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
     var cloud_at = NOTHING_KM;
     if globals.clouds.z > 0.0 {
-        clouds = textureLoad(cloud_light, pixel, 0);
-        cloud_at = textureLoad(cloud_distance, pixel, 0).r;
+        let around = clouds_around(pixel);
+        clouds = around.light;
+        cloud_at = around.at_km;
     }
 
     var air = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
