@@ -1,6 +1,7 @@
 // The ground: tiles, coloured by climate, lit by star and sky; and the debug views of it.
 #include "cloud_model.wgsl"
 #include "material.wgsl"
+#include "highlight.wgsl"
 #include "horizon.wgsl"
 
 // The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents have
@@ -115,13 +116,13 @@ fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec
     return normalize(abs(area) * n - tilt + n * 1e-20);
 }
 
-// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its climate, perhaps moved by a border's jitter.
+// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its place in the table.
 fn site_of(in: Ground, at: vec2f, risen_m: f32, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
     let sea_m = globals.water.x * 1000.0;
     let has_sea = globals.water_absorption.w > 0.0;
     let above = select(1.0, saturate1((in.height_m - sea_m) * 0.1), has_sea);
     return Site(
-        vec2f(at.x, 1.0 - at.y),
+        at,
         in.rel_m,
         slope_cosine,
         in.temperature_c - risen_m * globals.eye_wrap_m.w * above,
@@ -228,6 +229,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
+    let place = table_place(in.climate, in.rel_m, 0.0);
     switch globals.modes.x {
         case 1u: {
             let span = max(globals.misc.z - globals.misc.y, 1.0);
@@ -236,8 +238,8 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let site = site_of(in, in.climate, risen_m, dot(n, up), 1.0, 0.0);
-            return biome_param(biome_of(site), 0).rgb;
+            let site = site_of(in, place, risen_m, dot(n, up), 1.0, 0.0);
+            return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
         case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
         case 6u: { return moisture_color(in.climate.x) * lit; }
@@ -269,8 +271,9 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_y = dpdy(in.rel_m);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
-    let jitter = border_jitter(in.rel_m, footprint_m) * vec2f(0.9, -0.9) / vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, in.climate + jitter, risen_m, dot(n, up), footprint_m, relief.x);
+    let place = table_place(in.climate, in.rel_m, footprint_m);
+    cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
+    let site = site_of(in, place, risen_m, dot(n, up), footprint_m, relief.x);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
@@ -296,7 +299,8 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
     let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;
-    return vec4f(min(radiance, vec3f(60000.0)), over_sea_m);
+    let shown = lit_up(radiance, place, globals.sun_irradiance.rgb / PI);
+    return vec4f(min(shown, vec3f(60000.0)), over_sea_m);
 }
 
 struct Output {

@@ -18,6 +18,7 @@
 mod air;
 mod air_tables;
 mod biome_table;
+mod border_tile;
 mod cloud_map;
 mod clouds;
 mod detail_pool;
@@ -41,6 +42,7 @@ mod tone;
 mod tonemap;
 mod water;
 
+pub use biome_table::MarkedCells;
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
@@ -50,6 +52,7 @@ use crate::build::Surface;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// What is drawn of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -215,6 +218,8 @@ impl Inputs {
 pub struct Renderer {
     /// Whether exposure is set by hand or by what there is to see.
     pub metering: Metering,
+    /// Cells of the biome table whose places light up; clouds are left away meanwhile.
+    pub marked: Option<Arc<MarkedCells>>,
     /// The curve from radiance to the picture.
     pub tone: Tone,
     target_format: wgpu::TextureFormat,
@@ -248,6 +253,7 @@ impl Renderer {
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
         Ok(Self {
             metering: Metering::Manual,
+            marked: None,
             tone: Tone::default(),
             target_format,
             globals,
@@ -303,13 +309,14 @@ impl Renderer {
             height_range_m,
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: self.target_format.is_srgb(),
+            marked: self.marked.is_some(),
             tone: self.tone,
         };
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
         let globals = &self.globals.group;
-        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
+        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet, self.marked.as_ref());
         let groups = [globals, self.tables.group()];
 
         let stats = self.terrain.draw(&mut encoder, &self.passes.terrain, groups, &targets, frame.debug_view);
@@ -319,7 +326,8 @@ impl Renderer {
                 self.passes.water.draw(&mut encoder, groups, &inputs.water[scene], &targets, scene);
                 scene = 1 - scene;
             }
-            if frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) {
+            let cloudy = frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0);
+            if cloudy && self.marked.is_none() {
                 self.passes.clouds.draw(&mut encoder, groups, &inputs.clouds[scene], &targets);
             }
             self.passes.air.draw(&mut encoder, groups, &inputs.air[scene], &targets, scene);

@@ -19,11 +19,13 @@ macro_rules! embedded {
 const EMBEDDED: &[(&str, &str)] = embedded![
     "air.wgsl",
     "air_model.wgsl",
+    "border.wgsl",
     "cloud_map.wgsl",
     "cloud_model.wgsl",
     "clouds.wgsl",
     "exposure.wgsl",
     "globals.wgsl",
+    "highlight.wgsl",
     "histogram.wgsl",
     "horizon.wgsl",
     "irradiance.wgsl",

@@ -10,6 +10,8 @@
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `relief`: what biomes add to the height
 //! - `climate`: temperature, moisture, the place in the biome table
+//! - `border`: noise that moves the borders between biomes
+//! - [`survey`]: where the planet lies in its biome table
 //! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
 //! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
 //! - `bench`: the noise alone, for measuring
@@ -19,6 +21,7 @@
 
 mod approx;
 pub mod bench;
+pub(crate) mod border;
 pub(crate) mod climate;
 mod coarse;
 pub(crate) mod coast;
@@ -33,11 +36,12 @@ pub(crate) mod points;
 mod raycast;
 pub(crate) mod relief;
 pub mod simd;
+pub mod survey;
 
 use crate::planet::Planet;
 pub use height::curve_at;
 
-use climate::{CompiledClimate, NO_SEA, Rules};
+use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
 use coarse::{CoarseFields, coarse_heights_m};
 use coast::Coast;
 use field::{EXACT, Field};
@@ -83,7 +87,10 @@ pub struct Sample {
     pub moisture: f64,
     /// The same as rain and snow in a year.
     pub precipitation_mm: f64,
-    /// Index of the biome in the palette.
+    /// Cell of the biome table, as column and row: the one that moisture and temperature (or height) fall into after
+    /// borders have been moved by noise.
+    pub cell: [usize; 2],
+    /// Index of the biome in the palette: the cell's, or what a rule for steep ground, beaches or snow puts there.
     pub biome: usize,
     /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off. What biomes add
     /// ([`crate::planet::Biome::relief_m`]) is in none of them.
@@ -185,8 +192,7 @@ impl Terrain {
         let noise = [noise.temperature[0], noise.moisture[0]];
         let climate = Rules::new(&self.planet).at(dir.z, height_m, noise, inland_rad);
         let slope_rad = libm::atan(slope.length());
-        let biome = biome_index(&self.planet, climate.moisture, climate.row);
-        let site = ground::Site { biome, height_m, slope_rad, temperature_c: climate.temperature_c };
+        let (cell, biome) = self.biome_of(dir, &climate, height_m, slope_rad);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
@@ -195,9 +201,20 @@ impl Terrain {
             temperature: climate.temperature,
             moisture: climate.moisture,
             precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
-            biome: ground::biome_by_rules(&self.planet, site),
+            cell,
+            biome,
             layers_m,
         }
+    }
+
+    /// The cell of the biome table and the biome of a place: an index into the palette. Keys that the palette lacks count
+    /// as its first biome.
+    fn biome_of(&self, dir: DVec3, climate: &PointClimate, height_m: f64, slope_rad: f64) -> ([usize; 2], usize) {
+        let biomes = &self.planet.biomes;
+        let cell = border::cell_of(&self.planet, dir, climate.moisture, climate.row);
+        let biome = biomes.table.key(cell[0], cell[1]).and_then(|key| biomes.index_of(key)).unwrap_or(0);
+        let site = ground::Site { biome, height_m, slope_rad, temperature_c: climate.temperature_c };
+        (cell, ground::biome_by_rules(&self.planet, site))
     }
 
     /// Height of the ground above the reference sphere under a direction (of any length but zero): the height that a
@@ -297,14 +314,4 @@ fn unit(dir: DVec3) -> DVec3 {
 /// vector in the tangent plane. The surface's normal is along `dir - slope`.
 fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
     (gradient - dir * dir.dot(gradient)) / radius_m
-}
-
-/// The palette index of the biome in the table's cell at a moisture and row, both 0 to 1. Keys that the palette lacks
-/// count as its first biome.
-pub fn biome_index(planet: &Planet, moisture: f64, row: f64) -> usize {
-    let table = &planet.biomes.table;
-    let (columns, rows) = (table.columns(), table.rows().len());
-    let cell = |w: f64, n: usize| ((w * n as f64) as usize).min(n.saturating_sub(1));
-    let key = table.key(cell(moisture, columns), cell(1.0 - row, rows));
-    key.and_then(|key| planet.biomes.palette.iter().position(|biome| biome.key == key)).unwrap_or(0)
 }
