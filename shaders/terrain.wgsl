@@ -2,10 +2,10 @@
 #include "cloud_model.wgsl"
 #include "mottle.wgsl"
 
-// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents have
-// them; height above the mesh, metres.
+// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents show
+// them; height in metres as a sum of two, and how much higher the parents show it.
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
-@group(2) @binding(1) var detail_rise_m: texture_2d_array<f32>;
+@group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
 struct Vertex {
     @location(0) high_m: vec3f,
@@ -19,6 +19,12 @@ struct Vertex {
     @location(7) tile: vec4f,
     // The axis that the first tangent of the slopes follows.
     @location(8) slope_axis: vec3f,
+    // The tile's place in its detail tile: corner, side, 0 to 1; the height that its heights count from.
+    @location(9) detail_place: vec4f,
+    // Distances in metres between which the detail of the detail tile's parent takes over; from texel to texel.
+    @location(10) detail_fade: vec4f,
+    // How far the vertex is drawn above its place, until it has come out of the coarser mesh (morph.wgsl).
+    @location(11) shift_m: f32,
 }
 
 struct Ground {
@@ -29,13 +35,15 @@ struct Ground {
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
     @location(5) temperature_c: f32,
-    // Place in the tile, 0 to 1; how far the parent has taken over.
-    @location(6) place: vec3f,
+    // Place in the tile, 0 to 1, and in its detail tile
+    @location(6) place: vec4f,
     // From the eye that the tile was chosen for
     @location(7) chosen_distance_m: f32,
     // Layer of the detail tile.
     @location(8) @interpolate(flat) layer: f32,
     @location(9) @interpolate(flat) slope_axis: vec3f,
+    // As in Vertex; w: the height that heights count from
+    @location(10) @interpolate(flat) detail_fade: vec4f,
 }
 
 // Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
@@ -57,39 +65,52 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     var out: Ground;
     // High and low parts apart: equal points give equal bits in every tile.
     out.rel_m = (in.high_m - globals.eye_high_m.xyz) + (in.low_m - globals.eye_low_m.xyz);
+    out.rel_m += in.shift_m * normalize(in.high_m);
     out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
     let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
     out.chosen_distance_m = length(chosen_rel_m);
-    let far = saturate1((out.chosen_distance_m - in.tile.x) / max(in.tile.y - in.tile.x, 1e-3));
-    out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), far);
+    out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), faded(in.tile.xy, out.chosen_distance_m));
     out.climate = in.climate;
     out.height_m = in.height_m;
     out.level = in.tile.z;
     out.temperature_c = in.temperature_c;
     // Each tile's vertices are a whole number of tiles from the buffer's start.
     let number = index % (TILE_SIDE * TILE_SIDE);
-    out.place = vec3f(vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
+    let place = vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u);
+    out.place = vec4f(place, in.detail_place.xy + place * in.detail_place.z);
     out.layer = in.tile.w;
     out.slope_axis = in.slope_axis;
+    out.detail_fade = vec4f(in.detail_fade.xyz, in.detail_place.w);
     return out;
 }
 
-// The ground at a pixel: the tile's detail, or its vertices where there is none yet.
+// How far the parent has taken over at a distance.
+fn faded(range_m: vec2f, distance_m: f32) -> f32 {
+    return saturate1((distance_m - range_m.x) / max(range_m.y - range_m.x, 1e-3));
+}
+
+// The ground at a pixel: its detail, or the vertices where there is none yet.
 struct Relief {
     normal: vec3f,
     height_m: f32,
     climate: vec2f,
 }
 
-fn relief_of(in: Ground, up: vec3f) -> Relief {
+// `footprint_m`: the longer side of a pixel on the ground.
+fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     if in.layer < 0.0 { return Relief(normalize(in.normal), in.height_m, in.climate); }
-    let texel = (in.place.xy * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
+    let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
+    // Texels smaller than the pixel would sparkle: first the parent's come in, which are twice as wide, then the vertices.
+    let texels = footprint_m / in.detail_fade.z;
+    let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), smoothstep(1.0, 2.0, texels));
     let slopes = textureSampleLevel(detail_slopes, clamped, texel, i32(in.layer), 0.0);
-    let slope = mix(slopes.xy, slopes.zw, in.place.z);
+    let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     var out: Relief;
-    out.normal = normalize(up - slope.x * east - slope.y * cross(up, east));
-    out.height_m = in.height_m + textureSampleLevel(detail_rise_m, clamped, texel, i32(in.layer), 0.0).r;
+    let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
+    out.normal = normalize(mix(fine, normalize(in.normal), smoothstep(2.0, 4.0, texels)));
+    let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
+    out.height_m = in.detail_fade.w + heights.x + heights.y + heights.z * parent;
     // Higher ground is colder; over the sea its surface counts.
     let rows_per_m = globals.chosen_eye_high_m.w;
     let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
@@ -223,7 +244,9 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
 fn shade(on_mesh: Ground) -> vec4f {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
-    let detail = relief_of(on_mesh, up);
+    // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
+    let footprint_m = max(max(length(dpdx(on_mesh.rel_m)), length(dpdy(on_mesh.rel_m))), 1e-6);
+    let detail = relief_of(on_mesh, up, footprint_m);
     var in = on_mesh;
     in.height_m = detail.height_m;
     in.climate = detail.climate;
@@ -234,8 +257,6 @@ fn shade(on_mesh: Ground) -> vec4f {
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
-    // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let footprint_m = max(max(length(dpdx(in.rel_m)), length(dpdy(in.rel_m))), 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
     let ground = material(in, dot(n, up), footprint_m, relief.x);
     n = bumped(n, dpdx(in.rel_m), dpdy(in.rel_m), dpdx(relief.y), dpdy(relief.y));

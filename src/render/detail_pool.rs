@@ -4,8 +4,8 @@
 use crate::lod::tile::{DETAIL_SIDE, DetailTile};
 use std::collections::HashMap;
 
-/// Layers of one pair: 21 MB.
-const LAYERS: u32 = 128;
+/// Layers of one pair: 17 MB.
+const LAYERS: u32 = 64;
 
 /// Where a detail tile is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ struct Held {
 /// All layers, and a bind group for each array.
 pub(crate) struct DetailPool {
     layout: wgpu::BindGroupLayout,
-    /// Slopes and rise.
+    /// Slopes and heights.
     textures: Vec<[wgpu::Texture; 2]>,
     groups: Vec<wgpu::BindGroup>,
     free: Vec<DetailPlace>,
@@ -84,16 +84,16 @@ impl DetailPool {
             held.drawn_in_frame = self.frame;
             return Some(held.place);
         }
-        if tile.slopes.len() != DETAIL_SIDE * DETAIL_SIDE || tile.rise_m.len() != tile.slopes.len() {
+        if tile.slopes.len() != DETAIL_SIDE * DETAIL_SIDE || tile.heights.len() != tile.slopes.len() {
             return None;
         }
         let place = self.take_layer(device)?;
-        let [slopes, rise] = self.textures.get(place.array)?;
-        let bytes = |halves: &mut dyn Iterator<Item = half::f16>| -> Vec<u8> {
-            halves.flat_map(half::f16::to_le_bytes).collect()
+        let [slopes, heights] = self.textures.get(place.array)?;
+        let bytes = |texels: &[[half::f16; 4]]| -> Vec<u8> {
+            texels.iter().flatten().copied().flat_map(half::f16::to_le_bytes).collect()
         };
-        write(queue, slopes, place.layer, &bytes(&mut tile.slopes.iter().flatten().copied()));
-        write(queue, rise, place.layer, &bytes(&mut tile.rise_m.iter().copied()));
+        write(queue, slopes, place.layer, &bytes(&tile.slopes));
+        write(queue, heights, place.layer, &bytes(&tile.heights));
         self.held.insert(tile.serial, Held { place, drawn_in_frame: self.frame });
         Some(place)
     }
@@ -117,7 +117,7 @@ impl DetailPool {
     }
 
     fn grow(&mut self, device: &wgpu::Device) {
-        let textures = [wgpu::TextureFormat::Rgba16Float, wgpu::TextureFormat::R16Float].map(|format| {
+        let textures = [wgpu::TextureFormat::Rgba16Float; 2].map(|format| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some("detail tiles"),
                 size: wgpu::Extent3d { depth_or_array_layers: LAYERS, ..EXTENT },
@@ -129,7 +129,7 @@ impl DetailPool {
                 view_formats: &[],
             })
         });
-        let [slopes, rise] = textures.each_ref().map(|texture| {
+        let [slopes, heights] = textures.each_ref().map(|texture| {
             texture.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
                 ..wgpu::TextureViewDescriptor::default()
@@ -140,7 +140,7 @@ impl DetailPool {
         self.groups.push(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("detail tiles"),
             layout: &self.layout,
-            entries: &[entry(0, &slopes), entry(1, &rise)],
+            entries: &[entry(0, &slopes), entry(1, &heights)],
         }));
         let array = self.textures.len();
         self.textures.push(textures);

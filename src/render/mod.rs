@@ -3,7 +3,8 @@
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
 //! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`: what outlives a frame, made anew only when what
 //!   it depends on changed
-//! - `terrain` with `pool`: the ground into radiance and depth
+//! - `morph`: how far vertices have come out of the coarser mesh
+//! - `terrain` with `pool` and `detail_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
@@ -24,6 +25,7 @@ mod detail_pool;
 mod exposure;
 mod globals;
 mod gpu;
+mod morph;
 mod noise_tile;
 mod pool;
 mod scene_pass;
@@ -154,6 +156,7 @@ pub struct FrameStats {
 pub(crate) struct Passes {
     air_tables: air_tables::AirTablesPass,
     cloud_map: cloud_map::CloudMapPass,
+    morph: morph::MorphPass,
     terrain: terrain::TerrainPass,
     water: water::WaterPass,
     clouds: clouds::CloudsPass,
@@ -172,6 +175,7 @@ impl Passes {
         Ok(Self {
             air_tables: air_tables::AirTablesPass::new(device, globals, tables)?,
             cloud_map: cloud_map::CloudMapPass::new(device, globals)?,
+            morph: morph::MorphPass::new(device)?,
             terrain: terrain::TerrainPass::new(device, globals, tables)?,
             water: water::WaterPass::new(device, globals, tables)?,
             clouds: clouds::CloudsPass::new(device, globals, tables)?,
@@ -294,6 +298,7 @@ impl Renderer {
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
+        self.terrain.morph(&mut encoder, &self.passes.morph);
         let globals = &self.globals.group;
         self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
         let groups = [globals, self.tables.group()];
