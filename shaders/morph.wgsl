@@ -1,11 +1,13 @@
-// How far each vertex is drawn above its true place, before it has come out of the coarser mesh in full: a workgroup for each tile.
-// The same arithmetic as src/lod/morph.rs, which says what it is about.
+// What each vertex shows before it has come out of the coarser mesh in full: how far it is drawn above its true place, and its
+// height and climate as the coarser mesh has them. A workgroup for each tile. The same arithmetic as src/lod/morph.rs, which says
+// what it is about.
 
 // Must match src/lod/tile.rs, and src/render/morph.rs.
 const QUADS: u32 = 32u;
 const SIDE: u32 = 33u;
 const VERTICES: u32 = 1089u;
 const VERTEX_WORDS: u32 = 13u;
+const SHOWN_WORDS: u32 = 5u;
 const LANES: u32 = 64u;
 // Must match src/lod/morph.rs.
 const COARSEST_MORPHING: u32 = 4u;
@@ -30,11 +32,10 @@ struct Eye {
 }
 
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
-@group(0) @binding(1) var<storage, read_write> shift_m: array<f32>;
+// For each vertex: shift, metres; moisture; row of the biome table; height, metres; temperature.
+@group(0) @binding(1) var<storage, read_write> shown: array<f32>;
 @group(0) @binding(2) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(3) var<uniform> eye: Eye;
-
-var<workgroup> shift: array<f32, VERTICES>;
 
 fn three(word: u32) -> vec3f { return vec3f(vertices[word], vertices[word + 1u], vertices[word + 2u]); }
 
@@ -47,12 +48,27 @@ fn share_of(word: u32, spacing_m: f32) -> f32 {
     return saturate((begin_m - distance_m) / (begin_m * eye.width));
 }
 
+// Climate and height as the vertex itself has them, in the order of `shown`.
+fn own(word: u32) -> vec4f {
+    return vec4f(unpack2x16unorm(bitcast<u32>(vertices[word + 8u])), vertices[word + 3u], vertices[word + 7u]);
+}
+
+fn shown_of(word: u32) -> vec4f { return vec4f(shown[word + 1u], shown[word + 2u], shown[word + 3u], shown[word + 4u]); }
+
+fn show(word: u32, shift_m: f32, rest: vec4f) {
+    shown[word] = shift_m;
+    for (var i = 0u; i < 4u; i++) { shown[word + 1u + i] = rest[i]; }
+}
+
 @compute @workgroup_size(64)
 fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let tile = tiles[group.x];
-    for (var i = lane; i < VERTICES; i += LANES) { shift[i] = 0.0; }
+    let first = tile.first_vertex;
+    for (var i = lane; i < VERTICES; i += LANES) {
+        show((first + i) * SHOWN_WORDS, 0.0, own((first + i) * VERTEX_WORDS));
+    }
     for (var stride = COARSEST_MORPHING; stride > 0u; stride /= 2u) {
-        workgroupBarrier();
+        storageBarrier();
         let side = QUADS / stride + 1u;
         for (var i = lane; i < side * side; i += LANES) {
             let x = i % side;
@@ -61,15 +77,18 @@ fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
             if all(odd == vec2u(0u)) { continue; }
             // The coarser quad's diagonal goes from the middle of a block of two by two to its corner.
             let turned = odd.x == 1u && odd.y == 1u && ((x / 2u + y / 2u) & 1u) == 1u;
-            let a = vec2u(select(x - odd.x, x + odd.x, turned), y - odd.y) * stride;
-            let b = vec2u(select(x + odd.x, x - odd.x, turned), y + odd.y) * stride;
-            let index = (y * SIDE + x) * stride;
-            let word = (tile.first_vertex + index) * VERTEX_WORDS;
+            let from_x = select(x - odd.x, x + odd.x, turned);
+            let to_x = select(x + odd.x, x - odd.x, turned);
+            let a = first + ((y - odd.y) * SIDE + from_x) * stride;
+            let b = first + ((y + odd.y) * SIDE + to_x) * stride;
+            let v = first + (y * SIDE + x) * stride;
+            let word = v * VERTEX_WORDS;
             let share = share_of(word, tile.spacing_m * f32(stride));
-            let ends_m = shift[a.y * SIDE + a.x] + shift[b.y * SIDE + b.x];
-            shift[index] = 0.5 * ends_m - (1.0 - share) * vertices[word + 11u];
+            let ends_m = shown[a * SHOWN_WORDS] + shown[b * SHOWN_WORDS];
+            let shift_m = 0.5 * ends_m - (1.0 - share) * vertices[word + 11u];
+            let deviation = own(word) - 0.5 * (own(a * VERTEX_WORDS) + own(b * VERTEX_WORDS));
+            let rest = 0.5 * (shown_of(a * SHOWN_WORDS) + shown_of(b * SHOWN_WORDS)) + share * deviation;
+            show(v * SHOWN_WORDS, shift_m, rest);
         }
     }
-    workgroupBarrier();
-    for (var i = lane; i < VERTICES; i += LANES) { shift_m[tile.first_vertex + i] = shift[i]; }
 }

@@ -9,10 +9,7 @@
 
 struct Vertex {
     @location(0) high_m: vec3f,
-    @location(1) height_m: f32,
     @location(2) low_m: vec3f,
-    @location(3) temperature_c: f32,
-    @location(4) climate: vec2f,
     @location(5) normal_oct: vec2f,
     @location(6) parent_normal_oct: vec2f,
     // Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
@@ -25,6 +22,8 @@ struct Vertex {
     @location(10) detail_fade: vec4f,
     // How far the vertex is drawn above its place, until it has come out of the coarser mesh (morph.wgsl).
     @location(11) shift_m: f32,
+    // Moisture, row of the biome table, height and temperature, the same way.
+    @location(12) shown: vec4f,
 }
 
 struct Ground {
@@ -70,10 +69,10 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
     out.chosen_distance_m = length(chosen_rel_m);
     out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), faded(in.tile.xy, out.chosen_distance_m));
-    out.climate = in.climate;
-    out.height_m = in.height_m;
+    out.climate = in.shown.xy;
+    out.height_m = in.shown.z;
     out.level = in.tile.z;
-    out.temperature_c = in.temperature_c;
+    out.temperature_c = in.shown.w;
     // Each tile's vertices are a whole number of tiles from the buffer's start.
     let number = index % (TILE_SIDE * TILE_SIDE);
     let place = vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u);

@@ -20,9 +20,9 @@ use std::time::Instant;
 /// Most tiles that the picture may show; a tile is 2,048 triangles.
 fn budget_tiles(quality: Quality) -> usize {
     match quality {
-        Quality::Low => 200,
-        Quality::Medium => 400,
-        Quality::High => 1000,
+        Quality::Low => 300,
+        Quality::Medium => 500,
+        Quality::High => 1200,
     }
 }
 

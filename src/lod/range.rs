@@ -10,13 +10,13 @@ use crate::lod::tile::TILE_QUADS;
 
 /// A level shows at least as far out as so many of its vertex spacings, however small the picture: nodes must be small against
 /// their distance for what is shaded to change from level to level without a step.
-const LEAST_SPACINGS: f64 = 130.0;
+const LEAST_SPACINGS: f64 = 100.0;
 /// And at most so many times as far out as it must: what a tile knows of older vertices suffices only so far (`morph.rs`).
 const MOST_OVER_LEAST: f64 = 3.0;
 /// A vertex has come out in full when the eye is at this share of the distance where it began.
 pub const FULL_AT: f64 = 0.6;
 /// Shading changes from a level to the next between this share of the level's range and its end.
-pub const SHADED_AT: f64 = 0.85;
+pub const SHADED_AT: f64 = 0.92;
 
 /// The distances of one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +37,8 @@ impl Ranges {
         // Pixels that the ground may be wrong by; most and least pixels between vertices.
         let (error_px, coarsest_px, finest_px) = match view.quality {
             Quality::Low => (2.0, 16.0, 8.0),
-            Quality::Medium => (1.0, 10.0, 5.0),
-            Quality::High => (0.5, 6.0, 2.5),
+            Quality::Medium => (1.0, 12.0, 5.0),
+            Quality::High => (0.5, 7.0, 2.5),
         };
         let focal_px = 1.0 / view.pixel_rad();
         // A level takes over where the one before has become too coarse: at twice its own spacing.

@@ -1,5 +1,5 @@
-//! How far vertices have come out of the coarser mesh (`morph.wgsl`), for all tiles of a frame: a buffer of shifts beside each
-//! buffer of vertices.
+//! How far vertices have come out of the coarser mesh (`morph.wgsl`), for all tiles of a frame: beside each buffer of vertices one of
+//! what they show.
 
 use super::pool::{Place, SLOTS};
 use super::{RenderError, gpu, shaders};
@@ -8,8 +8,12 @@ use crate::lod::range::FULL_AT;
 use crate::lod::tile::TILE_VERTICES;
 use glam::DVec3;
 
-/// Bytes of the shifts that belong to one buffer of the pool.
-const SHIFT_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * 4;
+/// What a vertex shows: how far it is drawn above its place; moisture, row of the biome table, height and temperature.
+pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![11 => Float32, 12 => Float32x4];
+/// Bytes of it.
+pub(crate) const SHOWN_BYTES: u64 = 5 * 4;
+/// Bytes of what belongs to one buffer of the pool.
+const PART_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * SHOWN_BYTES;
 
 /// One tile as the shader knows it.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -65,20 +69,20 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 
 /// What belongs to one buffer of the pool.
 struct Part {
-    shifts: wgpu::Buffer,
+    shown: wgpu::Buffer,
     jobs: wgpu::Buffer,
     group: wgpu::BindGroup,
     count: u32,
 }
 
-/// The shifts of all tiles on the GPU.
-pub(crate) struct Shifts {
+/// What the vertices of all tiles show, on the GPU.
+pub(crate) struct Morph {
     layout: wgpu::BindGroupLayout,
     eye: wgpu::Buffer,
     parts: Vec<Part>,
 }
 
-impl Shifts {
+impl Morph {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         let eye = buffer(device, 48, wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST);
         Self { layout: layout(device), eye, parts: Vec::new() }
@@ -117,7 +121,7 @@ impl Shifts {
         }
     }
 
-    /// Finds the shifts of all tiles given to [`Shifts::prepare`].
+    /// Finds it for all tiles given to [`Morph::prepare`].
     pub(crate) fn find(&self, encoder: &mut wgpu::CommandEncoder, pass: &MorphPass) {
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         compute.set_pipeline(&pass.pipeline);
@@ -127,9 +131,9 @@ impl Shifts {
         }
     }
 
-    /// The shifts beside a buffer of the pool.
+    /// What stands beside a buffer of the pool.
     pub(crate) fn of(&self, buffer: usize) -> Option<&wgpu::Buffer> {
-        self.parts.get(buffer).map(|part| &part.shifts)
+        self.parts.get(buffer).map(|part| &part.shown)
     }
 }
 
@@ -140,17 +144,17 @@ impl Part {
         vertices: &wgpu::Buffer,
         eye: &wgpu::Buffer,
     ) -> Self {
-        let shifts = buffer(device, SHIFT_BYTES, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX);
+        let shown = buffer(device, PART_BYTES, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX);
         let jobs_bytes = u64::from(SLOTS) * size_of::<Job>() as u64;
         let jobs = buffer(device, jobs_bytes, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST);
-        let buffers = [vertices, &shifts, &jobs, eye];
+        let buffers = [vertices, &shown, &jobs, eye];
         let entries: Vec<_> = (0..)
             .zip(buffers)
             .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
             .collect();
         let descriptor = wgpu::BindGroupDescriptor { label: Some("morph"), layout, entries: &entries };
         let group = device.create_bind_group(&descriptor);
-        Self { shifts, jobs, group, count: 0 }
+        Self { shown, jobs, group, count: 0 }
     }
 }
 

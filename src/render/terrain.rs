@@ -3,7 +3,7 @@
 
 use super::detail_pool::DetailPool;
 use super::gpu;
-use super::morph::{MorphPass, Shifts};
+use super::morph::{Morph, MorphPass, SHOWN_ATTRIBUTES, SHOWN_BYTES};
 use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
@@ -20,7 +20,6 @@ const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
 ];
 const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3, 9 => Float32x4, 10 => Float32x4];
-const SHIFT_ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![11 => Float32];
 
 /// What the shader knows of a tile beside its vertices.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -107,9 +106,9 @@ impl TerrainPass {
                                 attributes: &INSTANCE_ATTRIBUTES,
                             }),
                             Some(wgpu::VertexBufferLayout {
-                                array_stride: size_of::<f32>() as u64,
+                                array_stride: SHOWN_BYTES,
                                 step_mode: wgpu::VertexStepMode::Vertex,
-                                attributes: &SHIFT_ATTRIBUTES,
+                                attributes: &SHOWN_ATTRIBUTES,
                             }),
                         ],
                     },
@@ -192,7 +191,7 @@ struct Draw {
 pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
-    shifts: Shifts,
+    morph: Morph,
     details: DetailPool,
     instances: wgpu::Buffer,
     draws: Vec<Draw>,
@@ -203,7 +202,7 @@ impl TerrainResources {
         Self {
             indices: Indices::new(device),
             pool: TilePool::new(device),
-            shifts: Shifts::new(device),
+            morph: Morph::new(device),
             details: DetailPool::new(device),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
@@ -271,13 +270,13 @@ impl TerrainResources {
         }
         queue.write_buffer(&self.instances, 0, bytes);
         let morphing_eye = frame.surface.morphing_eye_m(chosen.camera.position_planet_m);
-        self.shifts.prepare(device, queue, self.pool.buffers(), &frame.surface.ranges, morphing_eye, &morphed);
+        self.morph.prepare(device, queue, self.pool.buffers(), &frame.surface.ranges, morphing_eye, &morphed);
         self.pool.end_round(encoder);
     }
 
     /// Finds where the vertices are drawn of the tiles chosen by [`TerrainResources::prepare`].
     pub(crate) fn morph(&self, encoder: &mut wgpu::CommandEncoder, pass: &MorphPass) {
-        self.shifts.find(encoder, pass);
+        self.morph.find(encoder, pass);
     }
 
     /// Draws the tiles chosen by [`TerrainResources::prepare`].
@@ -324,9 +323,9 @@ impl TerrainResources {
                 bound_detail = Some(*detail);
             }
             if bound != Some(place.buffer) {
-                let Some(shifts) = self.shifts.of(place.buffer) else { continue };
+                let Some(shown) = self.morph.of(place.buffer) else { continue };
                 draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));
-                draw.set_vertex_buffer(2, shifts.slice(..));
+                draw.set_vertex_buffer(2, shown.slice(..));
                 bound = Some(place.buffer);
             }
             let range = if lines { &self.indices.lines[*mask] } else { &self.indices.triangles[*mask] };
