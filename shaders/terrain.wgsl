@@ -43,6 +43,9 @@ struct Ground {
     @location(9) @interpolate(flat) slope_axis: vec3f,
     // As in Vertex; w: the height that heights count from
     @location(10) @interpolate(flat) detail_fade: vec4f,
+    // As the parent's vertices have it; distances between which it takes over.
+    @location(11) parent_normal: vec3f,
+    @location(12) @interpolate(flat) fade_m: vec2f,
 }
 
 // Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
@@ -68,7 +71,9 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
     let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
     out.chosen_distance_m = length(chosen_rel_m);
-    out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), faded(in.tile.xy, out.chosen_distance_m));
+    out.normal = from_octahedral(in.normal_oct);
+    out.parent_normal = from_octahedral(in.parent_normal_oct);
+    out.fade_m = in.tile.xy;
     out.climate = in.shown.xy;
     out.height_m = in.shown.z;
     out.level = in.tile.z;
@@ -83,6 +88,9 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     return out;
 }
 
+// From vertex to vertex of a level, metres.
+fn spacing_m(level: f32) -> f32 { return 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(level)); }
+
 // How far the parent has taken over at a distance.
 fn faded(range_m: vec2f, distance_m: f32) -> f32 {
     return saturate1((distance_m - range_m.x) / max(range_m.y - range_m.x, 1e-3));
@@ -95,21 +103,24 @@ struct Relief {
     climate: vec2f,
 }
 
-// `footprint_m`: the longer side of a pixel on the ground.
+// `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
+// to its parent's, that to the vertices', and those to the parent's. A child does so an octave later, and so shows the same.
 fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
-    if in.layer < 0.0 { return Relief(normalize(in.normal), in.height_m, in.climate); }
+    let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
+    let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
+    let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
+    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, in.climate); }
     let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
-    // Texels smaller than the pixel would sparkle: first the parent's come in, which are twice as wide, then the vertices.
-    let texels = footprint_m / in.detail_fade.z;
-    let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), smoothstep(1.0, 2.0, texels));
+    let texels = log2(footprint_m / in.detail_fade.z);
+    let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
     let slopes = textureSampleLevel(detail_slopes, clamped, texel, i32(in.layer), 0.0);
     let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     var out: Relief;
     let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
-    out.normal = normalize(mix(fine, normalize(in.normal), smoothstep(2.0, 4.0, texels)));
+    out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
     let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
-    out.height_m = in.detail_fade.w + heights.x + heights.y + heights.z * parent;
+    out.height_m = mix(in.detail_fade.w + heights.x + heights.y + heights.z * parent, in.height_m, saturate1(texels - 1.0));
     // Higher ground is colder; over the sea its surface counts.
     let rows_per_m = globals.chosen_eye_high_m.w;
     let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
@@ -203,8 +214,7 @@ fn spacing_color(pixels: f32) -> vec3f {
 
 // Pixels from one vertex to the next, where the ground is seen head on from the eye that the tile was chosen for.
 fn spacing_pixels(in: Ground) -> f32 {
-    let spacing_m = 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(in.level));
-    return spacing_m / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
+    return spacing_m(in.level) / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
 }
 
 // 1 at the tile's border, over about one and a half pixels on its own side.

@@ -27,7 +27,10 @@ impl Dice {
     }
 
     fn place(&mut self) -> LatLon {
-        LatLon { lat_rad: libm::asin(2.0 * self.roll() - 1.0), lon_rad: (2.0 * self.roll() - 1.0) * std::f64::consts::PI }
+        LatLon {
+            lat_rad: libm::asin(2.0 * self.roll() - 1.0),
+            lon_rad: (2.0 * self.roll() - 1.0) * std::f64::consts::PI,
+        }
     }
 
     /// Anywhere from 2 m to three radii above the ground, looking anywhere.

@@ -24,10 +24,10 @@ pub use stats::{BuildStats, Memory, StageWork};
 
 use crate::lod::tile::DetailTile;
 use crate::lod::{Culling, Ranges, Tile, View};
-use crate::sphere::NodeId;
-use glam::DVec3;
 use crate::planet::Planet;
+use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -132,14 +132,8 @@ fn choose(
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Choice {
     let (cache, budget) = (builder.cache, budget_tiles(view.quality));
-    let mut choice = Choice {
-        ranges,
-        leniency,
-        split: HashSet::new(),
-        shaded_finer: HashSet::new(),
-        seen: 0,
-        complete: true,
-    };
+    let mut choice =
+        Choice { ranges, leniency, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
     let eye = view.camera.position_planet_m;
     let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
     let mut level: Vec<NodeId> = NodeId::roots().to_vec();

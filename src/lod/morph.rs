@@ -47,9 +47,8 @@ impl Split {
 
 /// How far a vertex has come out: 0 not at all, 1 in full.
 fn share(vertex: &Vertex, spacing_m: f32, eye: &Split, ranges: &Ranges) -> f32 {
-    let [x, y, z] = [0, 1, 2].map(|i| {
-        (vertex.position_high_m[i] - eye.high_m[i]) + (vertex.position_low_m[i] - eye.low_m[i])
-    });
+    let [x, y, z] =
+        [0, 1, 2].map(|i| (vertex.position_high_m[i] - eye.high_m[i]) + (vertex.position_low_m[i] - eye.low_m[i]));
     let distance_m = (x * x + y * y + z * z).sqrt();
     let (least, most) = (ranges.least_spacings as f32 * spacing_m, ranges.most_spacings as f32 * spacing_m);
     let begin_m = (vertex.foreseen_m * ranges.reach as f32).clamp(least, most);

@@ -57,17 +57,23 @@ impl<'a> Selection<'a> {
         self.culling.sees(tile)
     }
 
-    /// Whether any block of the tile is nearer than a distance that depends on what is foreseen in it.
+    /// Whether any vertex of the tile, or what its children may have beside it, is nearer than a distance that depends on what is
+    /// foreseen in its block.
     fn is_within(&self, tile: &Tile, reach_m: &dyn Fn(f32) -> f64) -> bool {
         let most_m = tile.blocks.iter().map(|block| block.foreseen_m).fold(0.0, f32::max);
         if self.eye_planet_m.distance(tile.center_planet_m) - tile.bounding_radius_m >= reach_m(most_m) {
             return false;
         }
+        let away_m = |i: usize| tile.vertices[i].position_planet_m().distance(self.eye_planet_m);
+        let beside_m = 0.7 * self.ranges.spacing_m(tile.id.level);
         tile.blocks.iter().enumerate().any(|(i, block)| {
-            let (x, y) = (i % BLOCKS_SIDE, i / BLOCKS_SIDE);
-            let middle = (y * BLOCK_QUADS + BLOCK_QUADS / 2) * TILE_SIDE + x * BLOCK_QUADS + BLOCK_QUADS / 2;
-            let middle_m = tile.vertices[middle].position_planet_m();
-            middle_m.distance(self.eye_planet_m) - f64::from(block.radius_m) < reach_m(block.foreseen_m)
+            let first = i / BLOCKS_SIDE * BLOCK_QUADS * TILE_SIDE + i % BLOCKS_SIDE * BLOCK_QUADS;
+            let (reach_m, radius_m) = (reach_m(block.foreseen_m), f64::from(block.radius_m));
+            let middle_m = away_m(first + BLOCK_QUADS / 2 * (TILE_SIDE + 1));
+            let mut rows = (0..=BLOCK_QUADS).map(|y| first + y * TILE_SIDE);
+            middle_m < reach_m
+                || (middle_m - radius_m < reach_m
+                    && rows.any(|row| (row..=row + BLOCK_QUADS).any(|i| away_m(i) - beside_m < reach_m)))
         })
     }
 }

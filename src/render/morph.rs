@@ -9,7 +9,8 @@ use crate::lod::tile::TILE_VERTICES;
 use glam::DVec3;
 
 /// What a vertex shows: how far it is drawn above its place; moisture, row of the biome table, height and temperature.
-pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![11 => Float32, 12 => Float32x4];
+pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
+    wgpu::vertex_attr_array![11 => Float32, 12 => Float32x4];
 /// Bytes of it.
 pub(crate) const SHOWN_BYTES: u64 = 5 * 4;
 /// Bytes of what belongs to one buffer of the pool.
@@ -138,12 +139,7 @@ impl Morph {
 }
 
 impl Part {
-    fn new(
-        device: &wgpu::Device,
-        layout: &wgpu::BindGroupLayout,
-        vertices: &wgpu::Buffer,
-        eye: &wgpu::Buffer,
-    ) -> Self {
+    fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, vertices: &wgpu::Buffer, eye: &wgpu::Buffer) -> Self {
         let shown = buffer(device, PART_BYTES, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX);
         let jobs_bytes = u64::from(SLOTS) * size_of::<Job>() as u64;
         let jobs = buffer(device, jobs_bytes, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST);
