@@ -51,12 +51,13 @@ struct Globals {
     cloud_seed: vec4u,
     // xyz: place of the eye in each octave of the mottling, in periods; w: period in metres
     mottle: array<vec4f, 7>,
-    // rgb; w: cosine of the slope where rock begins
-    cliff_color: vec4f,
-    // x: cosine of the slope where only rock is left; y, z: lowest and highest height, metres; w: exposure factor
+    // xyz: the eye's position modulo 1024 m, for patterns that repeat; w: how much colder it gets with each metre of height
+    eye_wrap_m: vec4f,
+    // xyz: the eye's position modulo 2^20 m; w: quality of the ground's patterns, 0 (one tap) to 2
+    eye_wrap_far_m: vec4f,
+    // x: entries of a mixture of biomes, 10; y, z: lowest and highest height, metres; w: exposure factor
     misc: vec4f,
-    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: steps of
-    // mottling
+    // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: tone
     modes: vec4u,
     // The eye that the tiles were chosen for, greater part and rest, metres; w: change of the biome table's row (0 to 1) with
     // each metre of height, below 0 where rows go by temperature; w of the rest: angle of its pixels, radians
@@ -67,3 +68,5 @@ struct Globals {
 @group(0) @binding(0) var<uniform> globals: Globals;
 @group(0) @binding(1) var clamped: sampler;
 @group(0) @binding(2) var repeated: sampler;
+// Repeats too; sees patterns from the side as sharp as from above
+@group(0) @binding(3) var patterned: sampler;

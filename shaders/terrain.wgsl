@@ -1,6 +1,7 @@
 // The ground: tiles, coloured by climate, lit by star and sky; and the debug views of it.
 #include "cloud_model.wgsl"
-#include "mottle.wgsl"
+#include "material.wgsl"
+#include "horizon.wgsl"
 
 // The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents show
 // them; height in metres as a sum of two, and how much higher the parents show it.
@@ -24,6 +25,8 @@ struct Vertex {
     @location(11) shift_m: f32,
     // Moisture, row of the biome table, height and temperature, the same way.
     @location(12) shown: vec4f,
+    // See `exposed`.
+    @location(13) horizon: vec4f,
 }
 
 struct Ground {
@@ -46,6 +49,7 @@ struct Ground {
     // As the parent's vertices have it; distances between which it takes over.
     @location(11) parent_normal: vec3f,
     @location(12) @interpolate(flat) fade_m: vec2f,
+    @location(13) @interpolate(flat) horizon: vec4f,
 }
 
 // Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
@@ -85,6 +89,7 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.layer = in.tile.w;
     out.slope_axis = in.slope_axis;
     out.detail_fade = vec4f(in.detail_fade.xyz, in.detail_place.w);
+    out.horizon = in.horizon;
     return out;
 }
 
@@ -129,11 +134,6 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     return out;
 }
 
-struct Material {
-    albedo: vec3f,
-    roughness: f32,
-}
-
 // Tilts a normal by a height that is only known pixel by pixel (Mikkelsen, Bump Mapping Unparametrized Surfaces on the
 // GPU, 2010). `bump_x`, `bump_y`, `rel_x`, `rel_y`: differences from pixel to pixel, in metres.
 fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec3f {
@@ -146,22 +146,33 @@ fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec
     return normalize(abs(area) * n - tilt + n * 1e-20);
 }
 
-fn material(in: Ground, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Material {
-    let cells = vec2f(textureDimensions(biome_albedo));
-    let jitter = border_jitter(in.rel_m, footprint_m);
-    let x = vec2f(in.climate.x, 1.0 - in.climate.y) + jitter * 0.9 / cells;
-    let ground = textureSampleLevel(biome_albedo, clamped, x, 0.0);
-    var out: Material;
-    out.albedo = ground.rgb * (1.0 + mottle * ground.a);
-    out.roughness = textureSampleLevel(biome_roughness, clamped, x, 0.0).r;
-    let rock = smoothstep(globals.cliff_color.w, globals.misc.x, slope_cosine + mottle * 0.04);
-    out.albedo = mix(out.albedo, globals.cliff_color.rgb * (1.0 + mottle * 0.35), rock);
-    out.roughness = mix(out.roughness, 0.9, rock);
-    if globals.water_absorption.w > 0.0 {
-        let depth = globals.water.x * 1000.0 - in.height_m;
-        let sand = mix(vec3f(0.36, 0.31, 0.22), vec3f(0.10, 0.10, 0.10), smoothstep(5.0, 250.0, depth));
-        out.albedo = mix(out.albedo, sand * (1.0 + mottle * 0.3), smoothstep(-2.0, 2.0, depth + mottle * 2.0));
-    }
+// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its climate, perhaps moved by a border's jitter.
+fn site_of(in: Ground, at: vec2f, risen_m: f32, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
+    let sea_m = globals.water.x * 1000.0;
+    let has_sea = globals.water_absorption.w > 0.0;
+    let above = select(1.0, saturate1((in.height_m - sea_m) * 0.1), has_sea);
+    return Site(
+        vec2f(at.x, 1.0 - at.y),
+        in.rel_m,
+        slope_cosine,
+        in.temperature_c - risen_m * globals.eye_wrap_m.w * above,
+        select(1e9, in.height_m - sea_m, has_sea),
+        footprint_m,
+        mottle,
+    );
+}
+
+// The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
+fn seabed(ground: Material, site: Site) -> Material {
+    if globals.water_absorption.w <= 0.0 { return ground; }
+    var out = ground;
+    let beach = biome_param(RULES, 0).x;
+    var sand = vec3f(0.36, 0.31, 0.22);
+    if beach >= 0.0 { sand = biome_param(i32(beach), 0).rgb; }
+    let depth_m = -site.over_sea_m;
+    sand = mix(sand, vec3f(0.10, 0.10, 0.10), smoothstep(5.0, 250.0, depth_m));
+    let wet = smoothstep(-2.0, 2.0, depth_m + site.mottle * 2.0);
+    out.albedo = mix(out.albedo, sand * (1.0 + site.mottle * 0.3), wet);
     return out;
 }
 
@@ -172,6 +183,25 @@ fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, roughness: f32) -> f32 {
     let t = select(1.0, max(max(n_l, n_v), 1e-3), s > 0.0);
     let a = 1.0 / (PI + (PI / 2.0 - 2.0 / 3.0) * sigma);
     return n_l * (a + sigma * a * s / t);
+}
+
+// What a surface mirrors of the star's light (x) and, on the whole, of the sky's (y): GGX with the visibility of Hammon (PBR Diffuse
+// Lighting for GGX+Smith Microsurfaces, 2017), and Karis' fit for light from all around (Physically Based Shading on Mobile, 2014).
+fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> vec2f {
+    if reflectance <= 0.0 { return vec2f(0.0); }
+    let n_v = max(dot(n, v), 1e-3);
+    let fit = vec4f(1.0, 0.0425, 1.04, -0.04) + roughness * vec4f(-1.0, -0.0275, -0.572, 0.022);
+    let grazing = min(fit.x * fit.x, exp2(-9.28 * n_v)) * fit.x + fit.y;
+    let around = max(reflectance * (fit.z - 1.04 * grazing) + min(reflectance * 50.0, 1.0) * (fit.w + 1.04 * grazing), 0.0);
+    let n_l = dot(n, l);
+    if n_l <= 0.0 { return vec2f(0.0, around); }
+    let h = normalize(v + l);
+    let n_h = max(dot(n, h), 0.0);
+    let alpha = max(roughness * roughness, 0.02);
+    let d = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
+    let visible = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
+    let fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    return vec2f(alpha * alpha / (PI * d * d) * visible * fresnel * n_l, around);
 }
 
 fn ramp(x: f32) -> vec3f {
@@ -224,7 +254,7 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
+fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
@@ -236,9 +266,8 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let cells = vec2f(textureDimensions(biome_albedo));
-            let cell = clamp(vec2f(in.climate.x, 1.0 - in.climate.y) * cells, vec2f(0.0), cells - 1.0);
-            return textureLoad(biome_albedo, vec2i(cell), 0).rgb;
+            let site = site_of(in, in.climate, risen_m, dot(n, up), 1.0, 0.0);
+            return biome_param(biome_of(site), 0).rgb;
         }
         case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
         case 6u: { return moisture_color(in.climate.x) * lit; }
@@ -250,25 +279,31 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
     }
 }
 
-fn shade(on_mesh: Ground) -> vec4f {
+fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let footprint_m = max(max(length(dpdx(on_mesh.rel_m)), length(dpdy(on_mesh.rel_m))), 1e-6);
+    let rel_x = dpdx(on_mesh.rel_m);
+    let rel_y = dpdy(on_mesh.rel_m);
+    let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let detail = relief_of(on_mesh, up, footprint_m);
     var in = on_mesh;
     in.height_m = detail.height_m;
     in.climate = detail.climate;
+    let risen_m = in.height_m - on_mesh.height_m;
     var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
+    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up, risen_m), over_sea_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
-    let ground = material(in, dot(n, up), footprint_m, relief.x);
-    n = bumped(n, dpdx(in.rel_m), dpdy(in.rel_m), dpdx(relief.y), dpdy(relief.y));
+    let jitter = border_jitter(in.rel_m, footprint_m) * vec2f(0.9, -0.9) / vec2f(textureDimensions(biome_ids));
+    let site = site_of(in, in.climate + jitter, risen_m, dot(n, up), footprint_m, relief.x);
+    let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
+    n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
+    n = normalize(n - ground.slope + n * dot(n, ground.slope));
     let n_v = max(dot(n, v), 0.0);
 
     let sun = globals.sun_dir.xyz;
@@ -278,22 +313,28 @@ fn shade(on_mesh: Ground) -> vec4f {
     var shadow = 1.0;
     if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
     let sky_share = overcast(shadow);
+    shadow *= from_ground.star;
     let diffuse = rough_diffuse(max(dot(n, sun), 0.0), n_v, dot(sun, v), ground.roughness);
     let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
-    let open = 0.5 + 0.5 * dot(n, up);
+    let open = (0.5 + 0.5 * dot(n, up)) * from_ground.sky;
     // What the ground around sends back to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
-    let radiance = ground.albedo * (sunlight * shadow * diffuse + (sky * open + bounce) / PI);
+    let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
+    let radiance = ground.albedo * (sunlight * shadow * diffuse + (sky * open + bounce) / PI)
+        + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;
     return vec4f(min(radiance, vec3f(60000.0)), over_sea_m);
 }
 
 struct Output {
     // Radiance; height over the sea in metres
     @location(0) light: vec4f,
-    @location(1) temperature_c: vec4f,
+    // °C; share of the star's light that the ground around takes
+    @location(1) surface: vec4f,
 }
 
 @fragment
 fn fragment(in: Ground) -> Output {
-    return Output(shade(in), vec4f(in.temperature_c, 0.0, 0.0, 0.0));
+    let up = normalize(globals.eye_km.xyz + in.rel_m * 0.001);
+    let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
+    return Output(shade(in, from_ground), vec4f(in.temperature_c, 1.0 - from_ground.star, 0.0, 0.0));
 }

@@ -1,23 +1,10 @@
-// From radiance to what a display shows: exposure, a film-like curve, dither; shrinks or enlarges to the target.
+// From radiance to what a display shows: exposure, a curve (tone.wgsl), dither; shrinks or enlarges to the target.
 #include "screen.wgsl"
-#include "math.wgsl"
+#include "tone.wgsl"
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;
 // x: factor that was metered, 1 for manual exposure
 @group(1) @binding(1) var<uniform> metered: vec4f;
-
-// Highlights bleach as on film: channels are mixed before a curve with a soft toe and shoulder, and drawn apart after it
-// (the idea of AgX; the matrix and the curve x^n / (x^n + c) are fitted here so that 0.18 stays near 0.2 and 1.0, white
-// ground at noon, shows as 0.85).
-fn film(radiance: vec3f) -> vec3f {
-    let mixed = mix(radiance, vec3f(luminance(radiance)), 0.10);
-    // The power 1.25 from two roots: much cheaper than pow on a software adapter.
-    let light = max(mixed, vec3f(0.0));
-    let x = light * sqrt(sqrt(light));
-    let shown = x / (x + 0.44);
-    let grey = luminance(shown);
-    return saturate(mix(vec3f(grey), shown, 1.0 / 0.76));
-}
 
 fn encode_srgb(c: vec3f) -> vec3f {
     let low = c * 12.92;
@@ -32,7 +19,7 @@ fn decode_srgb(c: vec3f) -> vec3f {
 
 fn show(radiance: vec3f) -> vec3f {
     if globals.modes.x != 0u { return saturate(radiance); }
-    return film(radiance * (globals.misc.w * metered.x));
+    return toned(radiance * (globals.misc.w * metered.x), globals.modes.w);
 }
 
 @fragment

@@ -2,7 +2,8 @@
 #include "surface.wgsl"
 #include "sea.wgsl"
 
-@group(2) @binding(2) var surface_temperature: texture_2d<f32>;
+// Temperature, °C; share of the star's light that the ground around takes.
+@group(2) @binding(2) var surface: texture_2d<f32>;
 
 // Light that comes out of the water: the floor through it, and what the water itself sends back.
 fn body(floor: vec3f, depth_m: f32, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
@@ -13,7 +14,7 @@ fn body(floor: vec3f, depth_m: f32, view_mu: f32, sun_mu: f32, downwelling: vec3
     return floor * left + globals.water_color.rgb * downwelling / PI * (1.0 - left);
 }
 
-fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32, temperature_c: f32) -> vec3f {
+fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32, temperature_c: f32, star: f32) -> vec3f {
     let distance_km = length(rel_km);
     let up = normalize(globals.eye_km.xyz + rel_km);
     let view_mu = clamp(-dot(up, dir), 0.0, 1.0);
@@ -25,6 +26,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32, temperatu
     var shadow = 1.0;
     if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
     let share = overcast(shadow);
+    shadow *= star;
     let diffused = sunlight * max(sun_mu, 0.0) * share.y;
     let sky = sky_irradiance(h, sun_mu) * share.x + diffused;
     let downwelling = sunlight * shadow * max(sun_mu, 0.0) + sky;
@@ -78,15 +80,21 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // of the sea again before it met land does the sea lie in front.
     var wet = 1.0;
     var depth_m = 10000.0;
+    var star = 1.0;
     // Beyond the last terrain the climate of the latitude has to do.
     let sin_lat = normalize(globals.eye_km.xyz + dir * hits.x).z;
     var temperature_c = mix(globals.water.z, globals.water.w, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
         wet = saturate1(0.5 - height_m / change_m);
         depth_m = max(-height_m, 0.0);
-        temperature_c = textureLoad(surface_temperature, pixel, 0).r;
+        let found = textureLoad(surface, pixel, 0);
+        temperature_c = found.r;
+        // The floor that is seen lies aside of the sea's surface; too far aside its shadow is another one.
+        let mu = dot(dir, normalize(globals.eye_km.xyz + dir * hits.x));
+        let aside_km = max(terrain - hits.x, 0.0) * sqrt(max(1.0 - mu * mu, 0.0));
+        star = 1.0 - found.g * (1.0 - smoothstep(1.0, 10.0, aside_km));
     }
     if wet <= 0.0 { return scene; }
-    let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depth_m, temperature_c);
+    let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depth_m, temperature_c, star);
     return vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m);
 }

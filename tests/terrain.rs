@@ -9,7 +9,7 @@ use tellus::build::{Builder, Surface, build_now};
 use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{
-    Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, SlopeMask, Water,
+    Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, SlopeMask, Water,
 };
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
 use tellus::terrain::Terrain;
@@ -34,6 +34,8 @@ fn planet() -> Planet {
     let mountains =
         Layer { masks: vec![mask("continents", 0.0, 0.3)], seed: 5, ..layer("mountains", ridged, 5000.0, Blend::Add) };
     Planet {
+        // As presets of versions 1 and 2 are.
+        precision: Precision::Classic,
         layers: vec![
             layer("continents", fbm(5000.0, 12), 3000.0, Blend::Add),
             mountains,

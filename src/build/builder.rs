@@ -6,6 +6,7 @@
 //! however heavy the planet is. No stale work is carried on, and no surface is ever made of two planets.
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
+use super::horizon::HorizonFinder;
 use super::refine::refine;
 use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
@@ -156,8 +157,8 @@ type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -
 struct Worker {
     cache: Cache,
     terrain: Option<Arc<Terrain>>,
-    /// All tiles of a request whose detail is being found.
-    complete: Option<(u64, Surface)>,
+    /// All tiles of a request whose horizons and detail are being found.
+    complete: Option<(u64, Surface, Option<HorizonFinder>)>,
     refine: Refine,
 }
 
@@ -209,7 +210,8 @@ impl Worker {
                     state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
                 }
             }
-            state.memory = self.cache.memory();
+            let coarse_bytes = self.terrain.as_ref().map_or(0, |terrain| terrain.coarse_bytes());
+            state.memory = self.cache.memory().and(coarse_bytes);
             drop(state);
             wake();
         }
@@ -218,10 +220,11 @@ impl Worker {
     /// A surface, and whether it has all that the request asks for. First come all tiles, then their detail.
     fn slice(&mut self, shared: &Shared, request: &Request, is_first: bool, mut stats: BuildStats) -> (Surface, bool) {
         let begun = Instant::now();
-        let terrain = self.compile(&request.planet);
+        let (terrain, compiled_samples) = self.compile(&request.planet);
         if is_first {
             self.cache.begin_request();
             stats.compile_secs = begun.elapsed().as_secs_f64();
+            stats.octave_samples += compiled_samples;
         }
         let keep_going = || {
             let elapsed = begun.elapsed();
@@ -229,8 +232,8 @@ impl Worker {
             if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
         // Once all tiles are there, only their detail is left to find.
-        let mut surface = match self.complete.take().filter(|(number, _)| *number == request.number) {
-            Some((_, surface)) => surface,
+        let (mut surface, finder) = match self.complete.take().filter(|(number, ..)| *number == request.number) {
+            Some((_, surface, finder)) => (surface, finder),
             None => {
                 let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
                 if !surface.complete {
@@ -238,24 +241,27 @@ impl Worker {
                 }
                 // Where tiles had to be built, they are shown before time is spent on their detail.
                 if surface.stats.tiles_built > stats.tiles_built {
-                    self.complete = Some((request.number, surface.clone()));
+                    self.complete = Some((request.number, surface.clone(), None));
                     return (surface, false);
                 }
-                surface
+                (surface, None)
             }
         };
+        let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, &request.view));
+        let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
+        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
         let wanted = || shared.is_newest(request.number);
-        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted);
-        self.complete = (!done).then(|| (request.number, surface.clone()));
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted) && has_horizons;
+        self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
         (surface, done)
     }
 
-    /// The evaluator of a planet; tiles stay valid when nothing that they hold has changed.
-    fn compile(&mut self, planet: &Arc<Planet>) -> Arc<Terrain> {
+    /// The evaluator of a planet, and how many octave samples it took to find; tiles stay valid when nothing that they hold has changed.
+    fn compile(&mut self, planet: &Arc<Planet>) -> (Arc<Terrain>, usize) {
         let before = self.terrain.take();
-        let terrain = match before {
-            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => terrain,
+        let (terrain, samples) = match before {
+            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => (terrain, 0),
             before => {
                 profiling::scope!("compile");
                 let terrain = Arc::new(match &before {
@@ -265,11 +271,12 @@ impl Worker {
                 if let Some(before) = before {
                     self.cache.invalidate(stale_stages(&before, &terrain));
                 }
-                terrain
+                let samples = terrain.octave_samples();
+                (terrain, samples)
             }
         };
         self.terrain = Some(terrain.clone());
-        terrain
+        (terrain, samples)
     }
 }
 

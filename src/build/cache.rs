@@ -4,14 +4,15 @@
 //! what unseen tiles were made from, then unseen tiles, at last what the tiles on screen were made from. The tiles that the
 //! present request needs always stay.
 
-use super::kept::KeptFields;
 use super::make::{Before, Parts, make_tile};
 use super::stats::{Memory, Work};
 use crate::lod::View;
+use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::{DetailTile, Tile, Vertex};
 use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use crate::terrain::kept::KeptFields;
 use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -26,6 +27,8 @@ struct Entry {
     parts: Option<Arc<Parts>>,
     fields: KeptFields,
     detail: Option<Arc<DetailTile>>,
+    /// Of the present planet or of an earlier one.
+    horizon: Option<Arc<HorizonTile>>,
     /// The stages in which the tile's planet differs from the present one.
     stale: Stages,
     /// The request that last asked for it.
@@ -36,12 +39,14 @@ impl Entry {
     fn bytes(&self) -> usize {
         let tile = self.tile.as_ref().map_or(0, |tile| tile.vertices.len() * size_of::<Vertex>());
         let detail = self.detail.as_ref().map_or(0, |detail| detail.bytes());
-        tile + detail + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
+        let horizon = self.horizon.as_ref().map_or(0, |horizon| horizon.bytes());
+        tile + detail + horizon + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
     }
 
     /// Keeps the tile alone.
     fn strip(&mut self) {
         self.detail = None;
+        self.horizon = None;
         self.parts = None;
         self.fields.clear();
     }
@@ -103,10 +108,31 @@ impl Cache {
 
     /// Keeps the detail of a node's tile.
     pub(crate) fn keep_detail(&self, id: NodeId, detail: &Arc<DetailTile>) {
+        self.keep_with(id, |entry| entry.detail = Some(detail.clone()));
+    }
+
+    /// The horizon last found for a node, perhaps on an earlier planet.
+    pub(crate) fn horizon(&self, id: NodeId) -> Option<Arc<HorizonTile>> {
+        self.lock().entries.get(&id)?.horizon.clone()
+    }
+
+    /// The same, or that of the nearest node above which has one.
+    pub(crate) fn nearest_horizon(&self, id: NodeId) -> Option<Arc<HorizonTile>> {
+        let state = self.lock();
+        std::iter::successors(Some(id), |id| id.parent()).find_map(|id| state.entries.get(&id)?.horizon.clone())
+    }
+
+    /// Keeps the horizon of a node.
+    pub(crate) fn keep_horizon(&self, horizon: &Arc<HorizonTile>) {
+        self.keep_with(horizon.id, |entry| entry.horizon = Some(horizon.clone()));
+    }
+
+    /// Keeps something with a node's tile, if there is one.
+    fn keep_with(&self, id: NodeId, keep: impl FnOnce(&mut Entry)) {
         let mut state = self.lock();
         let Some(entry) = state.entries.get_mut(&id) else { return };
         let bytes_before = entry.bytes();
-        entry.detail = Some(detail.clone());
+        keep(entry);
         let bytes_after = entry.bytes();
         state.bytes = state.bytes + bytes_after - bytes_before;
         if state.bytes > self.budget_bytes {
@@ -190,6 +216,7 @@ impl Cache {
             used_bytes: state.bytes,
             budget_bytes: self.budget_bytes,
             tiles: state.entries.values().filter(|entry| entry.tile.is_some()).count(),
+            horizons: state.entries.values().filter(|entry| entry.horizon.is_some()).count(),
             fields: state.entries.values().map(|entry| entry.fields.len()).sum(),
         }
     }

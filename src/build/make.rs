@@ -1,7 +1,6 @@
 //! One tile from one node: directions, layer fields, height, climate, mesh (see `mesh`). Stages whose inputs did not change are
 //! taken from the tile that stood there before, and samples that the parent has from the parent.
 
-use super::kept::KeptFields;
 use super::mesh::mesh;
 use super::stats::Work;
 use crate::lod::range::spacing_rad;
@@ -13,6 +12,7 @@ use crate::terrain::climate::ClimateField;
 use crate::terrain::coast::Coast;
 use crate::terrain::field::Field;
 use crate::terrain::height::{self, Heights};
+use crate::terrain::kept::KeptFields;
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
 use glam::DVec3;

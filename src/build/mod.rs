@@ -1,8 +1,7 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
 //! - `make`: one tile from one node, stage by stage; `mesh`: its vertices; `deviation`: how they stand out from coarser meshes
-//! - `kept`: the layer fields of one tile, present and past
-//! - `detail`: what is finer than the mesh of one node
+//! - `detail`: what is finer than the mesh of one node; `horizon`: how high the ground around it stands
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
 //! - [`builder`]: all of it in the background
@@ -11,7 +10,7 @@ pub mod builder;
 mod cache;
 mod detail;
 mod deviation;
-mod kept;
+mod horizon;
 mod make;
 mod mesh;
 mod refine;
@@ -19,9 +18,11 @@ mod stats;
 
 pub use builder::Builder;
 pub use cache::DEFAULT_BUDGET_BYTES;
+pub use horizon::HorizonWork;
 pub use refine::lowest_radius_m;
 pub use stats::{BuildStats, Memory, StageWork};
 
+use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::DetailTile;
 use crate::lod::{Culling, Ranges, Tile, View};
 use crate::planet::Planet;
@@ -63,6 +64,8 @@ pub struct Leaf {
     pub relief: Arc<Tile>,
     /// What is finer than the mesh: that of `relief`, or of an ancestor of it until it is there.
     pub detail: Option<Arc<DetailTile>>,
+    /// Its horizon, or that of a node above it, once one is there; perhaps of an earlier planet while the new one is found.
+    pub horizon: Option<Arc<HorizonTile>>,
 }
 
 impl Leaf {
@@ -87,11 +90,14 @@ impl Surface {
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
     let terrain = Arc::new(Terrain::new(planet.clone()));
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
-    refine::refine(&terrain, view, &cache, Instant::now(), BuildStats::default(), &|| true)
+    let mut stats = BuildStats::default();
+    stats.octave_samples = terrain.octave_samples();
+    refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true)
 }
 
-/// Finds the detail of all tiles that a view shows of a surface, and waits for it.
+/// Finds the horizons and the detail of all tiles that a view shows of a surface, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
+    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true);
     find_detail(surface, view, &|_, _| {}, &|| true, &|| true);
 }
 

@@ -248,7 +248,8 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
             }
             let relief = reliefs.entry(shaded).or_insert_with(|| relief(shaded, cache));
             let (relief, detail) = relief.clone().unwrap_or_else(|| (tile.clone(), None));
-            Some(Leaf { tile, coarser_edges, relief, detail })
+            let horizon = cache.nearest_horizon(id);
+            Some(Leaf { tile, coarser_edges, relief, detail, horizon })
         })
         .collect()
 }

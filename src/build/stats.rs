@@ -1,5 +1,6 @@
 //! What building took: how often each stage ran, when and for how long, and what is kept in memory.
 
+use super::horizon::HorizonWork;
 use crate::planet::param::{Stage, Stages};
 use std::time::Instant;
 
@@ -12,7 +13,7 @@ pub struct BuildStats {
     pub vertices: usize,
     /// Tiles (re)built for it: its own, and their ancestors.
     pub tiles_built: usize,
-    /// Octaves of noise times points that were evaluated.
+    /// Octaves of noise times points that were evaluated, for tiles and to compile the planet.
     pub octave_samples: usize,
     /// Seconds from the request to the finished surface.
     pub duration_secs: f64,
@@ -22,6 +23,8 @@ pub struct BuildStats {
     pub select_secs: f64,
     /// Slices that the work was done in; each ended in a complete surface.
     pub slices: usize,
+    /// What its horizons took, in the background once its tiles were there.
+    pub horizons: HorizonWork,
     stages: PerStage,
 }
 
@@ -107,12 +110,21 @@ impl Work {
 /// What the builder keeps for later.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// Bytes in tiles and in what they were made from.
+    /// Bytes in tiles and in what they and the planet's shores were made from.
     pub used_bytes: usize,
     /// Most bytes it may come to, unless what is shown takes more.
     pub budget_bytes: usize,
     /// Tiles.
     pub tiles: usize,
+    /// Horizons of nodes.
+    pub horizons: usize,
     /// Layer fields of the present planet and of earlier ones.
     pub fields: usize,
+}
+
+impl Memory {
+    /// With more in use.
+    pub(crate) fn and(self, bytes: usize) -> Self {
+        Self { used_bytes: self.used_bytes + bytes, ..self }
+    }
 }

@@ -5,7 +5,7 @@ use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
-use crate::render::{DebugView, Frame, Metering, Renderer};
+use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use clap::ValueEnum;
@@ -53,6 +53,9 @@ pub(super) struct Args {
     /// Exposure in stops, 0 for a sunlit planet [default: as suits what there is to see]
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = args::exposure)]
     exposure: Option<f64>,
+    /// The curve from radiance to the picture
+    #[arg(long, value_enum, default_value_t = Tone::AgX)]
+    tone: Tone,
     /// How well it is drawn
     #[arg(long, value_enum, default_value_t = Quality::High)]
     quality: Quality,
@@ -70,6 +73,19 @@ impl ValueEnum for Quality {
             Quality::Low => "low",
             Quality::Medium => "medium",
             Quality::High => "high",
+        }))
+    }
+}
+
+impl ValueEnum for Tone {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Tone::ALL
+    }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(match self {
+            Tone::AgX => "agx",
+            Tone::Neutral => "neutral",
+            Tone::Plain => "plain",
         }))
     }
 }
@@ -102,6 +118,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut renderer =
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
     renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
+    renderer.tone = args.tone;
     let view = view(args, &planet);
     let mut surface = build_now(&planet, &view);
     add_detail(&mut surface, &view);

@@ -9,7 +9,7 @@ use super::viewport::camera::Mode;
 use super::widgets::icon::{Icon, icon_button};
 use crate::lod::Quality;
 use crate::planet::shipped;
-use crate::render::DebugView;
+use crate::render::{DebugView, Tone};
 use eframe::egui;
 
 /// Shows the bar: menus to the left, time and the document's name to the right.
@@ -107,6 +107,15 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
             }
         }
     });
+    let tones = ui.menu_button(format!("Tones: {}", settings.tone.label()), |ui| {
+        for tone in Tone::ALL {
+            if ui.radio(settings.tone == tone, tone.label()).clicked() {
+                app.viewport.settings.tone = tone;
+                ui.close();
+            }
+        }
+    });
+    tones.response.on_hover_text("The curve from light to the picture: like film, colours as they are, or none");
     ui.horizontal(|ui| {
         let label = ui.label("Exposure");
         let slider = egui::Slider::new(&mut app.viewport.settings.exposure_ev, -8.0..=8.0).suffix(" EV");

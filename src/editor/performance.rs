@@ -78,8 +78,13 @@ fn memory(ui: &mut egui::Ui, app: &EditorApp) {
     ui.horizontal(|ui| {
         ui.label("Kept");
         ui.add(egui::ProgressBar::new(share.min(1.0)).desired_width(BAR_WIDTH).text(text));
-        ui.label(format!("{} tiles, {} layer fields", memory.tiles, memory.fields));
+        ui.label(format!("{} tiles, {} horizons, {} layer fields", memory.tiles, memory.horizons, memory.fields));
     });
+    if let Some(surface) = app.viewport().surface() {
+        let horizons = surface.stats.horizons;
+        ui.label(format!("Horizons for the newest view: {} made in {}", horizons.tiles, ms(horizons.secs)))
+            .on_hover_text("What shades the ground, found in the background once its tiles are there");
+    }
     if let Some(runs) = app.viewport().table_runs() {
         ui.label(format!(
             "Tables made since the start: biomes {}, weather {}, air {}, uniforms {}",

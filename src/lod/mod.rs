@@ -1,7 +1,7 @@
 //! Which nodes are shown: the camera, the choice of nodes by screen-space error, culling, index permutations.
 //!
 //! - [`view`]: camera, viewport, quality
-//! - [`tile`]: what a tile is: vertices, bounds
+//! - [`tile`]: what a tile is: vertices, bounds; [`horizon`]: how high the ground around it stands
 //! - [`stitch`]: index permutations for coarser neighbours
 //! - [`opening`]: where the camera stands when a planet is opened
 //! - [`chords`]: what stands in for a vertex before it appears
@@ -12,6 +12,7 @@
 
 pub mod chords;
 pub mod cull;
+pub mod horizon;
 pub mod morph;
 pub mod opening;
 pub mod range;

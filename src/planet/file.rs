@@ -161,7 +161,7 @@ fn version(text: &str) -> Result<u32, Problem> {
     let field = "version";
     let Some(place) = locate::find(text, field) else {
         // A text that is no preset at all has a better explanation than a missing field.
-        let problem = match explain::parse::<migrate::FileV2>(text) {
+        let problem = match explain::parse::<migrate::FileV3>(text) {
             Err(problem) if problem.path.is_empty() && !problem.message.starts_with("there is no field") => problem,
             _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version()) },
         };

@@ -1,24 +1,28 @@
 //! Preset versions: one type for each version's file, and the chain from the oldest to the planet of today.
 //!
-//! - `v1`: version 1, frozen
+//! - `v1`, `v2`: versions 1 and 2, frozen
 //!
-//! Version 2 is current. When version 3 comes: copy what changes of version 2's types into `migrate/v2.rs` and freeze
-//! them, write `impl From<v2::File> for FileV3` and nothing else about version 2, read version 3 here, and add
-//! `tests/fixtures/preset_v3.ron` beside the fixtures of the versions before, which go on loading for ever. Never edit
+//! Version 3 is current. When version 4 comes: copy what changes of version 3's types into `migrate/v3.rs` and freeze
+//! them, write `impl From<v3::File> for FileV4` and nothing else about version 3, read version 4 here, and add
+//! `tests/fixtures/preset_v4.ron` beside the fixtures of the versions before, which go on loading for ever. Never edit
 //! a fixture, and never migrate text.
 
 mod v1;
+mod v2;
 
 use super::explain::parse;
 use super::param::Curve;
-use super::{Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Problem, Star, VERSION, Version, Water};
+use super::{
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Problem, Star, VERSION, Version, Water,
+};
 use serde::{Deserialize, Serialize};
 
 /// Reads the text of a preset that says it is of `version`.
 pub(crate) fn read(version: u32, text: &str) -> Result<Planet, Problem> {
     match version {
-        1 => parse::<v1::File>(text).map(FileV2::from).map(Planet::from),
-        2 => parse::<FileV2>(text).map(Planet::from),
+        1 => parse::<v1::File>(text).map(v2::File::from).map(FileV3::from).map(Planet::from),
+        2 => parse::<v2::File>(text).map(FileV3::from).map(Planet::from),
+        3 => parse::<FileV3>(text).map(Planet::from),
         _ => Err(Problem {
             line: 1,
             column: 1,
@@ -31,11 +35,12 @@ pub(crate) fn read(version: u32, text: &str) -> Result<Planet, Problem> {
 /// The whole file: the version, then the fields of [`Planet`]. Spelt out because serde's `flatten` loses positions.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Planet", default, deny_unknown_fields)]
-pub(crate) struct FileV2 {
+pub(crate) struct FileV3 {
     version: Version,
     name: String,
     seed: u32,
     radius_km: f64,
+    precision: Precision,
     height_curve: Curve,
     star: Star,
     layers: Vec<Layer>,
@@ -48,18 +53,19 @@ pub(crate) struct FileV2 {
     editor: Option<EditorNotes>,
 }
 
-impl Default for FileV2 {
+impl Default for FileV3 {
     fn default() -> Self {
         Planet::default().into()
     }
 }
 
-impl From<Planet> for FileV2 {
+impl From<Planet> for FileV3 {
     fn from(planet: Planet) -> Self {
         let Planet {
             name,
             seed,
             radius_km,
+            precision,
             height_curve,
             star,
             layers,
@@ -76,6 +82,7 @@ impl From<Planet> for FileV2 {
             name,
             seed,
             radius_km,
+            precision,
             height_curve,
             star,
             layers,
@@ -89,13 +96,14 @@ impl From<Planet> for FileV2 {
     }
 }
 
-impl From<FileV2> for Planet {
-    fn from(file: FileV2) -> Self {
-        let FileV2 {
+impl From<FileV3> for Planet {
+    fn from(file: FileV3) -> Self {
+        let FileV3 {
             version: _,
             name,
             seed,
             radius_km,
+            precision,
             height_curve,
             star,
             layers,
@@ -106,6 +114,20 @@ impl From<FileV2> for Planet {
             clouds,
             editor,
         } = file;
-        Self { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds, editor }
+        Self {
+            name,
+            seed,
+            radius_km,
+            precision,
+            height_curve,
+            star,
+            layers,
+            climate,
+            biomes,
+            water,
+            atmosphere,
+            clouds,
+            editor,
+        }
     }
 }

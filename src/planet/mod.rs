@@ -1,8 +1,8 @@
 //! What a planet is: plain data, its description, its file.
 //!
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
-//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`table`]: the preset's data (terrain layers; their kinds; where they act;
-//!   everything else; the biome table); `kinds` writes the enums whose values carry parameters
+//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`biome`], [`table`]: the preset's data (terrain layers; their kinds; where
+//!   they act; everything else; one kind of ground; the biome table); `kinds` writes the enums whose values carry parameters
 //! - `airs`, `star_color`: atmospheres to start from; the colour of a star by its temperature
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
@@ -14,6 +14,7 @@
 //! - [`random`]: random planets that are always valid
 
 mod airs;
+pub mod biome;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
@@ -35,11 +36,12 @@ pub(crate) mod text;
 pub mod validate;
 
 pub use airs::{STARTING_AIRS, StartingAir};
+pub use biome::{Biome, Detail, Steep};
 pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
-pub use parts::{Atmosphere, Biome, Biomes, Climate, Clouds, Star, TableRows, Water};
+pub use parts::{Atmosphere, Biomes, Climate, Clouds, Star, TableRows, Water};
 pub use picture::PictureLayout;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
@@ -48,12 +50,12 @@ pub use shapes::{
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
 
-use param::{Curve, Domain, ParamPath, Params, Stage, Unit, log, params};
+use param::{Curve, Domain, ParamPath, Params, Stage, Unit, choice, log, params};
 use serde::{Deserialize, Serialize};
 
 /// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
 /// version is migrated when it is read, and keeps its exact heights.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// Most layers a planet may have.
 pub const MAX_LAYERS: usize = 64;
@@ -79,6 +81,9 @@ params! {
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
         radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
+        /// How exactly heights are found. Classic is how presets before version 3 were made, and keeps their heights to
+        /// the bit; Millimetre is smooth underfoot on the highest mountains.
+        precision: Precision = Precision::Millimetre, "Precision", Unit::None, Domain::Choice, Stage::Field;
         /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it
         /// is; beyond its ends the curve goes on straight.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;
@@ -116,6 +121,17 @@ impl Planet {
     /// Calls `visit` for each parameter of the planet, in the order of the file.
     pub fn each(&mut self, visit: &mut param::Visit<'_>) {
         self.each_param(&mut ParamPath::default(), visit);
+    }
+}
+
+choice! {
+    /// How exactly heights are found.
+    pub enum Precision {
+        /// Within a millimetre of f64 throughout at 8 km of amplitude.
+        Millimetre = "Millimetre",
+        /// As before version 3: a third of a millimetre off for each kilometre of amplitude, and more for some kinds of
+        /// layer.
+        Classic = "Classic",
     }
 }
 

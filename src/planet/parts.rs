@@ -3,6 +3,7 @@
 //! Colours are linear sRGB. Lengths, angles and rates are in the unit their name says; the parts that use them convert
 //! to SI and radians.
 
+use super::biome::{Biome, DETAIL_SIZE, Detail};
 use super::param::{Domain, Stage, Unit, choice, count, linear, log, params, triple};
 
 params! {
@@ -63,33 +64,37 @@ params! {
         lowest_m: f64 = 0.0, "Lowest", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate;
         /// Height above the sea (or the reference sphere) of the first row, when rows are elevations.
         highest_m: f64 = 6000.0, "Highest", Unit::Metres, linear(-50_000.0, 100_000.0), Stage::Climate;
-        /// Slope at which bare rock begins to show through the biome.
-        cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Uniform;
+        /// Slope at which bare rock begins to show through the biomes that share it.
+        cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Slope from which there is only bare rock.
-        cliff_full_deg: f64 = 42.0, "Only rock", Unit::Degrees, linear(0.0, 90.0), Stage::Uniform;
+        cliff_full_deg: f64 = 42.0, "Only rock", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Colour of bare rock on steep ground.
-        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock", Unit::None, Domain::Color, Stage::Uniform;
+        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock", Unit::None, Domain::Color, Stage::Material;
+        /// What bare rock looks like from near.
+        cliff_detail: Detail = Detail::None, "Detail of rock", Unit::None, Domain::Choice, Stage::Material;
+        /// Size of the pattern of bare rock, from one repeat to the next.
+        cliff_detail_m: f64 = 6.0, "Size of rock", Unit::Metres, DETAIL_SIZE, Stage::Material;
+        /// Beach lies where the ground is at most this far above or below the level of the sea; 0 is no beach.
+        beach_m: f64 = 0.0, "Beach up to", Unit::Metres, log(0.0, 1000.0), Stage::Material;
+        /// Key of the biome that beaches are of; the bed of shallow water beside them has its colour.
+        beach_key: char = 'a', "Beach", Unit::None, Domain::Letter, Stage::Material;
+        /// No beach is steeper than this.
+        beach_steepest_deg: f64 = 15.0, "Steepest beach", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        /// Whether snow lies over the biomes where it is cold.
+        snow: bool = false, "Snow", Unit::None, Domain::Flag, Stage::Material;
+        /// Key of the biome that snow is of.
+        snow_key: char = 'a', "Snow is", Unit::None, Domain::Letter, Stage::Material;
+        /// Temperature at which snow covers half of the ground.
+        snow_below_c: f64 = -6.0, "Snow below", Unit::Celsius, linear(-270.0, 1000.0), Stage::Material;
+        /// From bare ground to full cover.
+        snow_range_c: f64 = 4.0, "Range of snow", Unit::Celsius, linear(0.1, 100.0), Stage::Material;
+        /// Steeper ground than this sheds its snow.
+        snow_steepest_deg: f64 = 40.0, "Steepest snow", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
     } with {
         /// The biomes that the table's letters stand for.
         palette: Vec<Biome> = vec![Biome::default()];
         /// The table: each string is a row, each letter a biome of the palette.
         table: Table = Table::uniform('a', 16, 12);
-    }
-}
-
-params! {
-    /// One kind of ground.
-    pub struct Biome {
-        /// The letter that stands for this biome in the table; unique in the palette.
-        key: char = 'a', "Key", Unit::None, Domain::Letter, Stage::Material;
-        /// What the biome is called.
-        name: String = "Ground".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
-        /// Colour of the ground (albedo, linear sRGB).
-        color: [f64; 3] = [0.2, 0.18, 0.15], "Colour", Unit::None, Domain::Color, Stage::Material;
-        /// Strength of the mottling: 0 is one even colour.
-        variation: f64 = 0.25, "Variation", Unit::None, linear(0.0, 1.0), Stage::Material;
-        /// How dull the ground is: 0 is a mirror, 1 is chalk.
-        roughness: f64 = 0.9, "Roughness", Unit::None, linear(0.0, 1.0), Stage::Material;
     }
 }
 

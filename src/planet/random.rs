@@ -12,7 +12,8 @@ mod grounds;
 
 use super::param::Stage;
 use super::{
-    Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Ridged, Shape, Star, Water, validate,
+    Atmosphere, Blend, Climate, Clouds, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, Star, Water,
+    validate,
 };
 use dice::{Dice, three_digits};
 
@@ -43,6 +44,7 @@ pub fn random(seed: u64) -> Planet {
         name: dice.name(),
         seed: dice.seed(),
         radius_km,
+        precision: Precision::default(),
         height_curve: Vec::new(),
         star: Star {
             latitude_deg: dice.rounded(-24.0, 24.0),

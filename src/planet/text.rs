@@ -4,7 +4,7 @@
 //! first element of a list from the rest, nor one shape of a layer from another.
 
 use super::explain::options;
-use super::migrate::FileV2;
+use super::migrate::FileV3;
 use super::param::{Domain, Param, ValueMut};
 use super::{Biomes, EditorNotes, Layer, Mask, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
@@ -23,7 +23,7 @@ pub(crate) fn write(planet: &Planet) -> String {
     let config = PrettyConfig::new().new_line("\n").escape_strings(false);
     let mut bare = String::new();
     // Writing plain data into a string cannot fail; should it, what came out is refused when it is read.
-    let _ = options().to_writer_pretty(&mut bare, &FileV2::from(planet.clone()), config);
+    let _ = options().to_writer_pretty(&mut bare, &FileV3::from(planet.clone()), config);
     let mut text = header();
     let mut done = 0;
     for (at, comment) in comments(planet, &bare) {

@@ -4,7 +4,7 @@
 
 use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
-use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Table, layers, parts};
+use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
 use std::collections::HashSet;
 
 /// Everything that is wrong with a planet: where, and what would be right. In the order of the file, as far as one
@@ -168,7 +168,34 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
             found.add(item(&biomes_path("palette"), index, Some("key")), message);
         }
     }
+    references(biomes, &keys, found);
     table(biomes, &keys, found);
+}
+
+/// Rules that are on must name a biome.
+fn references(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
+    let known: String = biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
+    let refer = |found: &mut Found, path: ParamPath, key: char| {
+        if !keys.contains(&key) {
+            found.add(path, format!("{key:?} is no key of the palette; use one of `{known}`"));
+        }
+    };
+    if biomes.beach_m > 0.0 {
+        refer(found, biomes_path("beach_key"), biomes.beach_key);
+    }
+    if biomes.snow {
+        refer(found, biomes_path("snow_key"), biomes.snow_key);
+    }
+    for (index, biome) in biomes.palette.iter().enumerate().filter(|(_, biome)| biome.steep == Steep::Biome) {
+        refer(found, item(&biomes_path("palette"), index, Some("steep_key")), biome.steep_key);
+        if biome.steep_from_deg > biome.steep_to_deg {
+            let message = format!(
+                "{} is out of order; use at least `steep_from_deg` ({})",
+                biome.steep_to_deg, biome.steep_from_deg
+            );
+            found.add(item(&biomes_path("palette"), index, Some("steep_to_deg")), message);
+        }
+    }
 }
 
 fn table(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {

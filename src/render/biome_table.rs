@@ -1,53 +1,121 @@
-//! The biome table as two small textures: colour with mottling, and roughness. Row 0 is the hottest (or highest).
+//! Biomes as two small textures, read by `material.wgsl`: which biome each cell of the table has (row 0 is the hottest or highest),
+//! and a column of numbers for each biome.
 
-use crate::planet::{Biome, Biomes};
+use super::material_kinds;
+use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
+use crate::terrain::ground::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
-/// The texels of both textures, row by row.
+/// Columns of the numbers: the palette, the rock that biomes share, the rules for all.
+const ROCK: usize = MAX_BIOMES;
+const RULES: usize = MAX_BIOMES + 1;
+const COLUMNS: usize = MAX_BIOMES + 2;
+/// Numbers of one biome, four to a row.
+const ROWS: usize = 6;
+
+/// Positions reach the shaders modulo these lengths; what repeats must fit into them a whole number of times.
+pub(crate) const WRAP_M: f64 = 1024.0;
+pub(crate) const WRAP_FAR_M: f64 = 1_048_576.0;
+/// The noise of the patches has features of about a quarter of its tile.
+const PATCHES_PER_TILE: f64 = 4.0;
+/// The finer scale of a pattern; it is turned such that it repeats after a fifth of what the coarser one does.
+const FINE: f64 = 0.31;
+const TURN: f64 = 5.0;
+
+/// The texels of both textures.
 #[derive(PartialEq)]
 pub(crate) struct BiomeTexels {
     size_px: [u32; 2],
-    /// sRGB albedo, alpha: strength of the mottling.
-    albedo: Vec<u8>,
-    /// Roughness.
-    roughness: Vec<u8>,
+    /// Index into the palette, row by row.
+    ids: Vec<u8>,
+    /// See the shader.
+    params: Vec<[f32; 4]>,
 }
 
 impl BiomeTexels {
     pub(crate) fn new(biomes: &Biomes) -> Self {
         let (columns, rows) = (biomes.table.columns().max(1), biomes.table.rows().len().max(1));
-        let none = Biome::default();
-        let cells: Vec<&Biome> = (0..rows)
-            .flat_map(|row| (0..columns).map(move |column| (column, row)))
-            .map(|(column, row)| {
-                let key = biomes.table.key(column, row);
-                biomes.palette.iter().find(|biome| Some(biome.key) == key).unwrap_or(&none)
-            })
-            .collect();
-        let byte = |share: f64| (share.clamp(0.0, 1.0) * 255.0).round() as u8;
-        let albedo = |biome: &&Biome| {
-            let [r, g, b] = biome.color.map(srgb_byte);
-            [r, g, b, byte(biome.variation)]
+        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let id = |(column, row)| biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).unwrap_or(0) as u8;
+        let mut params = vec![[0.0; 4]; COLUMNS * ROWS];
+        let mut put = |column: usize, numbers: [[f64; 4]; ROWS]| {
+            for (row, numbers) in numbers.into_iter().enumerate() {
+                params[row * COLUMNS + column] = numbers.map(|number| number as f32);
+            }
         };
-        Self {
-            size_px: [columns as u32, rows as u32],
-            albedo: cells.iter().flat_map(albedo).collect(),
-            roughness: cells.iter().map(|biome| byte(biome.roughness)).collect(),
+        for (column, biome) in biomes.palette.iter().take(MAX_BIOMES).enumerate() {
+            put(column, numbers(biome, biomes));
         }
+        put(ROCK, numbers(&shared_rock(biomes), biomes));
+        put(RULES, rules(biomes));
+        Self { size_px: [columns as u32, rows as u32], ids: cells.map(id).collect(), params }
     }
+}
+
+/// The rock that biomes share, as a biome.
+fn shared_rock(biomes: &Biomes) -> Biome {
+    Biome {
+        color: biomes.cliff_color,
+        variation: 0.35,
+        roughness: 0.9,
+        detail: biomes.cliff_detail,
+        detail_m: biomes.cliff_detail_m,
+        steep: Steep::Stays,
+        ..Biome::default()
+    }
+}
+
+fn numbers(biome: &Biome, biomes: &Biomes) -> [[f64; 4]; ROWS] {
+    let whole = |length: f64, parts: f64, size: f64| length / parts / (length / parts / size).round().max(1.0);
+    let size_m = whole(WRAP_M, 1.0, biome.detail_m);
+    let fine_m = whole(WRAP_M, TURN, FINE * size_m);
+    let patch_m = whole(WRAP_FAR_M, 1.0, PATCHES_PER_TILE * biome.patch_m);
+    let layer = match biome.detail {
+        Detail::None => -1.0,
+        kind => material_kinds::layer(kind).map_or(-1.0, |layer| layer as f64),
+    };
+    let cosine = |degrees: f64| degrees.to_radians().cos();
+    let steep = biomes.steep_rule(biome).map_or([-1.0, 0.0, 0.0, 0.0], |rule| {
+        [rule.into.map_or(ROCK, |index| index) as f64, cosine(rule.from_deg), cosine(rule.to_deg), 0.0]
+    });
+    let four = |[r, g, b]: [f64; 3], w: f64| [r, g, b, w];
+    [
+        four(biome.color, biome.variation),
+        four(biome.patch_color, biome.patches),
+        [biome.roughness, biome.specular, patch_m, layer],
+        [size_m, biome.detail_strength, biome.flow_m_s, biome.glow],
+        four(biome.glow_color, fine_m),
+        steep,
+    ]
+}
+
+fn rules(biomes: &Biomes) -> [[f64; 4]; ROWS] {
+    let index = |key: Option<char>| key.and_then(|key| biomes.index_of(key)).map_or(-1.0, |index| index as f64);
+    let cosine = |degrees: f64| degrees.clamp(0.0, 180.0).to_radians().cos();
+    let (beach, snow) = (biomes.beach_steepest_deg, biomes.snow_steepest_deg);
+    let mut rules = [[0.0; 4]; ROWS];
+    rules[0] = [index((biomes.beach_m > 0.0).then_some(biomes.beach_key)), biomes.beach_m, 0.0, 0.0];
+    rules[1] = [index(biomes.snow.then_some(biomes.snow_key)), biomes.snow_below_c, biomes.snow_range_c, 0.0];
+    rules[2] = [
+        cosine(beach - BEACH_SOFT_DEG),
+        cosine(beach + BEACH_SOFT_DEG),
+        cosine(snow - SNOW_SOFT_DEG),
+        cosine(snow + SNOW_SOFT_DEG),
+    ];
+    rules
 }
 
 /// The textures; rewritten in place while the table keeps its size.
 pub(crate) struct BiomeTextures {
-    pub(crate) albedo: wgpu::TextureView,
-    pub(crate) roughness: wgpu::TextureView,
+    pub(crate) ids: wgpu::TextureView,
+    pub(crate) params: wgpu::TextureView,
 }
 
 impl BiomeTextures {
-    /// Of this size, with nothing in them yet.
-    fn new(device: &wgpu::Device, size_px: [u32; 2]) -> Self {
-        let make = |format| {
+    /// Textures that hold these texels.
+    pub(crate) fn with(device: &wgpu::Device, queue: &wgpu::Queue, texels: &BiomeTexels) -> Self {
+        let make = |size_px, format| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("biome table"),
+                label: Some("biomes"),
                 size: extent(size_px),
                 mip_level_count: 1,
                 sample_count: 1,
@@ -58,42 +126,33 @@ impl BiomeTextures {
             });
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
-        Self { albedo: make(wgpu::TextureFormat::Rgba8UnormSrgb), roughness: make(wgpu::TextureFormat::R8Unorm) }
-    }
-
-    /// Textures that hold these texels.
-    pub(crate) fn with(device: &wgpu::Device, queue: &wgpu::Queue, texels: &BiomeTexels) -> Self {
-        let textures = Self::new(device, texels.size_px);
+        let textures = Self {
+            ids: make(texels.size_px, wgpu::TextureFormat::R8Unorm),
+            params: make([COLUMNS as u32, ROWS as u32], wgpu::TextureFormat::Rgba32Float),
+        };
         textures.write(queue, texels);
         textures
     }
 
     /// Whether texels fit as they are.
     pub(crate) fn fit(&self, texels: &BiomeTexels) -> bool {
-        self.albedo.texture().size() == extent(texels.size_px)
+        self.ids.texture().size() == extent(texels.size_px)
     }
 
     /// Replaces what is in them.
     pub(crate) fn write(&self, queue: &wgpu::Queue, texels: &BiomeTexels) {
-        let [width, height] = texels.size_px;
-        for (view, texel_bytes, data) in [(&self.albedo, 4, &texels.albedo), (&self.roughness, 1, &texels.roughness)] {
+        let params = (&self.params, [COLUMNS as u32, ROWS as u32], 16, bytemuck::cast_slice(&texels.params));
+        for (view, [width, height], texel_bytes, data) in [(&self.ids, texels.size_px, 1, &texels.ids[..]), params] {
             let layout = wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(width * texel_bytes),
                 rows_per_image: Some(height),
             };
-            queue.write_texture(view.texture().as_image_copy(), data, layout, extent(texels.size_px));
+            queue.write_texture(view.texture().as_image_copy(), data, layout, extent([width, height]));
         }
     }
 }
 
 fn extent([width, height]: [u32; 2]) -> wgpu::Extent3d {
     wgpu::Extent3d { width, height, depth_or_array_layers: 1 }
-}
-
-/// Encodes a linear value (IEC 61966-2-1).
-fn srgb_byte(linear: f64) -> u8 {
-    let x = linear.clamp(0.0, 1.0);
-    let encoded = if x <= 0.003_130_8 { x * 12.92 } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-    (encoded * 255.0).round() as u8
 }

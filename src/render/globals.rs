@@ -1,6 +1,7 @@
 //! The uniform buffer that every pass reads: the frame in the units of the shaders. Must match `shaders/globals.wgsl`.
 
-use super::{DebugView, Frame, gpu};
+use super::biome_table::{WRAP_FAR_M, WRAP_M};
+use super::{DebugView, Frame, Tone, gpu};
 use crate::lod::Quality;
 use crate::planet::{Planet, TableRows};
 use glam::{DMat3, DVec3, Mat4};
@@ -43,7 +44,8 @@ struct Globals {
     cloud_turn: [f32; 4],
     cloud_seed: [u32; 4],
     mottle: [[f32; 4]; 7],
-    cliff_color: [f32; 4],
+    eye_wrap_m: [f32; 4],
+    eye_wrap_far_m: [f32; 4],
     misc: [f32; 4],
     modes: [u32; 4],
     chosen_eye_high_m: [f32; 4],
@@ -62,6 +64,8 @@ pub(crate) struct Setup {
     pub(crate) weather_side_px: u32,
     /// Whether the target encodes sRGB by itself.
     pub(crate) srgb_target: bool,
+    /// Which curve makes the picture.
+    pub(crate) tone: Tone,
 }
 
 /// The buffer, the two samplers, and their bind group (group 0 of every pass).
@@ -75,14 +79,18 @@ pub(crate) struct GlobalsBuffer {
 
 impl GlobalsBuffer {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let layout = gpu::layout(device, "globals", &[gpu::Slot::Uniform, gpu::Slot::Sampler, gpu::Slot::Sampler]);
+        let layout = gpu::layout(
+            device,
+            "globals",
+            &[gpu::Slot::Uniform, gpu::Slot::Sampler, gpu::Slot::Sampler, gpu::Slot::Sampler],
+        );
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("globals"),
             size: size_of::<Globals>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let sampler = |label, mode| {
+        let sampler = |label, mode, anisotropy_clamp| {
             device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(label),
                 address_mode_u: mode,
@@ -91,11 +99,13 @@ impl GlobalsBuffer {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                anisotropy_clamp,
                 ..wgpu::SamplerDescriptor::default()
             })
         };
-        let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge);
-        let repeated = sampler("repeated", wgpu::AddressMode::Repeat);
+        let clamped = sampler("clamped", wgpu::AddressMode::ClampToEdge, 1);
+        let repeated = sampler("repeated", wgpu::AddressMode::Repeat, 1);
+        let patterned = sampler("patterned", wgpu::AddressMode::Repeat, 8);
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("globals"),
             layout: &layout,
@@ -103,6 +113,7 @@ impl GlobalsBuffer {
                 wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&clamped) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&repeated) },
+                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&patterned) },
             ],
         });
         Self { layout, group, buffer, written: None, writes: 0 }
@@ -189,17 +200,22 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
         *slot = vec4(wrapped(place / period), period);
         place = OCTAVE_TURN * place;
     }
-    let biomes = &planet.biomes;
-    let (start, full) = (biomes.cliff_start_deg, biomes.cliff_full_deg.max(biomes.cliff_start_deg + 0.5));
-    g.cliff_color = rgbw(biomes.cliff_color, start.to_radians().cos());
+    g.eye_wrap_m = vec4(wrapped(eye / WRAP_M) * WRAP_M, planet.climate.lapse_c_per_km * 1e-3);
+    let patterns = match frame.view.quality {
+        Quality::Low => 0.0,
+        Quality::Medium => 1.0,
+        Quality::High => 2.0,
+    };
+    g.eye_wrap_far_m = vec4(wrapped(eye / WRAP_FAR_M) * WRAP_FAR_M, patterns);
     g.misc = [
-        full.to_radians().cos() as f32,
+        // Shaders count to it: a loop that is written out makes software drivers compile for minutes.
+        10.0,
         setup.height_range_m.0 as f32,
         setup.height_range_m.1 as f32,
         frame.exposure_ev.exp2() as f32,
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
-    g.modes = [view, setup.scale, u32::from(setup.srgb_target), 0];
+    g.modes = [view, setup.scale, u32::from(setup.srgb_target), setup.tone as u32];
     g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     g

@@ -1,15 +1,15 @@
 //! Draws a planet with wgpu into any texture view on the caller's own device.
 //!
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
-//! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`: what outlives a frame, made anew only when what
-//!   it depends on changed
+//! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`, `material_maps` (of `material_kinds`, by
+//!   `material_noise`): what outlives a frame, made anew only when what it depends on changed
 //! - `morph`: how far vertices have come out of the coarser mesh
-//! - `terrain` with `pool` and `detail_pool`: the ground into radiance and depth
+//! - `terrain` with `pool`, and `layer_pool` for `detail_pool` and `horizon_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
 //! - `exposure`: how bright the picture is, and what exposure suits it
-//! - `tonemap`: radiance to display
+//! - `tonemap` with `tone`: radiance to display
 //!
 //! `sky_probe` asks the shaders of the air about single rays.
 //!
@@ -25,6 +25,11 @@ mod detail_pool;
 mod exposure;
 mod globals;
 mod gpu;
+mod horizon_pool;
+mod layer_pool;
+mod material_kinds;
+mod material_maps;
+mod material_noise;
 mod morph;
 mod noise_tile;
 mod pool;
@@ -34,12 +39,14 @@ mod sky_probe;
 mod tables;
 mod targets;
 mod terrain;
+mod tone;
 mod tonemap;
 mod water;
 
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
+pub use tone::Tone;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};
@@ -212,6 +219,8 @@ impl Inputs {
 pub struct Renderer {
     /// Whether exposure is set by hand or by what there is to see.
     pub metering: Metering,
+    /// The curve from radiance to the picture.
+    pub tone: Tone,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
@@ -241,6 +250,7 @@ impl Renderer {
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
         Ok(Self {
             metering: Metering::Manual,
+            tone: Tone::default(),
             target_format,
             globals,
             tables,
@@ -256,7 +266,7 @@ impl Renderer {
     pub fn upload(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, surface: &Surface, budget_bytes: u64) -> bool {
         profiling::scope!("upload");
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("upload") });
-        let done = self.terrain.upload(device, &mut encoder, surface, budget_bytes);
+        let done = self.terrain.upload(device, queue, &mut encoder, surface, budget_bytes);
         queue.submit([encoder.finish()]);
         done
     }
@@ -294,6 +304,7 @@ impl Renderer {
             height_range_m,
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: self.target_format.is_srgb(),
+            tone: self.tone,
         };
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });

@@ -81,6 +81,7 @@ impl Renderer {
             height_range_m: (0.0, 0.0),
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: false,
+            tone: super::Tone::Plain,
         };
         self.globals.write(queue, &frame, &setup);
     }

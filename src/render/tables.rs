@@ -1,7 +1,8 @@
-//! What outlives a frame: the tables of the air, the weather map, the noise tile and the biome table. Each is made again
+//! What outlives a frame: the tables of the air, the weather map, the noise tile, the patterns of the ground and the biomes. Each is made again
 //! only when what it depends on has changed.
 
 use super::gpu::{self, Slot};
+use super::material_maps::MaterialMaps;
 use super::{Passes, biome_table, cloud_map, noise_tile};
 use crate::planet::{Atmosphere, Biomes, Planet};
 
@@ -37,6 +38,7 @@ pub(crate) struct Tables {
     weather: cloud_map::WeatherMap,
     noise: wgpu::TextureView,
     biomes: biome_table::BiomeTextures,
+    materials: MaterialMaps,
     groups: Groups,
     air_key: Option<AirKey>,
     weather_key: Option<WeatherKey>,
@@ -64,8 +66,10 @@ impl Tables {
                 Slot::Float2d,
                 Slot::Cube,
                 Slot::Float3d,
-                Slot::Float2d,
-                Slot::Float2d,
+                Slot::Unfiltered2d,
+                Slot::Unfiltered2d,
+                Slot::Float2dArray,
+                Slot::Float2dArray,
             ],
         );
         let air = [
@@ -78,13 +82,15 @@ impl Tables {
         let noise = noise_tile::upload(device, queue);
         let biome_texels = biome_table::BiomeTexels::new(&Biomes::default());
         let biomes = biome_table::BiomeTextures::with(device, queue, &biome_texels);
-        let groups = Groups::new(device, &layout, &air, &weather.cube, &noise, &biomes);
+        let materials = MaterialMaps::new(device, queue);
+        let groups = Groups::new(device, &layout, &air, &weather.cube, &noise, (&biomes, &materials));
         Self {
             layout,
             air,
             weather,
             noise,
             biomes,
+            materials,
             groups,
             air_key: None,
             weather_key: None,
@@ -151,7 +157,8 @@ impl Tables {
             self.biomes.write(queue, &texels);
         } else {
             self.biomes = biome_table::BiomeTextures::with(device, queue, &texels);
-            self.groups = Groups::new(device, &self.layout, &self.air, &self.weather.cube, &self.noise, &self.biomes);
+            let grounds = (&self.biomes, &self.materials);
+            self.groups = Groups::new(device, &self.layout, &self.air, &self.weather.cube, &self.noise, grounds);
         }
         self.biome_texels = texels;
         self.runs.biomes += 1;
@@ -174,7 +181,7 @@ impl Groups {
         air: &[wgpu::TextureView; 4],
         weather: &wgpu::TextureView,
         noise: &wgpu::TextureView,
-        biomes: &biome_table::BiomeTextures,
+        (biomes, materials): (&biome_table::BiomeTextures, &MaterialMaps),
     ) -> Self {
         // With only the first so many tables of the air, the others being filled.
         let bind = |ready: usize| {
@@ -182,8 +189,9 @@ impl Groups {
             let first = air[0];
             air[ready..].fill(first);
             let [optical_depth, multiscatter, irradiance, sky] = air;
-            let views =
-                [optical_depth, multiscatter, irradiance, sky, weather, noise, &biomes.albedo, &biomes.roughness];
+            let air = [optical_depth, multiscatter, irradiance, sky, weather, noise];
+            let ground = [&biomes.ids, &biomes.params, &materials.tint, &materials.surface];
+            let views: Vec<&wgpu::TextureView> = air.into_iter().chain(ground).collect();
             gpu::texture_group(device, "tables", layout, &views)
         };
         Self { all: bind(4), first_of_air: bind(1), first_two_of_air: bind(2) }

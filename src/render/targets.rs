@@ -6,8 +6,9 @@ use super::gpu;
 pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Reverse-Z depth.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Temperature of the surface, °C: what is frozen follows the climate that a query gives.
-pub(crate) const TEMPERATURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+/// Temperature of the surface, °C (what is frozen follows the climate that a query gives), and the share of the star's light that
+/// the ground around it takes.
+pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// Distance of the clouds.
 pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
@@ -15,7 +16,7 @@ pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32
 pub(crate) struct Targets {
     pub(crate) size_px: [u32; 2],
     pub(crate) hdr: [wgpu::TextureView; 2],
-    pub(crate) temperature: wgpu::TextureView,
+    pub(crate) surface: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
     pub(crate) cloud_light: wgpu::TextureView,
     pub(crate) cloud_distance: wgpu::TextureView,
@@ -29,7 +30,7 @@ impl Targets {
                 gpu::target(device, "radiance 0", size_px, HDR_FORMAT),
                 gpu::target(device, "radiance 1", size_px, HDR_FORMAT),
             ],
-            temperature: gpu::target(device, "temperature", size_px, TEMPERATURE_FORMAT),
+            surface: gpu::target(device, "surface", size_px, SURFACE_FORMAT),
             depth: gpu::target(device, "depth", size_px, DEPTH_FORMAT),
             cloud_light: gpu::target(device, "cloud light", size_px, HDR_FORMAT),
             cloud_distance: gpu::target(device, "cloud distance", size_px, DISTANCE_FORMAT),

@@ -1,11 +1,13 @@
 //! The ground (`terrain.wgsl`): culls tiles, uploads new ones, finds how far their vertices have come out, draws them with the index
 //! list their neighbours ask for.
 
-use super::detail_pool::DetailPool;
+use super::detail_pool::{self, DETAIL};
 use super::gpu;
+use super::horizon_pool::{self, HORIZON};
+use super::layer_pool::LayerPool;
 use super::morph::{Morph, MorphPass, SHOWN_ATTRIBUTES, SHOWN_BYTES};
 use super::pool::{Place, TILE_BYTES, TilePool};
-use super::targets::{DEPTH_FORMAT, HDR_FORMAT, TEMPERATURE_FORMAT, Targets};
+use super::targets::{DEPTH_FORMAT, HDR_FORMAT, SURFACE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
 use crate::build::{Leaf, Surface};
 use crate::lod::range::SHADED_AT;
@@ -18,8 +20,8 @@ use wgpu::util::DeviceExt;
 const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Unorm16x2, 5 => Snorm16x2, 6 => Snorm16x2
 ];
-const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3, 9 => Float32x4, 10 => Float32x4];
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 5] =
+    wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3, 9 => Float32x4, 10 => Float32x4, 13 => Float32x4];
 
 /// What the shader knows of a tile beside its vertices.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -33,6 +35,8 @@ struct Instance {
     detail_place: [f32; 4],
     /// Distances in metres between which the detail of the detail tile's parent takes over; from texel to texel.
     detail_fade: [f32; 4],
+    /// Layer of a horizon tile, -1 without one; width of this tile in that tile's node, and where it lies there.
+    horizon: [f32; 4],
 }
 
 impl Instance {
@@ -49,14 +53,13 @@ impl Instance {
             slope_axis: slope_axis(id.face).as_vec3().to_array(),
             detail_place: [0.0, 0.0, 1.0, 0.0],
             detail_fade: [1e30, 2e30, 1.0, 0.0],
+            horizon: [-1.0; 4],
         };
         if let Some(detail) = &leaf.detail {
-            let finer = id.level.saturating_sub(detail.id.level);
-            let side = 1.0 / f64::from(1_u32 << finer);
-            let place = |own: u32, theirs: u32| (f64::from(own - (theirs << finer).min(own)) * side) as f32;
+            let [side, x, y] = id.within(detail.id).map(|part| part as f32);
             let [begin, end] = fade(detail.id.level);
             let texel_m = ranges.spacing_m(detail.id.level) / DETAIL_PER_QUAD;
-            instance.detail_place = [place(id.x, detail.id.x), place(id.y, detail.id.y), side as f32, detail.base_m];
+            instance.detail_place = [x, y, side, detail.base_m];
             instance.detail_fade = [begin, end, texel_m as f32, 0.0];
         }
         instance
@@ -82,7 +85,12 @@ impl TerrainPass {
         let module = shaders::module(device, ENTRY)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(ENTRY),
-            bind_group_layouts: &[Some(globals), Some(tables), Some(&DetailPool::layout(device))],
+            bind_group_layouts: &[
+                Some(globals),
+                Some(tables),
+                Some(&DETAIL.layout(device)),
+                Some(&HORIZON.layout(device)),
+            ],
             immediate_size: 0,
         });
         let make = |topology, cull_mode| {
@@ -116,7 +124,7 @@ impl TerrainPass {
                         module: &module,
                         entry_point: Some("fragment"),
                         compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        targets: &[Some(HDR_FORMAT.into()), Some(TEMPERATURE_FORMAT.into())],
+                        targets: &[Some(HDR_FORMAT.into()), Some(SURFACE_FORMAT.into())],
                     }),
                     primitive: wgpu::PrimitiveState { topology, cull_mode, ..wgpu::PrimitiveState::default() },
                     depth_stencil: Some(wgpu::DepthStencilState {
@@ -182,8 +190,8 @@ fn edges(triangles: &[u16]) -> Vec<u16> {
 
 struct Draw {
     place: Place,
-    /// Texture arrays of the detail tile.
-    detail: usize,
+    /// Texture arrays of the detail and the horizon tile.
+    arrays: [usize; 2],
     mask: usize,
 }
 
@@ -192,7 +200,8 @@ pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
     morph: Morph,
-    details: DetailPool,
+    details: LayerPool,
+    horizons: LayerPool,
     instances: wgpu::Buffer,
     draws: Vec<Draw>,
 }
@@ -203,35 +212,66 @@ impl TerrainResources {
             indices: Indices::new(device),
             pool: TilePool::new(device),
             morph: Morph::new(device),
-            details: DetailPool::new(device),
+            details: LayerPool::new(device, DETAIL),
+            horizons: LayerPool::new(device, HORIZON),
             instances: instance_buffer(device, 1024),
             draws: Vec::new(),
         }
     }
 
-    /// Uploads tiles of a surface that is to be drawn soon, at most so many bytes (but at least one tile). Whether all are
-    /// there now.
+    /// Uploads tiles of a surface that is to be drawn soon, their horizons and their detail, at most so many bytes (but at least one tile).
+    /// Whether all are there now.
     pub(crate) fn upload(
         &mut self,
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         surface: &Surface,
         budget_bytes: u64,
     ) -> bool {
         self.pool.begin_round();
-        let missing: Vec<&Tile> =
-            surface.leaves.iter().map(|leaf| &*leaf.tile).filter(|tile| !self.pool.holds(tile)).collect();
-        let affordable = (budget_bytes / TILE_BYTES).max(1) as usize;
-        for tile in missing.iter().take(affordable) {
-            self.pool.place(device, encoder, tile);
+        let mut left = budget_bytes.max(TILE_BYTES);
+        let mut affordable = |bytes| {
+            let fits = bytes <= left;
+            left = if fits { left - bytes } else { 0 };
+            fits
+        };
+        // No short cut at the first that does not fit: those that are here are to stay.
+        let mut done = true;
+        for leaf in &surface.leaves {
+            if !self.pool.holds(&leaf.tile) {
+                if affordable(TILE_BYTES) {
+                    self.pool.place(device, encoder, &leaf.tile);
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.horizon.as_deref()) {
+            if !self.horizons.holds(tile.serial) {
+                if affordable(HORIZON.tile_bytes()) {
+                    self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile));
+                } else {
+                    done = false;
+                }
+            }
+        }
+        for tile in surface.leaves.iter().filter_map(|leaf| leaf.detail.as_deref()) {
+            if !self.details.holds(tile.serial) {
+                if affordable(DETAIL.tile_bytes()) {
+                    self.details.place(device, queue, tile.serial, || detail_pool::texels(tile));
+                } else {
+                    done = false;
+                }
+            }
         }
         self.pool.end_round(encoder);
-        missing.len() <= affordable
+        done
     }
 
     /// Bytes uploaded since the start.
     pub(crate) fn uploaded_bytes(&self) -> u64 {
-        self.pool.uploaded_bytes()
+        self.pool.uploaded_bytes() + self.details.uploaded_bytes() + self.horizons.uploaded_bytes()
     }
 
     /// Chooses the tiles to draw, uploads those that are not there yet.
@@ -248,6 +288,7 @@ impl TerrainResources {
         let culling = Culling::new(chosen, (radius_m + lowest_m).max(0.0));
         self.pool.begin_round();
         self.details.begin_frame();
+        self.horizons.begin_frame();
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
         let mut morphed: Vec<(Place, u8)> = Vec::new();
@@ -258,11 +299,22 @@ impl TerrainResources {
         seen.sort_by(|a, b| away_m(&a.tile).total_cmp(&away_m(&b.tile)));
         for leaf in seen {
             let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
-            let detail = leaf.detail.as_ref().and_then(|tile| self.details.place(device, queue, tile));
-            instances.push(Instance::new(leaf, &frame.surface.ranges, detail.map(|place| place.layer)));
+            let detail = leaf
+                .detail
+                .as_ref()
+                .and_then(|tile| self.details.place(device, queue, tile.serial, || detail_pool::texels(tile)));
+            let horizon = leaf.horizon.as_ref().and_then(|tile| {
+                let place = self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
+                Some((place, leaf.tile.id.within(tile.id)))
+            });
+            instances.push(Instance {
+                horizon: horizon
+                    .map_or([-1.0; 4], |(place, [width, x, y])| [place.layer as f32, width as f32, x as f32, y as f32]),
+                ..Instance::new(leaf, &frame.surface.ranges, detail.map(|place| place.layer))
+            });
             morphed.push((place, leaf.tile.id.level));
-            let detail = detail.map_or(0, |place| place.array);
-            self.draws.push(Draw { place, detail, mask: usize::from(leaf.coarser_edges & 15) });
+            let arrays = [detail, horizon.map(|(place, _)| place)].map(|place| place.map_or(0, |place| place.array));
+            self.draws.push(Draw { place, arrays, mask: usize::from(leaf.coarser_edges & 15) });
         }
         let bytes: &[u8] = bytemuck::cast_slice(&instances);
         if self.instances.size() < bytes.len() as u64 {
@@ -302,7 +354,7 @@ impl TerrainResources {
         };
         let mut draw = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("terrain"),
-            color_attachments: &[cleared(&targets.hdr[0]), cleared(&targets.temperature)],
+            color_attachments: &[cleared(&targets.hdr[0]), cleared(&targets.surface)],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &targets.depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
@@ -315,12 +367,14 @@ impl TerrainResources {
         draw.set_bind_group(1, groups[1], &[]);
         draw.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint16);
         draw.set_vertex_buffer(1, self.instances.slice(..));
-        let (mut bound, mut bound_detail) = (None, None);
+        let (mut bound, mut bound_arrays) = (None, [None; 2]);
         let mut triangles = 0;
-        for (i, Draw { place, detail, mask }) in (0..).zip(&self.draws) {
-            if bound_detail != Some(*detail) {
-                draw.set_bind_group(2, self.details.group(*detail), &[]);
-                bound_detail = Some(*detail);
+        for (i, Draw { place, arrays, mask }) in (0..).zip(&self.draws) {
+            for (group, pool, k) in [(2, &self.details, 0), (3, &self.horizons, 1)] {
+                if bound_arrays[k] != Some(arrays[k]) {
+                    draw.set_bind_group(group, pool.group(arrays[k]), &[]);
+                    bound_arrays[k] = Some(arrays[k]);
+                }
             }
             if bound != Some(place.buffer) {
                 let Some(shown) = self.morph.of(place.buffer) else { continue };

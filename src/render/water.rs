@@ -20,7 +20,7 @@ impl WaterPass {
 
     /// Binds what it reads. `scene`: which of the two radiance targets holds the scene.
     pub(crate) fn bind(&self, device: &wgpu::Device, targets: &Targets, scene: usize) -> wgpu::BindGroup {
-        self.0.bind(device, &[&targets.hdr[scene], &targets.depth, &targets.temperature])
+        self.0.bind(device, &[&targets.hdr[scene], &targets.depth, &targets.surface])
     }
 
     /// Draws it. `inputs`: what [`Self::bind`] made for this `scene`.

@@ -65,6 +65,12 @@ impl NodeId {
         ((self.x & 1) as usize, (self.y & 1) as usize)
     }
 
+    /// How wide this node is in one that contains it, and where it lies there, `u` and `v` from 0 to 1 across the other.
+    pub fn within(self, other: NodeId) -> [f64; 3] {
+        let width = 1.0 / f64::from(1_u32 << (self.level - other.level.min(self.level)));
+        [width, f64::from(self.x) * width - f64::from(other.x), f64::from(self.y) * width - f64::from(other.y)]
+    }
+
     /// The `(s, t)` of a point of the node, `u` and `v` from 0 to 1 across it. Exact when they are multiples of a
     /// (not too small) power of two, so that neighbours agree on shared points to the bit.
     pub fn face_coordinates(self, u: f64, v: f64) -> (f64, f64) {

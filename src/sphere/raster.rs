@@ -124,7 +124,13 @@ impl<T: Texel> Raster<T> {
         }
     }
 
+    /// The number at a place.
+    pub fn value(&self, place: &Place, level: usize) -> f64 {
+        self.sample(place, level).0
+    }
+
     /// The number at a place, and its gradient by the direction (its part in the tangent plane is what counts).
+    #[inline(always)]
     pub fn sample(&self, place: &Place, level: usize) -> (f64, DVec3) {
         match &self.levels[level] {
             Level::Globe(globe) => globe.sample(place),
@@ -184,12 +190,19 @@ fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
     (weights, [-0.5 * u * u, 1.5 * t2 - 2.0 * t, 0.5 + t - 1.5 * t2, 0.5 * t2])
 }
 
+/// As `f64::floor`, for small numbers, without a call on machines that have no instruction for it.
+#[inline(always)]
+fn floor(x: f64) -> f64 {
+    let whole = x as isize as f64;
+    if whole > x { whole - 1.0 } else { whole }
+}
+
 /// The spline at `(x, y)` in texels (texel `i` lies at `i + 0.5`), and its derivatives by x and y. `row(y, x)` gives
 /// four texels of row `y` from column `x` on.
 #[inline(always)]
 fn bicubic(x: f64, y: f64, row: impl Fn(isize, isize) -> [f64; 4]) -> (f64, f64, f64) {
     let (x, y) = (x - 0.5, y - 0.5);
-    let (column, line) = (x.floor(), y.floor());
+    let (column, line) = (floor(x), floor(y));
     let (wx, dx) = spline(x - column);
     let (wy, dy) = spline(y - line);
     let (mut value, mut by_x, mut by_y) = (0.0, 0.0, 0.0);
@@ -394,36 +407,57 @@ impl<T: Texel> Cube<T> {
         Self { side, texels }
     }
 
+    #[inline(always)]
     fn sample(&self, dir: DVec3) -> (f64, DVec3) {
+        let half = 0.5 * self.side as f64;
+        // Most points lie where one face alone counts.
+        let face = super::Face::of_direction(dir) as usize;
+        let on_face = OnFace::new(face, dir);
+        let inner = 1.0 - BLEND / half;
+        if on_face.s.abs() <= inner && on_face.t.abs() <= inner {
+            return self.sample_face(face, &on_face);
+        }
+        self.sample_blended(dir)
+    }
+
+    /// What one face has at a point on it.
+    #[inline(always)]
+    fn sample_face(&self, face: usize, at: &OnFace) -> (f64, DVec3) {
         let width = self.side + 2 * MARGIN;
+        let half = 0.5 * self.side as f64;
+        let texels = &self.texels[face * width * width..][..width * width];
+        let (value, by_x, by_y) = bicubic(half * (1.0 + at.s), half * (1.0 - at.t), |row, column| {
+            let at = (row + MARGIN as isize) * width as isize + column + MARGIN as isize;
+            let four = &texels[at as usize..][..4];
+            [four[0].get(), four[1].get(), four[2].get(), four[3].get()]
+        });
+        let [grad_s, grad_t] = at.gradients(face);
+        (value, grad_s * (by_x * half) - grad_t * (by_y * half))
+    }
+
+    /// The mean of all faces that reach so far.
+    #[inline(never)]
+    fn sample_blended(&self, dir: DVec3) -> (f64, DVec3) {
         let half = 0.5 * self.side as f64;
         let (mut sum, mut total) = (0.0, 0.0);
         let (mut sum_gradient, mut total_gradient) = (DVec3::ZERO, DVec3::ZERO);
-        for (face, [out, right, up]) in FRAMES.into_iter().enumerate() {
-            let depth = dir.dot(out);
+        for face in 0..FRAMES.len() {
+            let at = OnFace::new(face, dir);
             // Beyond this the blend has ended on the coarsest of cubes.
-            if depth < 0.25 {
+            if at.depth < 0.25 {
                 continue;
             }
-            let (s, t) = (dir.dot(right) / depth, dir.dot(up) / depth);
             // How far within the strip, from 0 at its outer end to 1 at its inner.
             let within = |w: f64| ((1.0 - w.abs()) * half + BLEND) * (0.5 / BLEND);
-            let ((ws, dws), (wt, dwt)) = (smoothstep(within(s)), smoothstep(within(t)));
+            let ((ws, dws), (wt, dwt)) = (smoothstep(within(at.s)), smoothstep(within(at.t)));
             let weight = ws * wt;
             if weight == 0.0 {
                 continue;
             }
-            let texels = &self.texels[face * width * width..][..width * width];
-            let (x, y) = (half * (1.0 + s), half * (1.0 - t));
-            let (value, by_x, by_y) = bicubic(x, y, |row, column| {
-                let at = (row + MARGIN as isize) * width as isize + column + MARGIN as isize;
-                let four = &texels[at as usize..][..4];
-                [four[0].get(), four[1].get(), four[2].get(), four[3].get()]
-            });
-            let (grad_s, grad_t) = ((right - out * s) / depth, (up - out * t) / depth);
-            let gradient = grad_s * (by_x * half) - grad_t * (by_y * half);
+            let (value, gradient) = self.sample_face(face, &at);
+            let [grad_s, grad_t] = at.gradients(face);
             let steep = |w: f64, d: f64| if w < 0.0 { d } else { -d } * half * (0.5 / BLEND);
-            let weight_gradient = grad_s * (steep(s, dws) * wt) + grad_t * (steep(t, dwt) * ws);
+            let weight_gradient = grad_s * (steep(at.s, dws) * wt) + grad_t * (steep(at.t, dwt) * ws);
             sum += weight * value;
             total += weight;
             sum_gradient += gradient * weight + weight_gradient * value;
@@ -431,6 +465,30 @@ impl<T: Texel> Cube<T> {
         }
         let value = sum / total;
         (value, (sum_gradient - total_gradient * value) / total)
+    }
+}
+
+/// A direction as a face sees it.
+struct OnFace {
+    depth: f64,
+    /// To the right and up, -1 to 1 on the face.
+    s: f64,
+    t: f64,
+}
+
+impl OnFace {
+    #[inline(always)]
+    fn new(face: usize, dir: DVec3) -> Self {
+        let [out, right, up] = FRAMES[face];
+        let depth = dir.dot(out);
+        Self { depth, s: dir.dot(right) / depth, t: dir.dot(up) / depth }
+    }
+
+    /// Of `s` and `t` by the direction.
+    #[inline(always)]
+    fn gradients(&self, face: usize) -> [DVec3; 2] {
+        let [out, right, up] = FRAMES[face];
+        [(right - out * self.s) / self.depth, (up - out * self.t) / self.depth]
     }
 }
 

@@ -4,36 +4,41 @@
 //! Angles are in turns (1 is a full circle): a turn more or less is then a whole number, which f32 takes away without
 //! error. The polynomials interpolate at Chebyshev nodes; their errors, like the rounding, are about 1e-7.
 
-use super::jet::Real;
-use std::f32::consts::TAU;
-
-/// Adding and subtracting this rounds an f32 below 2^22 to a whole number.
-const ROUNDER: f32 = 12_582_912.0;
+use super::jet::{Real, Scalar};
+use std::f64::consts::TAU;
 
 /// An angle in turns without its whole turns: -0.5 to 0.5. The angle must be below 2^22.
 #[inline(always)]
-pub(crate) fn wrap(turns: f32) -> f32 {
-    turns - ((turns + ROUNDER) - ROUNDER)
+pub(crate) fn wrap<S: Scalar>(turns: S) -> S {
+    turns - turns.whole()
+}
+
+/// A polynomial, the coefficient of the highest power last.
+#[inline(always)]
+fn polynomial<S: Scalar, const N: usize>(c: [f32; N], x: S) -> S {
+    let mut sum = S::from_f32(c[N - 1]);
+    for k in (0..N - 1).rev() {
+        sum = S::from_f32(c[k]) + x * sum;
+    }
+    sum
 }
 
 /// Sine of an angle of at most a quarter turn either way.
 #[inline(always)]
-fn sin_quarter(turns: f32) -> f32 {
-    const C: [f32; 5] = [TAU, -41.341_68, 81.602_48, -76.581_17, 39.759_827];
-    let square = turns * turns;
-    turns * (C[0] + square * (C[1] + square * (C[2] + square * (C[3] + square * C[4]))))
+fn sin_quarter<S: Scalar>(turns: S) -> S {
+    const C: [f32; 5] = [TAU as f32, -41.341_68, 81.602_48, -76.581_17, 39.759_827];
+    turns * polynomial(C, turns * turns)
 }
 
 /// Sine and cosine of an angle in turns, which must be below 2^22.
 #[inline(always)]
-pub(crate) fn sin_cos<R: Real>(turns: R) -> (R, R) {
-    let wrapped = wrap(turns.value());
+pub(crate) fn sin_cos<S: Scalar>(turns: S) -> (S, S) {
+    let quarter = S::of(0.25);
+    let wrapped = wrap(turns);
     let size = wrapped.abs();
     // Beyond a quarter turn the sine comes down again.
-    let folded = 0.25 - (size - 0.25).abs();
-    let sin = sin_quarter(if wrapped < 0.0 { -folded } else { folded });
-    let cos = sin_quarter(0.25 - size);
-    (turns.chain(sin, TAU * cos), turns.chain(cos, -TAU * sin))
+    let folded = quarter - (size - quarter).abs();
+    (sin_quarter(if wrapped < S::default() { -folded } else { folded }), sin_quarter(quarter - size))
 }
 
 /// The angle of a vector in turns, -0.5 to 0.5; zero, with no gradient, for the zero vector.
@@ -49,19 +54,18 @@ pub(crate) fn atan2<R: Real>(y: R, x: R) -> R {
         0.003_784_787,
         -0.000_725_713,
     ];
+    let (zero, one) = (R::S::default(), R::S::of(1.0));
     let (height, width) = (y.value().abs(), x.value().abs());
     let steep = height > width;
     let (small, large) = if steep { (width, height) } else { (height, width) };
     // At the zero vector the quotient would not be a number.
-    let t = small / large.max(f32::MIN_POSITIVE);
-    let s = t * t;
-    let series = C[4] + s * (C[5] + s * (C[6] + s * C[7]));
-    let octant = t * (C[0] + s * (C[1] + s * (C[2] + s * (C[3] + s * series))));
-    let quarter = if steep { 0.25 - octant } else { octant };
-    let half = if x.value() < 0.0 { 0.5 - quarter } else { quarter };
-    let angle = if y.value() < 0.0 { -half } else { half };
-    let square = (x.value() * x.value() + y.value() * y.value()).max(f32::MIN_POSITIVE);
-    (y.scale(x.value()) - x.scale(y.value())).chain(angle, 1.0 / (TAU * square))
+    let t = small / large.max(R::S::LEAST);
+    let octant = t * polynomial(C, t * t);
+    let quarter = if steep { R::S::of(0.25) - octant } else { octant };
+    let half = if x.value() < zero { R::S::of(0.5) - quarter } else { quarter };
+    let angle = if y.value() < zero { -half } else { half };
+    let square = (x.value() * x.value() + y.value() * y.value()).max(R::S::LEAST);
+    (y.times(x.value()) - x.times(y.value())).chain(angle, one / (R::S::of(TAU) * square))
 }
 
 #[cfg(test)]
@@ -83,9 +87,11 @@ mod tests {
             let exact = libm::atan2(f64::from(sin), f64::from(cos)) / tau;
             assert!((f64::from(angle) - exact).abs() < 2e-7, "{turns}: {angle} {exact}");
 
-            let (sin_jet, cos_jet) = sin_cos(Jet { v: turns, d: [1.0, -2.0, 0.0] });
-            assert_eq!((sin_jet.v.to_bits(), cos_jet.v.to_bits()), (sin.to_bits(), cos.to_bits()));
-            let back = atan2(sin_jet, cos_jet);
+            let turn = Jet { v: turns, d: [1.0, -2.0, 0.0] };
+            let tau = TAU as f32;
+            let back = atan2(turn.chain(sin, tau * cos), turn.chain(cos, -tau * sin));
+            let wide = sin_cos(f64::from(turns));
+            assert!((wide.0 - f64::from(sin)).abs() < 4e-7 && (wide.1 - f64::from(cos)).abs() < 4e-7, "{turns}");
             assert!((back.d[0] - 1.0).abs() < 1e-5 && (back.d[1] + 2.0).abs() < 1e-5 && back.d[2] == 0.0, "{back:?}");
         }
         assert_eq!(atan2(0.0, 0.0), 0.0);

@@ -5,6 +5,7 @@
 //! to cell (vector distance propagation, Danielsson 1980), and the signed distance is a [`Raster`]: below zero in
 //! the sea, zero on the shore.
 
+use super::points::Points;
 use crate::sphere::raster::{Raster, cube_direction, cube_point};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -33,10 +34,15 @@ impl fmt::Debug for Coast {
 }
 
 impl Coast {
-    /// Finds the shore of a sea of this level. `heights_m` gives the heights under many directions.
-    pub(crate) fn new(sea_level_m: f64, heights_m: impl FnOnce(&[DVec3]) -> Vec<f64>) -> Self {
-        let Cells { dirs, neighbours } = Cells::get();
-        let above_m: Vec<f64> = heights_m(dirs).into_iter().map(|height_m| height_m - sea_level_m).collect();
+    /// Where the ground's height must be known, in batches.
+    pub(crate) fn points() -> &'static [Points] {
+        &Cells::get().batches
+    }
+
+    /// Finds the shore of a sea of this level, given the heights at [`Coast::points`].
+    pub(crate) fn new(sea_level_m: f64, heights_m: &[f64]) -> Self {
+        let Cells { dirs, neighbours, .. } = Cells::get();
+        let above_m: Vec<f64> = heights_m.iter().map(|height_m| height_m - sea_level_m).collect();
         let is_sea = |cell: usize| above_m[cell] < 0.0;
         // The nearest point of the shore known to each cell, and the square of the straight line there.
         let mut shore = vec![(f64::MAX, DVec3::ZERO); CELLS];
@@ -81,13 +87,15 @@ impl Coast {
 
     /// Distance to the sea as an angle; 0 in the sea.
     pub(crate) fn inland_rad(&self, dir_planet: DVec3) -> f64 {
-        self.distance_rad.sample(&self.distance_rad.place(dir_planet), 0).0.max(0.0)
+        self.distance_rad.value(&self.distance_rad.place(dir_planet), 0).max(0.0)
     }
 }
 
 /// The cells of the cube: the same for every planet.
 struct Cells {
     dirs: Vec<DVec3>,
+    /// The same, few enough in each for the fields of all layers to stay in the second-level cache.
+    batches: Vec<Points>,
     neighbours: Vec<[u16; 8]>,
 }
 
@@ -111,7 +119,9 @@ impl Cells {
                 let (face, column, row) = place(cell);
                 dir(face, column as f64, row as f64)
             });
-            Cells { dirs: dirs.collect(), neighbours: (0..CELLS).map(around).collect() }
+            let dirs: Vec<DVec3> = dirs.collect();
+            let batches = dirs.chunks(CELLS / 18).map(|dirs| Points::new(dirs.to_vec())).collect();
+            Cells { dirs, batches, neighbours: (0..CELLS).map(around).collect() }
         })
     }
 }
@@ -124,9 +134,8 @@ mod tests {
     fn distances_to_a_round_shore_are_right() {
         // Land within 40° of a place; the height falls evenly with the angle.
         let (middle, radius_rad) = (DVec3::new(0.6, -0.5, 0.62).normalize(), 0.7);
-        let coast = Coast::new(100.0, |dirs| {
-            dirs.iter().map(|d| 100.0 + (radius_rad - d.angle_between(middle)) * 1e4).collect()
-        });
+        let height_m = |d: &DVec3| 100.0 + (radius_rad - d.angle_between(middle)) * 1e4;
+        let coast = Coast::new(100.0, &Cells::get().dirs.iter().map(height_m).collect::<Vec<_>>());
         for dir in Cells::get().dirs.iter().step_by(7) {
             let right = (radius_rad - dir.angle_between(middle)).max(0.0);
             // Rounded off within a cell of the middle, to which all shores are equally near.
@@ -137,7 +146,7 @@ mod tests {
 
     #[test]
     fn without_a_shore_it_is_all_near_or_all_far() {
-        let all = |height_m: f64| Coast::new(0.0, move |dirs| vec![height_m; dirs.len()]).inland_rad(DVec3::X);
+        let all = |height_m: f64| Coast::new(0.0, &[height_m; CELLS]).inland_rad(DVec3::X);
         assert_eq!(all(-5.0), 0.0);
         assert!(all(5.0) > 1e8);
     }

@@ -1,10 +1,85 @@
 //! Numbers that carry their gradient, so that a landform's formula is written once.
 //!
-//! A formula generic over [`Real`] is compiled for `f32` (heights alone) and for [`Jet`] (heights with gradients, by
-//! forward differentiation). The value of a jet goes through the very operations of the plain number: the same bits.
+//! A formula generic over [`Real`] is compiled for `f32` (heights alone), for [`Jet`] (heights with gradients, by
+//! forward differentiation) and for `f64` (heights to the millimetre). The value of a jet goes through the very
+//! operations of the plain `f32`: the same bits.
 
 use super::noise::{CHUNK, Lane, Noise};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// The numbers that formulas are made of.
+pub(crate) trait Scalar:
+    Copy
+    + Default
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The least above zero that is as precise as the others.
+    const LEAST: Self;
+    /// The nearest to a constant.
+    fn of(v: f64) -> Self;
+    /// A parameter, which is an f32 in every formula.
+    fn from_f32(v: f32) -> Self;
+    fn from_i32(v: i32) -> Self;
+    fn abs(self) -> Self;
+    fn max(self, low: Self) -> Self;
+    fn min(self, high: Self) -> Self;
+    fn clamp(self, low: Self, high: Self) -> Self;
+    fn sqrt(self) -> Self;
+    /// The nearest whole number, for numbers below 2^22.
+    fn whole(self) -> Self;
+}
+
+macro_rules! scalar {
+    ($number:ty, $rounder:expr) => {
+        impl Scalar for $number {
+            const LEAST: Self = <$number>::MIN_POSITIVE;
+            #[inline(always)]
+            fn of(v: f64) -> Self {
+                v as $number
+            }
+            #[inline(always)]
+            fn from_f32(v: f32) -> Self {
+                v.into()
+            }
+            #[inline(always)]
+            fn from_i32(v: i32) -> Self {
+                v as $number
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+            #[inline(always)]
+            fn max(self, low: Self) -> Self {
+                self.max(low)
+            }
+            #[inline(always)]
+            fn min(self, high: Self) -> Self {
+                self.min(high)
+            }
+            #[inline(always)]
+            fn clamp(self, low: Self, high: Self) -> Self {
+                self.clamp(low, high)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+            #[inline(always)]
+            fn whole(self) -> Self {
+                // Adding and subtracting it leaves no room for the fraction.
+                (self + $rounder) - $rounder
+            }
+        }
+    };
+}
+scalar!(f32, 12_582_912.0);
+scalar!(f64, 6_755_399_441_055_744.0);
 
 /// A value and its gradient by the point's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,23 +89,32 @@ pub(crate) struct Jet {
 }
 
 /// Values, and with them gradients, at a chunk of points.
-pub(crate) struct Jets {
-    pub(crate) value: Lane<f32>,
-    pub(crate) gradient: [Lane<f32>; 3],
+pub(crate) struct Jets<S = f32> {
+    pub(crate) value: Lane<S>,
+    pub(crate) gradient: [Lane<S>; 3],
 }
 
-impl Default for Jets {
+impl<S: Scalar> Default for Jets<S> {
     fn default() -> Self {
-        Self { value: [0.0; CHUNK], gradient: [[0.0; CHUNK]; 3] }
+        Self { value: [S::default(); CHUNK], gradient: [[S::default(); CHUNK]; 3] }
+    }
+}
+
+impl<S: Scalar> Jets<S> {
+    /// The same number at the first `n` points.
+    pub(crate) fn fill(&mut self, n: usize, value: S) {
+        self.value[..n].fill(value);
+        for lane in &mut self.gradient {
+            lane[..n].fill(S::default());
+        }
     }
 }
 
 impl Jets {
-    /// The same number at the first `n` points.
-    pub(crate) fn fill(&mut self, n: usize, value: f32) {
-        self.value[..n].fill(value);
-        for lane in &mut self.gradient {
-            lane[..n].fill(0.0);
+    /// Takes over values that were found in f64; gradients stay.
+    pub(crate) fn round_from(&mut self, n: usize, wide: &Jets<f64>) {
+        for (value, wide) in self.value[..n].iter_mut().zip(&wide.value) {
+            *value = *wide as f32;
         }
     }
 }
@@ -39,118 +123,133 @@ impl Jets {
 pub(crate) trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// A number that is the same everywhere.
-    fn constant(v: f32) -> Self;
+    /// What the number and its gradient are made of.
+    type S: Scalar;
     /// A number whose gradient was found by hand.
-    fn of(v: f32, gradient: [f32; 3]) -> Self;
+    fn of(v: Self::S, gradient: [Self::S; 3]) -> Self;
     /// The number without its gradient.
-    fn value(self) -> f32;
+    fn value(self) -> Self::S;
     /// A function of this number: its value, and its derivative here.
-    fn chain(self, value: f32, derivative: f32) -> Self;
+    fn chain(self, value: Self::S, derivative: Self::S) -> Self;
     /// One of two, without a branch.
     fn select(condition: bool, yes: Self, no: Self) -> Self;
     /// The `i`th of a chunk.
-    fn load(jets: &Jets, i: usize) -> Self;
+    fn load(jets: &Jets<Self::S>, i: usize) -> Self;
     /// Puts it at the `i`th place of a chunk.
-    fn store(self, jets: &mut Jets, i: usize);
+    fn store(self, jets: &mut Jets<Self::S>, i: usize);
     /// The noise at the `i`th point.
-    fn noise(noise: &Noise, i: usize) -> Self;
+    fn noise(noise: &Noise<Self::S>, i: usize) -> Self;
     /// The gradient of the noise at the `i`th point, itself with gradients; needs [`Noise::gradients`] for plain
     /// numbers and [`Noise::curvatures`] for jets.
-    fn noise_gradient(noise: &Noise, i: usize) -> [Self; 3];
+    fn noise_gradient(noise: &Noise<Self::S>, i: usize) -> [Self; 3];
 
+    /// A number that is the same everywhere.
+    #[inline(always)]
+    fn constant(v: f32) -> Self {
+        Self::of(Self::S::from_f32(v), [Self::S::default(); 3])
+    }
     /// Times a plain number.
     #[inline(always)]
-    fn scale(self, k: f32) -> Self {
+    fn times(self, k: Self::S) -> Self {
         self.chain(self.value() * k, k)
+    }
+    /// Times a parameter.
+    #[inline(always)]
+    fn scale(self, k: f32) -> Self {
+        self.times(Self::S::from_f32(k))
     }
     /// Plus a plain number.
     #[inline(always)]
     fn plus(self, k: f32) -> Self {
-        self.chain(self.value() + k, 1.0)
+        self.chain(self.value() + Self::S::from_f32(k), Self::S::of(1.0))
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        self.chain(self.value().abs(), if self.value() < 0.0 { -1.0 } else { 1.0 })
+        let one = Self::S::of(1.0);
+        self.chain(self.value().abs(), if self.value() < Self::S::default() { -one } else { one })
     }
     /// The greater of it and a plain number.
     #[inline(always)]
     fn at_least(self, low: f32) -> Self {
-        self.chain(self.value().max(low), if self.value() > low { 1.0 } else { 0.0 })
+        let low = Self::S::from_f32(low);
+        self.chain(self.value().max(low), if self.value() > low { Self::S::of(1.0) } else { Self::S::default() })
     }
     /// The lesser of it and a plain number.
     #[inline(always)]
     fn at_most(self, high: f32) -> Self {
-        self.chain(self.value().min(high), if self.value() < high { 1.0 } else { 0.0 })
+        let high = Self::S::from_f32(high);
+        self.chain(self.value().min(high), if self.value() < high { Self::S::of(1.0) } else { Self::S::default() })
     }
     #[inline(always)]
     fn square(self) -> Self {
-        self.chain(self.value() * self.value(), 2.0 * self.value())
+        self.chain(self.value() * self.value(), Self::S::of(2.0) * self.value())
     }
     #[inline(always)]
     fn recip(self) -> Self {
-        let r = 1.0 / self.value();
+        let r = Self::S::of(1.0) / self.value();
         self.chain(r, -r * r)
     }
     /// Square root; the derivative at zero is taken as zero.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value().sqrt();
-        self.chain(root, if root > 0.0 { 0.5 / root } else { 0.0 })
+        self.chain(root, if root > Self::S::default() { Self::S::of(0.5) / root } else { Self::S::default() })
     }
     /// 0 at and below `from`, 1 at and above `to` (`from < to`), smooth between.
     #[inline(always)]
     fn smoothstep(self, from: f32, to: f32) -> Self {
-        let span = 1.0 / (to - from);
-        let t = ((self.value() - from) * span).clamp(0.0, 1.0);
-        self.chain(t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) * span)
+        let of = Self::S::of;
+        let span = Self::S::from_f32(1.0 / (to - from));
+        let t = ((self.value() - Self::S::from_f32(from)) * span).clamp(of(0.0), of(1.0));
+        self.chain(t * t * (of(3.0) - of(2.0) * t), of(6.0) * t * (of(1.0) - t) * span)
     }
 }
 
-impl Real for f32 {
-    #[inline(always)]
-    fn constant(v: f32) -> Self {
-        v
-    }
-    #[inline(always)]
-    fn of(v: f32, _gradient: [f32; 3]) -> Self {
-        v
-    }
-    #[inline(always)]
-    fn value(self) -> f32 {
-        self
-    }
-    #[inline(always)]
-    fn chain(self, value: f32, _derivative: f32) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn select(condition: bool, yes: Self, no: Self) -> Self {
-        if condition { yes } else { no }
-    }
-    #[inline(always)]
-    fn load(jets: &Jets, i: usize) -> Self {
-        jets.value[i]
-    }
-    #[inline(always)]
-    fn store(self, jets: &mut Jets, i: usize) {
-        jets.value[i] = self;
-    }
-    #[inline(always)]
-    fn noise(noise: &Noise, i: usize) -> Self {
-        noise.value[i]
-    }
-    #[inline(always)]
-    fn noise_gradient(noise: &Noise, i: usize) -> [Self; 3] {
-        [noise.gradient[0][i], noise.gradient[1][i], noise.gradient[2][i]]
-    }
+/// Plain numbers: what a gradient is needed for is left to the optimiser to drop.
+macro_rules! plain {
+    ($number:ty) => {
+        impl Real for $number {
+            type S = $number;
+            #[inline(always)]
+            fn of(v: $number, _gradient: [$number; 3]) -> Self {
+                v
+            }
+            #[inline(always)]
+            fn value(self) -> $number {
+                self
+            }
+            #[inline(always)]
+            fn chain(self, value: $number, _derivative: $number) -> Self {
+                value
+            }
+            #[inline(always)]
+            fn select(condition: bool, yes: Self, no: Self) -> Self {
+                if condition { yes } else { no }
+            }
+            #[inline(always)]
+            fn load(jets: &Jets<$number>, i: usize) -> Self {
+                jets.value[i]
+            }
+            #[inline(always)]
+            fn store(self, jets: &mut Jets<$number>, i: usize) {
+                jets.value[i] = self;
+            }
+            #[inline(always)]
+            fn noise(noise: &Noise<$number>, i: usize) -> Self {
+                noise.value[i]
+            }
+            #[inline(always)]
+            fn noise_gradient(noise: &Noise<$number>, i: usize) -> [Self; 3] {
+                [noise.gradient[0][i], noise.gradient[1][i], noise.gradient[2][i]]
+            }
+        }
+    };
 }
+plain!(f32);
+plain!(f64);
 
 impl Real for Jet {
-    #[inline(always)]
-    fn constant(v: f32) -> Self {
-        Jet { v, d: [0.0; 3] }
-    }
+    type S = f32;
     #[inline(always)]
     fn of(v: f32, d: [f32; 3]) -> Self {
         Jet { v, d }

@@ -6,9 +6,11 @@
 //! - `jet`: numbers that carry their gradient
 //! - `landform`: the kinds of layer, one file each
 //! - `points`, `field`: batches of points; a layer's noise and gradient at them
+//! - `kept`: the fields of all layers at a batch, present and past
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `climate`: temperature, moisture, the place in the biome table
-//! - `coast`: how far it is to the sea
+//! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
+//! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
 //!
@@ -17,10 +19,13 @@
 mod approx;
 pub mod bench;
 pub(crate) mod climate;
+mod coarse;
 pub(crate) mod coast;
 pub(crate) mod field;
+pub(crate) mod ground;
 pub(crate) mod height;
 mod jet;
+pub(crate) mod kept;
 pub(crate) mod landform;
 pub(crate) mod noise;
 pub(crate) mod points;
@@ -31,6 +36,7 @@ use crate::planet::Planet;
 pub use height::curve_at;
 
 use climate::{CompiledClimate, NO_SEA, Rules};
+use coarse::{CoarseFields, coarse_heights_m};
 use coast::Coast;
 use field::{EXACT, Field};
 use glam::DVec3;
@@ -50,6 +56,8 @@ pub struct Terrain {
     simd: Simd,
     pub(crate) stack: LayerStack,
     pub(crate) climate: CompiledClimate,
+    /// What the shores were found with, if they matter.
+    coarse: CoarseFields,
     height_bounds_m: (f64, f64),
 }
 
@@ -99,25 +107,34 @@ impl Terrain {
         let stack = LayerStack::new(&planet);
         let climate = CompiledClimate::new(&planet);
         let height_bounds_m = stack.bounds_m();
-        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, height_bounds_m };
+        let coarse = CoarseFields::default();
+        let mut terrain = Self { planet, simd: Simd::detect(), stack, climate, coarse, height_bounds_m };
         // Found here rather than when first asked for: asked on a worker of a thread pool, it
         // would wait for its own pool.
         if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
-            let kept = before.filter(|before| before.has_coast_of(&terrain)).and_then(|b| b.climate.coast.clone());
-            let coast = || Coast::new(sea_m, |dirs| terrain.coarse_heights_m(dirs, 0.5 * coast::CELL_RAD));
-            terrain.climate.coast = Some(kept.unwrap_or_else(|| Arc::new(coast())));
+            let known = before.filter(|before| before.climate.coast.is_some());
+            if let Some(before) = known.filter(|before| before.has_coast_of(&terrain)) {
+                terrain.climate.coast = before.climate.coast.clone();
+                terrain.coarse = before.coarse.as_known();
+            } else {
+                let (points, known) = (Coast::points(), known.map(|before| &before.coarse));
+                let (heights_m, coarse) =
+                    coarse_heights_m(&terrain.stack, terrain.simd, points, 0.5 * coast::CELL_RAD, known);
+                terrain.climate.coast = Some(Arc::new(Coast::new(sea_m, &heights_m)));
+                terrain.coarse = coarse;
+            }
         }
         terrain
     }
 
-    /// Heights much as they are, but without what points so far apart cannot show; on all cores.
-    fn coarse_heights_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
-        let heights = |dirs: &[DVec3]| {
-            let points = Points::new(dirs.to_vec());
-            let fields = self.seen_fields(&points, &[spacing_rad]);
-            height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {}).height_m
-        };
-        dirs_planet.par_chunks(1024).flat_map_iter(heights).collect()
+    /// Resident size of what the shores were found with.
+    pub(crate) fn coarse_bytes(&self) -> usize {
+        self.coarse.bytes()
+    }
+
+    /// Octaves of noise times points that were evaluated to compile it.
+    pub(crate) fn octave_samples(&self) -> usize {
+        self.coarse.octave_samples
     }
 
     /// Whether both have the same shores: everything that they depend on.
@@ -158,15 +175,18 @@ impl Terrain {
         let inland_rad = self.climate.inland_rad(&[dir]).first().copied().unwrap_or(NO_SEA);
         let noise = [noise.temperature[0], noise.moisture[0]];
         let climate = Rules::new(&self.planet).at(dir.z, height_m, noise, inland_rad);
+        let slope_rad = libm::atan(slope.length());
+        let biome = biome_index(&self.planet, climate.moisture, climate.row);
+        let site = ground::Site { biome, height_m, slope_rad, temperature_c: climate.temperature_c };
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
-            slope_rad: libm::atan(slope.length()),
+            slope_rad,
             temperature_c: climate.temperature_c,
             temperature: climate.temperature,
             moisture: climate.moisture,
             precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
-            biome: biome_index(&self.planet, climate.moisture, climate.row),
+            biome: ground::biome_by_rules(&self.planet, site),
             layers_m,
         }
     }

@@ -25,6 +25,7 @@ impl Simd {
 
     /// All this machine has, slowest first.
     pub fn available() -> Vec<Simd> {
+        #[cfg_attr(not(target_arch = "x86_64"), allow(unused_mut))]
         let mut sets = vec![Simd::Baseline];
         #[cfg(target_arch = "x86_64")]
         {

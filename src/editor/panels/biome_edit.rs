@@ -21,7 +21,7 @@ pub fn remove(biomes: &mut Biomes, index: usize, replacement: usize) -> bool {
         return false;
     }
     let (old, new) = (old.key, new.key);
-    biomes.table.replace_key(old, new);
+    biomes.replace_key(old, new);
     biomes.palette.remove(index);
     true
 }
@@ -33,7 +33,7 @@ pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> bool {
     }
     let Some(biome) = biomes.palette.get_mut(index) else { return false };
     let old = std::mem::replace(&mut biome.key, key);
-    biomes.table.replace_key(old, key);
+    biomes.replace_key(old, key);
     true
 }
 

@@ -26,7 +26,7 @@ use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns};
+use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns, Tone};
 use crate::sphere::LatLon;
 use adaptation::Adaptation;
 use camera::pose::Pose;
@@ -57,6 +57,8 @@ pub struct ViewSettings {
     pub exposure_ev: f64,
     /// Whether the exposure is a correction to what suits the picture.
     pub auto_exposure: bool,
+    /// The curve from radiance to the picture.
+    pub tone: Tone,
     /// Seconds since time zero.
     pub time_secs: f64,
     /// Whether time goes on.
@@ -74,6 +76,7 @@ struct PictureKey {
     time_secs: f64,
     exposure_ev: f64,
     auto_exposure: bool,
+    tone: Tone,
     debug_view: DebugView,
 }
 
@@ -86,16 +89,18 @@ impl PictureKey {
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
             && self.auto_exposure == other.auto_exposure
+            && self.tone == other.tone
             && self.debug_view == other.debug_view
     }
 }
 
 /// Whether two surfaces are made of the same tiles and stand for as much.
 fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
-    let detail = |leaf: &Leaf| leaf.detail.as_ref().map(|detail| detail.serial);
-    let same = |(a, b): (&Leaf, &Leaf)| {
-        a.tile.serial == b.tile.serial && a.coarser_edges == b.coarser_edges && detail(a) == detail(b)
+    let serials = |leaf: &Leaf| {
+        let (detail, horizon) = (leaf.detail.as_ref(), leaf.horizon.as_ref());
+        (leaf.tile.serial, detail.map(|detail| detail.serial), horizon.map(|horizon| horizon.serial))
     };
+    let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && a.coarser_edges == b.coarser_edges;
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
     Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all())
 }
@@ -161,6 +166,7 @@ impl Viewport {
                 freeze_detail: false,
                 exposure_ev: 0.0,
                 auto_exposure: true,
+                tone: Tone::default(),
                 time_secs: 0.0,
                 playing: false,
                 time_speed: 600.0,
@@ -387,6 +393,7 @@ impl Viewport {
             time_secs: self.settings.time_secs,
             exposure_ev: self.settings.exposure_ev,
             auto_exposure: self.settings.auto_exposure,
+            tone: self.settings.tone,
             debug_view: self.settings.debug_view,
         };
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
@@ -400,6 +407,7 @@ impl Viewport {
             return;
         }
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
+        renderer.tone = key.tone;
         let star = &planet.star;
         let begin = Instant::now();
         self.stats = renderer.render(

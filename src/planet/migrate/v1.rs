@@ -1,13 +1,13 @@
 //! Presets of version 1: layers of three kinds, six blends, masks by the noise of another layer. Frozen: never edit it.
 
-use super::FileV2;
-use crate::planet::{self, Atmosphere, Biomes, Climate, Clouds, LayerMask, Planet, Star, Version, Water};
+use super::v2;
+use crate::planet::{self, Atmosphere, Biomes, Climate, Clouds, LayerMask, Star, Version, Water};
 use serde::Deserialize;
 
 /// The whole file.
 #[derive(Deserialize)]
 #[serde(rename = "Planet", default, deny_unknown_fields)]
-pub(crate) struct File {
+pub(super) struct File {
     version: Version,
     name: String,
     seed: u32,
@@ -146,14 +146,28 @@ impl Default for Craters {
     }
 }
 
-impl From<File> for FileV2 {
+impl From<File> for v2::File {
     fn from(file: File) -> Self {
         let File { version: _, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds } = file;
         let layers = layers.into_iter().map(planet::Layer::from).collect();
         let height_curve = Vec::new();
         let editor = None;
-        Planet { name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds, editor }
-            .into()
+        let version = Version(2);
+        Self {
+            version,
+            name,
+            seed,
+            radius_km,
+            height_curve,
+            star,
+            layers,
+            climate,
+            biomes,
+            water,
+            atmosphere,
+            clouds,
+            editor,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! How low and how high the ground can be, by interval arithmetic: each layer's noise may be anywhere in its range,
 //! whatever the others do.
 
-use super::{CompiledLayer, CompiledMask, Edge, LayerStack, Source};
+use super::{CompiledLayer, CompiledMask, Edge, LayerStack, Source, Steps};
 use crate::planet::Blend;
 use glam::DVec3;
 
@@ -46,6 +46,24 @@ impl Interval {
 /// What is asked about: all directions within an angle of one, or the whole planet.
 type Near = Option<(DVec3, f64)>;
 
+/// Places wider than this are not split.
+const WIDEST_SPLIT_RAD: f64 = 0.1;
+
+/// The middles and angles of places that together cover all within an angle of a direction: a hexagon of hexagons, two
+/// around the one in the middle.
+fn parts(dir_planet: DVec3, angle_rad: f64) -> impl Iterator<Item = (DVec3, f64)> {
+    // Circles around the hexagons; the nearest gap is sqrt(13) of their radii away. A little more for the sphere.
+    let radius_rad = angle_rad / 3.6 * 1.02;
+    let step_rad = angle_rad / 3.6 * 3.0_f64.sqrt();
+    let (a, b) = dir_planet.any_orthonormal_pair();
+    let cells = (-2..=2_i32).flat_map(|q| (-2..=2_i32).map(move |r| (q, r))).filter(|(q, r)| (q + r).abs() <= 2);
+    cells.map(move |(q, r)| {
+        let (q, r) = (f64::from(q), f64::from(r));
+        let (x, y) = (step_rad * (q + 0.5 * r), step_rad * r * 0.75_f64.sqrt());
+        ((dir_planet + a * x + b * y).normalize(), radius_rad)
+    })
+}
+
 impl LayerStack {
     /// Lowest and greatest height over the whole planet. Conservative.
     pub(crate) fn bounds_m(&self) -> (f64, f64) {
@@ -54,7 +72,13 @@ impl LayerStack {
 
     /// Lowest and greatest height within an angle of a direction. Conservative.
     pub(crate) fn bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.bounds(Some((dir_planet, angle_rad)))
+        if angle_rad > WIDEST_SPLIT_RAD {
+            return self.bounds(Some((dir_planet, angle_rad)));
+        }
+        // What bounds leave open grows with the square of the angle: smaller places, taken together, are known better.
+        let parts =
+            parts(dir_planet, angle_rad).map(|(dir_planet, angle_rad)| self.bounds(Some((dir_planet, angle_rad))));
+        parts.fold((f64::MAX, f64::MIN), |(lo, hi), (low, high)| (lo.min(low), hi.max(high)))
     }
 
     fn bounds(&self, near: Near) -> (f64, f64) {
@@ -115,8 +139,7 @@ impl CompiledLayer {
     /// What its blend makes of the height below.
     fn joined(&self, height: Interval, near: Near) -> Interval {
         let mut noise = match &self.steps {
-            // At most half a step either way, whatever the waves.
-            Some(steps) => Interval { lo: -0.5 * steps.sharpness, hi: 0.5 * steps.sharpness },
+            Some(steps) => steps.range(height, self.noise(near)),
             None => self.noise(near),
         };
         if let Some(curve) = &self.curve {
@@ -137,6 +160,34 @@ impl CompiledLayer {
             Blend::SmoothMax => height.with(output, |h, y| h.max(y) + soft(y - h)),
             Blend::SmoothMin => height.with(output, |h, y| h.min(y) - soft(y - h)),
         }
+    }
+}
+
+impl Steps {
+    /// How far the ground between two heights is from its step, in steps: see `lanes::cut`.
+    fn range(&self, height: Interval, waves: Interval) -> Interval {
+        let place = height.with(waves, |height, wave| height / self.height_m + self.waviness * wave);
+        let half = 0.5 * self.sharpness;
+        // At most half a step either way, whatever the waves.
+        if !(place.hi - place.lo < 1.0 && place.lo.abs().max(place.hi.abs()) < 1e9) {
+            return Interval { lo: -half, hi: half };
+        }
+        let riser = 0.5 - 0.4 * self.sharpness;
+        let (start, per_riser) = (0.5 - riser, 0.5 / riser);
+        let cut = |place: f64| {
+            let t = place - place.floor();
+            let s = ((t - start) * per_riser).clamp(0.0, 1.0);
+            self.sharpness * (s * s * (3.0 - 2.0 * s) - t)
+        };
+        // It turns where the riser is as steep as the ground.
+        let turn = (0.25 - 1.0 / (6.0 * per_riser)).max(0.0).sqrt();
+        let turns = [0.5 - turn, 0.5 + turn].map(|s| start + s / per_riser);
+        let whole = [place.lo.floor(), place.lo.floor() + 1.0];
+        let inner = whole.into_iter().flat_map(|whole| turns.map(|turn| whole + turn));
+        let inner = inner.filter(|turn| (place.lo..=place.hi).contains(turn));
+        let values: Vec<f64> = inner.chain([place.lo, place.hi]).map(cut).collect();
+        let Interval { lo, hi } = Interval::of(&values);
+        Interval { lo: lo - 1e-6, hi: hi + 1e-6 }
     }
 }
 

@@ -92,9 +92,18 @@ fn slopes(secants: &[f64]) -> Vec<f64> {
 /// The place of each number on the curve, and the derivative there.
 #[inline(always)]
 fn bend_body(n: usize, curve: &CompiledCurve, x: &Lane<f64>, y: &mut Lane<f64>, slope: &mut Lane<f64>) {
+    let (mut lowest, mut greatest) = (f64::MAX, f64::MIN);
+    for x in &x[..n.min(CHUNK)] {
+        lowest = if *x < lowest { *x } else { lowest };
+        greatest = if *x > greatest { *x } else { greatest };
+    }
     for (number, piece) in curve.pieces.iter().enumerate() {
-        // Later pieces take over from where they start.
+        // Later pieces take over from where they start. Numbers that lie together need few of them.
         let from = if number == 0 { f64::MIN } else { piece.x };
+        let is_passed = curve.pieces.get(number + 1).is_some_and(|next| next.x <= lowest);
+        if from > greatest || is_passed {
+            continue;
+        }
         for i in 0..n.min(CHUNK) {
             let (value, derivative) = piece.at(x[i]);
             let here = x[i] >= from;

@@ -187,7 +187,7 @@ impl CompiledLayer {
             _ => None,
         };
         Self {
-            landform: Arc::new(Landform::new(&layer.shape, seed, planet.radius_km)),
+            landform: Arc::new(Landform::new(&layer.shape, seed, planet.radius_km, planet.precision.into())),
             needed: false,
             slope_spacings_rad: Vec::new(),
             enabled: layer.enabled,

@@ -3,14 +3,18 @@
 //! would be drawn as saw teeth.
 
 use super::octaves::{Weighted, series};
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise};
+use crate::terrain::noise::{self, CHUNK, Noise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
 /// Points for each lattice cell from which on an octave shows in full: hills are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
+
+/// Weight of the octaves that f32 is enough for.
+const REST: f64 = 0.07;
 
 /// Noise below which a crease is round.
 const CREASE: f32 = 0.05;
@@ -18,12 +22,15 @@ const CREASE: f32 = 0.05;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Billow {
     octaves: Vec<Weighted>,
+    /// So many of them are found in f64.
+    exact: usize,
 }
 
 impl Billow {
-    pub(super) fn new(params: &planet::Billow, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Billow, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Billow { wavelength_km, octaves, gain, lacunarity } = *params;
-        Self { octaves: series(seed, radius_km / wavelength_km, octaves, gain, lacunarity) }
+        let octaves = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity);
+        Self { exact: arithmetic.exact_of(&octaves, REST), octaves }
     }
 }
 
@@ -37,17 +44,44 @@ impl Evaluate for Billow {
         (-1.0 - 1e-5, 1.0 + 1e-5)
     }
 
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        let crease = f64::from(CREASE);
+        let hill = |noise: f64| {
+            let fold = (noise * noise + crease * crease).sqrt() - crease;
+            1.0 - (1.0 - fold).max(0.0).powi(2)
+        };
+        let sum = self.octaves.iter().fold((0.0, 0.0), |(lo, hi), Weighted { octave, weight }| {
+            let (low, high) = noise::range_near(skewed, octave, angle_rad);
+            let (nearest, farthest) = (low.max(-high).max(0.0), high.max(-low));
+            (lo + hill(nearest) * f64::from(*weight), hi + hill(farthest) * f64::from(*weight))
+        });
+        (2.0 * sum.0 - 1.0 - 1e-5, 2.0 * sum.1 - 1.0 + 1e-5)
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [hill, ..], .. } = scratch;
+        let Scratch { sums, noise, jets: [hill, ..], wide, .. } = scratch;
+        let Wide { noise: exact_noise, jets: [exact_hill, ..] } = wide;
         let n = chunk.len();
         let mut share = 0.0;
-        for Weighted { octave, weight } in &self.octaves {
+        for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 sums.stand_for_all(n, share);
                 break;
             }
             share += f64::from(*weight);
+            if k < chunk.exact(self.exact) {
+                exact_noise.values(chunk.simd, chunk.skewed, octave);
+                round_exact(chunk.simd, n, exact_noise, exact_hill);
+                sums.add_exact(chunk, &exact_hill.value, f64::from(*weight));
+                if !fades.is_unseen() {
+                    noise.gradients(chunk.simd, chunk.skewed, octave);
+                    round_gradients(chunk.simd, n, noise, hill);
+                    sums.add_gradients(chunk, &hill.gradient, *weight, &fades);
+                }
+                continue;
+            }
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
                 round_values(chunk.simd, n, noise, hill);
@@ -63,7 +97,7 @@ impl Evaluate for Billow {
 }
 
 #[inline(always)]
-fn round_body<R: Real>(n: usize, noise: &Noise, hill: &mut Jets) {
+fn round_body<R: Real>(n: usize, noise: &Noise<R::S>, hill: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
         let fold = R::noise(noise, i).square().plus(CREASE * CREASE).sqrt().plus(-CREASE);
         let off_top = (R::constant(1.0) - fold).at_least(0.0);
@@ -71,4 +105,5 @@ fn round_body<R: Real>(n: usize, noise: &Noise, hill: &mut Jets) {
     }
 }
 for_each_simd!(fn round_values(n: usize, noise: &Noise, hill: &mut Jets) = round_body::<f32>);
+for_each_simd!(fn round_exact(n: usize, noise: &Noise<f64>, hill: &mut Jets<f64>) = round_body::<f64>);
 for_each_simd!(fn round_gradients(n: usize, noise: &Noise, hill: &mut Jets) = round_body::<Jet>);

@@ -5,13 +5,17 @@
 //! ones, so that it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
 
 use super::octaves::{Weighted, series};
-use super::warp::Warp;
-use super::{Chunk, Evaluate, Scratch, place};
+use super::warp::{ExactJacobian, Warp};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
 use crate::planet;
 use crate::terrain::field::EXACT;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise, precise};
+use crate::terrain::noise::{self, CHUNK, Noise, precise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
+
+/// Weight of the octaves that f32 is enough for.
+const REST: f64 = 0.02;
 
 /// Points across a valley's wall from which on it shows in full.
 const LEAST_POINTS: f64 = 2.5;
@@ -33,6 +37,8 @@ const MEANDER_OCTAVES: u32 = 2;
 pub(crate) struct Canyons {
     warp: Warp,
     octaves: Vec<Weighted>,
+    /// So many of them are found in f64.
+    exact: usize,
     channel: Channel,
     /// Width of a valley's wall against the wavelength.
     wall: f64,
@@ -48,14 +54,16 @@ struct Channel {
 }
 
 impl Canyons {
-    pub(super) fn new(params: &planet::Canyons, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Canyons, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Canyons { wavelength_km, octaves, gain, lacunarity, width_km, steepness, meander } = *params;
         let frequency = radius_km / wavelength_km;
         let width = width_km / wavelength_km;
         let reach = MEANDER_REACH * meander / frequency;
+        let octaves = series(seed, frequency, octaves, gain, lacunarity);
         Self {
             warp: Warp::new(seed, frequency / MEANDER_WAVELENGTH, MEANDER_OCTAVES, reach),
-            octaves: series(seed, frequency, octaves, gain, lacunarity),
+            exact: arithmetic.exact_of(&octaves, REST),
+            octaves,
             channel: Channel { narrowness: (2.0 / width) as f32, floor: steepness as f32 },
             wall: 0.5 * width * (1.0 - steepness),
         }
@@ -71,8 +79,35 @@ impl Evaluate for Canyons {
         (-1.0 - 1e-5, 1e-5)
     }
 
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let Some(largest) = self.octaves.first() else { return self.bounds() };
+        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
+        let stretch = distance / angle_rad.max(1e-12);
+        let step = |x: f64, from: f32, to: f32| {
+            let (from, to) = (f64::from(from), f64::from(to));
+            let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        };
+        let (mut uncut, mut wet, mut carved) = ((1.0, 1.0), (1.0, 1.0), (0.0, 0.0));
+        for Weighted { octave, weight } in &self.octaves {
+            let depth = f64::from(weight / largest.weight);
+            let (low, high) = noise::range_near(there, octave, distance);
+            let (_, gradient, off) = noise::slope_near(there, octave, distance);
+            let steepest = (gradient.length() + off).min(noise::SLOPE_BOUND) * stretch;
+            let least = f64::from(LEAST_GRADIENT);
+            let away = (low.max(-high).max(0.0) / steepest.hypot(least), high.max(-low) / least);
+            let wall = |away: f64| step(away * f64::from(self.channel.narrowness), self.channel.floor, 1.0);
+            let cut = ((1.0 - wall(away.1)) * wet.0 * depth, (1.0 - wall(away.0)) * wet.1 * depth);
+            carved = (carved.0 + uncut.0 * cut.0, carved.1 + uncut.1 * cut.1);
+            uncut = (uncut.0 * (1.0 - cut.1).max(0.0), uncut.1 * (1.0 - cut.0));
+            wet = (wet.0 * (1.0 - step(away.1, WET, DRY)), wet.1 * (1.0 - step(away.0, WET, DRY)));
+        }
+        (-carved.1 - 1e-5, -carved.0 + 1e-5)
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, displaced, jets: [carved, uncut, wet, px, py, pz, ..] } = scratch;
+        let Scratch { sums, noise, displaced, jets: [carved, uncut, wet, px, py, pz, ..], wide } = scratch;
+        let Wide { noise: exact_noise, jets: [exact_carved, exact_uncut, exact_wet, ex, ey, ez, ..] } = wide;
         let n = chunk.len();
         let Some(largest) = self.octaves.first() else { return };
         place(chunk, [px, py, pz]);
@@ -84,12 +119,31 @@ impl Evaluate for Canyons {
         let exact = Chunk { spacings_rad: EXACT, ..*chunk };
         self.warp.displace(&exact, !fades_of(largest).is_unseen(), noise, displaced);
         let there = displaced.points(n);
-        for weighted in &self.octaves {
+        let exact = chunk.exact(self.exact);
+        let jacobian = (exact > 0).then(|| ExactJacobian::new(&self.warp, chunk, exact_noise));
+        exact_uncut.fill(n, 1.0);
+        exact_wet.fill(n, 1.0);
+        place_exact(chunk, [ex, ey, ez]);
+        let exact_dir = [&*ex, &*ey, &*ez];
+        for (k, weighted) in self.octaves.iter().enumerate() {
             let Weighted { octave, weight } = weighted;
             let (depth, scale) = (weight / largest.weight, (1.0 / octave.frequency) as f32);
             let fades = fades_of(weighted);
             if chunk.skips(&fades) {
                 break;
+            }
+            let jacobian = jacobian.as_ref().filter(|_| k < exact);
+            if let Some(jacobian) = jacobian {
+                exact_noise.gradients(chunk.simd, there, octave);
+                jacobian.pull_back(chunk, exact_noise);
+                let state = [&mut *exact_uncut, &mut *exact_wet, &mut *exact_carved];
+                carve_exact(chunk.simd, n, exact_noise, scale, depth, self.channel, exact_dir, state);
+                sums.add_exact(chunk, &exact_carved.value, -1.0);
+                if fades.is_unseen() {
+                    uncut.round_from(n, exact_uncut);
+                    wet.round_from(n, exact_wet);
+                    continue;
+                }
             }
             // Lines must lie where they are to the millimetre, though they are hundreds of kilometres apart.
             let mut value = [0.0; CHUNK];
@@ -105,7 +159,13 @@ impl Evaluate for Canyons {
                 noise.value = value.map(|v| v as f32);
                 carve_gradients(chunk.simd, n, noise, scale, depth, self.channel, dir, [uncut, wet, carved]);
             }
-            sums.add(chunk, &carved.value, &carved.gradient, -1.0, &fades);
+            if jacobian.is_some() {
+                sums.add_gradients(chunk, &carved.gradient, -1.0, &fades);
+                uncut.round_from(n, exact_uncut);
+                wet.round_from(n, exact_wet);
+            } else {
+                sums.add(chunk, &carved.value, &carved.gradient, -1.0, &fades);
+            }
         }
     }
 }
@@ -115,12 +175,12 @@ impl Evaluate for Canyons {
 #[inline(always)]
 fn carve_body<R: Real>(
     n: usize,
-    noise: &Noise,
+    noise: &Noise<R::S>,
     scale: f32,
     depth: f32,
     channel: Channel,
-    dir: [&Jets; 3],
-    state: [&mut Jets; 3],
+    dir: [&Jets<R::S>; 3],
+    state: [&mut Jets<R::S>; 3],
 ) {
     let [px, py, pz] = dir;
     let [uncut, wet, carved] = state;
@@ -140,4 +200,5 @@ fn carve_body<R: Real>(
     }
 }
 for_each_simd!(fn carve_values(n: usize, noise: &Noise, scale: f32, depth: f32, channel: Channel, dir: [&Jets; 3], state: [&mut Jets; 3]) = carve_body::<f32>);
+for_each_simd!(fn carve_exact(n: usize, noise: &Noise<f64>, scale: f32, depth: f32, channel: Channel, dir: [&Jets<f64>; 3], state: [&mut Jets<f64>; 3]) = carve_body::<f64>);
 for_each_simd!(fn carve_gradients(n: usize, noise: &Noise, scale: f32, depth: f32, channel: Channel, dir: [&Jets; 3], state: [&mut Jets; 3]) = carve_body::<Jet>);

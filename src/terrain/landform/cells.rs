@@ -10,32 +10,39 @@
 
 use super::octaves::{Weighted, series};
 use super::places::{Places, neighbour, unit};
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet::{self, CellStyle};
-use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK};
-use crate::terrain::simd::for_each_simd;
+use crate::terrain::jet::{Jet, Jets, Real, Scalar};
+use crate::terrain::noise::{self, CHUNK, Octave};
+use crate::terrain::simd::{Simd, for_each_simd};
+use glam::DVec3;
 
 /// Most that a centre stands from its cell's middle along each axis, in cells.
 const JITTER: f32 = 0.395;
 /// Square of the distance within which all centres are known: 2 (1.5 - JITTER)^2.
 const HORIZON: f32 = 2.442;
+/// Weight of the octaves that f32 is enough for.
+const REST: f64 = 0.02;
 /// Points for each border's width, or for half a dome, from which on they show in full.
 const LEAST_POINTS: f64 = 1.2;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells {
     octaves: Vec<Weighted>,
+    /// So many of them are found in f64.
+    exact: usize,
     style: CellStyle,
     jitter: f32,
     width: f32,
 }
 
 impl Cells {
-    pub(super) fn new(params: &planet::Cells, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Cells, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Cells { cell_km, style, width, jitter, octaves, gain, lacunarity } = *params;
+        let octaves = series(seed, radius_km / cell_km, octaves, gain, lacunarity);
         Self {
-            octaves: series(seed, radius_km / cell_km, octaves, gain, lacunarity),
+            exact: arithmetic.exact_of(&octaves, REST),
+            octaves,
             style,
             jitter: JITTER * jitter as f32,
             width: width as f32,
@@ -52,17 +59,38 @@ impl Evaluate for Cells {
         (-1.001, if self.style == CellStyle::Cracks { 0.0 } else { 1.001 })
     }
 
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let (least, most) = self.bounds();
+        self.octaves.iter().fold((-1e-5, 1e-5), |(lo, hi), Weighted { octave, weight }| {
+            let near = Near::new(octave, self.jitter, dir_planet, angle_rad);
+            let (low, high) = match self.style {
+                CellStyle::Plates => near.plates(f64::from(self.width)).unwrap_or((least, most)),
+                CellStyle::Cracks => near.cracks(f64::from(self.width)),
+                CellStyle::Bumps => near.bumps(),
+            };
+            (lo + low.clamp(least, most) * f64::from(*weight), hi + high.clamp(least, most) * f64::from(*weight))
+        })
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, jets: [first, second, steepness, shares, levels, height, ..], .. } = scratch;
+        let Scratch { sums, jets: [first, second, steepness, shares, levels, height, ..], wide, .. } = scratch;
         let (simd, n) = (chunk.simd, chunk.len());
         let width = if self.style == CellStyle::Bumps { 0.5 } else { f64::from(self.width) };
-        let mut places = Places::default();
-        for Weighted { octave, weight } in &self.octaves {
+        let mut places = <Places>::default();
+        for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
             let fades = chunk.fades(width / octave.frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
+            let exact = k < chunk.exact(self.exact);
+            if exact {
+                self.evaluate_exact(chunk, octave, wide);
+                sums.add_exact(chunk, &wide.jets[0].value, f64::from(*weight));
+                if unseen {
+                    continue;
+                }
+            }
             let (seed, frequency) = (octave.seed, octave.frequency as f32);
             places.find(simd, chunk.skewed, octave);
             first.fill(n, f32::MAX);
@@ -93,8 +121,120 @@ impl Evaluate for Cells {
                     swell(simd, n, frequency, first, height);
                 }
             }
-            sums.add(chunk, &height.value, &height.gradient, *weight, &fades);
+            if exact {
+                sums.add_gradients(chunk, &height.gradient, *weight, &fades);
+            } else {
+                sums.add(chunk, &height.value, &height.gradient, *weight, &fades);
+            }
         }
+    }
+}
+
+impl Cells {
+    /// One octave in f64: its values are those of the first of the jets.
+    fn evaluate_exact(&self, chunk: &Chunk<'_>, octave: &Octave, wide: &mut Wide) {
+        let [height, first, second, steepness, shares, levels, ..] = &mut wide.jets;
+        let (simd, n, seed, frequency) = (chunk.simd, chunk.len(), octave.seed, octave.frequency as f32);
+        let mut places = Places::<f64>::default();
+        places.find_exact(simd, chunk.skewed, octave);
+        first.fill(n, f64::MAX);
+        second.fill(n, f64::MAX);
+        for step in neighbourhood() {
+            meet_exact(simd, n, &places, step, seed, self.jitter, first, second);
+        }
+        match self.style {
+            CellStyle::Plates => {
+                begin_exact(simd, n, self.width, first, steepness);
+                shares.fill(n, 0.0);
+                levels.fill(n, 0.0);
+                for step in neighbourhood() {
+                    share_exact(simd, n, &places, step, seed, self.jitter, first, steepness, shares, levels);
+                }
+                level_exact(simd, n, frequency, shares, levels, height);
+            }
+            CellStyle::Cracks => crack_exact(simd, n, frequency, self.width, first, second, height),
+            CellStyle::Bumps => swell_exact(simd, n, frequency, first, height),
+        }
+    }
+}
+
+/// The centres around a direction, for bounds of the ground within a distance of it.
+struct Near {
+    /// Distance in cells, and level of its plate; nearest first.
+    centres: Vec<(f64, f64)>,
+    /// The distance in cells.
+    reach: f64,
+}
+
+impl Near {
+    fn new(octave: &Octave, jitter: f32, dir_planet: DVec3, angle_rad: f64) -> Self {
+        let [x, y, z] = noise::skew(dir_planet.to_array());
+        let mut places = Places::<f64>::default();
+        places.find_exact(Simd::detect(), [&[x], &[y], &[z]], octave);
+        let centre = |step: [i32; 3]| {
+            let (square, random) = centre::<f64>(&places, step, octave.seed, jitter, 0);
+            (square.sqrt(), f64::from(2.0 * unit::<f32>(noise::scramble(random)) - 1.0))
+        };
+        let mut centres: Vec<(f64, f64)> = neighbourhood().map(centre).collect();
+        centres.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // A little more for the rounding of f32.
+        Self { centres, reach: angle_rad * octave.frequency + 1e-5 }
+    }
+
+    /// The least and the greatest that the square of a distance can be.
+    fn squares(&self, distance: f64) -> (f64, f64) {
+        ((distance - self.reach).max(0.0).powi(2), (distance + self.reach).powi(2))
+    }
+
+    /// By how much one distance's square is over another's. The difference changes no faster than with twice the
+    /// distance between the two centres.
+    fn beyond(&self, distance: f64, first: f64) -> (f64, f64) {
+        let change = 2.0 * (distance + first + 2.0 * self.reach) * self.reach;
+        let beyond = distance * distance - first * first;
+        ((beyond - change).max(0.0), beyond + change)
+    }
+
+    fn bumps(&self) -> (f64, f64) {
+        let (least, most) = self.squares(self.centres[0].0);
+        ((1.0 - 2.0 * most).max(-1.0), (1.0 - 2.0 * least).max(-1.0))
+    }
+
+    fn cracks(&self, width: f64) -> (f64, f64) {
+        let (low, high) = self.beyond(self.centres[1].0, self.centres[0].0);
+        let step = |x: f64| {
+            let t = (x / width).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t) - 1.0
+        };
+        (step(low), step(high))
+    }
+
+    /// None where centres that are not known may count.
+    fn plates(&self, width: f64) -> Option<(f64, f64)> {
+        let first = self.centres[0].0;
+        let ((_, farthest), horizon) = (self.squares(first), f64::from(HORIZON));
+        if (horizon.sqrt() - self.reach).max(0.0).powi(2) < farthest + width {
+            return None;
+        }
+        let share = |beyond: f64| (1.0 - beyond / width).max(0.0).powi(2);
+        let shares: Vec<(f64, f64, f64)> = self
+            .centres
+            .iter()
+            .map(|&(distance, level)| {
+                let (low, high) = self.beyond(distance, first);
+                (share(high), share(low), level)
+            })
+            .filter(|share| share.1 > 0.0)
+            .collect();
+        // A mean is greatest with the most of the highest and the least of the others.
+        let greatest = |sign: f64| {
+            let mean = |from: f64| {
+                let weight = |&(least, most, level): &(f64, f64, f64)| if sign * level >= from { most } else { least };
+                let total: f64 = shares.iter().map(weight).sum();
+                shares.iter().map(|share| weight(share) * sign * share.2).sum::<f64>() / total
+            };
+            shares.iter().map(|share| mean(sign * share.2)).fold(f64::MIN, f64::max)
+        };
+        Some((-greatest(-1.0), greatest(1.0)))
     }
 }
 
@@ -107,25 +247,26 @@ fn neighbourhood() -> impl Iterator<Item = [i32; 3]> {
 
 /// The square of the distance to the centre of a cell, and random bits of that cell.
 #[inline(always)]
-fn centre<R: Real>(places: &Places, step: [i32; 3], seed: u32, jitter: f32, i: usize) -> (R, u32) {
+fn centre<R: Real>(places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, i: usize) -> (R, u32) {
     let (cell, from) = neighbour(places, step, i);
     let random = noise::cell_hash(cell, seed);
-    let towards =
-        |axis: usize, bits: u32| from[axis] + (0.5 - jitter) + (2.0 * jitter) * unit(bits) - places.fraction[axis][i];
+    let (low, span) = (R::S::from_f32(0.5 - jitter), R::S::from_f32(2.0 * jitter));
+    let towards = |axis: usize, bits: u32| from[axis] + low + span * unit(bits) - places.fraction[axis][i];
     let (x, y, z) = (towards(0, random), towards(1, random >> 10), towards(2, random >> 20));
-    (R::of(x * x + y * y + z * z, [-2.0 * x, -2.0 * y, -2.0 * z]), random)
+    let twice = R::S::of(-2.0);
+    (R::of(x * x + y * y + z * z, [twice * x, twice * y, twice * z]), random)
 }
 
 /// Keeps the two nearest centres.
 #[inline(always)]
 fn meet_body<R: Real>(
     n: usize,
-    places: &Places,
+    places: &Places<R::S>,
     step: [i32; 3],
     seed: u32,
     jitter: f32,
-    first: &mut Jets,
-    second: &mut Jets,
+    first: &mut Jets<R::S>,
+    second: &mut Jets<R::S>,
 ) {
     for i in 0..n.min(CHUNK) {
         let (here, _) = centre::<R>(places, step, seed, jitter, i);
@@ -137,17 +278,19 @@ fn meet_body<R: Real>(
     }
 }
 for_each_simd!(fn meet_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<f32>);
+for_each_simd!(fn meet_exact(n: usize, places: &Places<f64>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<f64>, second: &mut Jets<f64>) = meet_body::<f64>);
 for_each_simd!(fn meet_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<Jet>);
 
 /// How quickly a plate's share falls off beyond its border; never so slowly that centres beyond
 /// the horizon would count.
 #[inline(always)]
-fn begin_body<R: Real>(n: usize, width: f32, first: &Jets, steepness: &mut Jets) {
+fn begin_body<R: Real>(n: usize, width: f32, first: &Jets<R::S>, steepness: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
         (-R::load(first, i)).plus(HORIZON).at_most(width).recip().store(steepness, i);
     }
 }
 for_each_simd!(fn begin_values(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<f32>);
+for_each_simd!(fn begin_exact(n: usize, width: f32, first: &Jets<f64>, steepness: &mut Jets<f64>) = begin_body::<f64>);
 for_each_simd!(fn begin_gradients(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<Jet>);
 
 /// Adds the share that the plate of a cell has in the ground at each point, and its level as much.
@@ -155,58 +298,69 @@ for_each_simd!(fn begin_gradients(n: usize, width: f32, first: &Jets, steepness:
 #[inline(always)]
 fn share_body<R: Real>(
     n: usize,
-    places: &Places,
+    places: &Places<R::S>,
     step: [i32; 3],
     seed: u32,
     jitter: f32,
-    first: &Jets,
-    steepness: &Jets,
-    shares: &mut Jets,
-    levels: &mut Jets,
+    first: &Jets<R::S>,
+    steepness: &Jets<R::S>,
+    shares: &mut Jets<R::S>,
+    levels: &mut Jets<R::S>,
 ) {
     for i in 0..n.min(CHUNK) {
         let (here, random) = centre::<R>(places, step, seed, jitter, i);
         let beyond = (here - R::load(first, i)) * R::load(steepness, i);
         let share = (-beyond).plus(1.0).at_least(0.0).square();
-        let level = 2.0 * unit(noise::scramble(random)) - 1.0;
+        let level = 2.0 * unit::<f32>(noise::scramble(random)) - 1.0;
         (R::load(shares, i) + share).store(shares, i);
         (R::load(levels, i) + share.scale(level)).store(levels, i);
     }
 }
 for_each_simd!(fn share_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &Jets, steepness: &Jets, shares: &mut Jets, levels: &mut Jets) = share_body::<f32>);
+for_each_simd!(fn share_exact(n: usize, places: &Places<f64>, step: [i32; 3], seed: u32, jitter: f32, first: &Jets<f64>, steepness: &Jets<f64>, shares: &mut Jets<f64>, levels: &mut Jets<f64>) = share_body::<f64>);
 for_each_simd!(fn share_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &Jets, steepness: &Jets, shares: &mut Jets, levels: &mut Jets) = share_body::<Jet>);
 
 /// The mean level of the plates by their shares; the nearest plate's share is one, so the sum is never zero.
 #[inline(always)]
-fn level_body<R: Real>(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) {
+fn level_body<R: Real>(n: usize, frequency: f32, shares: &Jets<R::S>, levels: &Jets<R::S>, height: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
         let level = R::load(levels, i) * R::load(shares, i).recip();
-        level.chain(level.value(), frequency).store(height, i);
+        level.chain(level.value(), R::S::from_f32(frequency)).store(height, i);
     }
 }
 for_each_simd!(fn level_values(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) = level_body::<f32>);
+for_each_simd!(fn level_exact(n: usize, frequency: f32, shares: &Jets<f64>, levels: &Jets<f64>, height: &mut Jets<f64>) = level_body::<f64>);
 for_each_simd!(fn level_gradients(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) = level_body::<Jet>);
 
 /// Cracks along the borders.
 #[inline(always)]
-fn crack_body<R: Real>(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) {
+fn crack_body<R: Real>(
+    n: usize,
+    frequency: f32,
+    width: f32,
+    first: &Jets<R::S>,
+    second: &Jets<R::S>,
+    height: &mut Jets<R::S>,
+) {
     for i in 0..n.min(CHUNK) {
         let crack = (R::load(second, i) - R::load(first, i)).smoothstep(0.0, width).plus(-1.0);
-        crack.chain(crack.value(), frequency).store(height, i);
+        crack.chain(crack.value(), R::S::from_f32(frequency)).store(height, i);
     }
 }
 for_each_simd!(fn crack_values(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) = crack_body::<f32>);
+for_each_simd!(fn crack_exact(n: usize, frequency: f32, width: f32, first: &Jets<f64>, second: &Jets<f64>, height: &mut Jets<f64>) = crack_body::<f64>);
 for_each_simd!(fn crack_gradients(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) = crack_body::<Jet>);
 
 /// Domes around the centres.
 #[inline(always)]
-fn swell_body<R: Real>(n: usize, frequency: f32, first: &Jets, height: &mut Jets) {
+fn swell_body<R: Real>(n: usize, frequency: f32, first: &Jets<R::S>, height: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
         let dome = R::load(first, i).scale(-2.0).plus(1.0).at_least(-1.0);
-        dome.chain(dome.value(), frequency).store(height, i);
+        dome.chain(dome.value(), R::S::from_f32(frequency)).store(height, i);
     }
 }
 for_each_simd!(fn swell_values(n: usize, frequency: f32, first: &Jets, height: &mut Jets) = swell_body::<f32>);
+for_each_simd!(fn swell_exact(n: usize, frequency: f32, first: &Jets<f64>, height: &mut Jets<f64>) = swell_body::<f64>);
 for_each_simd!(fn swell_gradients(n: usize, frequency: f32, first: &Jets, height: &mut Jets) = swell_body::<Jet>);
 
 #[cfg(test)]

@@ -5,12 +5,12 @@
 //! laid through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
 
 use super::curve::Curve;
-use super::fbm::{LEAST_POINTS, add_octaves};
+use super::fbm::{LEAST_POINTS, add_octaves, range_near};
 use super::octaves::{Weighted, series};
 use super::warp::Warp;
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::noise::CHUNK;
+use crate::terrain::noise::{self, CHUNK};
 use crate::terrain::points::Points;
 use crate::terrain::simd::Simd;
 use glam::DVec3;
@@ -25,6 +25,9 @@ const WARP_OCTAVES: u32 = 4;
 /// How many of the coarsest octaves are warped. In finer ones the warp would show as a grain, drawn out all one way.
 const WARPED_OCTAVES: usize = 4;
 
+/// Weight of the octaves that f32 is enough for: the profile is several times steeper than the noise.
+const REST: f64 = 0.03;
+
 /// Height of the edge of the shelf.
 const SHELF_EDGE: f64 = -0.05;
 
@@ -32,16 +35,20 @@ const SHELF_EDGE: f64 = -0.05;
 pub(crate) struct Continents {
     warp: Warp,
     octaves: Vec<Weighted>,
+    /// So many of them are found in f64.
+    exact: usize,
     curve: Curve,
 }
 
 impl Continents {
-    pub(super) fn new(params: &planet::Continents, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Continents, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Continents { wavelength_km, octaves, gain, lacunarity, warp, land, shelf } = *params;
         let frequency = radius_km / wavelength_km;
+        let octaves = series(seed, frequency, octaves, gain, lacunarity);
         let mut continents = Self {
             warp: Warp::new(seed, frequency / WARP_WAVELENGTH, WARP_OCTAVES, warp / frequency),
-            octaves: series(seed, frequency, octaves, gain, lacunarity),
+            exact: arithmetic.exact_of(&octaves, REST),
+            octaves,
             curve: Curve::new(&[]),
         };
         continents.curve = Curve::new(&hypsometry(&continents.survey(), land, shelf));
@@ -75,8 +82,8 @@ impl Continents {
     fn add_noise(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, displaced, .. } = scratch;
         let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
-        self.warp.add_octaves(coarse, chunk, noise, displaced, sums);
-        add_octaves(fine, chunk, LEAST_POINTS, noise, sums);
+        self.warp.add_octaves(coarse, self.exact, chunk, noise, displaced, sums);
+        add_octaves(fine, self.exact.saturating_sub(coarse.len()), chunk, LEAST_POINTS, noise, sums);
     }
 }
 
@@ -139,6 +146,15 @@ impl Evaluate for Continents {
         (-1.0, 1.0)
     }
 
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
+        let (there, distance) = self.warp.reach_near(dir_planet, angle_rad);
+        let (low, high) = range_near(coarse, there, distance);
+        let (more_low, more_high) = range_near(fine, noise::skew(dir_planet.to_array()), angle_rad);
+        // The curve only rises.
+        (self.curve.at(low + more_low).0 - 1e-9, self.curve.at(high + more_high).0 + 1e-9)
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         self.add_noise(chunk, scratch);
         scratch.sums.map(chunk.len(), |noise| self.curve.at(noise));
@@ -158,7 +174,7 @@ mod tests {
             [(1, 0.3, 0.1, 6000.0), (2, 0.05, 0.3, 9000.0), (3, 0.6, 0.05, 3000.0), (4, 0.8, 0.4, 800.0)]
         {
             let params = planet::Continents { land, shelf, wavelength_km, ..Default::default() };
-            let landform = Landform::Continents(Continents::new(&params, seed, 6371.0));
+            let landform = Landform::Continents(Continents::new(&params, seed, 6371.0, Arithmetic::Fine));
             let heights = Field::new(&landform, Simd::detect(), &points, &[]).value;
             let share = |from: f64, to: f64| {
                 heights.iter().filter(|h| (from..to).contains(*h)).count() as f64 / heights.len() as f64

@@ -10,12 +10,15 @@
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::jet::{Jet, Jets, Real, Scalar};
 use crate::terrain::noise::{self, CHUNK, Octave};
-use crate::terrain::simd::for_each_simd;
+use crate::terrain::simd::{Simd, for_each_simd};
+use glam::DVec3;
 
+/// Weight of the sizes that f32 is enough for.
+const REST: f64 = 0.05;
 /// Most radius of a crater, in cells.
 const RADIUS: f32 = 0.45;
 /// Most reach of the ejecta, in crater radii.
@@ -33,6 +36,8 @@ const THICKNESS: f32 = 0.34;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Craters {
     sizes: Vec<Size>,
+    /// So many of them are found in f64.
+    exact: usize,
 }
 
 /// The craters of one octave.
@@ -62,7 +67,7 @@ struct Mould {
 }
 
 impl Craters {
-    pub(super) fn new(params: &planet::Craters, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Craters, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Craters { diameter_km, octaves, gain, lacunarity, power, density, .. } = *params;
         // The widest crater is 0.9 cells across.
         let octaves = series(seed, 0.9 * radius_km / diameter_km, octaves, gain, lacunarity);
@@ -80,11 +85,91 @@ impl Craters {
             let lattices = if power > 0.0 { vec![octave, gaps] } else { vec![octave] };
             Size { lattices, weight, mould: Mould::new(params, density, collapse) }
         });
-        Self { sizes: sizes.collect() }
+        let sizes: Vec<Size> = sizes.collect();
+        Self { exact: arithmetic.exact(sizes.iter().map(|size| size.weight), REST), sizes }
+    }
+}
+
+impl Size {
+    /// Lowest and highest ground within an angle of a direction: of all craters that may reach there.
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        // A little more for the rounding of f32.
+        let reach = angle_rad * self.lattices[0].frequency + 1e-5;
+        // Craters beyond the cells next to a point's own are out of reach of all that is so near to it.
+        if reach > 0.4 {
+            return (-1.0, 1.0);
+        }
+        let [x, y, z] = noise::skew(dir_planet.to_array());
+        let mut places = Places::<f64>::default();
+        let mut sum = (0.0, 0.0);
+        for octave in &self.lattices {
+            places.find_exact(Simd::detect(), [&[x], &[y], &[z]], octave);
+            for step in (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]) {
+                let (cell, from) = neighbour(&places, step, 0);
+                let random = noise::cell_hash(cell, octave.seed);
+                let to = [0, 1, 2]
+                    .map(|axis| from[axis] + 0.3 + 0.4 * unit::<f64>(random >> (10 * axis)) - places.fraction[axis][0]);
+                let crater = self.crater_near(DVec3::from_array(to), dir_planet, reach, noise::scramble(random));
+                sum = (sum.0 + crater.0, sum.1 + crater.1);
+            }
+        }
+        (sum.0.max(-1.0), sum.1.min(1.0))
+    }
+
+    /// The same of one crater whose centre lies `to` from the direction, in cells, within a `reach` of cells.
+    fn crater_near(&self, to: DVec3, dir_planet: DVec3, reach: f64, random: u32) -> (f64, f64) {
+        let mould = self.mould;
+        if unit::<f32>(random) >= mould.density {
+            return (0.0, 0.0);
+        }
+        let radius = f64::from(mould.radius(random));
+        // Points and their directions change together.
+        let turn = reach + (to.length() + reach) * reach / self.lattices[0].frequency;
+        let off = to.dot(dir_planet);
+        let distance = (to - dir_planet * off).length();
+        let near = |off: f64| {
+            let nearness = (1.0 - off.max(0.0) / f64::from(THICKNESS)).max(0.0);
+            nearness * nearness * (3.0 - 2.0 * nearness) * radius / f64::from(RADIUS)
+        };
+        let depth = (near(off.abs() + turn), near(off.abs() - turn));
+        let (from, to) = ((distance - turn).max(0.0) / radius, (distance + turn) / radius);
+        let (low, high) = mould.range(from, to, unit(random >> 20));
+        let product = |height: f64| (height * depth.0, height * depth.1);
+        let ((a, b), (c, d)) = (product(low), product(high));
+        (a.min(b), c.max(d))
     }
 }
 
 impl Mould {
+    /// The radius of a crater in cells.
+    #[inline(always)]
+    fn radius(self, random: u32) -> f32 {
+        let size = unit::<f32>(random >> 10);
+        let even = RADIUS * (0.3 + 0.7 * size * size);
+        let steep = RADIUS / (1.0 + size * (self.spread[0] + size * self.spread[1]));
+        if self.power { steep } else { even }
+    }
+
+    /// Lowest and highest of [`Mould::profile`] between two distances from the middle: from its parts, each of which
+    /// only rises or only falls.
+    fn range(self, from: f64, to: f64, random: f32) -> (f64, f64) {
+        let [rim, floor, peak, reach] = [self.rim, self.floor, self.peak, self.reach].map(f64::from);
+        let bowl = |r: f64| (1.0 + rim) * ((r.min(1.0) - floor) / (1.0 - floor)).max(0.0).powi(2) - 1.0;
+        let top = |r: f64| peak * (1.0 - (r / f64::from(PEAK)).powi(2)).max(0.0).powi(2);
+        let tail = |r: f64| rim * ((reach - r.max(1.0)) / (reach - 1.0)).max(0.0).powi(2);
+        let (mut low, mut high) = (f64::MAX, f64::MIN);
+        if from <= 1.0 {
+            (low, high) = (bowl(from) + top(to), bowl(to) + top(from));
+        }
+        if to >= 1.0 {
+            (low, high) = (low.min(tail(to)), high.max(tail(from)));
+        }
+        let age = f64::from(self.age * ((random - self.fresh) / (1.0 - self.fresh).max(1e-6)).max(0.0));
+        let dish = |r: f64| -f64::from(DISH_DEPTH) * (1.0 - (r / f64::from(DISH)).powi(2)).max(0.0).powi(2);
+        let left = 1.0 - f64::from(FILLED) * age;
+        (left * ((1.0 - age) * low + age * dish(from)), left * ((1.0 - age) * high + age * dish(to)))
+    }
+
     fn new(params: &planet::Craters, density: f64, collapse: f64) -> Self {
         let planet::Craters { lacunarity, power, rim, ejecta, floor, peak, age, fresh, .. } = *params;
         // The inverse of the cumulative count, met at its ends and its middle.
@@ -106,24 +191,26 @@ impl Mould {
     /// Height (-1, the floor, to the rim) and slope of a crater at so many radii from its middle.
     /// `random` is from 0 to 1.
     #[inline(always)]
-    fn profile(self, r: f32, random: f32) -> (f32, f32) {
+    fn profile<S: Scalar>(self, r: S, random: f32) -> (S, S) {
+        let (of, zero, one, two) = (S::from_f32, S::of(0.0), S::of(1.0), S::of(2.0));
         // A flat floor and a bowl up to the rim, then ejecta that run out.
-        let inside = r < 1.0;
-        let widen = 1.0 / (1.0 - self.floor);
-        let bowl = ((r - self.floor) * widen).max(0.0);
-        let thin = 1.0 / (self.reach - 1.0);
-        let tail = ((self.reach - r) * thin).max(0.0);
-        let top = (1.0 - (r * r) * (1.0 / (PEAK * PEAK))).max(0.0);
-        let inner = (1.0 + self.rim) * bowl * bowl - 1.0 + self.peak * (top * top);
-        let inner_slope = 2.0 * (1.0 + self.rim) * bowl * widen - self.peak * (4.0 / (PEAK * PEAK)) * (top * r);
-        let height = if inside { inner } else { self.rim * tail * tail };
-        let slope = if inside { inner_slope } else { -2.0 * self.rim * tail * thin };
+        let inside = r < one;
+        let widen = of(1.0 / (1.0 - self.floor));
+        let bowl = ((r - of(self.floor)) * widen).max(zero);
+        let thin = of(1.0 / (self.reach - 1.0));
+        let tail = ((of(self.reach) - r) * thin).max(zero);
+        let top = (one - (r * r) * of(1.0 / (PEAK * PEAK))).max(zero);
+        let (rim, peak) = (of(self.rim), of(self.peak));
+        let inner = (one + rim) * bowl * bowl - one + peak * (top * top);
+        let inner_slope = two * (one + rim) * bowl * widen - peak * of(4.0 / (PEAK * PEAK)) * (top * r);
+        let height = if inside { inner } else { rim * tail * tail };
+        let slope = if inside { inner_slope } else { -two * rim * tail * thin };
         // Worn down to a dish.
         let age = self.age * ((random - self.fresh) / (1.0 - self.fresh).max(1e-6)).max(0.0);
-        let dish = (1.0 - (r * r) * (1.0 / (DISH * DISH))).max(0.0);
-        let left = 1.0 - FILLED * age;
-        let worn = height + age * (-DISH_DEPTH * (dish * dish) - height);
-        let worn_slope = slope + age * (DISH_DEPTH * (4.0 / (DISH * DISH)) * (dish * r) - slope);
+        let dish = (one - (r * r) * of(1.0 / (DISH * DISH))).max(zero);
+        let left = of(1.0 - FILLED * age);
+        let worn = height + of(age) * (of(-DISH_DEPTH) * (dish * dish) - height);
+        let worn_slope = slope + of(age) * (of(DISH_DEPTH * (4.0 / (DISH * DISH))) * (dish * r) - slope);
         (left * worn, left * worn_slope)
     }
 }
@@ -137,15 +224,41 @@ impl Evaluate for Craters {
         (-1.0, 1.0)
     }
 
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let add = |sum: (f64, f64), size: &Size| {
+            let (low, high) = size.bounds_near(dir_planet, angle_rad);
+            (sum.0 + low * f64::from(size.weight), sum.1 + high * f64::from(size.weight))
+        };
+        let (lo, hi) = self.sizes.iter().fold((0.0, 0.0), add);
+        (lo - 1e-5, hi + 1e-5)
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, jets: [craters, ..], .. } = scratch;
+        let Scratch { sums, jets: [craters, ..], wide, .. } = scratch;
         let n = chunk.len();
-        let mut places = Places::default();
-        for Size { lattices, weight, mould } in &self.sizes {
+        let mut places = <Places>::default();
+        for (k, Size { lattices, weight, mould }) in self.sizes.iter().enumerate() {
             let frequency = lattices[0].frequency;
             let fades = chunk.fades(1.0 / frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
+            }
+            let exact = k < chunk.exact(self.exact);
+            if exact {
+                let mut places = Places::<f64>::default();
+                let [craters, ..] = &mut wide.jets;
+                craters.fill(n, 0.0);
+                for octave in lattices {
+                    places.find_exact(chunk.simd, chunk.skewed, octave);
+                    for corner in CORNERS {
+                        dig_exact(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
+                    }
+                }
+                settle_exact(chunk.simd, n, frequency as f32, craters);
+                sums.add_exact(chunk, &craters.value, f64::from(*weight));
+                if fades.is_unseen() {
+                    continue;
+                }
             }
             let dig = if fades.is_unseen() { dig_values } else { dig_gradients };
             let settle = if fades.is_unseen() { settle_values } else { settle_gradients };
@@ -157,7 +270,11 @@ impl Evaluate for Craters {
                 }
             }
             settle(chunk.simd, n, frequency as f32, craters);
-            sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
+            if exact {
+                sums.add_gradients(chunk, &craters.gradient, *weight, &fades);
+            } else {
+                sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
+            }
         }
     }
 }
@@ -165,11 +282,19 @@ impl Evaluate for Craters {
 /// Adds the craters of one cell of the eight: one loop for each cell, as the compiler makes vectors
 /// of innermost loops alone.
 #[inline(always)]
-fn dig_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) {
+fn dig_body<R: Real>(
+    n: usize,
+    places: &Places<R::S>,
+    corner: [i32; 3],
+    seed: u32,
+    mould: Mould,
+    craters: &mut Jets<R::S>,
+) {
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
-        let jitter = |bits: u32| 0.3 + 0.4 * unit(bits);
+        let (low, span) = (R::S::of(0.3), R::S::of(0.4));
+        let jitter = |bits: u32| low + span * unit(bits);
         let towards = |axis: usize, bits: u32| step[axis] + jitter(bits) - places.fraction[axis][i];
         let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
         let dir = [places.dir[0][i], places.dir[1][i], places.dir[2][i]];
@@ -178,41 +303,41 @@ fn dig_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], seed: u32, mou
     }
 }
 for_each_simd!(fn dig_values(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<f32>);
+for_each_simd!(fn dig_exact(n: usize, places: &Places<f64>, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets<f64>) = dig_body::<f64>);
 for_each_simd!(fn dig_gradients(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<Jet>);
 
 /// Overlapping craters dig no deeper than one; and gradients by the lattice become gradients by the direction.
 #[inline(always)]
-fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets) {
+fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
         let sum = R::load(craters, i);
-        let v = sum.value();
-        let slope = if v > -1.0 && v < 1.0 { frequency } else { 0.0 };
-        sum.chain(v.clamp(-1.0, 1.0), slope).store(craters, i);
+        let (v, one) = (sum.value(), R::S::of(1.0));
+        let slope = R::S::from_f32(if v > -one && v < one { frequency } else { 0.0 });
+        sum.chain(v.clamp(-one, one), slope).store(craters, i);
     }
 }
 for_each_simd!(fn settle_values(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<f32>);
+for_each_simd!(fn settle_exact(n: usize, frequency: f32, craters: &mut Jets<f64>) = settle_body::<f64>);
 for_each_simd!(fn settle_gradients(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<Jet>);
 
 /// Height and gradient by the lattice coordinates of a crater whose centre lies `to` from a point with unit direction
 /// `dir`. `random` decides whether it is there, its size and its age.
 #[inline(always)]
-fn crater<R: Real>(to: [f32; 3], dir: [f32; 3], random: u32, mould: Mould) -> R {
-    let size = unit(random >> 10);
-    let even = RADIUS * (0.3 + 0.7 * size * size);
-    let steep = RADIUS / (1.0 + size * (mould.spread[0] + size * mould.spread[1]));
-    let radius = if mould.power { steep } else { even };
+fn crater<R: Real>(to: [R::S; 3], dir: [R::S; 3], random: u32, mould: Mould) -> R {
+    let of = R::S::of;
+    let radius = R::S::from_f32(mould.radius(random));
     let off = to[0] * dir[0] + to[1] * dir[1] + to[2] * dir[2];
     let flat = [to[0] - off * dir[0], to[1] - off * dir[1], to[2] - off * dir[2]];
     let distance = (flat[0] * flat[0] + flat[1] * flat[1] + flat[2] * flat[2]).sqrt();
     let (height, slope) = mould.profile(distance / radius, unit(random >> 20));
 
-    let nearness = (1.0 - off.abs() * (1.0 / THICKNESS)).max(0.0);
-    let depth = if unit(random) < mould.density {
-        nearness * nearness * (3.0 - 2.0 * nearness) * (radius / RADIUS)
+    let nearness = (of(1.0) - off.abs() * R::S::from_f32(1.0 / THICKNESS)).max(of(0.0));
+    let depth = if unit::<f32>(random) < mould.density {
+        nearness * nearness * (of(3.0) - of(2.0) * nearness) * (radius / R::S::from_f32(RADIUS))
     } else {
-        0.0
+        of(0.0)
     };
-    let pull = -depth * slope / (radius * distance.max(1e-6));
+    let pull = -depth * slope / (radius * distance.max(of(1e-6)));
     R::of(depth * height, [pull * flat[0], pull * flat[1], pull * flat[2]])
 }
 
@@ -236,7 +361,7 @@ mod tests {
     /// Counts above a diameter go with its power, within an octave and from one to the next.
     #[test]
     fn counts_follow_the_power_law() {
-        let Craters { sizes } = Craters::new(&moon(), 7, 1740.0);
+        let Craters { sizes, .. } = Craters::new(&moon(), 7, 1740.0, Arithmetic::Fine);
         let above = |diameter: f64| -> f64 {
             let counts = sizes.iter().map(|Size { lattices, mould, .. }| {
                 let frequency = lattices[0].frequency;

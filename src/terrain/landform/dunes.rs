@@ -10,14 +10,16 @@
 
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
 use crate::planet;
 use crate::terrain::approx;
-use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::jet::{Jet, Jets, Real, Scalar};
 use crate::terrain::noise::{self, CHUNK, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
 use std::f32::consts::TAU;
 
+/// Weight of the sizes that f32 is enough for.
+const REST: f64 = 0.02;
 /// Wavelengths to a cell: more makes longer, straighter crests.
 const WAVES: f32 = 2.2;
 /// How far a wave reaches, in cells.
@@ -34,6 +36,8 @@ const LEAST_POINTS: f64 = 4.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Dunes {
     sizes: Vec<Size>,
+    /// So many of them are found in f64.
+    exact: usize,
     wind: Wind,
     profile: Profile,
     /// How far noise bends the crests, in wavelengths.
@@ -57,9 +61,9 @@ struct Wind {
 }
 
 impl Dunes {
-    pub(super) fn new(params: &planet::Dunes, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Dunes, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Dunes { wavelength_km, octaves, gain, lacunarity, wind_deg, asymmetry, waviness } = *params;
-        let sizes = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity)
+        let sizes: Vec<Size> = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity)
             .into_iter()
             .map(|wave| {
                 let lattice = |frequency: f64, shift: f64, salt: u32| Octave {
@@ -79,6 +83,7 @@ impl Dunes {
             .collect();
         let (east, north) = libm::sincos(wind_deg.to_radians());
         Self {
+            exact: arithmetic.exact(sizes.iter().map(|size| size.weight), REST),
             sizes,
             wind: Wind { east: east as f32, north: north as f32 },
             profile: Profile::new(asymmetry as f32),
@@ -97,15 +102,34 @@ impl Evaluate for Dunes {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [re, im, dunes, ..], .. } = scratch;
+        let Scratch { sums, noise, jets: [re, im, dunes, ..], wide, .. } = scratch;
         let (simd, n) = (chunk.simd, chunk.len());
-        let mut places = Places::default();
-        for size in &self.sizes {
+        let mut places = <Places>::default();
+        for (k, size) in self.sizes.iter().enumerate() {
             let fades = chunk.fades(size.wavelength_rad, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
+            let exact = k < chunk.exact(self.exact);
+            if exact {
+                let Wide { noise, jets: [re, im, dunes, ..] } = wide;
+                let mut places = Places::<f64>::default();
+                re.fill(n, 0.0);
+                im.fill(n, 0.0);
+                for octave in &size.lattices {
+                    places.find_exact(simd, chunk.skewed, octave);
+                    for corner in CORNERS {
+                        send_exact(simd, n, &places, corner, octave, self.wind, re, im);
+                    }
+                }
+                noise.values(simd, chunk.skewed, &size.bends);
+                pile_exact(simd, n, re, im, noise, self.waviness, self.profile, dunes);
+                sums.add_exact(chunk, &dunes.value, f64::from(size.weight));
+                if unseen {
+                    continue;
+                }
+            }
             let send = if unseen { send_values } else { send_gradients };
             re.fill(n, 0.0);
             im.fill(n, 0.0);
@@ -122,7 +146,11 @@ impl Evaluate for Dunes {
                 noise.gradients(simd, chunk.skewed, &size.bends);
                 pile_gradients(simd, n, re, im, noise, self.waviness, self.profile, dunes);
             }
-            sums.add(chunk, &dunes.value, &dunes.gradient, size.weight, &fades);
+            if exact {
+                sums.add_gradients(chunk, &dunes.gradient, size.weight, &fades);
+            } else {
+                sums.add(chunk, &dunes.value, &dunes.gradient, size.weight, &fades);
+            }
         }
     }
 }
@@ -131,39 +159,41 @@ impl Evaluate for Dunes {
 #[inline(always)]
 fn send_body<R: Real>(
     n: usize,
-    places: &Places,
+    places: &Places<R::S>,
     corner: [i32; 3],
     octave: &Octave,
     wind: Wind,
-    re: &mut Jets,
-    im: &mut Jets,
+    re: &mut Jets<R::S>,
+    im: &mut Jets<R::S>,
 ) {
-    let (seed, frequency) = (octave.seed, octave.frequency as f32);
-    let cell_rad = (1.0 / octave.frequency) as f32;
+    let of = R::S::of;
+    let (one, scale) = (of(1.0), R::S::from_f32);
+    let (seed, frequency) = (octave.seed, of(octave.frequency));
+    let (cell_rad, low, span) = (of(1.0 / octave.frequency), scale(0.5 - JITTER), scale(2.0 * JITTER));
+    let (wind_east, wind_north) = (scale(wind.east), scale(wind.north));
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
-        let towards = |axis: usize, bits: u32| {
-            step[axis] + (0.5 - JITTER) + (2.0 * JITTER) * unit(bits) - places.fraction[axis][i]
-        };
+        let towards = |axis: usize, bits: u32| step[axis] + low + span * unit(bits) - places.fraction[axis][i];
         let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
-        let near = (1.0 - (to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) * (1.0 / (REACH * REACH))).max(0.0);
+        let square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
+        let near = (one - square * scale(1.0 / (REACH * REACH))).max(of(0.0));
         let weight = near * near * near;
 
         // Where the wave comes from, and the wind there. At the very pole it blows nowhere.
         let from = |axis: usize| places.dir[axis][i] + to[axis] * cell_rad;
         let (x, y, z) = (from(0), from(1), from(2));
         let flat = x * x + y * y;
-        let part = 1.0 / flat.max(1e-20).sqrt();
-        let (east, north) = (wind.east * part, wind.north * part);
+        let part = one / flat.max(of(1e-20)).sqrt();
+        let (east, north) = (wind_east * part, wind_north * part);
         let along = [-(east * y) - north * (z * x), east * x - north * (z * y), north * flat];
 
-        let start = unit(noise::scramble(random));
-        let waves = (to[0] * along[0] + to[1] * along[1] + to[2] * along[2]) * WAVES;
+        let start = unit::<R::S>(noise::scramble(random));
+        let waves = (to[0] * along[0] + to[1] * along[1] + to[2] * along[2]) * scale(WAVES);
         let (sin, cos) = approx::sin_cos(start - waves);
-        let fall = near * near * (6.0 / (REACH * REACH)) * frequency;
-        let turn = weight * (TAU * WAVES) * frequency;
-        let part = |value: f32, other: f32| {
+        let fall = near * near * scale(6.0 / (REACH * REACH)) * frequency;
+        let turn = weight * scale(TAU * WAVES) * frequency;
+        let part = |value: R::S, other: R::S| {
             let slope = |axis: usize| fall * value * to[axis] + turn * other * along[axis];
             R::of(weight * value, [slope(0), slope(1), slope(2)])
         };
@@ -172,18 +202,19 @@ fn send_body<R: Real>(
     }
 }
 for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<f32>);
+for_each_simd!(fn send_exact(n: usize, places: &Places<f64>, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets<f64>, im: &mut Jets<f64>) = send_body::<f64>);
 for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<Jet>);
 
 /// The height of dunes from the sum of waves and the noise that bends them.
 #[inline(always)]
 fn pile_body<R: Real>(
     n: usize,
-    re: &Jets,
-    im: &Jets,
-    bends: &Noise,
+    re: &Jets<R::S>,
+    im: &Jets<R::S>,
+    bends: &Noise<R::S>,
     waviness: f32,
     profile: Profile,
-    dunes: &mut Jets,
+    dunes: &mut Jets<R::S>,
 ) {
     for i in 0..n.min(CHUNK) {
         let (re, im) = (R::load(re, i), R::load(im, i));
@@ -194,6 +225,7 @@ fn pile_body<R: Real>(
     }
 }
 for_each_simd!(fn pile_values(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<f32>);
+for_each_simd!(fn pile_exact(n: usize, re: &Jets<f64>, im: &Jets<f64>, bends: &Noise<f64>, waviness: f32, profile: Profile, dunes: &mut Jets<f64>) = pile_body::<f64>);
 for_each_simd!(fn pile_gradients(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<Jet>);
 
 /// The section of a dune along the wind.
@@ -214,15 +246,17 @@ impl Profile {
     /// to crest, the lee falls.
     #[inline(always)]
     fn height<R: Real>(self, phase: R) -> R {
+        let of = R::S::of;
+        let (zero, one, two) = (of(0.0), of(1.0), of(2.0));
         let wrapped = approx::wrap(phase.value());
-        let t = if wrapped < 0.0 { wrapped + 1.0 } else { wrapped };
-        let up = t < self.windward;
-        let run = if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) };
-        let s = (if up { t * run } else { (t - 1.0) * run }).clamp(0.0, 1.0);
-        let brink = if up { 0.0 } else { self.brink };
+        let t = if wrapped < zero { wrapped + one } else { wrapped };
+        let up = t < R::S::from_f32(self.windward);
+        let run = R::S::from_f32(if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) });
+        let s = (if up { t * run } else { (t - one) * run }).clamp(zero, one);
+        let round = R::S::from_f32(1.0 - if up { 0.0 } else { self.brink });
         // From round, s^2 (3 - 2 s), to broken off, s^2.
-        let height = 2.0 * s * s * (1.0 + (1.0 - brink) * 2.0 * (1.0 - s));
-        let slope = 4.0 * s * (1.0 + (1.0 - brink) * (2.0 - 3.0 * s));
+        let height = two * s * s * (one + round * two * (one - s));
+        let slope = of(4.0) * s * (one + round * (two - of(3.0) * s));
         phase.chain(height, slope * run)
     }
 }
@@ -241,7 +275,7 @@ mod tests {
             let params =
                 planet::Dunes { wavelength_km: 300.0, octaves: 1, wind_deg: heading_deg, ..Default::default() };
             let dirs = directions(4000);
-            let landform = Landform::Dunes(Dunes::new(&params, 7, 6371.0));
+            let landform = Landform::Dunes(Dunes::new(&params, 7, 6371.0, Arithmetic::Fine));
             let (mut rising, mut steepest_rise, mut steepest_fall) = (0, 0.0_f64, 0.0_f64);
             for (dir, gradient) in dirs.iter().zip(gradients(&landform, &dirs)).filter(|(dir, _)| dir.z.abs() < 0.9) {
                 let (east, north) = east_north(*dir);

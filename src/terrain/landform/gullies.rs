@@ -9,17 +9,20 @@
 //!
 //! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
 
-use super::fbm::LEAST_POINTS;
+use super::fbm::{LEAST_POINTS, range_near};
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::approx;
-use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::jet::{Jet, Jets, Real, Scalar};
 use crate::terrain::noise::{self, CHUNK, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 use std::f32::consts::TAU;
 
+/// Weight of the octaves of the relief, and height of the gullies, that f32 is enough for.
+const REST: f64 = 0.03;
 /// Gullies to a cell.
 const WAVES: f32 = 1.0;
 /// How far a wave reaches, in cells.
@@ -52,6 +55,8 @@ pub(crate) struct Gullies {
     /// So many of the relief's octaves are coarser than the gullies and lead them.
     leading: usize,
     gullies: Vec<Carved>,
+    /// So many octaves of the relief, and so many of the gullies, are found in f64.
+    exact: [usize; 2],
     /// Cells of the coarsest octave of the relief to the planet's radius.
     frequency: f64,
 }
@@ -67,13 +72,13 @@ struct Carved {
 }
 
 impl Gullies {
-    pub(super) fn new(params: &planet::Gullies, seed: u64, radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::Gullies, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Gullies { wavelength_km, octaves, gain, lacunarity, gully_km, gully_octaves, depth } = *params;
         let frequency = radius_km / wavelength_km;
         let relief = series(seed, frequency, octaves, gain, lacunarity);
         let waves = series(noise::mix(!seed), radius_km / gully_km, gully_octaves, gain, lacunarity);
         let coarsest = waves.first().map_or(1.0, |wave| f64::from(wave.weight));
-        let gullies = waves
+        let gullies: Vec<Carved> = waves
             .iter()
             .map(|Weighted { octave, weight }| {
                 let height = depth * STEEPNESS * gully_km / wavelength_km * f64::from(*weight) / coarsest;
@@ -90,7 +95,11 @@ impl Gullies {
             })
             .collect();
         let leading = relief.iter().filter(|w| COARSER * w.octave.frequency * gully_km < radius_km).count().max(1);
-        Self { relief, leading, gullies, frequency }
+        // Gullies hang on one another and on the relief that leads them.
+        let exact = arithmetic.exact(gullies.iter().map(|gully| gully.height), REST);
+        let exact_relief = arithmetic.exact_of(&relief, REST);
+        let exact = [if exact > 0 { exact_relief.max(leading) } else { exact_relief }, exact];
+        Self { relief, leading, gullies, exact, frequency }
     }
 }
 
@@ -104,13 +113,21 @@ impl Evaluate for Gullies {
         (-bound, bound)
     }
 
+    /// The gullies may be anywhere in their range: only the relief is known better nearby.
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let (low, high) = range_near(&self.relief, noise::skew(dir_planet.to_array()), angle_rad);
+        let carved = self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>() * (1.0 + 1e-5);
+        (low - carved, high + carved)
+    }
+
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, .. } = scratch;
+        let Scratch { sums, noise, wide, .. } = scratch;
+        let exact = self.exact.map(|octaves| chunk.exact(octaves));
+        let mut exact_work = (exact[0] > 0).then(Box::<Work<f64>>::default);
         let (simd, n, skewed) = (chunk.simd, chunk.len(), chunk.skewed);
         let fades_of = |octave: &Octave| chunk.fades(1.0 / octave.frequency, LEAST_GULLY_POINTS * f64::from(WAVES));
         let shaded = self.gullies.first().is_some_and(|gully| !fades_of(&gully.lattices[0]).is_unseen());
-        let mut places = Places::default();
-        let mut work = Work::default();
+        let mut work = <Work>::default();
         work.share.fill(n, 1.0);
         for (i, Weighted { octave, weight }) in self.relief.iter().enumerate() {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
@@ -118,6 +135,13 @@ impl Evaluate for Gullies {
                 break;
             }
             let per_cell = *weight / self.frequency as f32;
+            if let Some(work) = exact_work.as_mut().filter(|_| i < exact[0]) {
+                wide.noise.gradients(simd, skewed, octave);
+                if i < self.leading {
+                    lead_exact(simd, n, &wide.noise, *weight, per_cell, work);
+                }
+                sums.add_exact(chunk, &wide.noise.value, f64::from(*weight));
+            }
             match (i < self.leading, shaded) {
                 (true, true) => {
                     noise.curvatures(simd, skewed, octave);
@@ -130,52 +154,104 @@ impl Evaluate for Gullies {
                 (false, _) if fades.is_unseen() => noise.values(simd, skewed, octave),
                 (false, _) => noise.gradients(simd, skewed, octave),
             }
-            sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
+            if i < exact[0] {
+                sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
+            } else {
+                sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
+            }
         }
         settle(simd, n, &mut work);
-        for gully in &self.gullies {
+        if let Some(exact_work) = &mut exact_work {
+            exact_work.share.fill(n, 1.0);
+            settle_exact(simd, n, exact_work);
+        }
+        for (k, gully) in self.gullies.iter().enumerate() {
             let fades = fades_of(&gully.lattices[0]);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
-            let turn = if unseen { turn_values } else { turn_gradients };
-            let send = if unseen { send_values } else { send_gradients };
-            let carve = if unseen { carve_values } else { carve_gradients };
-            work.waves.iter_mut().for_each(|jets| jets.fill(n, 0.0));
-            for octave in &gully.lattices {
-                places.find(simd, skewed, octave);
-                turn(simd, n, &places, &mut work);
-                for corner in CORNERS {
-                    send(simd, n, &places, corner, octave, &mut work);
+            let exact_work = exact_work.as_mut().filter(|_| k < exact[1]);
+            if let Some(exact_work) = exact_work {
+                carve_octave_exact(chunk, gully, exact_work);
+                sums.add_exact(chunk, &exact_work.gully.value, f64::from(gully.height));
+                if !unseen {
+                    carve_octave(chunk, gully, false, &mut work);
+                    sums.add_gradients(chunk, &work.gully.gradient, gully.height, &fades);
                 }
+                work.round_from(n, exact_work);
+                continue;
             }
-            carve(simd, n, gully, &mut work);
+            carve_octave(chunk, gully, unseen, &mut work);
             sums.add(chunk, &work.gully.value, &work.gully.gradient, gully.height, &fades);
         }
     }
 }
 
+/// Carves one octave of gullies, with gradients unless they are unseen.
+fn carve_octave(chunk: &Chunk<'_>, gully: &Carved, unseen: bool, work: &mut Work) {
+    let (simd, n) = (chunk.simd, chunk.len());
+    let turn = if unseen { turn_values } else { turn_gradients };
+    let send = if unseen { send_values } else { send_gradients };
+    let carve = if unseen { carve_values } else { carve_gradients };
+    let mut places = <Places>::default();
+    work.waves.iter_mut().for_each(|jets| jets.fill(n, 0.0));
+    for octave in &gully.lattices {
+        places.find(simd, chunk.skewed, octave);
+        turn(simd, n, &places, work);
+        for corner in CORNERS {
+            send(simd, n, &places, corner, octave, work);
+        }
+    }
+    carve(simd, n, gully, work);
+}
+
+/// The same in f64, values alone.
+fn carve_octave_exact(chunk: &Chunk<'_>, gully: &Carved, work: &mut Work<f64>) {
+    let (simd, n) = (chunk.simd, chunk.len());
+    let mut places = Places::<f64>::default();
+    work.waves.iter_mut().for_each(|jets| jets.fill(n, 0.0));
+    for octave in &gully.lattices {
+        places.find_exact(simd, chunk.skewed, octave);
+        turn_exact(simd, n, &places, work);
+        for corner in CORNERS {
+            send_exact(simd, n, &places, corner, octave, work);
+        }
+    }
+    carve_exact(simd, n, gully, work);
+}
+
 /// What one octave hands to the next, and room to work in.
 #[derive(Default)]
-struct Work {
+struct Work<S: Scalar = f32> {
     /// The slope that leads the gullies, in reliefs for each cell of its coarsest octave.
-    guide: [Jets; 3],
+    guide: [Jets<S>; 3],
     /// Along the ground and across the slope; the shorter, the flatter the ground.
-    side: [Jets; 3],
+    side: [Jets<S>; 3],
     /// Real and imaginary part of the sum of waves; and as their gradients, those of the sum of waves each
     /// times the way to its middle.
-    waves: [Jets; 4],
+    waves: [Jets<S>; 4],
     /// How much of the next octave there is.
-    share: Jets,
+    share: Jets<S>,
     /// The height where there is none of it.
-    target: Jets,
-    gully: Jets,
+    target: Jets<S>,
+    gully: Jets<S>,
+}
+
+impl Work {
+    /// Takes over values that were found in f64.
+    fn round_from(&mut self, n: usize, wide: &Work<f64>) {
+        for (guide, wide) in self.guide.iter_mut().zip(&wide.guide) {
+            guide.round_from(n, wide);
+        }
+        self.share.round_from(n, &wide.share);
+        self.target.round_from(n, &wide.target);
+    }
 }
 
 /// Adds an octave of the relief to the slope that leads, and to the height that summits and valley floors keep.
 #[inline(always)]
-fn lead_body<R: Real>(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) {
+fn lead_body<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32, work: &mut Work<R::S>) {
     for i in 0..n.min(CHUNK) {
         let slope = R::noise_gradient(noise, i);
         for (slope, guide) in slope.into_iter().zip(&mut work.guide) {
@@ -185,26 +261,29 @@ fn lead_body<R: Real>(n: usize, noise: &Noise, weight: f32, per_cell: f32, work:
     }
 }
 for_each_simd!(fn lead_values(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) = lead_body::<f32>);
+for_each_simd!(fn lead_exact(n: usize, noise: &Noise<f64>, weight: f32, per_cell: f32, work: &mut Work<f64>) = lead_body::<f64>);
 for_each_simd!(fn lead_gradients(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) = lead_body::<Jet>);
 
 /// From the relief's height to that of a gully's ridge (1) at summits and of its bed (-1) on valley floors.
 #[inline(always)]
-fn settle_body(n: usize, work: &mut Work) {
+fn settle_body<R: Real>(n: usize, work: &mut Work<R::S>) {
     for i in 0..n.min(CHUNK) {
-        let relief = Jet::load(&work.target, i);
+        let relief = R::load(&work.target, i);
         relief.smoothstep(-SUMMIT, SUMMIT).scale(2.0).plus(-1.0).store(&mut work.target, i);
     }
 }
-for_each_simd!(fn settle(n: usize, work: &mut Work) = settle_body);
+for_each_simd!(fn settle(n: usize, work: &mut Work) = settle_body::<Jet>);
+for_each_simd!(fn settle_exact(n: usize, work: &mut Work<f64>) = settle_body::<f64>);
 
 /// Turns the slope to the side.
 #[inline(always)]
-fn turn_body<R: Real>(n: usize, places: &Places, work: &mut Work) {
+fn turn_body<R: Real>(n: usize, places: &Places<R::S>, work: &mut Work<R::S>) {
     for i in 0..n.min(CHUNK) {
         let [gx, gy, gz] = [R::load(&work.guide[0], i), R::load(&work.guide[1], i), R::load(&work.guide[2], i)];
-        let x = R::of(places.dir[0][i], [1.0, 0.0, 0.0]);
-        let y = R::of(places.dir[1][i], [0.0, 1.0, 0.0]);
-        let z = R::of(places.dir[2][i], [0.0, 0.0, 1.0]);
+        let (on, off) = (R::S::of(1.0), R::S::of(0.0));
+        let x = R::of(places.dir[0][i], [on, off, off]);
+        let y = R::of(places.dir[1][i], [off, on, off]);
+        let z = R::of(places.dir[2][i], [off, off, on]);
         let (sx, sy, sz) = (y * gz - z * gy, z * gx - x * gz, x * gy - y * gx);
         let length = (sx.square() + sy.square() + sz.square()).plus(FLAT * FLAT).sqrt();
         let shorten = length.recip();
@@ -214,33 +293,34 @@ fn turn_body<R: Real>(n: usize, places: &Places, work: &mut Work) {
     }
 }
 for_each_simd!(fn turn_values(n: usize, places: &Places, work: &mut Work) = turn_body::<f32>);
+for_each_simd!(fn turn_exact(n: usize, places: &Places<f64>, work: &mut Work<f64>) = turn_body::<f64>);
 for_each_simd!(fn turn_gradients(n: usize, places: &Places, work: &mut Work) = turn_body::<Jet>);
 
 /// Adds the waves of one cell of the eight.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) {
-    let (seed, frequency) = (octave.seed, octave.frequency as f32);
+fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, work: &mut Work<R::S>) {
+    let (seed, frequency, scale) = (octave.seed, R::S::of(octave.frequency), R::S::from_f32);
+    let (low, span, zero) = (scale(0.5 - JITTER), scale(2.0 * JITTER), R::S::of(0.0));
     let Work { side, waves: [re, im, re_arm, im_arm], .. } = work;
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
-        let towards = |axis: usize, bits: u32| {
-            step[axis] + (0.5 - JITTER) + (2.0 * JITTER) * unit(bits) - places.fraction[axis][i]
-        };
+        let towards = |axis: usize, bits: u32| step[axis] + low + span * unit(bits) - places.fraction[axis][i];
         let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
-        let near = (1.0 - (to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) * (1.0 / (REACH * REACH))).max(0.0);
+        let square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
+        let near = (R::S::of(1.0) - square * scale(1.0 / (REACH * REACH))).max(zero);
         let weight = near * near * near;
         let waves = to[0] * side[0].value[i] + to[1] * side[1].value[i] + to[2] * side[2].value[i];
-        let (sin, cos) = approx::sin_cos(waves * -WAVES);
+        let (sin, cos) = approx::sin_cos(waves * scale(-WAVES));
         // The gradient as if the waves ran the same way everywhere, all but the part that is the same for all waves.
-        let fall = near * near * (6.0 / (REACH * REACH)) * frequency;
-        let part = |value: f32| {
+        let fall = near * near * scale(6.0 / (REACH * REACH)) * frequency;
+        let part = |value: R::S| {
             let fall = fall * value;
             R::of(weight * value, [fall * to[0], fall * to[1], fall * to[2]])
         };
-        let arm = |value: f32| {
+        let arm = |value: R::S| {
             let value = weight * value;
-            R::of(0.0, [value * to[0], value * to[1], value * to[2]])
+            R::of(zero, [value * to[0], value * to[1], value * to[2]])
         };
         (R::load(re, i) + part(cos)).store(re, i);
         (R::load(im, i) + part(sin)).store(im, i);
@@ -249,21 +329,22 @@ fn send_body<R: Real>(n: usize, places: &Places, corner: [i32; 3], octave: &Octa
     }
 }
 for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
+for_each_simd!(fn send_exact(n: usize, places: &Places<f64>, corner: [i32; 3], octave: &Octave, work: &mut Work<f64>) = send_body::<f64>);
 for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
 
 /// From the sum of waves to the height of gullies, and to what leads the next octave.
 #[inline(always)]
-fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work) {
-    let frequency = gully.lattices[0].frequency as f32;
+fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work<R::S>) {
+    let (frequency, zero) = (gully.lattices[0].frequency as f32, R::S::of(0.0));
     for i in 0..n.min(CHUNK) {
         let side = [R::load(&work.side[0], i), R::load(&work.side[1], i), R::load(&work.side[2], i)];
         // Each wave's angle grows along the side, and turns with it by the way to the wave's middle.
         let [re, im, re_arm, im_arm] = &work.waves;
-        let along = |k: f32, axis: usize| k * side[axis].value();
-        let turned = |sum: &Jets, other: &Jets, arm: &Jets, sign: f32| {
-            let k = other.value[i] * (sign * TAU * WAVES * frequency);
-            let straight = R::load(sum, i) + R::of(0.0, [along(k, 0), along(k, 1), along(k, 2)]);
-            let by = |axis: usize| side[axis].chain(0.0, arm.gradient[axis][i] * (-sign * TAU * WAVES));
+        let along = |k: R::S, axis: usize| k * side[axis].value();
+        let turned = |sum: &Jets<R::S>, other: &Jets<R::S>, arm: &Jets<R::S>, sign: f32| {
+            let k = other.value[i] * R::S::from_f32(sign * TAU * WAVES * frequency);
+            let straight = R::load(sum, i) + R::of(zero, [along(k, 0), along(k, 1), along(k, 2)]);
+            let by = |axis: usize| side[axis].chain(zero, arm.gradient[axis][i] * R::S::from_f32(-sign * TAU * WAVES));
             straight + (by(0) + by(1) + by(2))
         };
         let real = turned(re, im, im_arm, -1.0);
@@ -289,4 +370,5 @@ fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work) {
     }
 }
 for_each_simd!(fn carve_values(n: usize, gully: &Carved, work: &mut Work) = carve_body::<f32>);
+for_each_simd!(fn carve_exact(n: usize, gully: &Carved, work: &mut Work<f64>) = carve_body::<f64>);
 for_each_simd!(fn carve_gradients(n: usize, gully: &Carved, work: &mut Work) = carve_body::<Jet>);

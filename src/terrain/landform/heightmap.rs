@@ -1,7 +1,7 @@
 //! Heights from a picture (see [`crate::sphere::raster`]). Values come from its finest level; gradients from the level
 //! whose texels are as far apart as the points of the band.
 
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::planet::picture::Picture;
 use glam::DVec3;
@@ -15,7 +15,7 @@ pub(crate) struct HeightMap {
 }
 
 impl HeightMap {
-    pub(super) fn new(params: &planet::HeightMap, _seed: u64, _radius_km: f64) -> Self {
+    pub(super) fn new(params: &planet::HeightMap, _seed: u64, _radius_km: f64, _arithmetic: Arithmetic) -> Self {
         let planet::HeightMap { file, layout, low, high } = params;
         Self { picture: file.picture(*layout).cloned(), low: *low, high: *high }
     }

@@ -17,7 +17,8 @@
 //! - `heightmap`: heights from a picture
 //! - `octaves`: what most kinds are made of
 //! - `places`: cells of a lattice around points, for kinds that scatter things
-//! - `tests`: what every kind must hold
+//! - `tests`: what every kind must hold;
+//!   `precision`: how exact they are; `tightness`: how close their bounds are
 //!
 //! A kind is a struct made from its parameters in [`crate::planet::shapes`] that implements [`Evaluate`]; the list
 //! below is the only other place that knows it. Its value must not depend on the spacing of the points that ask, and
@@ -27,7 +28,11 @@ mod curve;
 mod octaves;
 mod places;
 #[cfg(test)]
+mod precision;
+#[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tightness;
 mod warp;
 
 use super::jet::Jets;
@@ -35,6 +40,7 @@ use super::noise::{CHUNK, Lane, Noise, Points3};
 use super::simd::{Simd, for_each_simd};
 use crate::planet::Shape;
 use glam::DVec3;
+pub(crate) use octaves::Arithmetic;
 use warp::Displaced;
 
 /// Lists the kinds: `Kind in file`.
@@ -49,8 +55,8 @@ macro_rules! landforms {
 
         impl Landform {
             /// Compiles a kind of layer for a planet of this radius. `seed` is the planet's and the layer's in one.
-            pub(crate) fn new(shape: &Shape, seed: u64, radius_km: f64) -> Self {
-                match shape { $(Shape::$kind(params) => Landform::$kind($file::$kind::new(params, seed, radius_km)),)+ }
+            pub(crate) fn new(shape: &Shape, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
+                match shape { $(Shape::$kind(params) => Landform::$kind($file::$kind::new(params, seed, radius_km, arithmetic)),)+ }
             }
 
             fn evaluate(&self) -> &dyn Evaluate {
@@ -79,7 +85,7 @@ landforms! {
 impl Landform {
     /// Plain fractal noise with gain 0.5 and lacunarity 2.
     pub(crate) fn fbm(seed: u64, frequency: f64, octaves: u32) -> Self {
-        Landform::Fbm(fbm::Fbm::plain(seed, frequency, octaves))
+        Landform::Fbm(fbm::Fbm::plain(seed, frequency, octaves, Arithmetic::Classic))
     }
 
     /// How many octaves of noise one point takes.
@@ -147,6 +153,11 @@ impl Chunk<'_> {
         self.dirs.len()
     }
 
+    /// How many octaves are to be found in f64, if so many are where heights count.
+    fn exact(&self, octaves: usize) -> usize {
+        if self.seen_only { 0 } else { octaves }
+    }
+
     /// Whether something with these fades can be left out.
     pub(crate) fn skips(&self, fades: &Fades) -> bool {
         self.seen_only && fades.is_unseen()
@@ -182,6 +193,23 @@ pub(crate) struct Scratch {
     noise: Noise,
     jets: [Jets; 8],
     displaced: Displaced,
+    wide: Wide,
+}
+
+/// Room for what is found in f64.
+#[derive(Default)]
+struct Wide {
+    noise: Noise<f64>,
+    jets: [Jets<f64>; 8],
+}
+
+/// The coordinates of the chunk's directions.
+fn place_exact(chunk: &Chunk<'_>, dir: [&mut Jets<f64>; 3]) {
+    for (axis, jets) in dir.into_iter().enumerate() {
+        for (value, dir) in jets.value.iter_mut().zip(chunk.dirs) {
+            *value = dir[axis];
+        }
+    }
 }
 
 /// The coordinates of the chunk's directions as numbers with gradients.
@@ -221,6 +249,11 @@ impl Sums {
         self.add_gradients(chunk, gradient, weight, fades);
     }
 
+    /// Adds numbers found in f64, times a weight.
+    fn add_exact(&mut self, chunk: &Chunk<'_>, value: &Lane<f64>, weight: f64) {
+        add_exact_value(chunk.simd, chunk.len(), value, weight, &mut self.value);
+    }
+
     /// Adds gradients alone, as far as they are seen, times a weight.
     fn add_gradients(&mut self, chunk: &Chunk<'_>, gradient: &[Lane<f32>; 3], weight: f32, fades: &Fades) {
         for (sum, share) in self.gradients.iter_mut().zip(fades.0) {
@@ -258,6 +291,13 @@ fn add_value_body(n: usize, value: &Lane<f32>, weight: f32, sum: &mut Lane<f64>)
         sum[i] += f64::from(value[i] * weight);
     }
 }
+#[inline(always)]
+fn add_exact_body(n: usize, value: &Lane<f64>, weight: f64, sum: &mut Lane<f64>) {
+    for i in 0..n.min(CHUNK) {
+        sum[i] += value[i] * weight;
+    }
+}
+for_each_simd!(fn add_exact_value(n: usize, value: &Lane<f64>, weight: f64, sum: &mut Lane<f64>) = add_exact_body);
 for_each_simd!(fn add_value(n: usize, value: &Lane<f32>, weight: f32, sum: &mut Lane<f64>) = add_value_body);
 
 #[inline(always)]

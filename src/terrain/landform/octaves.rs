@@ -1,6 +1,49 @@
 //! Octaves: the same noise finer and weaker, again and again.
 
+use crate::planet::Precision;
 use crate::terrain::noise::{self, Octave};
+
+/// Which octaves have their values found in f64, and not in f32, whose rounding is up to a millimetre of a few
+/// kilometres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Arithmetic {
+    /// As few as ever: presets before version 3 keep their bits.
+    Classic,
+    /// The strongest, so that heights of 8 km are within a millimetre of f64 throughout.
+    Fine,
+    /// All: what the others are measured against.
+    #[cfg(test)]
+    Full,
+}
+
+impl From<Precision> for Arithmetic {
+    fn from(precision: Precision) -> Self {
+        match precision {
+            Precision::Classic => Self::Classic,
+            Precision::Millimetre => Self::Fine,
+        }
+    }
+}
+
+impl Arithmetic {
+    /// How many octaves are found in f64: in `Fine`, so many that those left weigh no more than `rest`.
+    pub(super) fn exact(self, weights: impl Iterator<Item = f32> + Clone, rest: f64) -> usize {
+        match self {
+            Self::Classic => 0,
+            Self::Fine => {
+                let mut left: f64 = weights.clone().map(f64::from).sum();
+                weights.take_while(|weight| (left > rest, left -= f64::from(*weight)).0).count()
+            }
+            #[cfg(test)]
+            Self::Full => weights.count(),
+        }
+    }
+
+    /// The same for a series.
+    pub(super) fn exact_of(self, octaves: &[Weighted], rest: f64) -> usize {
+        self.exact(octaves.iter().map(|octave| octave.weight), rest)
+    }
+}
 
 /// An octave and how much it counts; the weights of a series sum to 1.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 //! below and are cut where layers are joined.
 
 use super::fbm::Fbm;
-use super::{Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use glam::DVec3;
 
@@ -12,8 +12,8 @@ pub(crate) struct Terraces {
 }
 
 impl Terraces {
-    pub(super) fn new(params: &planet::Terraces, seed: u64, radius_km: f64) -> Self {
-        Self { waves: Fbm::plain(seed, radius_km / params.wavelength_km, params.octaves) }
+    pub(super) fn new(params: &planet::Terraces, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
+        Self { waves: Fbm::plain(seed, radius_km / params.wavelength_km, params.octaves, arithmetic) }
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) fn gradients(landform: &Landform, dirs: &[DVec3]) -> Vec<DVec3> {
 }
 
 /// Each kind with a name: as it is by default, in its other styles, and with what its defaults leave out.
-fn shapes() -> Vec<(&'static str, Shape)> {
+pub(super) fn shapes() -> Vec<(&'static str, Shape)> {
     let cells = |style| Shape::Cells(planet::Cells { style, width: 0.4, octaves: 2, ..Default::default() });
     let moon = planet::Craters {
         octaves: 3,
@@ -68,7 +68,7 @@ fn kinds(most_octaves: u32) -> Vec<(&'static str, Landform, f64)> {
             _ => {}
         });
         let smallest_rad = smallest_km / RADIUS_KM * 0.5_f64.powi(octave_count as i32 - 1);
-        (name, Landform::new(&shape, 7, RADIUS_KM), smallest_rad)
+        (name, Landform::new(&shape, 7, RADIUS_KM, Arithmetic::Fine), smallest_rad)
     };
     shapes().into_iter().map(kind).collect()
 }
@@ -167,7 +167,7 @@ proptest! {
         });
         let points = Points::new(around.collect());
         for (_, shape) in shapes() {
-            let landform = Landform::new(&shape, seed, RADIUS_KM);
+            let landform = Landform::new(&shape, seed, RADIUS_KM, Arithmetic::Fine);
             let (lo, hi) = landform.bounds_near(dir, angle_rad);
             for v in Field::new(&landform, Simd::detect(), &points, &[]).value {
                 prop_assert!(lo <= v && v <= hi, "{shape:?}: {v} not in {lo}..{hi} within {angle_rad}");
@@ -191,7 +191,7 @@ fn every_valid_parameter_gives_finite_numbers_within_bounds() {
                     _ => {}
                 }
             });
-            let landform = Landform::new(&shape, 3, radius_km);
+            let landform = Landform::new(&shape, 3, radius_km, Arithmetic::Fine);
             let field = Field::new(&landform, Simd::detect(), &points, EXACT);
             let (lo, hi) = landform.bounds();
             assert!(field.value.iter().all(|v| (lo..=hi).contains(v)), "{shape:?} on {radius_km} km");

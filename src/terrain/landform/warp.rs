@@ -6,10 +6,12 @@
 use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
 use super::{Chunk, Sums, add_gradient};
+use crate::terrain::jet::Scalar;
 use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
 use crate::terrain::simd::for_each_simd;
+use glam::DVec3;
 
-/// So many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
+/// At least so many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
 /// is half a millimetre of 4 km.
 const PRECISE: usize = 2;
 
@@ -67,16 +69,34 @@ impl Warp {
         3 * self.octaves.len()
     }
 
+    /// Where a direction goes, skewed, and how far from there the directions within an angle of it can go.
+    pub(super) fn reach_near(&self, dir_planet: DVec3, angle_rad: f64) -> ([f64; 3], f64) {
+        let skewed = noise::skew(dir_planet.to_array());
+        let (mut there, mut stretch) = (dir_planet, 1.0);
+        for Weighted { octave, weight } in &self.octaves {
+            let reach = self.reach * f64::from(*weight);
+            let mut square = 0.0;
+            for (axis, octave) in precise::components(octave).iter().enumerate() {
+                let (value, gradient, off) = noise::slope_near(skewed, octave, angle_rad);
+                there[axis] += value * reach;
+                square += (gradient.length() + off).min(noise::SLOPE_BOUND).powi(2);
+            }
+            stretch += square.sqrt() * octave.frequency * reach;
+        }
+        (noise::skew(there.to_array()), angle_rad * stretch + 1e-13)
+    }
+
     /// By how much features of the warped noise are typically squeezed.
     fn squeeze(&self) -> f64 {
         let shear = |o: &Weighted| self.reach * f64::from(o.weight) * o.octave.frequency * DERIVATIVE;
         1.0 + self.octaves.iter().map(|o| shear(o) * shear(o)).sum::<f64>().sqrt()
     }
 
-    /// Adds octaves of noise at the displaced points of a chunk.
+    /// Adds octaves of noise at the displaced points of a chunk, at least so many of them in f64.
     pub(super) fn add_octaves(
         &self,
         octaves: &[Weighted],
+        exact: usize,
         chunk: &Chunk<'_>,
         noise: &mut Noise,
         displaced: &mut Displaced,
@@ -85,7 +105,7 @@ impl Warp {
         self.displace(chunk, false, noise, displaced);
         let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
         let least_points = LEAST_POINTS * self.squeeze();
-        let (coarse, fine) = octaves.split_at(PRECISE.min(octaves.len()));
+        let (coarse, fine) = octaves.split_at(exact.max(PRECISE).min(octaves.len()));
         for Weighted { octave, weight } in coarse {
             precise::add(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
             let fades = chunk.fades(1.0 / octave.frequency, least_points);
@@ -94,7 +114,7 @@ impl Warp {
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
             }
         }
-        add_octaves(fine, &there, least_points, noise, sums);
+        add_octaves(fine, 0, &there, least_points, noise, sums);
         displaced.pull_back(chunk, sums);
     }
 
@@ -133,6 +153,36 @@ impl Warp {
             }
         }
         add_skewed(chunk.simd, chunk.skewed, &mut displaced.skewed.0);
+    }
+}
+
+/// The derivatives of displaced points by the points, in f64.
+pub(super) struct ExactJacobian([[Lane<f64>; 3]; 3]);
+
+impl ExactJacobian {
+    /// Of the points of a chunk.
+    pub(super) fn new(warp: &Warp, chunk: &Chunk<'_>, noise: &mut Noise<f64>) -> Box<Self> {
+        let mut jacobian = Box::new(Self([[[0.0; CHUNK]; 3]; 3]));
+        for (row, lanes) in jacobian.0.iter_mut().enumerate() {
+            lanes[row].fill(1.0);
+        }
+        for Weighted { octave, weight } in &warp.octaves {
+            let reach = warp.reach * f64::from(*weight);
+            for (lanes, octave) in jacobian.0.iter_mut().zip(&precise::components(octave)) {
+                noise.gradients(chunk.simd, chunk.skewed, octave);
+                for (lane, gradient) in lanes.iter_mut().zip(&noise.gradient) {
+                    for (sum, gradient) in lane.iter_mut().zip(gradient) {
+                        *sum += gradient * reach;
+                    }
+                }
+            }
+        }
+        jacobian
+    }
+
+    /// Turns the gradient of a noise at the displaced points into that by the points.
+    pub(super) fn pull_back(&self, chunk: &Chunk<'_>, noise: &mut Noise<f64>) {
+        multiply_exact(chunk.simd, chunk.len(), &self.0, &mut noise.gradient);
     }
 }
 
@@ -175,7 +225,7 @@ for_each_simd!(fn add_skewed(skewed: Points3<'_>, displaced: &mut [Lane<f64>; 3]
 
 /// Gradients times the Jacobian.
 #[inline(always)]
-fn multiply_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) {
+fn multiply_body<S: Scalar>(n: usize, jacobian: &[[Lane<S>; 3]; 3], gradient: &mut [Lane<S>; 3]) {
     let ([jx, jy, jz], [x, y, z]) = (jacobian, gradient);
     for i in 0..n.min(CHUNK) {
         let (gx, gy, gz) = (x[i], y[i], z[i]);
@@ -184,7 +234,8 @@ fn multiply_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<
         z[i] = jx[2][i] * gx + jy[2][i] * gy + jz[2][i] * gz;
     }
 }
-for_each_simd!(fn multiply(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) = multiply_body);
+for_each_simd!(fn multiply(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) = multiply_body::<f32>);
+for_each_simd!(fn multiply_exact(n: usize, jacobian: &[[Lane<f64>; 3]; 3], gradient: &mut [Lane<f64>; 3]) = multiply_body::<f64>);
 
 #[inline(always)]
 fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) {

@@ -5,6 +5,7 @@
 //! points go into a register.
 
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
+use crate::terrain::jet::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
 /// Points worked on at a time: few enough for all arrays to stay in the first-level cache.
@@ -17,24 +18,33 @@ pub(crate) type Lane<T> = [T; CHUNK];
 pub(crate) type Points3<'a> = [&'a [f64]; 3];
 
 /// The noise of one octave at a chunk of points, by the coordinates of the points (not of the lattice).
-pub(crate) struct Noise {
+pub(crate) struct Noise<S = f32> {
     cell: [Lane<u32>; 3],
-    fraction: [Lane<f32>; 3],
-    pub(crate) value: Lane<f32>,
-    pub(crate) gradient: [Lane<f32>; 3],
+    fraction: [Lane<S>; 3],
+    pub(crate) value: Lane<S>,
+    pub(crate) gradient: [Lane<S>; 3],
     /// Second derivatives xx, yy, zz, yz, zx, xy.
-    pub(crate) curvature: [Lane<f32>; 6],
+    pub(crate) curvature: [Lane<S>; 6],
 }
 
-impl Default for Noise {
+impl<S: Scalar> Default for Noise<S> {
     fn default() -> Self {
-        Self {
-            cell: [[0; CHUNK]; 3],
-            fraction: [[0.0; CHUNK]; 3],
-            value: [0.0; CHUNK],
-            gradient: [[0.0; CHUNK]; 3],
-            curvature: [[0.0; CHUNK]; 6],
-        }
+        let none = [S::default(); CHUNK];
+        Self { cell: [[0; CHUNK]; 3], fraction: [none; 3], value: none, gradient: [none; 3], curvature: [none; 6] }
+    }
+}
+
+impl Noise<f64> {
+    /// Values alone, at skewed points.
+    pub(crate) fn values(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
+        find_exact_cells(simd, skewed, octave, self);
+        fill_exact_values(simd, skewed[0].len(), octave.seed, self);
+    }
+
+    /// Values (the same bits) and gradients.
+    pub(crate) fn gradients(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
+        find_exact_cells(simd, skewed, octave, self);
+        fill_exact_gradients(simd, skewed[0].len(), octave, self);
     }
 }
 
@@ -59,7 +69,7 @@ impl Noise {
 }
 
 #[inline(always)]
-fn find_cells_body(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) {
+fn find_cells_body<S: Scalar>(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise<S>) {
     for (axis, p) in skewed.into_iter().enumerate() {
         let (cell, fraction) = (&mut noise.cell[axis], &mut noise.fraction[axis]);
         for ((p, cell), fraction) in p.iter().zip(cell).zip(fraction) {
@@ -67,20 +77,22 @@ fn find_cells_body(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) {
         }
     }
 }
-for_each_simd!(fn find_cells(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) = find_cells_body);
+for_each_simd!(fn find_cells(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise) = find_cells_body::<f32>);
+for_each_simd!(fn find_exact_cells(skewed: Points3<'_>, octave: &Octave, noise: &mut Noise<f64>) = find_cells_body::<f64>);
 
 #[inline(always)]
-fn fill_values_body(n: usize, seed: u32, noise: &mut Noise) {
+fn fill_values_body<S: Scalar>(n: usize, seed: u32, noise: &mut Noise<S>) {
     let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, .. } = noise;
     for i in 0..n.min(CHUNK) {
         v[i] = value([cx[i], cy[i], cz[i]], [x[i], y[i], z[i]], seed);
     }
 }
-for_each_simd!(fn fill_values(n: usize, seed: u32, noise: &mut Noise) = fill_values_body);
+for_each_simd!(fn fill_values(n: usize, seed: u32, noise: &mut Noise) = fill_values_body::<f32>);
+for_each_simd!(fn fill_exact_values(n: usize, seed: u32, noise: &mut Noise<f64>) = fill_values_body::<f64>);
 
 #[inline(always)]
-fn fill_gradients_body(n: usize, octave: &Octave, noise: &mut Noise) {
-    let (seed, frequency) = (octave.seed, octave.frequency as f32);
+fn fill_gradients_body<S: Scalar>(n: usize, octave: &Octave, noise: &mut Noise<S>) {
+    let (seed, frequency) = (octave.seed, S::of(octave.frequency));
     let Noise { cell: [cx, cy, cz], fraction: [x, y, z], value: v, gradient: [gx, gy, gz], .. } = noise;
     for i in 0..n.min(CHUNK) {
         let (value, g) = value_gradient([cx[i], cy[i], cz[i]], [x[i], y[i], z[i]], seed);
@@ -90,7 +102,8 @@ fn fill_gradients_body(n: usize, octave: &Octave, noise: &mut Noise) {
         gz[i] = g[2] * frequency;
     }
 }
-for_each_simd!(fn fill_gradients(n: usize, octave: &Octave, noise: &mut Noise) = fill_gradients_body);
+for_each_simd!(fn fill_gradients(n: usize, octave: &Octave, noise: &mut Noise) = fill_gradients_body::<f32>);
+for_each_simd!(fn fill_exact_gradients(n: usize, octave: &Octave, noise: &mut Noise<f64>) = fill_gradients_body::<f64>);
 
 #[inline(always)]
 fn fill_curvatures_body(n: usize, octave: &Octave, noise: &mut Noise) {

@@ -15,7 +15,9 @@
 mod batch;
 pub(crate) mod precise;
 
+use super::jet::Scalar;
 pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
+use glam::DVec3;
 
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
 pub(crate) const BOUND: f64 = 1.45;
@@ -52,9 +54,9 @@ pub(crate) fn skew(p: [f64; 3]) -> [f64; 3] {
 
 /// Cell number and position within the cell, 0 to 1.
 #[inline(always)]
-pub(crate) fn split(q: f64) -> (u32, f32) {
+pub(crate) fn split<S: Scalar>(q: f64) -> (u32, S) {
     let rounded = (q - 0.5) + ROUNDER;
-    (rounded.to_bits() as u32, (q - (rounded - ROUNDER)) as f32)
+    (rounded.to_bits() as u32, S::of(q - (rounded - ROUNDER)))
 }
 
 /// Large odd numbers that spread cell numbers over the hash's bits.
@@ -77,34 +79,35 @@ pub(crate) fn cell_hash(cell: [u32; 3], seed: u32) -> u32 {
 
 /// A corner's gradient, each component an odd whole number from -511 to 511.
 #[inline(always)]
-fn gradient(hash_x: u32, hash_y: u32, hash_z: u32, seed: u32) -> [f32; 3] {
+fn gradient<S: Scalar>(hash_x: u32, hash_y: u32, hash_z: u32, seed: u32) -> [S; 3] {
     let h = scramble(hash_x ^ hash_y ^ hash_z ^ seed);
-    let component = |bits: u32| ((bits as i32 >> 22) | 1) as f32;
+    let component = |bits: u32| S::from_i32((bits as i32 >> 22) | 1);
     [component(h), component(h << 10), component(h << 20)]
 }
 
 /// What one corner of the simplex adds: its weight cubed, and gradient dot distance.
 #[inline(always)]
-fn falloff(d: [f32; 3]) -> f32 {
-    (0.5 - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(0.0)
+fn falloff<S: Scalar>(d: [S; 3]) -> S {
+    (S::of(0.5) - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(S::of(0.0))
 }
 
 /// The four corners of the simplex around a place in a cell: distances, gradients.
 #[inline(always)]
-fn corners([ix, iy, iz]: [u32; 3], [x, y, z]: [f32; 3], seed: u32) -> ([[f32; 3]; 4], [[f32; 3]; 4]) {
-    let t = (x + y + z) * (1.0 / 6.0);
+fn corners<S: Scalar>([ix, iy, iz]: [u32; 3], [x, y, z]: [S; 3], seed: u32) -> ([[S; 3]; 4], [[S; 3]; 4]) {
+    let (half, third, sixth) = (S::of(0.5), S::of(1.0 / 3.0), S::of(1.0 / 6.0));
+    let t = (x + y + z) * sixth;
     let d0 = [x - t, y - t, z - t];
     // Which tetrahedron of the cell: the order of x, y and z, as selects.
     let (xy, yz, zx) = (x >= y, y >= z, z > x);
     let first = [xy & !zx, yz & !xy, zx & !yz];
     let second = [xy | !zx, yz | !xy, zx | !yz];
-    let step = |on: bool| if on { 1.0_f32 } else { 0.0 };
-    let away = |offset: [bool; 3], unskew: f32| {
+    let step = |on: bool| if on { S::of(1.0) } else { S::of(0.0) };
+    let away = |offset: [bool; 3], unskew: S| {
         [d0[0] - step(offset[0]) + unskew, d0[1] - step(offset[1]) + unskew, d0[2] - step(offset[2]) + unskew]
     };
-    let d1 = away(first, 1.0 / 6.0);
-    let d2 = away(second, 1.0 / 3.0);
-    let d3 = [d0[0] - 0.5, d0[1] - 0.5, d0[2] - 0.5];
+    let d1 = away(first, sixth);
+    let d2 = away(second, third);
+    let d3 = [d0[0] - half, d0[1] - half, d0[2] - half];
 
     let base = [ix.wrapping_mul(PRIME[0]), iy.wrapping_mul(PRIME[1]), iz.wrapping_mul(PRIME[2])];
     let next = [base[0].wrapping_add(PRIME[0]), base[1].wrapping_add(PRIME[1]), base[2].wrapping_add(PRIME[2])];
@@ -116,38 +119,39 @@ fn corners([ix, iy, iz]: [u32; 3], [x, y, z]: [f32; 3], seed: u32) -> ([[f32; 3]
 }
 
 #[inline(always)]
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The noise at a place within a cell of the skewed lattice, about -1 to 1.
 #[inline(always)]
-pub(crate) fn value(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> f32 {
+pub(crate) fn value<S: Scalar>(cell: [u32; 3], fraction: [S; 3], seed: u32) -> S {
     let (d, g) = corners(cell, fraction, seed);
     let corner = |i: usize| {
         let w = falloff(d[i]);
         let w2 = w * w;
         w2 * w2 * dot(g[i], d[i])
     };
-    (corner(0) + corner(1) + (corner(2) + corner(3))) * SCALE
+    (corner(0) + corner(1) + (corner(2) + corner(3))) * S::from_f32(SCALE)
 }
 
 /// The noise (the same bits as [`value`]) and its gradient by the unskewed lattice coordinates.
 #[inline(always)]
-pub(crate) fn value_gradient(cell: [u32; 3], fraction: [f32; 3], seed: u32) -> (f32, [f32; 3]) {
+pub(crate) fn value_gradient<S: Scalar>(cell: [u32; 3], fraction: [S; 3], seed: u32) -> (S, [S; 3]) {
     let (d, g) = corners(cell, fraction, seed);
     let corner = |i: usize| {
         let w = falloff(d[i]);
-        let w2 = w * w;
-        let (w4, slope) = (w2 * w2, dot(g[i], d[i]));
+        let (w2, slope) = (w * w, dot(g[i], d[i]));
+        let w4 = w2 * w2;
         // d/dp of w^4 (g.d) = w^4 g - 8 w^3 (g.d) d
-        let pull = w2 * w * slope * 8.0;
+        let pull = w2 * w * slope * S::of(8.0);
         let grad = [w4 * g[i][0] - pull * d[i][0], w4 * g[i][1] - pull * d[i][1], w4 * g[i][2] - pull * d[i][2]];
         (w4 * slope, grad)
     };
     let ((v0, g0), (v1, g1), (v2, g2), (v3, g3)) = (corner(0), corner(1), corner(2), corner(3));
-    let sum = |axis: usize| ((g0[axis] + g1[axis]) + (g2[axis] + g3[axis])) * SCALE;
-    ((v0 + v1 + (v2 + v3)) * SCALE, [sum(0), sum(1), sum(2)])
+    let scale = S::from_f32(SCALE);
+    let sum = |axis: usize| ((g0[axis] + g1[axis]) + (g2[axis] + g3[axis])) * scale;
+    ((v0 + v1 + (v2 + v3)) * scale, [sum(0), sum(1), sum(2)])
 }
 
 /// The noise, its gradient (the same bits as [`value_gradient`]) and its second derivatives xx, yy, zz, yz, zx, xy by
@@ -175,13 +179,23 @@ pub(crate) fn value_gradient_curvature(cell: [u32; 3], fraction: [f32; 3], seed:
 /// the value and gradient there, and what the derivatives can do at most on the way.
 pub(crate) fn range_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, f64) {
     let [(ix, x), (iy, y), (iz, z)] =
-        [0, 1, 2].map(|axis| split(point_skewed[axis] * octave.frequency + octave.offset[axis]));
+        [0, 1, 2].map(|axis| split::<f32>(point_skewed[axis] * octave.frequency + octave.offset[axis]));
     let (v, g) = value_gradient([ix, iy, iz], [x, y, z], octave.seed);
     let (v, slope) = (f64::from(v), f64::from(dot(g, g)).sqrt());
     let cells = distance * octave.frequency;
     // A little more than exact arithmetic has it, for the rounding of f32.
     let reach = ((slope + 0.5 * CURVATURE_BOUND * cells) * cells).min(SLOPE_BOUND * cells) + 1e-5;
     ((v - reach).max(-BOUND), (v + reach).min(BOUND))
+}
+
+/// Value and gradient of an octave at a skewed point, by the lattice; and how far the gradient can be from that within a
+/// distance of it (in the point's units). Conservative.
+pub(crate) fn slope_near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> (f64, DVec3, f64) {
+    let [(ix, x), (iy, y), (iz, z)] =
+        [0, 1, 2].map(|axis| split::<f64>(point_skewed[axis] * octave.frequency + octave.offset[axis]));
+    let (value, gradient) = value_gradient([ix, iy, iz], [x, y, z], octave.seed);
+    let cells = distance * octave.frequency;
+    (value, DVec3::from_array(gradient), (CURVATURE_BOUND * cells).min(2.0 * SLOPE_BOUND) + 1e-4)
 }
 
 /// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.

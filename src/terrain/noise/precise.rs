@@ -116,7 +116,7 @@ mod tests {
         let skewed: Points3<'_> = [&x, &y, &z];
         let mut sums = [[1.0; CHUNK]; 3];
         add_vector(Simd::detect(), skewed, &octave, 2.0, &mut sums);
-        let mut noise = Noise::default();
+        let mut noise = <Noise>::default();
         for (octave, sum) in components(&octave).iter().zip(&sums) {
             noise.values(Simd::detect(), skewed, octave);
             for (value, sum) in noise.value.iter().zip(sum) {

@@ -1,17 +1,17 @@
-//! The layer fields of one tile: those of the present planet, and a few of earlier ones, so that an undo finds its noise again.
+//! The layer fields of one batch of points: those of the present planet, and a few of earlier ones, so that an undo finds its noise again.
 
-use crate::terrain::field::Field;
-use crate::terrain::height::CompiledLayer;
-use crate::terrain::landform::Landform;
+use super::field::Field;
+use super::height::CompiledLayer;
+use super::landform::Landform;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Most fields of earlier planets that one tile remembers, besides as many as it has layers: a seed or a radius replaces all.
+/// Most fields of earlier planets that are remembered, besides as many as it has layers: a seed or a radius replaces all.
 const MOST_PAST: usize = 8;
 /// After so long a field of an earlier planet is worth half as much.
 const HALF_WORTH: Duration = Duration::from_secs(60);
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Kept {
     landform: Arc<Landform>,
     field: Arc<Field>,
@@ -33,7 +33,7 @@ impl Kept {
 
 /// See the module. Equal landforms have equal fields, so a field is found by its landform (and the spacings at which its
 /// gradients are wanted) wherever it stands in the list.
-#[derive(Clone, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct KeptFields(Vec<Kept>);
 
 impl KeptFields {
@@ -43,7 +43,7 @@ impl KeptFields {
         self.0.iter().find(fits).map(|kept| kept.field.clone())
     }
 
-    /// The tile now belongs to a planet of these layers, with these fields as far as they are known. Those of other layers
+    /// The points now belong to a planet of these layers, with these fields as far as they are known. Those of other layers
     /// become the past, of which the worthiest are kept.
     pub(crate) fn adopt(&mut self, layers: &[CompiledLayer], fields: &[Option<Arc<Field>>], now: Instant) {
         for (layer, field) in layers.iter().zip(fields) {

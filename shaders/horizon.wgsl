@@ -1,0 +1,57 @@
+// What the ground around a place leaves of star and sky: from horizon tiles (src/lod/horizon.rs).
+#include "air_model.wgsl"
+
+// Images side by side, one for each azimuth and the openness; each texel the tile's own value and its parent's.
+@group(3) @binding(0) var horizons: texture_2d_array<f32>;
+
+// Must match src/lod/horizon.rs, src/lod/tile.rs and src/render/horizon_pool.rs.
+const AZIMUTHS: u32 = 32u;
+const HORIZON_SIDE: f32 = 33.0;
+const IMAGES_ALONG: u32 = 6u;
+
+struct Exposed {
+    // Share of the star's disc that the ground leaves of what the smooth planet would
+    star: f32,
+    // Share of the sky's light
+    sky: f32,
+}
+
+// Azimuth of the star in the coordinates of the face, in steps from one image to the next; see `face_step` in src/lod/horizon.rs.
+fn star_azimuth(slope_axis: vec3f, up: vec3f) -> f32 {
+    let across = abs(slope_axis).zxy;
+    let out = cross(slope_axis, across);
+    let sun = globals.sun_dir.xyz;
+    let towards = vec3f(dot(sun, slope_axis), dot(sun, across), dot(sun, out));
+    let place = vec2f(dot(up, slope_axis), dot(up, across)) / dot(up, out);
+    let bend = 1.0 + 0.7569 * place * place;
+    let step = (towards.xy - place * towards.z) / (bend * sqrt(bend));
+    // Under a star in the zenith any will do.
+    let angle = atan2(step.y, step.x + select(0.0, 1e-20, all(step == vec2f(0.0))));
+    return fract(angle / (2.0 * PI) + 1.0) * f32(AZIMUTHS);
+}
+
+fn horizon_image(place: vec2f, layer: i32, image: u32, far: f32) -> f32 {
+    let corner = vec2f(vec2u(image % IMAGES_ALONG, image / IMAGES_ALONG)) * HORIZON_SIDE;
+    let texel = (corner + 0.5 + saturate(place) * (HORIZON_SIDE - 1.0)) / (HORIZON_SIDE * f32(IMAGES_ALONG));
+    let found = textureSampleLevel(horizons, clamped, texel, layer, 0.0).rg;
+    return mix(found.x, found.y, far);
+}
+
+// At a place of a tile (0 to 1) whose parent has taken over by `far`. `tile`: layer, -1 for none; width of the tile in that of the
+// node the horizon is of, and where it lies there. `h`: altitude in km.
+fn exposed(tile: vec4f, slope_axis: vec3f, tile_place: vec2f, tile_far: f32, up: vec3f, h: f32) -> Exposed {
+    if tile.x < 0.0 { return Exposed(1.0, 1.0); }
+    let layer = i32(tile.x);
+    let place = tile.zw + tile_place * tile.y;
+    let far = select(tile_far, 0.0, tile.y < 1.0);
+    let sky = horizon_image(place, layer, AZIMUTHS, far);
+    let sun_mu = dot(up, globals.sun_dir.xyz);
+    let plain = disc_share(sun_mu - horizon_cosine(h), 0.0);
+    if plain <= 0.0 { return Exposed(0.0, sky); }
+    let azimuth = star_azimuth(slope_axis, up);
+    let first = u32(azimuth) % AZIMUTHS;
+    let a = horizon_image(place, layer, first, far);
+    let b = horizon_image(place, layer, (first + 1u) % AZIMUTHS, far);
+    let over = sun_mu - mix(a, b, fract(azimuth));
+    return Exposed(saturate1(disc_share(over, 0.0) / plain), sky);
+}

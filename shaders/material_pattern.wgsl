@@ -1,0 +1,139 @@
+// The patterns of the ground: a tiling picture for each kind, seen along three axes, at two scales that never repeat together,
+// and carried downhill where it flows. Must match src/render/material_maps.rs and biome_table.rs.
+#include "globals.wgsl"
+#include "tables.wgsl"
+
+const PATTERN_STEEPEST: f32 = 1.25;
+const PATTERN_ROUGHNESS: f32 = 0.5;
+const PATTERN_SIDE: f32 = 256.0;
+
+// A piece of ground as a pixel sees it.
+struct Seen {
+    rel_m: vec3f,
+    n: vec3f,
+    up: vec3f,
+    rel_x: vec3f,
+    rel_y: vec3f,
+    footprint_m: f32,
+}
+
+struct Pattern {
+    // Mean 1
+    tint: vec3f,
+    // 0 to 1, evenly spread; 0.5 without a pattern
+    height: f32,
+    slope: vec3f,
+    roughness: f32,
+    glow: vec3f,
+    // 0 from near, 1 where only the mean is left
+    far: f32,
+    shown: f32,
+}
+
+fn no_pattern() -> Pattern { return Pattern(vec3f(1.0), 0.5, vec3f(0.0), 0.0, vec3f(0.0), 1.0, 0.0); }
+
+// How much of the second shows where it has this share (at most a half) on the whole: where it is so much higher than the first.
+// Of two heights that are spread evenly, or one and a plane, so much of the ground is beyond the threshold.
+fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
+    let patterns = a.shown + b.shown;
+    if patterns < 0.5 { return share; }
+    let threshold = select(0.5 - share, 1.0 - sqrt(2.0 * share), patterns > 1.5);
+    let edge = 0.10;
+    return mix(smoothstep(threshold - edge, threshold + edge, b.height - a.height), share, max(a.far, b.far));
+}
+
+// Turned by the angle of the triangle with sides 3, 4 and 5: what repeats after 1024 m still does.
+fn turned(p: vec2f) -> vec2f { return vec2f(0.6 * p.x + 0.8 * p.y, 0.6 * p.y - 0.8 * p.x); }
+fn turned_back(p: vec2f) -> vec2f { return vec2f(0.6 * p.x - 0.8 * p.y, 0.6 * p.y + 0.8 * p.x); }
+
+// The two coordinates of a plane across an axis, and back.
+fn flat_on(p: vec3f, axis: u32) -> vec2f {
+    if axis == 0u { return p.yz; }
+    if axis == 1u { return p.zx; }
+    return p.xy;
+}
+fn raised_from(p: vec2f, axis: u32) -> vec3f {
+    if axis == 0u { return vec3f(0.0, p.xy); }
+    if axis == 1u { return vec3f(p.y, 0.0, p.x); }
+    return vec3f(p.xy, 0.0);
+}
+
+// How much each plane shows: the one that the ground faces, and others where it faces both; sharply, or patterns show through
+// each other. Low quality has one.
+fn plane_shares(n: vec3f) -> vec3f {
+    var w = n * n;
+    w = w * w * w;
+    w /= w.x + w.y + w.z;
+    let most = max(w.x, max(w.y, w.z));
+    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.eye_wrap_far_m.w == 0.0);
+    return w / (w.x + w.y + w.z);
+}
+
+// The pattern of a biome (a column of `biome_params`); -1 has none. One loop over all taps: a program that has each of them spelled
+// out takes a software driver minutes to compile.
+fn pattern_of(id: i32, seen: Seen) -> Pattern {
+    var out = no_pattern();
+    if id < 0 { return out; }
+    let layer = i32(textureLoad(biome_params, vec2i(id, 2), 0).w);
+    let size = textureLoad(biome_params, vec2i(id, 3), 0);
+    let glow = textureLoad(biome_params, vec2i(id, 4), 0);
+    let lod = log2(seen.footprint_m * PATTERN_SIDE / size.x);
+    // Where not even the coarsest level would show more than its mean, a glow excepted.
+    if layer < 0 || (lod > 8.5 && size.w <= 0.0) { return out; }
+
+    // Downhill; each of two copies is carried for a while and starts anew while the other is shown.
+    let flows = size.z > 0.0 && lod < 6.0;
+    let downhill = seen.n - seen.up * dot(seen.n, seen.up);
+    let steep = length(downhill);
+    let way_m = downhill / max(steep, 0.02) * saturate1(0.15 + 3.0 * steep) * 0.5 * size.x;
+    let turn = fract(globals.ray_forward.w * size.z / (0.5 * size.x));
+
+    let planes = plane_shares(seen.n);
+    // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
+    let scales = select(1u, 2u, globals.eye_wrap_far_m.w > 0.0 && lod < 7.0);
+    let taps = 3u * scales * select(1u, 2u, flows);
+    var tint = vec3f(0.0);
+    var slope = vec3f(0.0);
+    var rest = vec3f(0.0);
+    for (var tap = 0u; tap < taps; tap++) {
+        let axis = tap % 3u;
+        let is_fine = (tap / 3u) % scales == 1u;
+        let is_second = tap / 3u >= scales;
+        var weight = planes[axis];
+        let phase = fract(turn + select(0.0, 0.5, is_second));
+        if flows { weight *= 1.0 - abs(2.0 * phase - 1.0); }
+        if weight <= 0.002 { continue; }
+        let carried_m = select(vec3f(0.0), way_m * (phase - 0.5), flows);
+        var p = flat_on(globals.eye_wrap_m.xyz + seen.rel_m - carried_m, axis) / size.x;
+        var x = flat_on(seen.rel_x, axis) / size.x;
+        var y = flat_on(seen.rel_y, axis) / size.x;
+        if is_fine {
+            let finer = size.x / glow.w;
+            p = turned(p) * finer;
+            x = turned(x) * finer;
+            y = turned(y) * finer;
+        }
+        if globals.eye_wrap_far_m.w == 0.0 {
+            // As wide one way as the other: one tap.
+            let width = seen.footprint_m / size.x;
+            x = vec2f(width, 0.0);
+            y = vec2f(0.0, width);
+        }
+        let t = textureSampleGrad(material_tint, patterned, p, layer, x, y);
+        let s = textureSampleGrad(material_surface, patterned, p, layer, x, y);
+        var tilt = s.xy - 0.5;
+        if is_fine { tilt = turned_back(tilt); }
+        let strength = weight * select(1.0, 0.5, is_fine);
+        tint += strength * (2.0 * t.rgb - 1.0);
+        slope += strength * raised_from(tilt, axis);
+        if !is_fine { rest += weight * vec3f(t.a, s.zw); }
+    }
+    out.tint = max(1.0 + tint * size.y, vec3f(0.0));
+    out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);
+    out.height = rest.x;
+    out.roughness = (rest.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
+    out.glow = rest.z * glow.rgb * size.w;
+    out.far = smoothstep(1.0, 5.0, lod);
+    out.shown = 1.0;
+    return out;
+}

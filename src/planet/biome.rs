@@ -1,0 +1,144 @@
+//! One kind of ground: its colours, how it shines, what it looks like from near, what becomes of it on steep slopes, and the
+//! relief and the glow that are its own.
+
+use super::Biomes;
+use super::param::{Domain, Stage, Unit, choice, linear, log, params};
+
+/// Sizes of a pattern; must stay below what the shaders wrap positions at.
+pub(super) const DETAIL_SIZE: Domain = log(0.2, 200.0);
+
+choice! {
+    /// What ground looks like from near.
+    pub enum Detail {
+        /// One even surface.
+        None = "None",
+        /// Blades in tufts.
+        Grass = "Grass",
+        /// Fallen leaves and twigs, as under trees.
+        Litter = "Litter",
+        /// Ripples left by wind, and grains.
+        Sand = "Sand",
+        /// Pebbles of all sizes in finer stuff.
+        Gravel = "Gravel",
+        /// Fractured slabs with layers and lichen.
+        Rock = "Rock",
+        /// Soft drifts with a wind crust.
+        Snow = "Snow",
+        /// Clear and cloudy patches with cracks.
+        Ice = "Ice",
+        /// Plates of dried mud, damp between them.
+        Mud = "Mud",
+        /// A dark crust in plates; what lies between them glows.
+        Lava = "Lava",
+    }
+}
+
+choice! {
+    /// What becomes of a biome where it is steep.
+    pub enum Steep {
+        /// The rock that all biomes share, at the slopes where all of them end.
+        Rock = "Rock",
+        /// Another biome of the palette, between slopes of its own.
+        Biome = "Biome",
+        /// Nothing: it lies on every slope.
+        Stays = "Stays",
+    }
+}
+
+params! {
+    /// One kind of ground.
+    pub struct Biome {
+        /// The letter that stands for this biome in the table; unique in the palette.
+        key: char = 'a', "Key", Unit::None, Domain::Letter, Stage::Material;
+        /// What the biome is called.
+        name: String = "Ground".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
+        /// Colour of the ground (albedo, linear sRGB).
+        color: [f64; 3] = [0.2, 0.18, 0.15], "Colour", Unit::None, Domain::Color, Stage::Material;
+        /// Strength of the mottling: 0 is one even colour.
+        variation: f64 = 0.25, "Variation", Unit::None, linear(0.0, 1.0), Stage::Material;
+        /// Share of the ground that has the second colour.
+        patches: f64 = 0.0, "Patches", Unit::None, linear(0.0, 1.0), Stage::Material;
+        /// Colour of the patches.
+        patch_color: [f64; 3] = [0.25, 0.22, 0.15], "Second colour", Unit::None, Domain::Color, Stage::Material;
+        /// Size of the patches.
+        patch_m: f64 = 100.0, "Size of patches", Unit::Metres, log(1.0, 100_000.0), Stage::Material;
+        /// How dull the ground is: 0 is a mirror, 1 is chalk.
+        roughness: f64 = 0.9, "Roughness", Unit::None, linear(0.0, 1.0), Stage::Material;
+        /// How strongly its surface mirrors: 0 not at all, 0.25 as water, 0.5 as most minerals.
+        specular: f64 = 0.2, "Specular", Unit::None, linear(0.0, 1.0), Stage::Material;
+        /// What it looks like from near.
+        detail: Detail = Detail::None, "Detail", Unit::None, Domain::Choice, Stage::Material;
+        /// Size of the pattern, from one repeat to the next.
+        detail_m: f64 = 2.0, "Size of detail", Unit::Metres, DETAIL_SIZE, Stage::Material;
+        /// Strength of the pattern: 0 is an even surface.
+        detail_strength: f64 = 1.0, "Strength of detail", Unit::None, linear(0.0, 2.0), Stage::Material;
+        /// What becomes of it where it is steep.
+        steep: Steep = Steep::Rock, "On steep ground", Unit::None, Domain::Choice, Stage::Material;
+        /// Key of the biome that it gives way to on steep ground, if it is to be another one of the palette.
+        steep_key: char = 'a', "Gives way to", Unit::None, Domain::Letter, Stage::Material;
+        /// Slope at which it begins to give way to that biome.
+        steep_from_deg: f64 = 25.0, "From", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        /// Slope from which there is only that biome.
+        steep_to_deg: f64 = 35.0, "To", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        /// Height of hummocks and hollows that the ground has wherever it is of this biome; they fade into its neighbours as
+        /// the table blends.
+        relief_m: f64 = 0.0, "Relief", Unit::Metres, log(0.0, 1000.0), Stage::Height;
+        /// Size of the hummocks and hollows.
+        relief_size_m: f64 = 50.0, "Size of relief", Unit::Metres, log(1.0, 100_000.0), Stage::Field | Stage::Height;
+        /// How brightly what glows in it does: 1 is as bright as white ground under the star at brightness 1.
+        glow: f64 = 0.0, "Glow", Unit::None, log(0.0, 100.0), Stage::Material;
+        /// Colour of the glow.
+        glow_color: [f64; 3] = [1.0, 0.25, 0.03], "Colour of glow", Unit::None, Domain::Color, Stage::Material;
+        /// How fast it flows downhill, as lava does: only what it looks like moves.
+        flow_m_s: f64 = 0.0, "Flow", Unit::MetresPerSecond, log(0.0, 10.0), Stage::Material;
+    }
+}
+
+impl Biome {
+    /// Whether it changes the height of the ground.
+    pub fn has_relief(&self) -> bool {
+        self.relief_m > 0.0
+    }
+}
+
+/// What a biome gives way to on steep ground, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteepRule {
+    /// Index into the palette; None is the rock that all biomes share.
+    pub into: Option<usize>,
+    /// Slope at which it begins to give way.
+    pub from_deg: f64,
+    /// Slope from which nothing is left of it.
+    pub to_deg: f64,
+}
+
+impl Biomes {
+    /// The place of a key in the palette.
+    pub fn index_of(&self, key: char) -> Option<usize> {
+        self.palette.iter().position(|biome| biome.key == key)
+    }
+
+    /// What becomes of a biome where it is steep; None if it stays what it is.
+    pub fn steep_rule(&self, biome: &Biome) -> Option<SteepRule> {
+        // Never all at once, or a line shows where a slope passes the limit.
+        let rule = |into, from_deg: f64, to_deg: f64| SteepRule { into, from_deg, to_deg: to_deg.max(from_deg + 0.5) };
+        match biome.steep {
+            Steep::Rock => Some(rule(None, self.cliff_start_deg, self.cliff_full_deg)),
+            Steep::Biome => {
+                self.index_of(biome.steep_key).map(|index| rule(Some(index), biome.steep_from_deg, biome.steep_to_deg))
+            }
+            Steep::Stays => None,
+        }
+    }
+
+    /// Lets everything that refers to a biome by its key refer to another: the table and the rules.
+    pub fn replace_key(&mut self, old: char, new: char) {
+        self.table.replace_key(old, new);
+        let steep = self.palette.iter_mut().map(|biome| &mut biome.steep_key);
+        for key in steep.chain([&mut self.beach_key, &mut self.snow_key]) {
+            if *key == old {
+                *key = new;
+            }
+        }
+    }
+}

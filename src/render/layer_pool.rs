@@ -1,0 +1,206 @@
+//! Images of tiles on the GPU: layers of a few large texture arrays, keyed by serial, filled once and kept until another needs
+//! the room and nobody has asked for them for a while.
+
+use std::collections::HashMap;
+
+/// Tiles that have not been asked for in so many frames may lose their layers. A surface that is uploaded ahead is not drawn before
+/// the last of it is there.
+const KEPT_FRAMES: u64 = 4;
+
+/// What is kept for each tile.
+#[derive(Clone, Copy)]
+pub(crate) struct LayerKind {
+    pub(crate) label: &'static str,
+    /// Width and height of each image.
+    pub(crate) side_px: u32,
+    /// One image for each format; at most two.
+    pub(crate) formats: &'static [wgpu::TextureFormat],
+    /// Layers of one array.
+    pub(crate) layers: u32,
+}
+
+/// Where a tile is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LayerPlace {
+    /// Index of the texture array.
+    pub(crate) array: usize,
+    pub(crate) layer: u32,
+}
+
+struct Held {
+    place: LayerPlace,
+    wanted_in_frame: u64,
+}
+
+/// All layers, and a bind group for each array.
+pub(crate) struct LayerPool {
+    kind: LayerKind,
+    layout: wgpu::BindGroupLayout,
+    /// One for each format.
+    textures: Vec<Vec<wgpu::Texture>>,
+    groups: Vec<wgpu::BindGroup>,
+    free: Vec<LayerPlace>,
+    held: HashMap<u64, Held>,
+    frame: u64,
+    uploaded_bytes: u64,
+}
+
+impl LayerKind {
+    /// The bind group layout of one array: a texture for each format.
+    pub(crate) fn layout(&self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
+        let entry = |(binding, _)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+                multisampled: false,
+            },
+            count: None,
+        };
+        let entries: Vec<_> = (0..).zip(self.formats).map(entry).collect();
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(self.label), entries: &entries })
+    }
+
+    /// Bytes of a tile.
+    pub(crate) fn tile_bytes(&self) -> u64 {
+        let texel = |format: &wgpu::TextureFormat| format.block_copy_size(None).unwrap_or(0);
+        u64::from(self.side_px * self.side_px * self.formats.iter().map(texel).sum::<u32>())
+    }
+
+    fn extent(&self) -> wgpu::Extent3d {
+        wgpu::Extent3d { width: self.side_px, height: self.side_px, depth_or_array_layers: 1 }
+    }
+}
+
+impl LayerPool {
+    /// One array, empty.
+    pub(crate) fn new(device: &wgpu::Device, kind: LayerKind) -> Self {
+        let mut pool = Self {
+            kind,
+            layout: kind.layout(device),
+            textures: Vec::new(),
+            groups: Vec::new(),
+            free: Vec::new(),
+            held: HashMap::new(),
+            frame: 0,
+            uploaded_bytes: 0,
+        };
+        pool.grow(device);
+        pool
+    }
+
+    /// Call once a frame, before the first [`LayerPool::place`] of what is drawn.
+    pub(crate) fn begin_frame(&mut self) {
+        self.frame += 1;
+    }
+
+    /// The bind group of an array.
+    pub(crate) fn group(&self, array: usize) -> Option<&wgpu::BindGroup> {
+        self.groups.get(array)
+    }
+
+    /// Bytes uploaded since the start.
+    pub(crate) fn uploaded_bytes(&self) -> u64 {
+        self.uploaded_bytes
+    }
+
+    /// Whether a tile is here; if so it keeps its layer.
+    pub(crate) fn holds(&mut self, serial: u64) -> bool {
+        let held = self.held.get_mut(&serial);
+        held.map(|held| held.wanted_in_frame = self.frame).is_some()
+    }
+
+    /// Where a tile is; if it is new it is uploaded: `texels` gives the bytes of each image, or nothing for one that cannot be drawn.
+    pub(crate) fn place(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        serial: u64,
+        texels: impl FnOnce() -> Option<Vec<Vec<u8>>>,
+    ) -> Option<LayerPlace> {
+        if let Some(held) = self.held.get_mut(&serial) {
+            held.wanted_in_frame = self.frame;
+            return Some(held.place);
+        }
+        let images = texels()?;
+        let place = self.take_layer(device)?;
+        for (texture, bytes) in self.textures.get(place.array)?.iter().zip(&images) {
+            write(queue, texture, place.layer, self.kind.extent(), bytes);
+            self.uploaded_bytes += bytes.len() as u64;
+        }
+        self.held.insert(serial, Held { place, wanted_in_frame: self.frame });
+        Some(place)
+    }
+
+    fn take_layer(&mut self, device: &wgpu::Device) -> Option<LayerPlace> {
+        if self.free.is_empty() {
+            let frame = self.frame;
+            let free = &mut self.free;
+            self.held.retain(|_, held| {
+                let keep = held.wanted_in_frame + KEPT_FRAMES > frame;
+                if !keep {
+                    free.push(held.place);
+                }
+                keep
+            });
+        }
+        if self.free.is_empty() {
+            self.grow(device);
+        }
+        self.free.pop()
+    }
+
+    fn grow(&mut self, device: &wgpu::Device) {
+        let kind = self.kind;
+        let texture = |format: &wgpu::TextureFormat| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(kind.label),
+                size: wgpu::Extent3d { depth_or_array_layers: kind.layers, ..kind.extent() },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: *format,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            })
+        };
+        let textures: Vec<_> = kind.formats.iter().map(texture).collect();
+        let array_view = |texture: &wgpu::Texture| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..wgpu::TextureViewDescriptor::default()
+            })
+        };
+        let views: Vec<_> = textures.iter().map(array_view).collect();
+        let entry =
+            |(binding, view)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+        let entries: Vec<_> = (0..).zip(&views).map(entry).collect();
+        self.groups.push(device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(kind.label),
+            layout: &self.layout,
+            entries: &entries,
+        }));
+        let array = self.textures.len();
+        self.textures.push(textures);
+        self.free.extend((0..kind.layers).rev().map(|layer| LayerPlace { array, layer }));
+    }
+}
+
+fn write(queue: &wgpu::Queue, texture: &wgpu::Texture, layer: u32, extent: wgpu::Extent3d, bytes: &[u8]) {
+    queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+            aspect: wgpu::TextureAspect::All,
+        },
+        bytes,
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(bytes.len() as u32 / extent.height),
+            rows_per_image: Some(extent.height),
+        },
+        extent,
+    );
+}

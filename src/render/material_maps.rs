@@ -1,0 +1,209 @@
+//! The patterns of the ground on the GPU: two texture arrays with a layer for each kind and all mip levels.
+//!
+//! - `tint`: the colour that multiplies the biome's, halved (mean 1: far away, where only the smallest level is seen, a biome has
+//!   its own colour), and the height as its place in the order of all heights, 0..1, so that a threshold leaves a known share
+//! - `surface`: slopes along both sides, roughness to be added, glow
+//!
+//! Made once for the whole process, on all cores, from noise alone.
+
+use super::material_kinds::{KINDS, SIDE, Spot, draw};
+use rayon::prelude::*;
+use std::sync::OnceLock;
+
+/// Greatest slope that is stored; must match `material_detail.wgsl`.
+const STEEPEST: f32 = 1.25;
+/// Most that is added to a roughness, either way; must match `material_detail.wgsl`.
+const MOST_ROUGHNESS: f32 = 0.5;
+
+type Texels = Vec<[u8; 4]>;
+
+/// All levels of one layer, finest first.
+struct Layer {
+    tint: Vec<Texels>,
+    surface: Vec<Texels>,
+}
+
+/// Both texture arrays.
+pub(crate) struct MaterialMaps {
+    pub(crate) tint: wgpu::TextureView,
+    pub(crate) surface: wgpu::TextureView,
+}
+
+impl MaterialMaps {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let layers = layers();
+        Self {
+            tint: upload(device, queue, "tints of the ground", layers.iter().map(|layer| &layer.tint)),
+            surface: upload(device, queue, "surfaces of the ground", layers.iter().map(|layer| &layer.surface)),
+        }
+    }
+}
+
+fn layers() -> &'static [Layer] {
+    static LAYERS: OnceLock<Vec<Layer>> = OnceLock::new();
+    LAYERS.get_or_init(|| KINDS.into_par_iter().map(|kind| Layer::new(&draw(kind))).collect())
+}
+
+fn upload<'a>(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    label: &str,
+    layers: impl ExactSizeIterator<Item = &'a Vec<Texels>>,
+) -> wgpu::TextureView {
+    let extent =
+        |side: u32, depth_or_array_layers: u32| wgpu::Extent3d { width: side, height: side, depth_or_array_layers };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: extent(SIDE as u32, layers.len() as u32),
+        mip_level_count: SIDE.ilog2() + 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for (z, levels) in (0..).zip(layers) {
+        for (mip_level, texels) in (0..).zip(levels) {
+            let side = SIDE as u32 >> mip_level;
+            let origin = wgpu::Origin3d { x: 0, y: 0, z };
+            queue.write_texture(
+                wgpu::TexelCopyTextureInfo { mip_level, origin, ..texture.as_image_copy() },
+                bytemuck::cast_slice(texels),
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * side), rows_per_image: Some(side) },
+                extent(side, 1),
+            );
+        }
+    }
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..wgpu::TextureViewDescriptor::default()
+    })
+}
+
+impl Layer {
+    fn new(spots: &[Spot]) -> Self {
+        let mut tints: Vec<[f32; 3]> = spots.iter().map(|spot| spot.tint).collect();
+        neutralize(&mut tints);
+        let ranks = ranks(&spots.iter().map(|spot| spot.height).collect::<Vec<_>>());
+        let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
+        let slopes = slopes(spots);
+        let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
+            let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
+            [signed(x, STEEPEST), signed(y, STEEPEST), signed(spot.roughness, MOST_ROUGHNESS), spot.glow]
+        });
+        Self { tint: levels(tint), surface: levels(surface.collect()) }
+    }
+}
+
+/// Scales each colour so that its mean is 1 although none is stored beyond 2.
+fn neutralize(tints: &mut [[f32; 3]]) {
+    for _ in 0..4 {
+        for channel in 0..3 {
+            let sum: f64 = tints.iter().map(|tint| f64::from(tint[channel].clamp(0.0, 2.0))).sum();
+            let scale = (tints.len() as f64 / sum.max(1e-9)) as f32;
+            tints.iter_mut().for_each(|tint| tint[channel] = (tint[channel] * scale).clamp(0.0, 2.0));
+        }
+    }
+}
+
+/// The place of each value in the order of all, 0..1.
+fn ranks(values: &[f32]) -> Vec<f32> {
+    const BINS: usize = 1 << 14;
+    let (lo, hi) = values.iter().fold((f32::MAX, f32::MIN), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
+    let bin = |v: f32| (((v - lo) / (hi - lo).max(1e-9) * BINS as f32) as usize).min(BINS - 1);
+    let mut below = vec![0_u32; BINS + 1];
+    values.iter().for_each(|v| below[bin(*v) + 1] += 1);
+    (0..BINS).for_each(|i| below[i + 1] += below[i]);
+    let middle = |i: usize| 0.5 * (below[i] + below[i + 1]) as f32 / values.len() as f32;
+    values.iter().map(|v| middle(bin(*v))).collect()
+}
+
+/// Rise over run along both sides.
+fn slopes(spots: &[Spot]) -> Vec<[f32; 2]> {
+    let height = |x: usize, y: usize| spots[(y % SIDE) * SIDE + x % SIDE].height;
+    let per_run = 0.5 * SIDE as f32;
+    (0..spots.len())
+        .map(|i| {
+            let (x, y) = (i % SIDE + SIDE, i / SIDE + SIDE);
+            [(height(x + 1, y) - height(x - 1, y)) * per_run, (height(x, y + 1) - height(x, y - 1)) * per_run]
+        })
+        .collect()
+}
+
+/// The mip levels: means of two by two, rounded only when stored.
+fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
+    let byte = |share: f32| (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let mut levels = Vec::new();
+    let mut side = SIDE;
+    loop {
+        levels.push(texels.iter().map(|texel| texel.map(byte)).collect());
+        if side == 1 {
+            return levels;
+        }
+        let at = |x: usize, y: usize| texels[y * side + x];
+        let half = side / 2;
+        texels = (0..half * half)
+            .map(|i| {
+                let (x, y) = (2 * (i % half), 2 * (i / half));
+                let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+                std::array::from_fn(|c| 0.25 * four.iter().map(|texel| texel[c]).sum::<f32>())
+            })
+            .collect();
+        side = half;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wherever one looks from, a pattern leaves the biome's colour as it is on the whole.
+    #[test]
+    fn every_pattern_is_neutral_at_every_level() {
+        for (kind, layer) in KINDS.iter().zip(layers()) {
+            for (level, texels) in layer.tint.iter().enumerate() {
+                for channel in 0..4 {
+                    let sum: f64 = texels.iter().map(|texel| f64::from(texel[channel])).sum();
+                    let mean = sum / texels.len() as f64 / 127.5;
+                    assert!((mean - 1.0).abs() < 0.01, "{kind:?}, level {level}, channel {channel}: {mean}");
+                }
+            }
+            for channel in 0..2 {
+                let texels = &layer.surface[0];
+                let mean = texels.iter().map(|t| f64::from(t[channel])).sum::<f64>() / texels.len() as f64 - 127.5;
+                assert!(mean.abs() < 1.0, "{kind:?} leans by {mean}");
+            }
+        }
+    }
+
+    /// No seam: across the border neighbours differ no more than elsewhere.
+    #[test]
+    fn every_pattern_repeats_without_a_seam() {
+        for (kind, layer) in KINDS.iter().zip(layers()) {
+            let texels = &layer.tint[0];
+            let step = |x: usize| -> f64 {
+                let away = |y: usize| {
+                    let (a, b) = (texels[y * SIDE + x], texels[y * SIDE + (x + 1) % SIDE]);
+                    f64::from(a[3].abs_diff(b[3]))
+                };
+                (0..SIDE).map(away).sum()
+            };
+            let most = (0..SIDE - 1).map(step).fold(0.0, f64::max);
+            assert!(step(SIDE - 1) <= 1.25 * most, "{kind:?}: {} against {most}", step(SIDE - 1));
+        }
+    }
+
+    /// A pattern is more than an even grey: its tints differ, and glow is for lava alone.
+    #[test]
+    fn every_pattern_shows_and_only_lava_glows() {
+        use crate::planet::Detail;
+        for (kind, layer) in KINDS.iter().zip(layers()) {
+            let texels = &layer.tint[0];
+            let mean = |f: &dyn Fn(&[u8; 4]) -> f64| texels.iter().map(f).sum::<f64>() / texels.len() as f64;
+            let variance = mean(&|t| (f64::from(t[1]) / 127.5 - 1.0).powi(2));
+            assert!(variance.sqrt() > 0.01, "{kind:?}: {variance}");
+            let glows = layer.surface[0].iter().any(|t| t[3] > 0);
+            assert_eq!(glows, *kind == Detail::Lava, "{kind:?}");
+        }
+    }
+}

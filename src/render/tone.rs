@@ -1,0 +1,113 @@
+//! Curves from radiance to what a display shows, to choose from; `shaders/tone.wgsl` has them for the GPU.
+
+/// How radiance becomes a picture: a setting of the view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// Like film: highlights bleach, colours stay in order (AgX by Troy Sobotka, 2022, with Benjamin Wrensch's polynomial).
+    #[default]
+    AgX,
+    /// Colours as they are up to the highlights (Khronos PBR Neutral Tone Mapper, 2024).
+    Neutral,
+    /// No curve: what is brighter than white is white.
+    Plain,
+}
+
+/// Stops by which AgX is lifted so that white ground at noon is about as bright as in the other curves, as a factor.
+const AGX_LIFT: f64 = 1.25;
+/// From Rec. 709 to the working space of AgX and back, row by row.
+const AGX_IN: [[f64; 3]; 3] = [
+    [0.842479062253094, 0.0784335999999992, 0.0792237451477643],
+    [0.0423282422610123, 0.878468636469772, 0.0791661274605434],
+    [0.0423756549057051, 0.0784336, 0.879142973793104],
+];
+const AGX_OUT: [[f64; 3]; 3] = [
+    [1.19687900512017, -0.0980208811401368, -0.0990297440797205],
+    [-0.0528968517574562, 1.15190312990417, -0.0989611768448433],
+    [-0.0529716355144438, -0.0980434501171241, 1.15107367264116],
+];
+/// The stops about 1 that AgX shows.
+const AGX_STOPS: (f64, f64) = (-12.47393, 4.02607);
+/// The curve over them, the highest power first.
+const AGX_CURVE: [f64; 7] = [15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232];
+
+impl Tone {
+    /// All of them.
+    pub const ALL: [Tone; 3] = [Tone::AgX, Tone::Neutral, Tone::Plain];
+
+    /// The name a person reads.
+    pub fn label(self) -> &'static str {
+        match self {
+            Tone::AgX => "AgX",
+            Tone::Neutral => "Neutral",
+            Tone::Plain => "Plain",
+        }
+    }
+
+    /// What a display shows of a radiance (1: white ground at noon), linear, 0 to 1: the reference for the shader.
+    pub fn shown(self, radiance: [f64; 3]) -> [f64; 3] {
+        match self {
+            Tone::AgX => agx(radiance),
+            Tone::Neutral => neutral(radiance),
+            Tone::Plain => radiance.map(|c| c.clamp(0.0, 1.0)),
+        }
+    }
+}
+
+fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+fn agx(radiance: [f64; 3]) -> [f64; 3] {
+    let mixed = times(&AGX_IN, radiance.map(|c| (c * AGX_LIFT).max(0.0)));
+    let curved = mixed.map(|c| {
+        let x = ((libm::log2(c.max(1e-10)) - AGX_STOPS.0) / (AGX_STOPS.1 - AGX_STOPS.0)).clamp(0.0, 1.0);
+        AGX_CURVE.iter().fold(0.0, |sum, k| sum * x + k).max(0.0)
+    });
+    times(&AGX_OUT, curved).map(|c| libm::pow(c.clamp(0.0, 1.0), 2.2))
+}
+
+fn neutral(radiance: [f64; 3]) -> [f64; 3] {
+    const KNEE: f64 = 0.76;
+    const PALING: f64 = 0.15;
+    let light = radiance.map(|c| c.max(0.0));
+    let least = light.into_iter().fold(f64::MAX, f64::min);
+    let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
+    let raised = light.map(|c| c - offset);
+    let peak = raised.into_iter().fold(0.0, f64::max);
+    if peak < KNEE {
+        return raised;
+    }
+    let shrunk = 1.0 - (1.0 - KNEE) * (1.0 - KNEE) / (peak + 1.0 - 2.0 * KNEE);
+    let kept = 1.0 / (PALING * (peak - shrunk) + 1.0);
+    raised.map(|c| shrunk + (c * shrunk / peak - shrunk) * kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_keep_grey_grey_and_never_turn_back() {
+        for tone in Tone::ALL {
+            let mut last = -1.0;
+            for stop in -90..60 {
+                let [r, g, b] = tone.shown([libm::exp2(f64::from(stop) * 0.1); 3]);
+                assert!((r - g).abs() < 2e-3 && (g - b).abs() < 2e-3, "{tone:?} {r} {g} {b}");
+                assert!(g >= last - 1e-9 && (0.0..=1.0).contains(&g), "{tone:?} {stop}: {g} after {last}");
+                last = g;
+            }
+            assert!(tone.shown([0.0; 3]).iter().all(|c| *c < 1e-3));
+            assert!(last > 0.95, "{tone:?} {last}");
+        }
+        // Published values: Neutral leaves base colours but for the 4% that a surface reflects anyway.
+        assert!((Tone::Neutral.shown([0.5, 0.3, 0.2])[0] - 0.46).abs() < 1e-12);
+        // AgX shows middle grey as middle grey, but for the lift.
+        assert!((Tone::AgX.shown([0.18 / AGX_LIFT; 3])[1] - 0.18).abs() < 0.015);
+        for (i, row) in AGX_IN.iter().enumerate() {
+            let back = times(&AGX_OUT, [0, 1, 2].map(|k| AGX_IN[k][i]));
+            for (k, c) in back.iter().enumerate() {
+                assert!((c - f64::from(u8::from(k == i))).abs() < 1e-3, "{row:?} {back:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! How much wider bounds near a direction are than the ground there.
+
+use super::precision::starts;
+use super::tests::shapes;
+use crate::planet::{Layer, Planet, shipped};
+use crate::terrain::Terrain;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The angle from the middle of a node of the quadtree to its corners.
+fn node_rad(level: i32) -> f64 {
+    std::f64::consts::FRAC_PI_4 * 2.0_f64.sqrt() * 0.5_f64.powi(level)
+}
+
+/// How many times wider the bounds are than the range of a thousand points, in the middle of many places.
+fn looseness(terrain: &Terrain, angle_rad: f64) -> f64 {
+    let mut found: Vec<f64> = starts(40)
+        .into_iter()
+        .filter_map(|dir| {
+            let (a, b) = dir.any_orthonormal_pair();
+            let around = (0..1024).map(|i| {
+                let (turn, share) = (f64::from(i) * 2.4, (f64::from(i) / 1024.0).sqrt());
+                (dir + (a * turn.cos() + b * turn.sin()) * (angle_rad * share * 0.99).tan()).normalize()
+            });
+            let heights_m = terrain.heights_m(&around.collect::<Vec<_>>());
+            let (least, most) = heights_m.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &h| (lo.min(h), hi.max(h)));
+            let (lo, hi) = terrain.height_bounds_near_m(dir, angle_rad);
+            assert!(lo <= least && most <= hi, "{least} to {most} m is beyond {lo} to {hi}");
+            // Where the ground is level there is nothing to compare.
+            (most - least > 0.1).then(|| (hi - lo) / (most - least))
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    found.get(found.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// Prints how loose the bounds of a planet are at three levels, and what they cost; the looseness at the finest.
+fn report(name: &str, planet: Planet) -> f64 {
+    let terrain = Terrain::new(Arc::new(planet));
+    let [coarse, middle, fine] = [6, 10, 14].map(|level| looseness(&terrain, node_rad(level)));
+    let start = Instant::now();
+    for dir in starts(20) {
+        std::hint::black_box(terrain.height_bounds_near_m(dir, node_rad(10)));
+    }
+    let each_us = start.elapsed().as_secs_f64() * 1e6 / starts(20).len() as f64;
+    eprintln!(
+        "{name}: {coarse:.1} times as wide as the ground at level 6, {middle:.1} at 10, {fine:.1} at 14; {each_us:.0} us"
+    );
+    fine
+}
+
+#[test]
+fn bounds_of_small_places_are_tight() {
+    let mut loose = Vec::new();
+    for (name, shape) in shapes() {
+        let layers = vec![Layer { shape, amplitude_m: 4000.0, ..Layer::default() }];
+        let fine = report(name, Planet { layers, ..Planet::default() });
+        // Slopes decide how much of an octave of Damped is left, and are known less well than heights.
+        if fine > if name == "Damped" { 13.0 } else { 6.0 } {
+            loose.push((name, fine));
+        }
+    }
+    for shipped in shipped::ALL {
+        if let Ok(planet) = shipped.load() {
+            report(shipped.file, planet);
+        }
+    }
+    assert!(loose.is_empty(), "{loose:?}");
+}

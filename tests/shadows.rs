@@ -1,0 +1,172 @@
+//! Shadows of the ground as they are drawn, against rays cast at the evaluator itself; and what they cost.
+#![cfg(feature = "editor")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod support;
+
+use glam::DVec3;
+use std::sync::Arc;
+use std::time::Duration;
+use support::{Gpu, lights};
+use tellus::build::{Builder, Surface, add_detail, build_now};
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::{Planet, shipped};
+use tellus::render::{DebugView, Frame};
+use tellus::sphere::{LatLon, geo};
+use tellus::terrain::Terrain;
+
+const SIZE_PX: [u32; 2] = [112, 70];
+
+/// A shipped planet as a moon of one colour: what is dark is in shadow.
+fn bare(file: &str) -> Arc<Planet> {
+    let mut planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
+    (planet.water, planet.atmosphere, planet.clouds) = (None, None, None);
+    for biome in &mut planet.biomes.palette {
+        (biome.color, biome.variation) = ([0.8; 3], 0.0);
+    }
+    Arc::new(planet)
+}
+
+fn view(planet: &Arc<Planet>, lat_deg: f64, lon_deg: f64, altitude_m: f64, pitch_deg: f64) -> View {
+    let place = LatLon::from_degrees(lat_deg, lon_deg);
+    let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
+    let radius_m = planet.radius_m() + ground_m + altitude_m;
+    let camera = Camera::over(place, radius_m, 0.6, pitch_deg.to_radians(), Camera::DEFAULT_FOV_Y_RAD);
+    View { camera, size_px: SIZE_PX, quality: Quality::Medium }
+}
+
+fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
+    Frame {
+        surface,
+        planet,
+        view,
+        frozen: None,
+        sun_dir_planet,
+        time_secs: 0.0,
+        exposure_ev: 2.0,
+        debug_view: DebugView::Shaded,
+    }
+}
+
+/// What rays from the ground to the star say of a picture, of the pixels that are not next to a change: how many are in shadow and how
+/// many lit, the share of the former that is drawn lit, and the share of the latter that horizons make dark.
+struct Verdict {
+    shadowed: usize,
+    lit: usize,
+    missing: f64,
+    wrong: f64,
+}
+
+fn verdict(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun_dir: DVec3) -> Verdict {
+    let mut surface = build_now(planet, &view);
+    add_detail(&mut surface, &view);
+    let [width, height] = SIZE_PX.map(|side| side as usize);
+    let truth: Vec<Option<bool>> = (0..width * height)
+        .map(|i| {
+            let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
+            let (x, y) = (ndc(i % width, width), -ndc(i / width, height));
+            let eye = view.camera.position_planet_m;
+            let ray = view.camera.ray_dir_planet(x, y, view.aspect());
+            let distance_m = surface.terrain.raycast(eye, ray)?;
+            let ground = eye + ray * distance_m;
+            // From a little above, as relief smaller than a pixel is nothing but shading.
+            let from = ground + ground.normalize() * (distance_m * view.pixel_rad() * 0.2);
+            Some(surface.terrain.raycast(from, sun_dir).is_none())
+        })
+        .collect();
+    let with = lights(&gpu.draw(&frame(planet, &surface, view, sun_dir)));
+    surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
+    let without = lights(&gpu.draw(&frame(planet, &surface, view, sun_dir)));
+    let is_lit = |light: u32| light > 12;
+    let (mut shadowed, mut lit, mut missing, mut wrong) = (0, 0, 0, 0);
+    for y in 1..height - 1 {
+        for x in 1..width - 1 {
+            let mut around = (0..9).map(|i| truth[(y + i / 3 - 1) * width + x + i % 3 - 1]);
+            let i = y * width + x;
+            let Some(sees_star) = truth[i].filter(|_| around.all(|other| other == truth[i])) else { continue };
+            if sees_star {
+                lit += 1;
+                wrong += usize::from(!is_lit(with[i]) && is_lit(without[i]));
+            } else {
+                shadowed += 1;
+                missing += usize::from(is_lit(with[i]));
+            }
+        }
+    }
+    let share = |part: usize, all: usize| part as f64 / all.max(1) as f64;
+    Verdict { shadowed, lit, missing: share(missing, shadowed), wrong: share(wrong, lit) }
+}
+
+#[test]
+fn what_is_dark_is_what_cannot_see_the_star() {
+    let mut gpu = Gpu::new();
+    // Several faces of the cube, from orbit to the ground; how high the star stands and in which azimuth, degrees.
+    for (file, lat, lon, altitude_m, pitch, (height_deg, azimuth_deg)) in [
+        ("pallor.ron", 10.0, 20.0, 300e3, -90.0, (5.0_f64, 80.0_f64)),
+        ("pallor.ron", -35.0, 140.0, 20e3, -60.0, (6.0, 250.0)),
+        ("pallor.ron", 75.0, -100.0, 400e3, -90.0, (4.0, 10.0)),
+        ("aurel.ron", 30.0, 10.0, 50e3, -50.0, (6.0, 130.0)),
+    ] {
+        let planet = bare(file);
+        let view = view(&planet, lat, lon, altitude_m, pitch);
+        let up = LatLon::from_degrees(lat, lon).direction();
+        let (east, north) = geo::east_north(up);
+        let (sin, cos) = azimuth_deg.to_radians().sin_cos();
+        let (rise, along) = height_deg.to_radians().sin_cos();
+        let found = verdict(&mut gpu, &planet, view, up * rise + (north * cos + east * sin) * along);
+        let Verdict { shadowed, lit, missing, wrong } = found;
+        let told = format!(
+            "{file} from {altitude_m} m: of {shadowed} in shadow {missing:.3} are lit, of {lit} others {wrong:.3} are dark"
+        );
+        assert!(shadowed > 100 && lit > 200, "{told}");
+        assert!(missing < 0.08 && wrong < 0.04, "{told}");
+    }
+}
+
+#[test]
+fn at_noon_nothing_is_in_shadow() {
+    let mut gpu = Gpu::new();
+    let planet = bare("pallor.ron");
+    let view = view(&planet, 10.0, 20.0, 100e3, -90.0);
+    let mut surface = build_now(&planet, &view);
+    add_detail(&mut surface, &view);
+    let noon = LatLon::from_degrees(10.0, 20.0).direction();
+    let with = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));
+    surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
+    let without = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));
+    // Of three times 255; what slopes throw at each other is left.
+    let most = with.iter().zip(&without).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(most < Some(60), "{most:?}");
+}
+
+#[test]
+fn only_another_ground_makes_other_horizons() {
+    let planet = bare("pallor.ron");
+    let view = view(&planet, 10.0, 20.0, 400e3, -90.0);
+    let builder = Builder::new(|| {});
+    let settled = |planet: &Planet| {
+        builder.request(&Arc::new(planet.clone()), &view);
+        while builder.is_busy() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        builder.surface().unwrap()
+    };
+    let first = settled(&planet);
+    assert!(first.stats.horizons.tiles >= first.leaves.iter().filter(|leaf| leaf.detail.is_some()).count());
+    assert!(first.leaves.iter().all(|leaf| leaf.detail.is_none() || leaf.horizon.as_ref().unwrap().id == leaf.tile.id));
+    assert!(builder.memory().horizons >= first.stats.horizons.tiles);
+
+    let mut dusk = Planet::clone(&planet);
+    dusk.star.longitude_deg += 40.0;
+    dusk.star.latitude_deg = 3.0;
+    let moved = settled(&dusk).stats;
+    assert_eq!((moved.tiles_built, moved.horizons.tiles), (0, 0), "the star");
+    let mut warmer = dusk.clone();
+    warmer.climate.equator_c += 5.0;
+    let stats = settled(&warmer).stats;
+    assert!(stats.tiles_built > 0);
+    assert_eq!(stats.horizons.tiles, 0, "the climate");
+    let mut rougher = warmer.clone();
+    rougher.layers[0].amplitude_m *= 1.1;
+    assert_eq!(settled(&rougher).stats.horizons.tiles, first.stats.horizons.tiles, "heights");
+}
