@@ -146,7 +146,7 @@ fn what_a_coarser_choice_leaves_out_has_not_come_out() {
         let camera = Camera::over(place, radius_m, 0.4, -1.2, Camera::DEFAULT_FOV_Y_RAD);
         View { camera, size_px: [320, 200], quality: Quality::Medium }
     };
-    let (coarse, fine) = (build_now(&planet, &view(5000.0)), build_now(&planet, &view(4000.0)));
+    let (coarse, fine) = (build_now(&planet, &view(5000.0)), build_now(&planet, &view(2000.0)));
     let eye = coarse.view.camera.position_planet_m;
     let seen = Culling::new(&coarse.view, lowest_radius_m(&terrain));
     let shown: HashMap<_, _> = coarse.leaves.iter().map(|leaf| (leaf.tile.id, leaf)).collect();
