@@ -3,7 +3,7 @@
 
 use super::mesh::mesh;
 use super::stats::Work;
-use crate::lod::select::spacing_rad;
+use crate::lod::range::spacing_rad;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile};
 use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;

@@ -170,7 +170,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     let view_from_rel = Mat4::from_quat(camera.planet_from_view.inverse().as_quat());
     let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
     let (high, low) = high_low(eye);
-    let (chosen_high, chosen_low) = high_low(chosen.camera.position_planet_m);
+    let (chosen_high, chosen_low) = high_low(frame.surface.morphing_eye_m(chosen.camera.position_planet_m));
     let turn = |v: DVec3| camera.planet_from_view * v;
 
     let star = &planet.star;

@@ -3,6 +3,7 @@
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
 //! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`, `material_maps` (of `material_kinds`, by
 //!   `material_noise`): what outlives a frame, made anew only when what it depends on changed
+//! - `morph`: how far vertices have come out of the coarser mesh
 //! - `terrain` with `pool`, and `layer_pool` for `detail_pool` and `horizon_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
@@ -30,6 +31,7 @@ mod layer_pool;
 mod material_kinds;
 mod material_maps;
 mod material_noise;
+mod morph;
 mod noise_tile;
 mod pool;
 mod scene_pass;
@@ -164,6 +166,7 @@ pub struct FrameStats {
 pub(crate) struct Passes {
     air_tables: air_tables::AirTablesPass,
     cloud_map: cloud_map::CloudMapPass,
+    morph: morph::MorphPass,
     terrain: terrain::TerrainPass,
     water: water::WaterPass,
     clouds: clouds::CloudsPass,
@@ -182,6 +185,7 @@ impl Passes {
         Ok(Self {
             air_tables: air_tables::AirTablesPass::new(device, globals, tables)?,
             cloud_map: cloud_map::CloudMapPass::new(device, globals)?,
+            morph: morph::MorphPass::new(device)?,
             terrain: terrain::TerrainPass::new(device, globals, tables)?,
             water: water::WaterPass::new(device, globals, tables)?,
             clouds: clouds::CloudsPass::new(device, globals, tables)?,
@@ -315,6 +319,7 @@ impl Renderer {
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
+        self.terrain.morph(&mut encoder, &self.passes.morph);
         let globals = &self.globals.group;
         self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet, self.marked.as_ref());
         let groups = [globals, self.tables.group()];

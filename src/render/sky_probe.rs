@@ -6,7 +6,7 @@ use super::scene_pass::ScenePass;
 use super::{DebugView, Frame, RenderError, Renderer, globals, tables};
 use crate::atmosphere::SkyRay;
 use crate::build::{BuildStats, Surface};
-use crate::lod::{Camera, Quality, View};
+use crate::lod::{Camera, Quality, Ranges, View};
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
@@ -60,13 +60,15 @@ impl Renderer {
     fn write_globals(&mut self, queue: &wgpu::Queue, planet: &Planet, quality: Quality) {
         let terrain = Arc::new(Terrain::new(Arc::new(planet.clone())));
         let (asked, stats) = (Instant::now(), BuildStats::default());
-        let surface = Surface { terrain, leaves: Vec::new(), complete: true, asked, stats };
         let place = LatLon::from_degrees(0.0, 0.0);
         let camera = Camera::over(place, planet.radius_m() * 2.0, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
+        let view = View { camera, size_px: [1, 1], quality };
+        let ranges = Ranges::new(&view, planet.radius_m(), 1.0);
+        let surface = Surface { terrain, leaves: Vec::new(), complete: true, view, ranges, asked, stats };
         let frame = Frame {
             surface: &surface,
             planet,
-            view: View { camera, size_px: [1, 1], quality },
+            view,
             frozen: None,
             sun_dir_planet: DVec3::X,
             time_secs: 0.0,

@@ -97,11 +97,11 @@ pub struct Sample {
     pub layers_m: Vec<f64>,
 }
 
-/// The ground without what is seen at neither of two spacings.
+/// The ground without what is not seen at a spacing.
 pub(crate) struct SeenRelief {
     pub(crate) height_m: Vec<f64>,
-    /// Slopes (see [`tangent_slope`]), for each of the spacings.
-    pub(crate) slopes: [Vec<DVec3>; 2],
+    /// See [`tangent_slope`].
+    pub(crate) slopes: Vec<DVec3>,
 }
 
 impl Terrain {
@@ -282,17 +282,17 @@ impl Terrain {
     }
 
     /// The ground at unit directions as points so far apart can show it, for shading.
-    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> SeenRelief {
+    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacing_rad: f64) -> SeenRelief {
         let points = Points::new(dirs_planet);
         let radius_m = self.planet.radius_m();
-        let fields = self.seen_fields(&points, &spacings_rad);
-        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &spacings_rad, |_, _| {});
-        self.raise(&mut heights, &points, &spacings_rad, true);
-        let slope = |band: usize, i: usize| {
-            let gradient = heights.gradients[band].each_ref().map(|component| f64::from(component[i]));
+        let fields = self.seen_fields(&points, &[spacing_rad]);
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &[spacing_rad], |_, _| {});
+        self.raise(&mut heights, &points, &[spacing_rad], true);
+        let slope = |i: usize| {
+            let gradient = heights.gradients[0].each_ref().map(|component| f64::from(component[i]));
             tangent_slope(points.dirs[i], DVec3::from_array(gradient), radius_m + heights.height_m[i])
         };
-        let slopes = [0, 1].map(|band| (0..points.len()).map(|i| slope(band, i)).collect());
+        let slopes = (0..points.len()).map(slope).collect();
         SeenRelief { height_m: heights.height_m, slopes }
     }
 

@@ -104,7 +104,7 @@ fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
     };
     let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && a.coarser_edges == b.coarser_edges;
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
-    Arc::ptr_eq(a, b) || (a.complete == b.complete && all())
+    Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all())
 }
 
 /// What can be drawn with, or why nothing can.
