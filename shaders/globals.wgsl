@@ -63,6 +63,10 @@ struct Globals {
     // each metre of height, below 0 where rows go by temperature; w of the rest: angle of its pixels, radians
     chosen_eye_high_m: vec4f,
     chosen_eye_low_m: vec4f,
+    // xyz: point of the reference sphere under the eye in each octave of the noise at borders, in periods; w: period in metres
+    border: array<vec4f, 5>,
+    // Of the biome table; x: border jitter in cells; y: 1 for crisp borders; z: 1 while cells are marked
+    table: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;

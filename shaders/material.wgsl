@@ -2,6 +2,7 @@
 // beaches and snow make of them, and the patterns of the two strongest. The rules are those of src/terrain/ground.rs, with soft
 // edges where it has half-way marks. Must match the texels of src/render/biome_table.rs.
 #include "mottle.wgsl"
+#include "border.wgsl"
 #include "material_pattern.wgsl"
 
 // Columns of `biome_params` beside those of the palette: the rock that biomes share, and the rules for all.
@@ -152,7 +153,7 @@ fn mixture_at(site: Site) -> Mixture {
     // The cells around, as a texture's linear filter has them.
     let at = site.table * vec2f(textureDimensions(biome_ids)) - 0.5;
     let cell = vec2i(floor(at));
-    let f = at - floor(at);
+    let f = border_blend(at - floor(at));
     var ids: array<i32, 10>;
     var weights: array<f32, 10>;
     for (var i = 0; i < 4; i++) {

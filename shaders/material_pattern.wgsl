@@ -135,7 +135,8 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);
     out.height = rest.x;
     out.roughness = (rest.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
-    out.glow = rest.z * glow.rgb * size.w;
+    // Cooler is redder.
+    out.glow = rest.z * size.w * pow(glow.rgb, vec3f(1.7 - 0.9 * saturate1(rest.z)));
     out.far = smoothstep(1.0, 5.0, lod);
     out.shown = 1.0;
     return out;

@@ -31,7 +31,7 @@ fn relief_at(rel_m: vec3f, footprint_m: f32) -> vec2f {
     return vec2f(clamp(sum * 1.1, -1.0, 1.0), bumps_m);
 }
 
-// Broad independent octaves that bend borders between kinds of ground.
+// Broad independent octaves that bend the edges of ice.
 fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = vec2f(0.0);
     var place = rel_m;

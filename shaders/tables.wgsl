@@ -6,7 +6,9 @@
 @group(1) @binding(3) var sky_table: texture_2d<f32>;
 @group(1) @binding(4) var weather_map: texture_cube<f32>;
 @group(1) @binding(5) var noise_tile: texture_3d<f32>;
+// r: index into the palette; g: 1 in a cell that is marked
 @group(1) @binding(6) var biome_ids: texture_2d<f32>;
 @group(1) @binding(7) var biome_params: texture_2d<f32>;
 @group(1) @binding(8) var material_tint: texture_2d_array<f32>;
 @group(1) @binding(9) var material_surface: texture_2d_array<f32>;
+@group(1) @binding(10) var border_tile: texture_3d<f32>;

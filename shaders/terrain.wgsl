@@ -1,27 +1,33 @@
 // The ground: tiles, coloured by climate, lit by star and sky; and the debug views of it.
 #include "cloud_model.wgsl"
 #include "material.wgsl"
+#include "highlight.wgsl"
 #include "horizon.wgsl"
 
-// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents have
-// them; height above the mesh, metres.
+// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents show
+// them; height in metres as a sum of two, and how much higher the parents show it.
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
-@group(2) @binding(1) var detail_rise_m: texture_2d_array<f32>;
+@group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
 struct Vertex {
     @location(0) high_m: vec3f,
-    @location(1) height_m: f32,
     @location(2) low_m: vec3f,
-    @location(3) temperature_c: f32,
-    @location(4) climate: vec2f,
     @location(5) normal_oct: vec2f,
     @location(6) parent_normal_oct: vec2f,
     // Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
     @location(7) tile: vec4f,
     // The axis that the first tangent of the slopes follows.
     @location(8) slope_axis: vec3f,
+    // The tile's place in its detail tile: corner, side, 0 to 1; the height that its heights count from.
+    @location(9) detail_place: vec4f,
+    // Distances in metres between which the detail of the detail tile's parent takes over; from texel to texel.
+    @location(10) detail_fade: vec4f,
+    // How far the vertex is drawn above its place, until it has come out of the coarser mesh (morph.wgsl).
+    @location(11) shift_m: f32,
+    // Moisture, row of the biome table, height and temperature, the same way.
+    @location(12) shown: vec4f,
     // See `exposed`.
-    @location(9) horizon: vec4f,
+    @location(13) horizon: vec4f,
 }
 
 struct Ground {
@@ -32,14 +38,19 @@ struct Ground {
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
     @location(5) temperature_c: f32,
-    // Place in the tile, 0 to 1; how far the parent has taken over.
-    @location(6) place: vec3f,
+    // Place in the tile, 0 to 1, and in its detail tile
+    @location(6) place: vec4f,
     // From the eye that the tile was chosen for
     @location(7) chosen_distance_m: f32,
     // Layer of the detail tile.
     @location(8) @interpolate(flat) layer: f32,
     @location(9) @interpolate(flat) slope_axis: vec3f,
-    @location(10) @interpolate(flat) horizon: vec4f,
+    // As in Vertex; w: the height that heights count from
+    @location(10) @interpolate(flat) detail_fade: vec4f,
+    // As the parent's vertices have it; distances between which it takes over.
+    @location(11) parent_normal: vec3f,
+    @location(12) @interpolate(flat) fade_m: vec2f,
+    @location(13) @interpolate(flat) horizon: vec4f,
 }
 
 // Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
@@ -61,40 +72,61 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     var out: Ground;
     // High and low parts apart: equal points give equal bits in every tile.
     out.rel_m = (in.high_m - globals.eye_high_m.xyz) + (in.low_m - globals.eye_low_m.xyz);
+    out.rel_m += in.shift_m * normalize(in.high_m);
     out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
     let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
     out.chosen_distance_m = length(chosen_rel_m);
-    let far = saturate1((out.chosen_distance_m - in.tile.x) / max(in.tile.y - in.tile.x, 1e-3));
-    out.normal = mix(from_octahedral(in.normal_oct), from_octahedral(in.parent_normal_oct), far);
-    out.climate = in.climate;
-    out.height_m = in.height_m;
+    out.normal = from_octahedral(in.normal_oct);
+    out.parent_normal = from_octahedral(in.parent_normal_oct);
+    out.fade_m = in.tile.xy;
+    out.climate = in.shown.xy;
+    out.height_m = in.shown.z;
     out.level = in.tile.z;
-    out.temperature_c = in.temperature_c;
+    out.temperature_c = in.shown.w;
     // Each tile's vertices are a whole number of tiles from the buffer's start.
     let number = index % (TILE_SIDE * TILE_SIDE);
-    out.place = vec3f(vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u), far);
+    let place = vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u);
+    out.place = vec4f(place, in.detail_place.xy + place * in.detail_place.z);
     out.layer = in.tile.w;
     out.slope_axis = in.slope_axis;
+    out.detail_fade = vec4f(in.detail_fade.xyz, in.detail_place.w);
     out.horizon = in.horizon;
     return out;
 }
 
-// The ground at a pixel: the tile's detail, or its vertices where there is none yet.
+// From vertex to vertex of a level, metres.
+fn spacing_m(level: f32) -> f32 { return 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(level)); }
+
+// How far the parent has taken over at a distance.
+fn faded(range_m: vec2f, distance_m: f32) -> f32 {
+    return saturate1((distance_m - range_m.x) / max(range_m.y - range_m.x, 1e-3));
+}
+
+// The ground at a pixel: its detail, or the vertices where there is none yet.
 struct Relief {
     normal: vec3f,
     height_m: f32,
     climate: vec2f,
 }
 
-fn relief_of(in: Ground, up: vec3f) -> Relief {
-    if in.layer < 0.0 { return Relief(normalize(in.normal), in.height_m, in.climate); }
-    let texel = (in.place.xy * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
+// `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
+// to its parent's, that to the vertices', and those to the parent's. A child does so an octave later, and so shows the same.
+fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
+    let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
+    let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
+    let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
+    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, in.climate); }
+    let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
+    let texels = log2(footprint_m / in.detail_fade.z);
+    let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
     let slopes = textureSampleLevel(detail_slopes, clamped, texel, i32(in.layer), 0.0);
-    let slope = mix(slopes.xy, slopes.zw, in.place.z);
+    let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     var out: Relief;
-    out.normal = normalize(up - slope.x * east - slope.y * cross(up, east));
-    out.height_m = in.height_m + textureSampleLevel(detail_rise_m, clamped, texel, i32(in.layer), 0.0).r;
+    let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
+    out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
+    let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
+    out.height_m = mix(in.detail_fade.w + heights.x + heights.y + heights.z * parent, in.height_m, saturate1(texels - 1.0));
     // Higher ground is colder; over the sea its surface counts.
     let rows_per_m = globals.chosen_eye_high_m.w;
     let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
@@ -115,13 +147,13 @@ fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec
     return normalize(abs(area) * n - tilt + n * 1e-20);
 }
 
-// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its climate, perhaps moved by a border's jitter.
+// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its place in the table.
 fn site_of(in: Ground, at: vec2f, risen_m: f32, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
     let sea_m = globals.water.x * 1000.0;
     let has_sea = globals.water_absorption.w > 0.0;
     let above = select(1.0, saturate1((in.height_m - sea_m) * 0.1), has_sea);
     return Site(
-        vec2f(at.x, 1.0 - at.y),
+        at,
         in.rel_m,
         slope_cosine,
         in.temperature_c - risen_m * globals.eye_wrap_m.w * above,
@@ -213,8 +245,7 @@ fn spacing_color(pixels: f32) -> vec3f {
 
 // Pixels from one vertex to the next, where the ground is seen head on from the eye that the tile was chosen for.
 fn spacing_pixels(in: Ground) -> f32 {
-    let spacing_m = 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(in.level));
-    return spacing_m / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
+    return spacing_m(in.level) / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
 }
 
 // 1 at the tile's border, over about one and a half pixels on its own side.
@@ -228,6 +259,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
+    let place = table_place(in.climate, in.rel_m, 0.0);
     switch globals.modes.x {
         case 1u: {
             let span = max(globals.misc.z - globals.misc.y, 1.0);
@@ -236,8 +268,8 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let site = site_of(in, in.climate, risen_m, dot(n, up), 1.0, 0.0);
-            return biome_param(biome_of(site), 0).rgb;
+            let site = site_of(in, place, risen_m, dot(n, up), 1.0, 0.0);
+            return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
         case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
         case 6u: { return moisture_color(in.climate.x) * lit; }
@@ -252,7 +284,11 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
 fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
-    let detail = relief_of(on_mesh, up);
+    // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
+    let rel_x = dpdx(on_mesh.rel_m);
+    let rel_y = dpdy(on_mesh.rel_m);
+    let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
+    let detail = relief_of(on_mesh, up, footprint_m);
     var in = on_mesh;
     in.height_m = detail.height_m;
     in.climate = detail.climate;
@@ -264,13 +300,10 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
-    // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let rel_x = dpdx(in.rel_m);
-    let rel_y = dpdy(in.rel_m);
-    let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
-    let jitter = border_jitter(in.rel_m, footprint_m) * vec2f(0.9, -0.9) / vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, in.climate + jitter, risen_m, dot(n, up), footprint_m, relief.x);
+    let place = table_place(in.climate, in.rel_m, footprint_m);
+    cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
+    let site = site_of(in, place, risen_m, dot(n, up), footprint_m, relief.x);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
@@ -296,7 +329,8 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
     let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;
-    return vec4f(min(radiance, vec3f(60000.0)), over_sea_m);
+    let shown = lit_up(radiance, place, globals.sun_irradiance.rgb / PI);
+    return vec4f(min(shown, vec3f(60000.0)), over_sea_m);
 }
 
 struct Output {
@@ -309,6 +343,6 @@ struct Output {
 @fragment
 fn fragment(in: Ground) -> Output {
     let up = normalize(globals.eye_km.xyz + in.rel_m * 0.001);
-    let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, in.place.z, up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
+    let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
     return Output(shade(in, from_ground), vec4f(in.temperature_c, 1.0 - from_ground.star, 0.0, 0.0));
 }

@@ -173,9 +173,9 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     let camera = camera(&planet, 10.0, 10.0, 3e6, 40.0, -90.0);
     let first = surface(&planet, &camera);
     let mut draw = |surface: &Surface, planet: &Planet| {
-        let sun = (planet.star.latitude_deg, planet.star.longitude_deg);
+        // Clouds that have drifted for a while, and the planet turned: the wind and the length of the day show.
+        let sun = planet.star.place(1000.0).to_degrees();
         let before = gpu.renderer.table_runs();
-        // Clouds that have drifted for a while: their wind shows.
         gpu.draw(&Frame { time_secs: 1000.0, ..frame(surface, planet, camera, sun) });
         let after = gpu.renderer.table_runs();
         (
@@ -208,13 +208,16 @@ fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
     let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
     let surface = surface(&planet, &camera);
     let tile_bytes = (surface.leaves[0].tile.vertices.len() * size_of::<tellus::lod::Vertex>()) as u64;
-    let mut rounds = 1;
-    while !gpu.renderer.upload(&gpu.device, &gpu.queue, &surface, 5 * tile_bytes) {
-        assert_eq!(gpu.renderer.uploaded_bytes(), rounds * 5 * tile_bytes);
-        rounds += 1;
+    let (mut done, mut rounds, mut before) = (false, 0, 0);
+    while !done {
+        done = gpu.renderer.upload(&gpu.device, &gpu.queue, &surface, 5 * tile_bytes);
+        let bytes = gpu.renderer.uploaded_bytes() - before;
+        assert!(done || (bytes > 0 && bytes <= 5 * tile_bytes), "{bytes}");
+        (before, rounds) = (before + bytes, rounds + 1);
     }
-    let all = surface.leaves.len() as u64 * tile_bytes;
-    assert_eq!((rounds, gpu.renderer.uploaded_bytes()), ((surface.leaves.len() as u64).div_ceil(5), all));
+    // Tiles, horizons, details.
+    let all = gpu.renderer.uploaded_bytes();
+    assert!(rounds > 5 && all > surface.leaves.len() as u64 * tile_bytes, "{rounds} {all}");
     let ahead = gpu.draw(&frame(&surface, &planet, camera, (12.0, 0.0)));
     assert_eq!(gpu.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
     assert_eq!(ahead, Gpu::new().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));

@@ -6,13 +6,14 @@
 
 use super::make::{Before, Parts, make_tile};
 use super::stats::{Memory, Work};
+use crate::lod::View;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::{DetailTile, Tile, Vertex};
-use crate::planet::param::Stages;
+use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::kept::KeptFields;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -37,7 +38,7 @@ struct Entry {
 impl Entry {
     fn bytes(&self) -> usize {
         let tile = self.tile.as_ref().map_or(0, |tile| tile.vertices.len() * size_of::<Vertex>());
-        let detail = self.detail.as_ref().map_or(0, |detail| detail.slopes.len() * 8 + detail.rise_m.len() * 2);
+        let detail = self.detail.as_ref().map_or(0, |detail| detail.bytes());
         let horizon = self.horizon.as_ref().map_or(0, |horizon| horizon.bytes());
         tile + detail + horizon + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
     }
@@ -51,9 +52,21 @@ impl Entry {
     }
 }
 
+/// What was chosen last.
+#[derive(Clone)]
+pub(crate) struct Shown {
+    /// The view it was chosen for.
+    pub(crate) view: View,
+    /// How lenient the triangle budget made the choice: see `refine`.
+    pub(crate) leniency: u32,
+    /// The nodes that were split.
+    pub(crate) split: HashSet<NodeId>,
+}
+
 #[derive(Default)]
 struct State {
     entries: HashMap<NodeId, Entry>,
+    shown: Option<Arc<Shown>>,
     /// Size of all entries.
     bytes: usize,
     /// Grows with each request.
@@ -164,9 +177,23 @@ impl Cache {
 
     /// The planet changed in these stages: no tile is valid any more that holds one of them.
     pub(crate) fn invalidate(&self, stages: Stages) {
-        for entry in self.lock().entries.values_mut() {
+        let mut state = self.lock();
+        for entry in state.entries.values_mut() {
             entry.stale = entry.stale.and(stages);
         }
+        if stages.contains(Stage::Height) {
+            state.shown = None;
+        }
+    }
+
+    /// What was chosen last for the present heights.
+    pub(crate) fn shown(&self) -> Option<Arc<Shown>> {
+        self.lock().shown.clone()
+    }
+
+    /// Remembers what was chosen.
+    pub(crate) fn show(&self, shown: Shown) {
+        self.lock().shown = Some(Arc::new(shown));
     }
 
     /// A new request begins: what it does not ask for may be dropped.
@@ -178,6 +205,7 @@ impl Cache {
     pub(crate) fn clear(&self) {
         let mut state = self.lock();
         state.entries.clear();
+        state.shown = None;
         state.bytes = 0;
     }
 

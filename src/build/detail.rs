@@ -1,7 +1,8 @@
 //! The detail tile of one node: slopes and heights finer than its mesh, from the evaluator.
 
-use crate::lod::select::spacing_rad;
+use crate::lod::range::spacing_rad;
 use crate::lod::tile::{DETAIL_SIDE, DetailTile, TILE_QUADS, Tile, slope_basis};
+use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use glam::DVec3;
 use half::f16;
@@ -14,34 +15,70 @@ const STEEPEST: f64 = 1000.0;
 /// The greatest number a half float holds.
 const MOST: f64 = 65504.0;
 
+/// What is known of one texel.
+#[derive(Clone, Copy, Default)]
+struct Texel {
+    height_m: f64,
+    /// Along the two tangents.
+    slope: [f64; 2],
+}
+
 /// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
 pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> bool) -> Option<DetailTile> {
     profiling::scope!("detail");
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
-    let id = tile.id;
-    let quads = DETAIL_SIDE - 1;
-    let own_rad = spacing_rad(id.level) * TILE_QUADS as f64 / quads as f64;
-    let place = |i: usize| ((i % DETAIL_SIDE) as f64 / quads as f64, (i / DETAIL_SIDE) as f64 / quads as f64);
-    let count = DETAIL_SIDE * DETAIL_SIDE;
-    let (mut slopes, mut rise_m) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    for start in (0..count).step_by(BATCH) {
+    let own_texels = texels(terrain, tile.id, 1, wanted)?;
+    // The parent has every second texel of every second row, and lines between them.
+    let parents = texels(terrain, tile.id, 2, wanted)?;
+    let base_m = (0.5 * (tile.min_height_m + tile.max_height_m)) as f32;
+    let (mut slopes, mut heights) = (Vec::with_capacity(own_texels.len()), Vec::with_capacity(own_texels.len()));
+    let half = |value: f64, most: f64| f16::from_f64(value.clamp(-most, most));
+    for (i, own) in own_texels.iter().enumerate() {
+        let parent = between(&parents, i % DETAIL_SIDE, i / DETAIL_SIDE);
+        let ([x, y], [parent_x, parent_y]) = (own.slope, parent.slope);
+        slopes.push([x, y, parent_x, parent_y].map(|slope| half(slope, STEEPEST)));
+        let height_m = own.height_m - f64::from(base_m);
+        let greater = half(height_m, MOST);
+        let rest = half(height_m - f64::from(greater), MOST);
+        heights.push([greater, rest, half(parent.height_m - own.height_m, MOST), f16::ZERO]);
+    }
+    let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
+    Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
+}
+
+/// Every so many texels of a node, row by row, without what they are too far apart to show.
+fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> bool) -> Option<Vec<Texel>> {
+    let quads = (DETAIL_SIDE - 1) / stride;
+    let side = quads + 1;
+    let spacing_rad = spacing_rad(id.level) * TILE_QUADS as f64 / quads as f64;
+    let mut texels = Vec::with_capacity(side * side);
+    for start in (0..side * side).step_by(BATCH) {
         if !wanted() {
             return None;
         }
-        let places: Vec<(f64, f64)> = (start..(start + BATCH).min(count)).map(place).collect();
-        let dirs: Vec<DVec3> = places.iter().map(|&(u, v)| id.direction(u, v)).collect();
-        let seen = terrain.seen_relief(dirs.clone(), [own_rad, 2.0 * own_rad]);
-        for (i, dir) in dirs.iter().enumerate() {
-            let [east, north] = slope_basis(id.face, *dir);
-            let [own, parent] = [seen.slopes[0][i], seen.slopes[1][i]];
-            let along = [own.dot(east), own.dot(north), parent.dot(east), parent.dot(north)];
-            slopes.push(along.map(|slope| f16::from_f64(slope.clamp(-STEEPEST, STEEPEST))));
-            let (u, v) = places[i];
-            rise_m.push(f16::from_f64((seen.height_m[i] - tile.mesh_height_m(u, v)).clamp(-MOST, MOST)));
-        }
+        let range = start..(start + BATCH).min(side * side);
+        let place = |i: usize| id.direction((i % side) as f64 / quads as f64, (i / side) as f64 / quads as f64);
+        let dirs: Vec<DVec3> = range.map(place).collect();
+        let seen = terrain.seen_relief(dirs.clone(), spacing_rad);
+        texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
+            let slope = slope_basis(id.face, *dir).map(|tangent| seen.slopes[i].dot(tangent));
+            Texel { height_m: seen.height_m[i], slope }
+        }));
     }
-    let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
-    Some(DetailTile { serial, heights_serial: tile.heights_serial, slopes, rise_m })
+    Some(texels)
+}
+
+/// What is shown at a texel by texels twice as far apart.
+fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
+    const WIDE_SIDE: usize = (DETAIL_SIDE - 1) / 2 + 1;
+    let mut mean = Texel::default();
+    for (x, y) in [(x / 2, y / 2), (x.div_ceil(2), y / 2), (x / 2, y.div_ceil(2)), (x.div_ceil(2), y.div_ceil(2))] {
+        let texel = wide[y * WIDE_SIDE + x];
+        mean.height_m += 0.25 * texel.height_m;
+        mean.slope[0] += 0.25 * texel.slope[0];
+        mean.slope[1] += 0.25 * texel.slope[1];
+    }
+    mean
 }
 
 #[cfg(test)]
@@ -89,9 +126,33 @@ mod tests {
             neighbours += 1;
         }
         assert!(neighbours > 0, "no neighbour of the same level was compared");
-        // On a vertex the mesh is the ground, but for what is too fine to be seen.
+        // On a vertex it is the mesh, but for what is too fine to be seen.
         let relief_m = tile.max_height_m - tile.min_height_m;
-        let vertex_rise_m = f64::from(detail.rise_m[0].to_f32());
-        assert!(vertex_rise_m.abs() < 0.2 * relief_m + 50.0, "{vertex_rise_m} of {relief_m}");
+        let [greater, rest, ..] = detail.heights[0].map(f64::from);
+        let rise_m = f64::from(detail.base_m) + greater + rest - f64::from(tile.vertices[0].height_m);
+        assert!(rise_m.abs() < 0.2 * relief_m + 50.0, "{rise_m} of {relief_m}");
+    }
+
+    /// A child that has not come in yet shows what its parent shows.
+    #[test]
+    fn a_child_begins_as_its_parents_quarter() {
+        let terrain = Terrain::new(Arc::new(shipped::default_planet()));
+        let planet = Arc::new(shipped::default_planet());
+        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
+        let tile = &surface.leaves[surface.leaves.len() / 2].tile;
+        let parent = texels(&terrain, tile.id, 1, &|| true).unwrap();
+        let id = tile.id.children()[3];
+        let child = texels(&terrain, id, 2, &|| true).unwrap();
+        let offset = (DETAIL_SIDE - 1) / 2;
+        let (mut worst, mut steepest) = (0.0_f64, 0.0_f64);
+        for (x, y) in (0..DETAIL_SIDE).step_by(2).flat_map(|y| (0..DETAIL_SIDE).step_by(2).map(move |x| (x, y))) {
+            let theirs = parent[(offset + y / 2) * DETAIL_SIDE + offset + x / 2].slope;
+            let ours = between(&child, x, y).slope;
+            let height_m = parent[(offset + y / 2) * DETAIL_SIDE + offset + x / 2].height_m;
+            assert_eq!(between(&child, x, y).height_m, height_m, "{x} {y}");
+            worst = worst.max((theirs[0] - ours[0]).abs().max((theirs[1] - ours[1]).abs()));
+            steepest = steepest.max(theirs[0].abs().max(theirs[1].abs()));
+        }
+        assert!(steepest > 0.05 && worst < 1e-6 * steepest, "{worst} of {steepest}");
     }
 }

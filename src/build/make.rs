@@ -3,7 +3,7 @@
 
 use super::mesh::mesh;
 use super::stats::Work;
-use crate::lod::select::spacing_rad;
+use crate::lod::range::spacing_rad;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile};
 use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
@@ -15,7 +15,7 @@ use crate::terrain::height::{self, Heights};
 use crate::terrain::kept::KeptFields;
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
-use crate::terrain::relief::ReliefFields;
+use crate::terrain::relief::{Relief, ReliefFields};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -115,7 +115,7 @@ pub(crate) fn make_tile(
     };
 
     let mut relief_fields: ReliefFields = Vec::new();
-    for noise in terrain.relief.iter().flat_map(|relief| relief.noises()) {
+    for noise in terrain.relief.iter().flat_map(Relief::noises) {
         let known = before.parts.and_then(|parts| parts.relief_fields.iter().find(|(known, _)| known == noise));
         let field = known.map_or_else(
             || {
@@ -146,7 +146,13 @@ pub(crate) fn make_tile(
         let tile = mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad);
         Tile { heights_serial, ..tile }
     });
-    (fields, Some((tile, Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad })))
+    (
+        fields,
+        Some((
+            tile,
+            Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad },
+        )),
+    )
 }
 
 fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {

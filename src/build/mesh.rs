@@ -1,5 +1,6 @@
 //! The vertices of a tile from its heights, gradients and climate: in chunks, each loop over plain arrays.
 
+use super::deviation::find_deviations;
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
@@ -44,7 +45,7 @@ pub(super) fn mesh(
         weather(simd, &rules, dirs, height_m, noise, inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), &mut lanes);
         vertices.extend((0..dirs.len()).map(|i| lanes.vertex(i)));
     }
-    Tile {
+    let mut tile = Tile {
         id,
         serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
         heights_serial: 0,
@@ -53,7 +54,10 @@ pub(super) fn mesh(
         max_height_m,
         center_planet_m,
         bounding_radius_m: lanes.farthest_square.iter().copied().fold(0.0, f64::max).sqrt(),
-    }
+        blocks: Default::default(),
+    };
+    find_deviations(&mut tile, radius_m, dirs, &heights.height_m);
+    tile
 }
 
 /// What is known of a chunk's vertices.
@@ -96,6 +100,7 @@ impl Lanes {
             climate_unorm: [self.climate_unorm[0][i], self.climate_unorm[1][i]],
             normal_oct: normal(&self.normal_oct[0]),
             parent_normal_oct: normal(&self.normal_oct[1]),
+            ..Vertex::default()
         }
     }
 }

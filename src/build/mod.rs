@@ -1,6 +1,6 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
-//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices
+//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices; `deviation`: how they stand out from coarser meshes
 //! - `detail`: what is finer than the mesh of one node; `horizon`: how high the ground around it stands
 //! - `cache`: tiles kept for later, and for the stages an edit leaves intact
 //! - `refine`: a complete set of tiles for a view
@@ -9,6 +9,7 @@
 pub mod builder;
 mod cache;
 mod detail;
+mod deviation;
 mod horizon;
 mod make;
 mod mesh;
@@ -23,10 +24,13 @@ pub use stats::{BuildStats, Memory, StageWork};
 
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::DetailTile;
-use crate::lod::{Culling, Tile, View};
+use crate::lod::{Culling, Ranges, Tile, View};
 use crate::planet::Planet;
+use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use glam::DVec3;
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -39,6 +43,10 @@ pub struct Surface {
     pub leaves: Vec<Leaf>,
     /// Whether every tile is as fine as the view asks; if not, a finer surface follows.
     pub complete: bool,
+    /// The view it was made for.
+    pub view: View,
+    /// How far from the eye the levels show: what chose the tiles must shape them, too.
+    pub ranges: Ranges,
     /// When it was asked for; the times in `stats` count from there.
     pub asked: Instant,
     /// What it took.
@@ -52,10 +60,30 @@ pub struct Leaf {
     pub tile: Arc<Tile>,
     /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
-    /// What is finer than the mesh, once it is there.
+    /// The tile whose detail is to be shown: this one, or an ancestor where the mesh is finer than shading needs.
+    pub relief: Arc<Tile>,
+    /// What is finer than the mesh: that of `relief`, or of an ancestor of it until it is there.
     pub detail: Option<Arc<DetailTile>>,
     /// Its horizon, or that of a node above it, once one is there; perhaps of an earlier planet while the new one is found.
     pub horizon: Option<Arc<HorizonTile>>,
+}
+
+impl Leaf {
+    /// Whether the detail that is to be shown is there.
+    fn has_own_detail(&self) -> bool {
+        self.detail.as_ref().is_some_and(|detail| detail.heights_serial == self.relief.heights_serial)
+    }
+}
+
+impl Surface {
+    /// The eye that vertices come out for ([`crate::lod::morph`]) when the surface is looked at from a place: that place, unless it is so
+    /// far from where the tiles were chosen for that they would not know each other's older vertices.
+    pub fn morphing_eye_m(&self, eye_planet_m: DVec3) -> DVec3 {
+        let chosen_m = self.view.camera.position_planet_m;
+        let finest = self.leaves.iter().map(|leaf| leaf.tile.id.level).max().unwrap_or(0);
+        let allowed_m = self.ranges.always_m(finest);
+        chosen_m + (eye_planet_m - chosen_m).clamp_length_max(allowed_m)
+    }
 }
 
 /// Builds the complete surface for a view and waits for it.
@@ -84,21 +112,31 @@ pub(crate) fn find_detail(
 ) -> bool {
     let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
     let eye = view.camera.position_planet_m;
-    let terrain = &surface.terrain;
-    let mut missing: Vec<&mut Leaf> =
-        surface.leaves.iter_mut().filter(|leaf| leaf.detail.is_none() && culling.sees(&leaf.tile)).collect();
-    let away_m = |leaf: &Leaf| leaf.tile.center_planet_m.distance(eye) - leaf.tile.bounding_radius_m;
-    missing.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+    let terrain = surface.terrain.clone();
+    let lacking = surface.leaves.iter().filter(|leaf| !leaf.has_own_detail() && culling.sees(&leaf.tile));
+    let missing: HashMap<NodeId, Arc<Tile>> = lacking.map(|leaf| (leaf.relief.id, leaf.relief.clone())).collect();
+    let mut missing: Vec<Arc<Tile>> = missing.into_values().collect();
+    let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
+    missing.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)).then(a.id.cmp(&b.id)));
     // In rounds of a tile for each thread: strictly in order, and it can be stopped in between.
     let side = rayon::current_num_threads().max(1);
-    missing.chunks_mut(side).all(|round| {
-        let goes_on = keep_going();
-        if goes_on {
-            round.par_iter_mut().for_each(|leaf| {
-                leaf.detail = detail::make_detail(terrain, &leaf.tile, wanted).map(Arc::new);
-                leaf.detail.iter().for_each(|detail| keep(&leaf.tile, detail));
-            });
+    missing.chunks(side).all(|round| {
+        if !keep_going() {
+            return false;
         }
-        goes_on && round.iter().all(|leaf| leaf.detail.is_some())
+        let made: HashMap<NodeId, Arc<DetailTile>> = round
+            .par_iter()
+            .filter_map(|tile| {
+                let detail = Arc::new(detail::make_detail(&terrain, tile, wanted)?);
+                keep(tile, &detail);
+                Some((tile.id, detail))
+            })
+            .collect();
+        for leaf in &mut surface.leaves {
+            if let Some(detail) = made.get(&leaf.relief.id) {
+                leaf.detail = Some(detail.clone());
+            }
+        }
+        made.len() == round.len()
     })
 }

@@ -4,18 +4,34 @@
 //! done so far cover the whole planet without a gap. A node is split only together with the neighbours that this makes
 //! necessary: no two neighbours are ever more than one level apart. Within a level, what is nearest to the eye comes first.
 
-use super::cache::Cache;
+use super::cache::{Cache, Shown};
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
-use crate::lod::tile::Tile;
-use crate::lod::{Selection, View};
+use crate::lod::tile::{DetailTile, Tile};
+use crate::lod::{Quality, Ranges, Selection, View};
 use crate::planet::Planet;
 use crate::sphere::{Edge, NodeId};
 use crate::terrain::Terrain;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
+
+/// Most tiles that the picture may show; a tile is 2,048 triangles.
+fn budget_tiles(quality: Quality) -> usize {
+    match quality {
+        Quality::Low => 300,
+        Quality::Medium => 500,
+        Quality::High => 1200,
+    }
+}
+
+/// Beyond its budget a view is given larger errors, by steps of an eighth of an octave...
+fn leniency_factor(step: u32) -> f64 {
+    (f64::from(step) * 0.125).exp2()
+}
+/// ...of which there are so many.
+const MOST_LENIENT: u32 = 32;
 
 /// Builds the tiles that a view needs, as far as `keep_going` allows (it is asked before each layer of each tile beyond the
 /// coarsest; after it says no, no finer level is begun). Tiles are taken from and left in `cache`. `stats` goes on from what
@@ -30,48 +46,125 @@ pub(crate) fn refine(
 ) -> Surface {
     profiling::scope!("refine");
     let begun = Instant::now();
+    let lowest_radius_m = lowest_radius_m(terrain);
+    let shown = cache.shown().filter(|shown| is_near(&shown.view, view, lowest_radius_m));
     let mut builder = LevelBuilder { terrain, cache, asked, stats: &mut stats, secs: 0.0 };
-    let radius_m = terrain.planet().radius_m();
-    let selection = Selection::new(view, radius_m, lowest_radius_m(terrain));
-    let mut split: HashSet<NodeId> = HashSet::new();
-    let mut complete = true;
-
-    let mut level: Vec<NodeId> = NodeId::roots().to_vec();
-    builder.build(&level, &|| true);
-    loop {
-        let tiles = level.iter().filter_map(|id| cache.tile(*id));
-        let mut wanted: Vec<Arc<Tile>> = tiles.filter(|tile| selection.wants_split(tile)).collect();
-        if wanted.is_empty() {
-            break;
-        }
-        let eye = view.camera.position_planet_m;
-        let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
-        wanted.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
-        let children: Vec<NodeId> = wanted.iter().flat_map(|tile| tile.id.children()).collect();
-        if !builder.build(&children, keep_going) {
-            // Out of time: go on with what is there.
-            complete = false;
-            wanted.retain(|tile| tile.id.children().iter().all(|child| cache.tile(*child).is_some()));
-        }
-        level = wanted.iter().flat_map(|tile| tile.id.children()).collect();
-        for tile in wanted {
-            split_with_neighbours(tile.id, &mut split);
-        }
-    }
+    let budget = budget_tiles(view.quality);
+    let mut choose = |leniency: u32| {
+        let ranges = Ranges::new(view, terrain.planet().radius_m(), leniency_factor(leniency));
+        let selection = Selection::new(view, &ranges, lowest_radius_m, shown.as_ref().map(|shown| &shown.split));
+        choose(&mut builder, &selection, (ranges, leniency), view, keep_going)
+    };
+    let choice = within_budget(&mut choose, budget, shown.as_ref().map_or(0, |shown| shown.leniency));
     // Splits forced by neighbours; few, and needed for a set without cracks, so never cut short.
     let mut forced: Vec<NodeId> =
-        split.iter().flat_map(|id| id.children()).filter(|id| cache.tile(*id).is_none()).collect();
+        choice.split.iter().flat_map(|id| id.children()).filter(|id| cache.tile(*id).is_none()).collect();
     forced.sort_unstable();
     builder.build(&forced, &|| true);
 
     let building_secs = builder.secs;
-    let leaves = leaves(&split, cache);
+    let leaves = leaves(&choice, cache);
     stats.tiles = leaves.len();
     stats.vertices = leaves.iter().map(|leaf| leaf.tile.vertices.len()).sum();
     stats.select_secs += begun.elapsed().as_secs_f64() - building_secs;
     stats.duration_secs = asked.elapsed().as_secs_f64();
     stats.slices += 1;
-    Surface { terrain: terrain.clone(), leaves, complete, asked, stats }
+    let Choice { ranges, complete, leniency, split, .. } = choice;
+    if complete {
+        cache.show(Shown { view: *view, leniency, split });
+    }
+    Surface { terrain: terrain.clone(), leaves, complete, view: *view, ranges, asked, stats }
+}
+
+/// The nodes of a view.
+struct Choice {
+    ranges: Ranges,
+    leniency: u32,
+    split: HashSet<NodeId>,
+    /// Those among them whose own detail is too coarse, too.
+    shaded_finer: HashSet<NodeId>,
+    /// Tiles that the picture shows.
+    seen: usize,
+    /// Whether time sufficed.
+    complete: bool,
+}
+
+/// Whether what was chosen for one view is worth keeping for another: not after a jump.
+fn is_near(before: &View, after: &View, lowest_radius_m: f64) -> bool {
+    let (from, to) = (&before.camera, &after.camera);
+    let altitude_m = to.position_planet_m.length() - lowest_radius_m;
+    before.size_px == after.size_px
+        && before.quality == after.quality
+        && from.fov_y_rad == to.fov_y_rad
+        && from.position_planet_m.distance(to.position_planet_m) < 0.25 * altitude_m
+}
+
+/// The strictest choice that keeps to the budget: from lenient ones on, so that few tiles are built that are not shown. One that
+/// did for the view before is kept while it is no waste.
+fn within_budget(choose: &mut dyn FnMut(u32) -> Choice, budget: usize, before: u32) -> Choice {
+    let fits = |choice: &Choice| choice.seen <= budget;
+    if before > 0 {
+        let choice = choose(before);
+        if fits(&choice) && (!choice.complete || choice.seen > budget * 4 / 5) {
+            return choice;
+        }
+    }
+    let mut choice = choose(MOST_LENIENT);
+    let mut too_strict = None;
+    while choice.complete && choice.leniency > too_strict.map_or(0, |step| step + 1) {
+        let step = too_strict.map_or(choice.leniency / 2, |step| u32::midpoint(step, choice.leniency));
+        let stricter = choose(step);
+        if fits(&stricter) {
+            choice = stricter;
+        } else {
+            too_strict = Some(step);
+        }
+    }
+    choice
+}
+
+/// Chooses and builds level by level; gives up where the budget is passed.
+fn choose(
+    builder: &mut LevelBuilder<'_>,
+    selection: &Selection<'_>,
+    (ranges, leniency): (Ranges, u32),
+    view: &View,
+    keep_going: &(dyn Fn() -> bool + Sync),
+) -> Choice {
+    let (cache, budget) = (builder.cache, budget_tiles(view.quality));
+    let mut choice =
+        Choice { ranges, leniency, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
+    let eye = view.camera.position_planet_m;
+    let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
+    let mut level: Vec<NodeId> = NodeId::roots().to_vec();
+    builder.build(&level, &|| true);
+    loop {
+        let tiles = level.iter().filter_map(|id| cache.tile(*id));
+        let (mut wanted, leaves): (Vec<Arc<Tile>>, Vec<_>) = tiles.partition(|tile| selection.wants_split(tile));
+        choice.seen += leaves.iter().filter(|tile| selection.sees(tile)).count();
+        if wanted.is_empty() {
+            return choice;
+        }
+        // The most lenient choice there is has to do whatever it comes to.
+        if choice.seen + wanted.len() > budget && leniency < MOST_LENIENT {
+            choice.seen += wanted.len();
+            return choice;
+        }
+        wanted.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+        let children: Vec<NodeId> = wanted.iter().flat_map(|tile| tile.id.children()).collect();
+        if !builder.build(&children, keep_going) {
+            // Out of time: go on with what is there.
+            choice.complete = false;
+            wanted.retain(|tile| tile.id.children().iter().all(|child| cache.tile(*child).is_some()));
+        }
+        level = wanted.iter().flat_map(|tile| tile.id.children()).collect();
+        for tile in wanted {
+            if selection.wants_finer_detail(&tile) {
+                choice.shaded_finer.insert(tile.id);
+            }
+            split_with_neighbours(tile.id, &mut choice.split);
+        }
+    }
 }
 
 /// Distance from the planet's centre of the lowest ground or sea that can hide what is behind it.
@@ -134,21 +227,38 @@ fn split_with_neighbours(id: NodeId, split: &mut HashSet<NodeId>) {
     }
 }
 
-/// The nodes that are shown, each with the edges beyond which the neighbour is coarser.
-fn leaves(split: &HashSet<NodeId>, cache: &Cache) -> Vec<Leaf> {
+/// The nodes that are shown, each with the edges beyond which the neighbour is coarser, and with its detail as far as it is there.
+fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
+    let split = &choice.split;
     let mut ids: Vec<NodeId> = NodeId::roots()
         .into_iter()
         .chain(split.iter().flat_map(|id| id.children()))
         .filter(|id| !split.contains(id))
         .collect();
     ids.sort_unstable();
+    let mut reliefs: HashMap<NodeId, Option<Relief>> = HashMap::new();
     ids.into_iter()
         .filter_map(|id| {
             let coarser = |edge: &Edge| id.neighbour(*edge).parent().is_some_and(|parent| !split.contains(&parent));
             let coarser_edges = Edge::ALL.iter().filter(|edge| coarser(edge)).fold(0, |mask, edge| mask | edge.bit());
             let tile = cache.tile(id)?;
-            let (detail, horizon) = (cache.detail(&tile), cache.nearest_horizon(id));
-            Some(Leaf { tile, coarser_edges, detail, horizon })
+            let mut shaded = id;
+            while let Some(parent) = shaded.parent().filter(|parent| !choice.shaded_finer.contains(parent)) {
+                shaded = parent;
+            }
+            let relief = reliefs.entry(shaded).or_insert_with(|| relief(shaded, cache));
+            let (relief, detail) = relief.clone().unwrap_or_else(|| (tile.clone(), None));
+            let horizon = cache.nearest_horizon(id);
+            Some(Leaf { tile, coarser_edges, relief, detail, horizon })
         })
         .collect()
+}
+
+/// The tile of a node that is to be shaded, and its detail or that of the nearest ancestor that has some.
+type Relief = (Arc<Tile>, Option<Arc<DetailTile>>);
+
+fn relief(id: NodeId, cache: &Cache) -> Option<Relief> {
+    let detail = |id: NodeId| cache.tile(id).and_then(|tile| cache.detail(&tile));
+    let detail = std::iter::successors(Some(id), |id| id.parent()).find_map(detail);
+    Some((cache.tile(id)?, detail))
 }

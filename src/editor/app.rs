@@ -12,13 +12,14 @@ use super::files::FileFlow;
 use super::handle::Action;
 use super::look;
 use super::menus;
-use super::panels::{Draft, PanelState};
+use super::painter::survey::Surveyor;
+use super::panels::{Draft, PanelState, Tab, biomes};
 use super::performance;
 use super::pictures::Pictures;
 use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
 use super::status;
-use super::viewport::Viewport;
+use super::viewport::{PainterLink, Viewport};
 use crate::planet::{Planet, shipped};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -34,6 +35,7 @@ pub struct EditorApp {
     pub(super) viewport: Viewport,
     pub(super) panels: PanelState,
     pub(super) files: FileFlow,
+    surveyor: Surveyor,
     pub(super) pictures: Pictures,
     pub(super) messages: Vec<Message>,
     pub(super) show_panel: bool,
@@ -68,6 +70,10 @@ impl EditorApp {
             viewport,
             panels: PanelState::default(),
             files: FileFlow::new(Box::new(NativeDialogs::default())),
+            surveyor: {
+                let ctx = cc.egui_ctx.clone();
+                Surveyor::new(move || ctx.request_repaint())
+            },
             pictures: Pictures::default(),
             messages: Vec::new(),
             show_panel: !panel_hidden,
@@ -140,7 +146,8 @@ impl EditorApp {
         if self.files.is_asking() {
             return;
         }
-        let typing = ctx.text_edit_focused();
+        // Letters and digits choose biomes while the table has the keys.
+        let typing = ctx.text_edit_focused() || biomes::has_keys(ctx);
         for (shortcut, command) in Command::all_shortcuts() {
             if !(typing && command.yields_to_text()) && ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
                 self.send(command);
@@ -246,21 +253,37 @@ impl eframe::App for EditorApp {
             let mut planet = (**self.document.planet()).clone();
             let mut label = None;
             let problems = [self.document.problems(), self.pictures.problems()].concat();
-            let mut browse = None;
+            let (mut browse, mut commands) = (None, Vec::new());
+            if self.panels.tab == Tab::Biomes {
+                self.surveyor.ask(self.document.valid_planet());
+            }
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
                 let under_pointer = self.viewport.under_pointer();
                 let (_, lon_deg) = self.viewport.eye(&planet).1.to_degrees();
-                let here = (lon_deg, self.viewport.settings.time_secs);
-                let planet = &mut planet;
-                let mut draft = Draft { planet, label: None, browse: None, problems: &problems, under_pointer, here };
+                let mut draft = Draft {
+                    planet: &mut planet,
+                    label: None,
+                    browse: None,
+                    problems: &problems,
+                    under_pointer,
+                    here: (lon_deg, self.viewport.settings.time_secs),
+                    survey: self.surveyor.survey(),
+                    commands: Vec::new(),
+                };
                 self.panels.show(ui, &mut draft);
                 label = draft.label;
                 browse = draft.browse;
+                commands = draft.commands;
             });
             self.edit(planet, label);
+            self.actions.extend(commands.into_iter().map(Action::Command));
             self.actions.extend(browse.map(Action::Browse));
         }
+        self.viewport.painter = match self.panels.tab {
+            Tab::Biomes if self.show_panel => self.panels.biomes.link(),
+            _ => PainterLink::default(),
+        };
         self.show_problems(ui);
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let mut planet = (**self.document.planet()).clone();
@@ -269,6 +292,12 @@ impl eframe::App for EditorApp {
                 ctx.request_repaint();
             }
         });
+        if let Some((click, under)) = self.viewport.take_click() {
+            let mut planet = (**self.document.planet()).clone();
+            let label = self.panels.biomes.clicked(&mut planet, click, &under);
+            self.edit(planet, label);
+            ctx.request_repaint();
+        }
         prompts::show(&ctx, self);
         performance::show(&ctx, self);
         self.settle(&ctx);

@@ -32,6 +32,8 @@ pub enum Command {
     Show(DebugView),
     AddBookmark,
     GoTo(u8),
+    ImportTable,
+    ExportTable,
 }
 
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
@@ -82,6 +84,8 @@ impl Command {
         Command::GoTo(6),
         Command::GoTo(7),
         Command::GoTo(8),
+        Command::ImportTable,
+        Command::ExportTable,
     ];
 
     /// The commands that go to the first bookmarks.
@@ -121,6 +125,8 @@ impl Command {
             Command::FreezeDetail => "Freeze detail",
             Command::Show(view) => view.label(),
             Command::AddBookmark => "Add bookmark",
+            Command::ImportTable => "Import biome table…",
+            Command::ExportTable => "Export biome table…",
             Command::GoTo(index) => {
                 const LABELS: [&str; 9] = [
                     "First bookmark",
@@ -176,6 +182,10 @@ impl Command {
             Command::Show(DebugView::Coverage) => "Show ground white and all else black.",
             Command::AddBookmark => "Keep this view in the preset.",
             Command::GoTo(_) => "Fly to this bookmark.",
+            Command::ImportTable => {
+                "Read a PNG, one pixel for each cell; colours go to the nearest of the palette, clear pixels stay."
+            }
+            Command::ExportTable => "Write the table as a PNG, one pixel for each cell in its biome's colour.",
         }
     }
 
@@ -203,7 +213,7 @@ impl Command {
             Command::TogglePanel => const { &[plain(Key::F9)] },
             Command::TogglePerformance => const { &[plain(Key::F8)] },
             Command::ToggleFullscreen => const { &[plain(Key::F11)] },
-            Command::ToggleTheme => &[],
+            Command::ToggleTheme | Command::ImportTable | Command::ExportTable => &[],
             Command::RandomPlanet => const { &[ctrl(Key::R)] },
             Command::Controls => const { &[plain(Key::F1), plain(Key::Questionmark)] },
             Command::Move(Mode::Orbit) => const { &[plain(Key::F2)] },

@@ -4,7 +4,7 @@ use super::command::Command;
 use eframe::egui;
 
 /// What is no command: held keys and the mouse.
-const GROUPS: [(&str, &[(&str, &str)]); 4] = [
+const GROUPS: [(&str, &[(&str, &str)]); 5] = [
     (
         "Mouse",
         &[
@@ -32,6 +32,16 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
             ("Z, C", "Roll to the left, to the right"),
             ("Arrow keys", "Look around"),
             ("Shift", "Five times as fast"),
+        ],
+    ),
+    (
+        "Biome table",
+        &[
+            ("A biome's letter, right click, Alt and click", "Choose that biome"),
+            ("[ ]", "Smaller, larger brush"),
+            ("Shift", "Straight lines, outlines of rectangles; fill everywhere; join brush strokes"),
+            ("Alt and click on the planet", "Paint the climate of that place"),
+            ("Escape", "End the selection"),
         ],
     ),
     ("Walk", &[("W A S D", "Walk; slower uphill"), ("Shift", "Run"), ("Space", "Jump"), ("Arrow keys", "Look around")]),

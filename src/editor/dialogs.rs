@@ -17,6 +17,18 @@ pub enum DialogRequest {
         /// Folder to begin in.
         folder: Option<PathBuf>,
     },
+    /// A picture of a biome table to read.
+    ImportTable {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+    },
+    /// A file to write the picture of a biome table to.
+    ExportTable {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// File name to offer.
+        file_name: String,
+    },
     /// A file to save to.
     SaveAs {
         /// Folder to begin in.
@@ -68,6 +80,7 @@ impl FileDialogs for NativeDialogs {
         }
         let presets = || rfd::AsyncFileDialog::new().add_filter("Planet presets", &["ron"]);
         let pictures = || rfd::AsyncFileDialog::new().add_filter("Pictures", &["png", "exr"]);
+        let tables = || rfd::AsyncFileDialog::new().add_filter("Pictures", &["png"]);
         let with_folder = |dialog: rfd::AsyncFileDialog, folder: Option<PathBuf>| match folder {
             Some(folder) => dialog.set_directory(folder),
             None => dialog,
@@ -80,6 +93,12 @@ impl FileDialogs for NativeDialogs {
             DialogRequest::Picture { folder } => {
                 Box::pin(with_folder(pictures(), folder).set_title("Choose a height map").pick_file())
             }
+            DialogRequest::ImportTable { folder } => {
+                Box::pin(with_folder(tables(), folder).set_title("Import biome table").pick_file())
+            }
+            DialogRequest::ExportTable { folder, file_name } => Box::pin(
+                with_folder(tables(), folder).set_title("Export biome table").set_file_name(file_name).save_file(),
+            ),
             DialogRequest::SaveAs { folder, file_name } => {
                 Box::pin(with_folder(presets(), folder).set_title("Save planet").set_file_name(file_name).save_file())
             }

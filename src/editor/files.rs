@@ -26,11 +26,15 @@ pub enum Goal {
 }
 
 /// The dialog that is open.
-enum Asking {
+pub(super) enum Asking {
     Open,
     SaveAs,
     /// A picture for the parameter there.
     Picture(ParamPath),
+    /// A biome table to import.
+    ImportTable,
+    /// A file for the biome table.
+    ExportTable,
 }
 
 /// The state of opening and saving.
@@ -144,7 +148,7 @@ impl EditorApp {
     }
 
     /// Opens a dialog, or says why there is none.
-    fn ask(&mut self, ctx: &egui::Context, asking: Asking, request: DialogRequest) {
+    pub(super) fn ask(&mut self, ctx: &egui::Context, asking: Asking, request: DialogRequest) {
         match self.files.dialogs.start(request, waker(ctx)) {
             Ok(()) => self.files.asking = Some(asking),
             Err(why) => {
@@ -188,6 +192,8 @@ impl EditorApp {
                 self.save_to(ctx, if path.extension().is_none() { path.with_extension("ron") } else { path });
             }
             (Some(Asking::Picture(place)), Some(file)) => self.choose_file(&place, &file),
+            (Some(Asking::ImportTable), Some(file)) => self.import_table(&file),
+            (Some(Asking::ExportTable), Some(file)) => self.export_table(&file),
             (_, None) => self.files.after_save = None,
             (None, Some(_)) => {}
         }

@@ -116,6 +116,8 @@ impl EditorApp {
             Command::FreezeDetail => self.viewport.settings.freeze_detail ^= true,
             Command::Show(view) => self.viewport.settings.debug_view = view,
             Command::AddBookmark => self.add_bookmark(),
+            Command::ImportTable => self.ask_for_table(ctx, true),
+            Command::ExportTable => self.ask_for_table(ctx, false),
             Command::GoTo(index) => self.go_to_bookmark(usize::from(index)),
         }
     }

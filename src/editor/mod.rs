@@ -7,6 +7,7 @@
 //! - [`viewport`]: the picture, the camera, the measurements
 //! - [`pictures`]: pictures of height maps, read in the background
 //! - [`bookmarks`]: views kept in the preset
+//! - [`painter`]: painting the biome table, apart from any widget; `table_files`: import and export
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
 //! - [`menus`], [`status`], [`controls`], [`performance`], [`look`]: the rest of the window
 
@@ -22,12 +23,14 @@ pub mod handle;
 pub mod history;
 pub mod look;
 pub mod menus;
+pub mod painter;
 pub mod panels;
 pub mod performance;
 pub mod pictures;
 pub mod prompts;
 pub mod recovery;
 pub mod status;
+mod table_files;
 pub mod viewport;
 pub mod widgets;
 

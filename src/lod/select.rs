@@ -1,83 +1,102 @@
-//! Whether a node is fine enough: screen-space error, and the distances between which levels blend.
+//! Whether a node must be split: if any vertex of its children would show by then ([`super::range`]).
 //!
-//! A node's error is taken as half its vertex spacing: a surface of slope 1 can leave the chord between two vertices by
-//! that much. It is projected at the nearest point of the node, so each level has one distance inside which it is
-//! split, and each level's distance is half the one before.
+//! How far the children deviate from a node is foreseen from how far the node's own vertices deviate from its parent: relief that
+//! keeps its slope deviates half as much from level to level, smooth ground a quarter. The distance at which a vertex appears goes
+//! by what was foreseen, so a node that is not split lacks nothing that would show, whatever its children would be like.
 
-use super::{Culling, Quality, View};
-use crate::lod::tile::{TILE_QUADS, TILE_SIDE, Tile};
+use super::chords::chords;
+use super::range::Ranges;
+use super::{Culling, View};
+use crate::lod::tile::{BLOCK_QUADS, BLOCKS_SIDE, Block, TILE_SIDE, Tile};
 use crate::sphere::NodeId;
-
-/// A node nearer than this many of its vertex spacings is always split, however small the picture: the blend between
-/// levels ([`morph_range_m`]) relies on nodes being small against their distance.
-const LEAST_DISTANCE_SPACINGS: f64 = 48.0;
+use glam::DVec3;
+use std::collections::HashSet;
 
 /// Nodes a little outside the picture are refined too, so that a turn of the head shows no coarse ground.
 const FRUSTUM_MARGIN: f64 = 1.15;
+/// And so are those a little farther away than they must be: the eye goes on while tiles are built.
+const DISTANCE_MARGIN: f64 = 1.03;
+/// A node that is split stays so until the errors that split it have become so many times smaller.
+const HYSTERESIS: f64 = 1.4;
 
 /// Decides for one view which nodes must be split.
-#[derive(Clone, Debug)]
-pub struct Selection {
+pub struct Selection<'a> {
     culling: Culling,
-    view: View,
-    radius_m: f64,
+    eye_planet_m: DVec3,
+    ranges: Ranges,
+    /// Nodes that are split in what is shown.
+    shown: Option<&'a HashSet<NodeId>>,
 }
 
-impl Selection {
-    /// For a view of a planet of this radius, whose ground or sea nowhere lies lower than `lowest_radius_m`.
-    pub fn new(view: &View, radius_m: f64, lowest_radius_m: f64) -> Self {
-        Self { culling: Culling::widened(view, lowest_radius_m, FRUSTUM_MARGIN), view: *view, radius_m }
+impl<'a> Selection<'a> {
+    /// For a view of a planet whose ground or sea nowhere lies lower than `lowest_radius_m`.
+    pub fn new(view: &View, ranges: &Ranges, lowest_radius_m: f64, shown: Option<&'a HashSet<NodeId>>) -> Self {
+        let culling = Culling::widened(view, lowest_radius_m, FRUSTUM_MARGIN);
+        Self { culling, eye_planet_m: view.camera.position_planet_m, ranges: *ranges, shown }
     }
 
     /// Whether the tile is too coarse for the view.
     pub fn wants_split(&self, tile: &Tile) -> bool {
-        let level = tile.id.level;
-        level < NodeId::MAX_LEVEL
-            && self.is_within(tile, split_distance_m(level, self.radius_m, &self.view))
-            && self.culling.sees(tile)
-    }
-
-    /// Whether any of the tile is nearer than a distance: by its bounding sphere, then by every eighth vertex
-    /// and what may lie around it.
-    fn is_within(&self, tile: &Tile, distance_m: f64) -> bool {
-        const STRIDE: usize = 8;
-        let eye = self.view.camera.position_planet_m;
-        if eye.distance(tile.center_planet_m) - tile.bounding_radius_m >= distance_m {
+        if tile.id.level >= NodeId::MAX_LEVEL {
             return false;
         }
-        let between_m = spacing_rad(tile.id.level) * self.radius_m * STRIDE as f64 * std::f64::consts::FRAC_1_SQRT_2;
-        let reach_m = distance_m + between_m;
-        (0..TILE_SIDE).step_by(STRIDE).any(|y| {
-            (0..TILE_SIDE).step_by(STRIDE).any(|x| {
-                let vertex = &tile.vertices[y * TILE_SIDE + x];
-                vertex.position_planet_m().distance_squared(eye) < reach_m * reach_m
-            })
+        let factor = if self.shown.is_some_and(|shown| shown.contains(&tile.id)) { HYSTERESIS } else { 1.0 };
+        let level = tile.id.level + 1;
+        let reach_m = |foreseen_m: f32| self.ranges.begin_m(level, f64::from(foreseen_m) * factor) * DISTANCE_MARGIN;
+        self.is_within(tile, &reach_m) && self.culling.sees(tile)
+    }
+
+    /// Whether what is shaded must be finer than the tile's detail.
+    pub fn wants_finer_detail(&self, tile: &Tile) -> bool {
+        let level = tile.id.level + 1;
+        level <= NodeId::MAX_LEVEL && self.is_within(tile, &|_| self.ranges.always_m(level))
+    }
+
+    /// Whether the picture shows any of it.
+    pub fn sees(&self, tile: &Tile) -> bool {
+        self.culling.sees(tile)
+    }
+
+    /// Whether any vertex of the tile, or what its children may have beside it, is nearer than a distance that depends on what is
+    /// foreseen in its block.
+    fn is_within(&self, tile: &Tile, reach_m: &dyn Fn(f32) -> f64) -> bool {
+        let most_m = tile.blocks.iter().map(|block| block.foreseen_m).fold(0.0, f32::max);
+        if self.eye_planet_m.distance(tile.center_planet_m) - tile.bounding_radius_m >= reach_m(most_m) {
+            return false;
+        }
+        let away_m = |i: usize| tile.vertices[i].position_planet_m().distance(self.eye_planet_m);
+        let beside_m = 0.7 * self.ranges.spacing_m(tile.id.level);
+        tile.blocks.iter().enumerate().any(|(i, block)| {
+            let first = i / BLOCKS_SIDE * BLOCK_QUADS * TILE_SIDE + i % BLOCKS_SIDE * BLOCK_QUADS;
+            let (reach_m, radius_m) = (reach_m(block.foreseen_m), f64::from(block.radius_m));
+            let middle_m = away_m(first + BLOCK_QUADS / 2 * (TILE_SIDE + 1));
+            let mut rows = (0..=BLOCK_QUADS).map(|y| first + y * TILE_SIDE);
+            middle_m < reach_m
+                || (middle_m - radius_m < reach_m
+                    && rows.any(|row| (row..=row + BLOCK_QUADS).any(|i| away_m(i) - beside_m < reach_m)))
         })
     }
 }
 
-/// Angle between neighbouring vertices of a level (nominal).
-pub fn spacing_rad(level: u8) -> f64 {
-    std::f64::consts::FRAC_PI_2 / (TILE_QUADS as f64 * f64::from(1_u32 << level))
-}
-
-/// Distance from the eye inside which a node of a level is split.
-pub fn split_distance_m(level: u8, radius_m: f64, view: &View) -> f64 {
-    let spacing_px = match view.quality {
-        Quality::Low => 16.0,
-        Quality::Medium => 6.0,
-        Quality::High => 2.5,
-    };
-    let focal_px = f64::from(view.size_px[1]) * 0.5 / (view.camera.fov_y_rad * 0.5).tan();
-    spacing_rad(level) * radius_m * (focal_px / spacing_px).max(LEAST_DISTANCE_SPACINGS)
-}
-
-/// Distances from the eye between which a tile of a level blends into what its parent would show there: start and end,
-/// in metres. At the end it is the parent's.
-pub fn morph_range_m(level: u8, radius_m: f64, view: &View) -> (f64, f64) {
-    if level == 0 {
-        return (1e30, 2e30);
+/// What is to be foreseen for the children of a tile whose vertices carry their deviations, block by block; `level`: the tile's.
+pub(crate) fn foresee(level: u8, deviations_m: &[f32], blocks: &mut [Block]) {
+    for block in blocks.iter_mut() {
+        // Nothing is known of level 0: it stands out from no parent.
+        block.foreseen_m = if level == 0 { UNKNOWN_M } else { 0.0 };
     }
-    let end_m = split_distance_m(level - 1, radius_m, view);
-    (0.7 * end_m, end_m)
+    // Level by level half: what a child's vertex sees of the two ends of its chord.
+    for chord in chords(false).iter().filter(|chord| chord.stride <= 2 && u16::from(level) >= chord.stride) {
+        let share = if chord.stride == 1 { 0.5 } else { 0.25 };
+        let foreseen_m = deviations_m[usize::from(chord.vertex)].abs() * share;
+        let (x, y) = (usize::from(chord.vertex) % TILE_SIDE, usize::from(chord.vertex) / TILE_SIDE);
+        // A vertex between blocks belongs to all of them.
+        let of = |w: usize| [w.saturating_sub(1) / BLOCK_QUADS, (w / BLOCK_QUADS).min(BLOCKS_SIDE - 1)];
+        for (bx, by) in of(y).into_iter().flat_map(|by| of(x).map(|bx| (bx, by))) {
+            let block = &mut blocks[by * BLOCKS_SIDE + bx];
+            block.foreseen_m = block.foreseen_m.max(foreseen_m);
+        }
+    }
 }
+
+/// Stands for an error that nothing is known of: more than any planet is large.
+pub(crate) const UNKNOWN_M: f32 = 1e12;

@@ -19,15 +19,26 @@ pub const DETAIL_SIDE: usize = 4 * TILE_QUADS + 1;
 /// interpolation between. What is finer than twice the texel spacing is faded out.
 #[derive(Debug)]
 pub struct DetailTile {
+    /// The node.
+    pub id: NodeId,
     /// Different for any two ever built.
     pub serial: u64,
     /// [`Tile::heights_serial`] of the tile whose ground it shows.
     pub heights_serial: u64,
     /// Rise over run along two tangents of the sphere, as [`slope_basis`] has them at each point (the normal is along
-    /// `up - x * east - y * north`); and the same as the parent's would have it.
+    /// `up - x * east - y * north`); and the same as the parent's detail shows it.
     pub slopes: Vec<[half::f16; 4]>,
-    /// Height of the ground above the mesh, metres.
-    pub rise_m: Vec<half::f16>,
+    /// The height that [`DetailTile::heights`] count from, metres.
+    pub base_m: f32,
+    /// Height in metres as the sum of the first two; the third is how much higher the parent's detail shows it.
+    pub heights: Vec<[half::f16; 4]>,
+}
+
+impl DetailTile {
+    /// Resident size.
+    pub fn bytes(&self) -> usize {
+        self.slopes.len() * size_of::<[half::f16; 4]>() + self.heights.len() * size_of::<[half::f16; 4]>()
+    }
 }
 
 /// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's
@@ -46,7 +57,7 @@ pub fn slope_axis(face: Face) -> DVec3 {
     along
 }
 
-/// One vertex, 44 bytes.
+/// One vertex, 52 bytes.
 ///
 /// The position in the planet frame is `high + low`: each component is an f64 split into two f32. A shader that
 /// computes `(high - eye_high) + (low - eye_low)` gets the position relative to the eye without loss, and the same bits
@@ -71,6 +82,11 @@ pub struct Vertex {
     pub normal_oct: [i16; 2],
     /// The same as the parent tile would have it here: blend to it with distance, so that no level change shows.
     pub parent_normal_oct: [i16; 2],
+    /// How far it stands above the chord that is drawn in its place before it appears ([`crate::lod::chords`]), along its
+    /// vertical; 0 for a vertex of level 0.
+    pub deviation_m: f32,
+    /// How large that was to be expected from the level before: see [`crate::lod::select`].
+    pub foreseen_m: f32,
 }
 
 impl Vertex {
@@ -78,6 +94,20 @@ impl Vertex {
     pub fn position_planet_m(&self) -> DVec3 {
         DVec3::from_array(self.position_high_m.map(f64::from)) + DVec3::from_array(self.position_low_m.map(f64::from))
     }
+}
+
+/// Quads along a side of one of the blocks that a tile's bounds are known for.
+pub const BLOCK_QUADS: usize = 8;
+/// Blocks along a tile's side.
+pub const BLOCKS_SIDE: usize = TILE_QUADS / BLOCK_QUADS;
+
+/// A square part of a tile.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Block {
+    /// Distance of the farthest vertex from the one in the middle.
+    pub radius_m: f32,
+    /// The greatest [`Vertex::foreseen_m`] that a child's vertex in it would have.
+    pub foreseen_m: f32,
 }
 
 /// The finished mesh of a node.
@@ -97,26 +127,8 @@ pub struct Tile {
     pub max_height_m: f64,
     /// Centre of the bounding sphere in the planet frame.
     pub center_planet_m: DVec3,
-    /// Radius of the bounding sphere.
+    /// Radius of the bounding sphere, around all vertices whether they have come out or not.
     pub bounding_radius_m: f64,
-}
-
-impl Tile {
-    /// Height of the mesh at a place within the node, 0 to 1 along both sides: on the triangle that is drawn there (see
-    /// [`crate::lod::stitch`]; stitched edges are not considered).
-    pub fn mesh_height_m(&self, u: f64, v: f64) -> f64 {
-        let quad = |w: f64| ((w * TILE_QUADS as f64) as usize).min(TILE_QUADS - 1);
-        let (x, y) = (quad(u), quad(v));
-        let (u, v) = (u * TILE_QUADS as f64 - x as f64, v * TILE_QUADS as f64 - y as f64);
-        let at = |dx: usize, dy: usize| f64::from(self.vertices[(y + dy) * TILE_SIDE + x + dx].height_m);
-        // The diagonal goes from the middle of a block of two by two quads to its corner.
-        if (x + y).is_multiple_of(2) {
-            let (corner, along, side) = if u > v { (at(1, 0), u, v) } else { (at(0, 1), v, u) };
-            at(0, 0) + along * (corner - at(0, 0)) + side * (at(1, 1) - corner)
-        } else if u + v < 1.0 {
-            at(0, 0) + u * (at(1, 0) - at(0, 0)) + v * (at(0, 1) - at(0, 0))
-        } else {
-            at(1, 1) + (1.0 - u) * (at(0, 1) - at(1, 1)) + (1.0 - v) * (at(1, 0) - at(1, 1))
-        }
-    }
+    /// [`BLOCKS_SIDE`] rows of as many.
+    pub blocks: [Block; BLOCKS_SIDE * BLOCKS_SIDE],
 }

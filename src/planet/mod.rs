@@ -3,7 +3,7 @@
 //! - [`param`]: one description for each parameter and the visitor that reaches them all
 //! - [`layers`], [`shapes`], [`masks`], [`parts`], [`biome`], [`table`]: the preset's data (terrain layers; their kinds; where
 //!   they act; everything else; one kind of ground; the biome table); `kinds` writes the enums whose values carry parameters
-//! - `airs`, `star_color`: atmospheres to start from; the colour of a star by its temperature
+//! - `airs`, `tables`, `star_color`: atmospheres and biome tables to start from; the colour of a star by its temperature
 //! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
 //! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
 //! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
@@ -33,6 +33,7 @@ pub mod shapes;
 pub mod shipped;
 mod star_color;
 pub mod table;
+mod tables;
 pub(crate) mod text;
 pub mod validate;
 
@@ -42,7 +43,7 @@ pub use file::{LoadError, Problem, SaveError};
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
-pub use parts::{Atmosphere, Biomes, Climate, Clouds, Star, TableRows, Water};
+pub use parts::{Atmosphere, Biomes, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
@@ -50,6 +51,7 @@ pub use shapes::{
 };
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
+pub use tables::{STARTING_TABLES, StartingTable};
 
 use param::{Curve, Domain, ParamPath, Params, Stage, Unit, choice, log, params};
 use serde::{Deserialize, Serialize};

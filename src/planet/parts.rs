@@ -51,6 +51,16 @@ choice! {
     }
 }
 
+choice! {
+    /// What lies between the middles of two cells of the biome table.
+    pub enum TableBlend {
+        /// One ground passes into the other over the width of a cell.
+        Linear = "Linear",
+        /// One ground ends where the other begins.
+        Crisp = "Crisp",
+    }
+}
+
 params! {
     /// The look-up table that turns climate into ground: rows of one-letter keys over a palette of named biomes.
     pub struct Biomes {
@@ -64,6 +74,11 @@ params! {
         lowest_m: f64 = 0.0, "Lowest", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate;
         /// Height above the sea (or the reference sphere) of the first row, when rows are elevations.
         highest_m: f64 = 6000.0, "Highest", Unit::Metres, linear(-50_000.0, 100_000.0), Stage::Climate;
+        /// What lies between the middles of two cells: a passage (Linear) or a border (Crisp).
+        blend: TableBlend = TableBlend::Linear, "Blending", Unit::None, Domain::Choice, Stage::Uniform;
+        /// How far noise moves the borders between biomes to and fro, so that neither the table's grid nor lines of
+        /// equal climate show on the ground; 1 is up to about half a cell.
+        border_jitter: f64 = 1.0, "Border jitter", Unit::None, linear(0.0, 4.0), Stage::Uniform;
         /// Slope at which bare rock begins to show through the biomes that share it.
         cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Slope from which there is only bare rock.

@@ -21,21 +21,49 @@ const PATCHES_PER_TILE: f64 = 4.0;
 const FINE: f64 = 0.31;
 const TURN: f64 = 5.0;
 
+/// Cells of the biome table whose places on the planet light up.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MarkedCells {
+    columns: usize,
+    cells: Vec<bool>,
+}
+
+impl MarkedCells {
+    /// The cells of a table of this size for which `is_marked` (column, row) holds.
+    pub fn new(columns: usize, rows: usize, is_marked: impl Fn(usize, usize) -> bool) -> Self {
+        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        Self { columns, cells: cells.map(|(column, row)| is_marked(column, row)).collect() }
+    }
+
+    /// Whether a cell is marked; none is outside the table.
+    pub fn contains(&self, column: usize, row: usize) -> bool {
+        column < self.columns && self.cells.get(row * self.columns + column).copied().unwrap_or(false)
+    }
+
+    /// How many are marked.
+    pub fn count(&self) -> usize {
+        self.cells.iter().filter(|marked| **marked).count()
+    }
+}
+
 /// The texels of both textures.
 #[derive(PartialEq)]
 pub(crate) struct BiomeTexels {
     size_px: [u32; 2],
-    /// Index into the palette, row by row.
-    ids: Vec<u8>,
+    /// Index into the palette and, beside it, 255 in cells that are marked; row by row.
+    ids: Vec<[u8; 2]>,
     /// See the shader.
     params: Vec<[f32; 4]>,
 }
 
 impl BiomeTexels {
-    pub(crate) fn new(biomes: &Biomes) -> Self {
+    pub(crate) fn new(biomes: &Biomes, marked: Option<&MarkedCells>) -> Self {
         let (columns, rows) = (biomes.table.columns().max(1), biomes.table.rows().len().max(1));
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
-        let id = |(column, row)| biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).unwrap_or(0) as u8;
+        let id = |(column, row)| {
+            let index = biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).unwrap_or(0);
+            [index as u8, if marked.is_some_and(|marked| marked.contains(column, row)) { 255 } else { 0 }]
+        };
         let mut params = vec![[0.0; 4]; COLUMNS * ROWS];
         let mut put = |column: usize, numbers: [[f64; 4]; ROWS]| {
             for (row, numbers) in numbers.into_iter().enumerate() {
@@ -127,7 +155,7 @@ impl BiomeTextures {
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
         let textures = Self {
-            ids: make(texels.size_px, wgpu::TextureFormat::R8Unorm),
+            ids: make(texels.size_px, wgpu::TextureFormat::Rg8Unorm),
             params: make([COLUMNS as u32, ROWS as u32], wgpu::TextureFormat::Rgba32Float),
         };
         textures.write(queue, texels);
@@ -142,7 +170,8 @@ impl BiomeTextures {
     /// Replaces what is in them.
     pub(crate) fn write(&self, queue: &wgpu::Queue, texels: &BiomeTexels) {
         let params = (&self.params, [COLUMNS as u32, ROWS as u32], 16, bytemuck::cast_slice(&texels.params));
-        for (view, [width, height], texel_bytes, data) in [(&self.ids, texels.size_px, 1, &texels.ids[..]), params] {
+        let ids = (&self.ids, texels.size_px, 2, texels.ids.as_flattened());
+        for (view, [width, height], texel_bytes, data) in [ids, params] {
             let layout = wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(width * texel_bytes),

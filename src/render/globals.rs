@@ -3,8 +3,9 @@
 use super::biome_table::{WRAP_FAR_M, WRAP_M};
 use super::{DebugView, Frame, Tone, gpu};
 use crate::lod::Quality;
-use crate::planet::{Planet, TableRows};
-use glam::{DMat3, DVec3, Mat4};
+use crate::planet::{Planet, TableBlend, TableRows};
+use crate::terrain::border::{self, OCTAVE_TURN};
+use glam::{DVec3, Mat4};
 use std::f64::consts::{PI, TAU};
 
 /// Waves that are summed up for the sea near the eye.
@@ -50,6 +51,8 @@ struct Globals {
     modes: [u32; 4],
     chosen_eye_high_m: [f32; 4],
     chosen_eye_low_m: [f32; 4],
+    border: [[f32; 4]; border::OCTAVES],
+    table: [f32; 4],
 }
 
 /// What of a frame is not in [`Frame`].
@@ -64,6 +67,8 @@ pub(crate) struct Setup {
     pub(crate) weather_side_px: u32,
     /// Whether the target encodes sRGB by itself.
     pub(crate) srgb_target: bool,
+    /// Whether cells of the biome table are marked: clouds would hide the places that light up.
+    pub(crate) marked: bool,
     /// Which curve makes the picture.
     pub(crate) tone: Tone,
 }
@@ -165,7 +170,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     let view_from_rel = Mat4::from_quat(camera.planet_from_view.inverse().as_quat());
     let chosen = frame.frozen.as_ref().unwrap_or(&frame.view);
     let (high, low) = high_low(eye);
-    let (chosen_high, chosen_low) = high_low(chosen.camera.position_planet_m);
+    let (chosen_high, chosen_low) = high_low(frame.surface.morphing_eye_m(chosen.camera.position_planet_m));
     let turn = |v: DVec3| camera.planet_from_view * v;
 
     let star = &planet.star;
@@ -211,7 +216,19 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     g.modes = [view, setup.scale, u32::from(setup.srgb_target), setup.tone as u32];
     g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
+    set_table(&mut g, planet, up * radius_m, setup.marked);
     g
+}
+
+/// The biome table's borders. `foot_m`: the point of the reference sphere under the eye.
+fn set_table(g: &mut Globals, planet: &Planet, foot_m: DVec3, marked: bool) {
+    let mut place_m = foot_m;
+    for (slot, period_m) in g.border.iter_mut().zip(border::periods_m(planet.radius_m())) {
+        *slot = vec4(wrapped(place_m / period_m), period_m);
+        place_m = OCTAVE_TURN * place_m;
+    }
+    let flag = |on: bool| f32::from(u8::from(on));
+    g.table = [planet.biomes.border_jitter as f32, flag(planet.biomes.blend == TableBlend::Crisp), flag(marked), 0.0];
 }
 
 /// By how much the row of the biome table changes with each metre of height, 0 to 1 over the whole table. It falls where rows
@@ -281,12 +298,9 @@ const CLOUD_BANDS: usize = 6;
 /// The band whose tile holds four puffs along its side.
 const CLOUD_PUFF_BAND: i32 = 3;
 const CLOUD_BAND_RATIO: f64 = 3.3;
-/// From one octave of a tiled noise to the next; the same as in `mottle.wgsl` and `cloud_model.wgsl`.
-const OCTAVE_TURN: DMat3 =
-    DMat3::from_cols(DVec3::new(0.36, -0.8, 0.48), DVec3::new(0.48, 0.6, 0.64), DVec3::new(-0.8, 0.0, 0.6));
 
 fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup) {
-    let Some(clouds) = &planet.clouds else { return };
+    let Some(clouds) = planet.clouds.as_ref().filter(|_| !setup.marked) else { return };
     let steps = match frame.view.quality {
         Quality::Low => 7.0,
         Quality::Medium => 16.0,

@@ -143,16 +143,25 @@ fn ranks(values: &[f32]) -> Vec<f32> {
     values.iter().map(|v| middle(bin(*v))).collect()
 }
 
-/// Rise over run along both sides.
+/// Rise over run along both sides, as far as it is stored, and none on the whole: seen from far away, no pattern leans.
 fn slopes(spots: &[Spot]) -> Vec<[f32; 2]> {
     let height = |x: usize, y: usize| spots[(y % SIDE) * SIDE + x % SIDE].height;
     let per_run = 0.5 * SIDE as f32;
-    (0..spots.len())
+    let mut slopes: Vec<[f32; 2]> = (0..spots.len())
         .map(|i| {
             let (x, y) = (i % SIDE + SIDE, i / SIDE + SIDE);
             [(height(x + 1, y) - height(x - 1, y)) * per_run, (height(x, y + 1) - height(x, y - 1)) * per_run]
         })
-        .collect()
+        .collect();
+    // What is cut off on one side is not on the other; cut off again, it hardly matters.
+    for _ in 0..3 {
+        for axis in 0..2 {
+            let limited = |slope: &[f32; 2]| slope[axis].clamp(-STEEPEST, STEEPEST);
+            let mean = (slopes.iter().map(|slope| f64::from(limited(slope))).sum::<f64>() / slopes.len() as f64) as f32;
+            slopes.iter_mut().for_each(|slope| slope[axis] = limited(slope) - mean);
+        }
+    }
+    slopes
 }
 
 /// The mip levels: means of two by two, rounded only when stored.

@@ -3,6 +3,7 @@
 //! One frame, pass by pass; each file is named like its shader in `shaders/`:
 //! - `tables` with `air_tables`, `cloud_map`, `biome_table`, `noise_tile`, `material_maps` (of `material_kinds`, by
 //!   `material_noise`): what outlives a frame, made anew only when what it depends on changed
+//! - `morph`: how far vertices have come out of the coarser mesh
 //! - `terrain` with `pool`, and `layer_pool` for `detail_pool` and `horizon_pool`: the ground into radiance and depth
 //! - `water`: the sea over it
 //! - `clouds`: their light, transmittance and distance
@@ -18,6 +19,7 @@
 mod air;
 mod air_tables;
 mod biome_table;
+mod border_tile;
 mod cloud_map;
 mod clouds;
 mod detail_pool;
@@ -29,6 +31,7 @@ mod layer_pool;
 mod material_kinds;
 mod material_maps;
 mod material_noise;
+mod morph;
 mod noise_tile;
 mod pool;
 mod scene_pass;
@@ -41,6 +44,7 @@ mod tone;
 mod tonemap;
 mod water;
 
+pub use biome_table::MarkedCells;
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
@@ -50,6 +54,7 @@ use crate::build::Surface;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// What is drawn of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -161,6 +166,7 @@ pub struct FrameStats {
 pub(crate) struct Passes {
     air_tables: air_tables::AirTablesPass,
     cloud_map: cloud_map::CloudMapPass,
+    morph: morph::MorphPass,
     terrain: terrain::TerrainPass,
     water: water::WaterPass,
     clouds: clouds::CloudsPass,
@@ -179,6 +185,7 @@ impl Passes {
         Ok(Self {
             air_tables: air_tables::AirTablesPass::new(device, globals, tables)?,
             cloud_map: cloud_map::CloudMapPass::new(device, globals)?,
+            morph: morph::MorphPass::new(device)?,
             terrain: terrain::TerrainPass::new(device, globals, tables)?,
             water: water::WaterPass::new(device, globals, tables)?,
             clouds: clouds::CloudsPass::new(device, globals, tables)?,
@@ -215,6 +222,8 @@ impl Inputs {
 pub struct Renderer {
     /// Whether exposure is set by hand or by what there is to see.
     pub metering: Metering,
+    /// Cells of the biome table whose places light up; clouds are left away meanwhile.
+    pub marked: Option<Arc<MarkedCells>>,
     /// The curve from radiance to the picture.
     pub tone: Tone,
     target_format: wgpu::TextureFormat,
@@ -248,6 +257,7 @@ impl Renderer {
         let (targets, watch, shader_error) = (None, shaders::Watch::new(), None);
         Ok(Self {
             metering: Metering::Manual,
+            marked: None,
             tone: Tone::default(),
             target_format,
             globals,
@@ -303,13 +313,15 @@ impl Renderer {
             height_range_m,
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: self.target_format.is_srgb(),
+            marked: self.marked.is_some(),
             tone: self.tone,
         };
         self.globals.write(queue, frame, &setup);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
+        self.terrain.morph(&mut encoder, &self.passes.morph);
         let globals = &self.globals.group;
-        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet);
+        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet, self.marked.as_ref());
         let groups = [globals, self.tables.group()];
 
         let stats = self.terrain.draw(&mut encoder, &self.passes.terrain, groups, &targets, frame.debug_view);
@@ -319,7 +331,8 @@ impl Renderer {
                 self.passes.water.draw(&mut encoder, groups, &inputs.water[scene], &targets, scene);
                 scene = 1 - scene;
             }
-            if frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) {
+            let cloudy = frame.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0);
+            if cloudy && self.marked.is_none() {
                 self.passes.clouds.draw(&mut encoder, groups, &inputs.clouds[scene], &targets);
             }
             self.passes.air.draw(&mut encoder, groups, &inputs.air[scene], &targets, scene);

@@ -6,8 +6,8 @@ use std::collections::HashMap;
 use std::num::NonZeroU64;
 use wgpu::util::StagingBelt;
 
-/// Tiles in one buffer: 12 MB.
-const SLOTS: u32 = 256;
+/// Tiles in one buffer: 14 MB.
+pub(crate) const SLOTS: u32 = 256;
 /// Tiles that have not been asked for in so many rounds may lose their slots. A frame that uploads ahead and draws is two.
 const KEPT_ROUNDS: u64 = 4;
 /// Bytes of one chunk of staging memory.
@@ -120,7 +120,7 @@ impl TilePool {
             self.buffers.push(device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("tiles"),
                 size: u64::from(SLOTS) * TILE_BYTES,
-                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }));
             let first = |slot: u32| slot as i32 * TILE_VERTICES as i32;

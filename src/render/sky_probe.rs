@@ -6,7 +6,7 @@ use super::scene_pass::ScenePass;
 use super::{DebugView, Frame, RenderError, Renderer, globals, tables};
 use crate::atmosphere::SkyRay;
 use crate::build::{BuildStats, Surface};
-use crate::lod::{Camera, Quality, View};
+use crate::lod::{Camera, Quality, Ranges, View};
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
@@ -46,7 +46,7 @@ impl Renderer {
         let outputs = ["radiance", "transmittance"].map(|label| output(device, label, columns));
         let views = outputs.each_ref().map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sky probe") });
-        self.tables.update(device, queue, &mut encoder, &self.globals.group, &self.passes, planet);
+        self.tables.update(device, queue, &mut encoder, &self.globals.group, &self.passes, planet, None);
         let groups = [&self.globals.group, self.tables.group()];
         pass.draw(&mut encoder, groups, &pass.bind(device, &[&input]), &[&views[0], &views[1]]);
         let buffers = outputs.each_ref().map(|texture| copied(device, &mut encoder, texture));
@@ -60,13 +60,15 @@ impl Renderer {
     fn write_globals(&mut self, queue: &wgpu::Queue, planet: &Planet, quality: Quality) {
         let terrain = Arc::new(Terrain::new(Arc::new(planet.clone())));
         let (asked, stats) = (Instant::now(), BuildStats::default());
-        let surface = Surface { terrain, leaves: Vec::new(), complete: true, asked, stats };
         let place = LatLon::from_degrees(0.0, 0.0);
         let camera = Camera::over(place, planet.radius_m() * 2.0, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
+        let view = View { camera, size_px: [1, 1], quality };
+        let ranges = Ranges::new(&view, planet.radius_m(), 1.0);
+        let surface = Surface { terrain, leaves: Vec::new(), complete: true, view, ranges, asked, stats };
         let frame = Frame {
             surface: &surface,
             planet,
-            view: View { camera, size_px: [1, 1], quality },
+            view,
             frozen: None,
             sun_dir_planet: DVec3::X,
             time_secs: 0.0,
@@ -79,6 +81,7 @@ impl Renderer {
             height_range_m: (0.0, 0.0),
             weather_side_px: tables::WEATHER_SIDE_PX,
             srgb_target: false,
+            marked: false,
             tone: super::Tone::Plain,
         };
         self.globals.write(queue, &frame, &setup);

@@ -1,10 +1,13 @@
 //! What outlives a frame: the tables of the air, the weather map, the noise tile, the patterns of the ground and the biomes. Each is made again
 //! only when what it depends on has changed.
 
+use super::border_tile;
 use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
 use super::{Passes, biome_table, cloud_map, noise_tile};
 use crate::planet::{Atmosphere, Biomes, Planet};
+use biome_table::MarkedCells;
+use std::sync::Arc;
 
 /// Format of the tables: filterable and wide enough for radiance.
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -36,13 +39,14 @@ pub(crate) struct Tables {
     /// Optical depth, multiple scattering, irradiance, sky.
     air: [wgpu::TextureView; 4],
     weather: cloud_map::WeatherMap,
-    noise: wgpu::TextureView,
+    /// The noise of the ground and the clouds, and that of the borders between biomes.
+    noise: [wgpu::TextureView; 2],
     biomes: biome_table::BiomeTextures,
     materials: MaterialMaps,
     groups: Groups,
     air_key: Option<AirKey>,
     weather_key: Option<WeatherKey>,
-    biome_key: Option<Biomes>,
+    biome_key: Option<(Biomes, Option<Arc<MarkedCells>>)>,
     biome_texels: biome_table::BiomeTexels,
     runs: TableRuns,
 }
@@ -70,6 +74,7 @@ impl Tables {
                 Slot::Unfiltered2d,
                 Slot::Float2dArray,
                 Slot::Float2dArray,
+                Slot::Float3d,
             ],
         );
         let air = [
@@ -79,8 +84,8 @@ impl Tables {
             gpu::target(device, "sky", [64, 32], FORMAT),
         ];
         let weather = cloud_map::texture(device);
-        let noise = noise_tile::upload(device, queue);
-        let biome_texels = biome_table::BiomeTexels::new(&Biomes::default());
+        let noise = [noise_tile::upload(device, queue), border_tile::upload(device, queue)];
+        let biome_texels = biome_table::BiomeTexels::new(&Biomes::default(), None);
         let biomes = biome_table::BiomeTextures::with(device, queue, &biome_texels);
         let materials = MaterialMaps::new(device, queue);
         let groups = Groups::new(device, &layout, &air, &weather.cube, &noise, (&biomes, &materials));
@@ -125,10 +130,13 @@ impl Tables {
         globals: &wgpu::BindGroup,
         passes: &Passes,
         planet: &Planet,
+        marked: Option<&Arc<MarkedCells>>,
     ) {
-        if self.biome_key.as_ref() != Some(&planet.biomes) {
-            self.write_biomes(device, queue, biome_table::BiomeTexels::new(&planet.biomes));
-            self.biome_key = Some(planet.biomes.clone());
+        let same = |key: &(Biomes, Option<Arc<MarkedCells>>)| key.0 == planet.biomes && key.1.as_ref() == marked;
+        if !self.biome_key.as_ref().is_some_and(same) {
+            let texels = biome_table::BiomeTexels::new(&planet.biomes, marked.map(|marked| &**marked));
+            self.write_biomes(device, queue, texels);
+            self.biome_key = Some((planet.biomes.clone(), marked.cloned()));
         }
         if let Some(air) = &planet.atmosphere {
             let key = (air.clone(), planet.radius_km, planet.star.radius_deg);
@@ -138,7 +146,7 @@ impl Tables {
                 self.runs.air += 1;
             }
         }
-        if let Some(clouds) = planet.clouds.as_ref().filter(|clouds| clouds.coverage > 0.0) {
+        if let Some(clouds) = planet.clouds.as_ref().filter(|clouds| clouds.coverage > 0.0 && marked.is_none()) {
             let key = (clouds.scale_km, clouds.curl, clouds.seed, planet.seed, planet.radius_km);
             if self.weather_key != Some(key) {
                 passes.cloud_map.draw(encoder, globals, &self.weather);
@@ -180,7 +188,7 @@ impl Groups {
         layout: &wgpu::BindGroupLayout,
         air: &[wgpu::TextureView; 4],
         weather: &wgpu::TextureView,
-        noise: &wgpu::TextureView,
+        noise: &[wgpu::TextureView; 2],
         (biomes, materials): (&biome_table::BiomeTextures, &MaterialMaps),
     ) -> Self {
         // With only the first so many tables of the air, the others being filled.
@@ -189,8 +197,8 @@ impl Groups {
             let first = air[0];
             air[ready..].fill(first);
             let [optical_depth, multiscatter, irradiance, sky] = air;
-            let air = [optical_depth, multiscatter, irradiance, sky, weather, noise];
-            let ground = [&biomes.ids, &biomes.params, &materials.tint, &materials.surface];
+            let air = [optical_depth, multiscatter, irradiance, sky, weather, &noise[0]];
+            let ground = [&biomes.ids, &biomes.params, &materials.tint, &materials.surface, &noise[1]];
             let views: Vec<&wgpu::TextureView> = air.into_iter().chain(ground).collect();
             gpu::texture_group(device, "tables", layout, &views)
         };

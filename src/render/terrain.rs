@@ -1,15 +1,18 @@
-//! The ground (`terrain.wgsl`): culls tiles, uploads new ones, draws them with the index list their neighbours ask for.
+//! The ground (`terrain.wgsl`): culls tiles, uploads new ones, finds how far their vertices have come out, draws them with the index
+//! list their neighbours ask for.
 
 use super::detail_pool::{self, DETAIL};
 use super::gpu;
 use super::horizon_pool::{self, HORIZON};
 use super::layer_pool::LayerPool;
+use super::morph::{Morph, MorphPass, SHOWN_ATTRIBUTES, SHOWN_BYTES};
 use super::pool::{Place, TILE_BYTES, TilePool};
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, SURFACE_FORMAT, Targets};
 use super::{DebugView, Frame, FrameStats, RenderError, shaders};
-use crate::build::Surface;
-use crate::lod::tile::{Tile, Vertex, slope_axis};
-use crate::lod::{self, Culling, stitch};
+use crate::build::{Leaf, Surface};
+use crate::lod::range::SHADED_AT;
+use crate::lod::tile::{DETAIL_SIDE, TILE_QUADS, Tile, Vertex, slope_axis};
+use crate::lod::{Culling, Ranges, stitch};
 use std::collections::HashSet;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
@@ -17,20 +20,54 @@ use wgpu::util::DeviceExt;
 const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32, 2 => Float32x3, 3 => Float32, 4 => Unorm16x2, 5 => Snorm16x2, 6 => Snorm16x2
 ];
-const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3, 9 => Float32x4];
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 5] =
+    wgpu::vertex_attr_array![7 => Float32x4, 8 => Float32x3, 9 => Float32x4, 10 => Float32x4, 13 => Float32x4];
 
 /// What the shader knows of a tile beside its vertices.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Instance {
     /// Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
-    morph_level_layer: [f32; 4],
+    fade_level_layer: [f32; 4],
     /// See [`slope_axis`].
     slope_axis: [f32; 3],
+    /// Place of the tile in its detail tile: lower left corner, side, each 0 to 1; the height that its heights count from.
+    detail_place: [f32; 4],
+    /// Distances in metres between which the detail of the detail tile's parent takes over; from texel to texel.
+    detail_fade: [f32; 4],
     /// Layer of a horizon tile, -1 without one; width of this tile in that tile's node, and where it lies there.
     horizon: [f32; 4],
 }
+
+impl Instance {
+    fn new(leaf: &Leaf, ranges: &Ranges, layer: Option<u32>) -> Self {
+        let fade = |level: u8| match level {
+            // There is no parent to take over.
+            0 => [1e30, 2e30],
+            level => [SHADED_AT, 1.0].map(|share| (ranges.always_m(level) * share) as f32),
+        };
+        let id = leaf.tile.id;
+        let [begin, end] = fade(id.level);
+        let mut instance = Self {
+            fade_level_layer: [begin, end, f32::from(id.level), layer.map_or(-1.0, |layer| layer as f32)],
+            slope_axis: slope_axis(id.face).as_vec3().to_array(),
+            detail_place: [0.0, 0.0, 1.0, 0.0],
+            detail_fade: [1e30, 2e30, 1.0, 0.0],
+            horizon: [-1.0; 4],
+        };
+        if let Some(detail) = &leaf.detail {
+            let [side, x, y] = id.within(detail.id).map(|part| part as f32);
+            let [begin, end] = fade(detail.id.level);
+            let texel_m = ranges.spacing_m(detail.id.level) / DETAIL_PER_QUAD;
+            instance.detail_place = [x, y, side, detail.base_m];
+            instance.detail_fade = [begin, end, texel_m as f32, 0.0];
+        }
+        instance
+    }
+}
+
+/// Texels of a detail tile along a quad.
+const DETAIL_PER_QUAD: f64 = ((DETAIL_SIDE - 1) / TILE_QUADS) as f64;
 
 /// Pipelines of the ground.
 pub(crate) struct TerrainPass {
@@ -75,6 +112,11 @@ impl TerrainPass {
                                 array_stride: size_of::<Instance>() as u64,
                                 step_mode: wgpu::VertexStepMode::Instance,
                                 attributes: &INSTANCE_ATTRIBUTES,
+                            }),
+                            Some(wgpu::VertexBufferLayout {
+                                array_stride: SHOWN_BYTES,
+                                step_mode: wgpu::VertexStepMode::Vertex,
+                                attributes: &SHOWN_ATTRIBUTES,
                             }),
                         ],
                     },
@@ -157,6 +199,7 @@ struct Draw {
 pub(crate) struct TerrainResources {
     indices: Indices,
     pool: TilePool,
+    morph: Morph,
     details: LayerPool,
     horizons: LayerPool,
     instances: wgpu::Buffer,
@@ -168,6 +211,7 @@ impl TerrainResources {
         Self {
             indices: Indices::new(device),
             pool: TilePool::new(device),
+            morph: Morph::new(device),
             details: LayerPool::new(device, DETAIL),
             horizons: LayerPool::new(device, HORIZON),
             instances: instance_buffer(device, 1024),
@@ -247,6 +291,7 @@ impl TerrainResources {
         self.horizons.begin_frame();
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
+        let mut morphed: Vec<(Place, u8)> = Vec::new();
         // Near tiles first: what they hide is not shaded.
         let eye = frame.view.camera.position_planet_m;
         let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
@@ -254,8 +299,6 @@ impl TerrainResources {
         seen.sort_by(|a, b| away_m(&a.tile).total_cmp(&away_m(&b.tile)));
         for leaf in seen {
             let Some(place) = self.pool.place(device, encoder, &leaf.tile) else { continue };
-            let level = leaf.tile.id.level;
-            let (start, end) = lod::morph_range_m(level, radius_m, chosen);
             let detail = leaf
                 .detail
                 .as_ref()
@@ -264,13 +307,12 @@ impl TerrainResources {
                 let place = self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile))?;
                 Some((place, leaf.tile.id.within(tile.id)))
             });
-            let layer = detail.map_or(-1.0, |place| place.layer as f32);
             instances.push(Instance {
-                morph_level_layer: [start as f32, end as f32, f32::from(level), layer],
-                slope_axis: slope_axis(leaf.tile.id.face).as_vec3().to_array(),
                 horizon: horizon
                     .map_or([-1.0; 4], |(place, [width, x, y])| [place.layer as f32, width as f32, x as f32, y as f32]),
+                ..Instance::new(leaf, &frame.surface.ranges, detail.map(|place| place.layer))
             });
+            morphed.push((place, leaf.tile.id.level));
             let arrays = [detail, horizon.map(|(place, _)| place)].map(|place| place.map_or(0, |place| place.array));
             self.draws.push(Draw { place, arrays, mask: usize::from(leaf.coarser_edges & 15) });
         }
@@ -279,7 +321,14 @@ impl TerrainResources {
             self.instances = instance_buffer(device, instances.len().next_power_of_two());
         }
         queue.write_buffer(&self.instances, 0, bytes);
+        let morphing_eye = frame.surface.morphing_eye_m(chosen.camera.position_planet_m);
+        self.morph.prepare(device, queue, self.pool.buffers(), &frame.surface.ranges, morphing_eye, &morphed);
         self.pool.end_round(encoder);
+    }
+
+    /// Finds where the vertices are drawn of the tiles chosen by [`TerrainResources::prepare`].
+    pub(crate) fn morph(&self, encoder: &mut wgpu::CommandEncoder, pass: &MorphPass) {
+        self.morph.find(encoder, pass);
     }
 
     /// Draws the tiles chosen by [`TerrainResources::prepare`].
@@ -328,7 +377,9 @@ impl TerrainResources {
                 }
             }
             if bound != Some(place.buffer) {
+                let Some(shown) = self.morph.of(place.buffer) else { continue };
                 draw.set_vertex_buffer(0, self.pool.buffers()[place.buffer].slice(..));
+                draw.set_vertex_buffer(2, shown.slice(..));
                 bound = Some(place.buffer);
             }
             let range = if lines { &self.indices.lines[*mask] } else { &self.indices.triangles[*mask] };

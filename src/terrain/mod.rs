@@ -10,6 +10,8 @@
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `relief`: what biomes add to the height
 //! - `climate`: temperature, moisture, the place in the biome table
+//! - `border`: noise that moves the borders between biomes
+//! - [`survey`]: where the planet lies in its biome table
 //! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
 //! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
 //! - `bench`: the noise alone, for measuring
@@ -19,6 +21,7 @@
 
 mod approx;
 pub mod bench;
+pub(crate) mod border;
 pub(crate) mod climate;
 mod coarse;
 pub(crate) mod coast;
@@ -33,11 +36,12 @@ pub(crate) mod points;
 mod raycast;
 pub(crate) mod relief;
 pub mod simd;
+pub mod survey;
 
 use crate::planet::Planet;
 pub use height::curve_at;
 
-use climate::{CompiledClimate, NO_SEA, Rules};
+use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
 use coarse::{CoarseFields, coarse_heights_m};
 use coast::Coast;
 use field::{EXACT, Field};
@@ -83,18 +87,21 @@ pub struct Sample {
     pub moisture: f64,
     /// The same as rain and snow in a year.
     pub precipitation_mm: f64,
-    /// Index of the biome in the palette.
+    /// Cell of the biome table, as column and row: the one that moisture and temperature (or height) fall into after
+    /// borders have been moved by noise.
+    pub cell: [usize; 2],
+    /// Index of the biome in the palette: the cell's, or what a rule for steep ground, beaches or snow puts there.
     pub biome: usize,
     /// By how much each layer of the preset changes the height there, in its order; 0 for layers that are off. What biomes add
     /// ([`crate::planet::Biome::relief_m`]) is in none of them.
     pub layers_m: Vec<f64>,
 }
 
-/// The ground without what is seen at neither of two spacings.
+/// The ground without what is not seen at a spacing.
 pub(crate) struct SeenRelief {
     pub(crate) height_m: Vec<f64>,
-    /// Slopes (see [`tangent_slope`]), for each of the spacings.
-    pub(crate) slopes: [Vec<DVec3>; 2],
+    /// See [`tangent_slope`].
+    pub(crate) slopes: Vec<DVec3>,
 }
 
 impl Terrain {
@@ -185,8 +192,7 @@ impl Terrain {
         let noise = [noise.temperature[0], noise.moisture[0]];
         let climate = Rules::new(&self.planet).at(dir.z, height_m, noise, inland_rad);
         let slope_rad = libm::atan(slope.length());
-        let biome = biome_index(&self.planet, climate.moisture, climate.row);
-        let site = ground::Site { biome, height_m, slope_rad, temperature_c: climate.temperature_c };
+        let (cell, biome) = self.biome_of(dir, &climate, height_m, slope_rad);
         Sample {
             height_m,
             normal_planet: (dir - slope).normalize(),
@@ -195,9 +201,20 @@ impl Terrain {
             temperature: climate.temperature,
             moisture: climate.moisture,
             precipitation_mm: climate.moisture * self.planet.climate.wettest_mm,
-            biome: ground::biome_by_rules(&self.planet, site),
+            cell,
+            biome,
             layers_m,
         }
+    }
+
+    /// The cell of the biome table and the biome of a place: an index into the palette. Keys that the palette lacks count
+    /// as its first biome.
+    fn biome_of(&self, dir: DVec3, climate: &PointClimate, height_m: f64, slope_rad: f64) -> ([usize; 2], usize) {
+        let biomes = &self.planet.biomes;
+        let cell = border::cell_of(&self.planet, dir, climate.moisture, climate.row);
+        let biome = biomes.table.key(cell[0], cell[1]).and_then(|key| biomes.index_of(key)).unwrap_or(0);
+        let site = ground::Site { biome, height_m, slope_rad, temperature_c: climate.temperature_c };
+        (cell, ground::biome_by_rules(&self.planet, site))
     }
 
     /// Height of the ground above the reference sphere under a direction (of any length but zero): the height that a
@@ -265,17 +282,17 @@ impl Terrain {
     }
 
     /// The ground at unit directions as points so far apart can show it, for shading.
-    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacings_rad: [f64; 2]) -> SeenRelief {
+    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacing_rad: f64) -> SeenRelief {
         let points = Points::new(dirs_planet);
         let radius_m = self.planet.radius_m();
-        let fields = self.seen_fields(&points, &spacings_rad);
-        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &spacings_rad, |_, _| {});
-        self.raise(&mut heights, &points, &spacings_rad, true);
-        let slope = |band: usize, i: usize| {
-            let gradient = heights.gradients[band].each_ref().map(|component| f64::from(component[i]));
+        let fields = self.seen_fields(&points, &[spacing_rad]);
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &[spacing_rad], |_, _| {});
+        self.raise(&mut heights, &points, &[spacing_rad], true);
+        let slope = |i: usize| {
+            let gradient = heights.gradients[0].each_ref().map(|component| f64::from(component[i]));
             tangent_slope(points.dirs[i], DVec3::from_array(gradient), radius_m + heights.height_m[i])
         };
-        let slopes = [0, 1].map(|band| (0..points.len()).map(|i| slope(band, i)).collect());
+        let slopes = (0..points.len()).map(slope).collect();
         SeenRelief { height_m: heights.height_m, slopes }
     }
 
@@ -297,14 +314,4 @@ fn unit(dir: DVec3) -> DVec3 {
 /// vector in the tangent plane. The surface's normal is along `dir - slope`.
 fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
     (gradient - dir * dir.dot(gradient)) / radius_m
-}
-
-/// The palette index of the biome in the table's cell at a moisture and row, both 0 to 1. Keys that the palette lacks
-/// count as its first biome.
-pub fn biome_index(planet: &Planet, moisture: f64, row: f64) -> usize {
-    let table = &planet.biomes.table;
-    let (columns, rows) = (table.columns(), table.rows().len());
-    let cell = |w: f64, n: usize| ((w * n as f64) as usize).min(n.saturating_sub(1));
-    let key = table.key(cell(moisture, columns), cell(1.0 - row, rows));
-    key.and_then(|key| planet.biomes.palette.iter().position(|biome| biome.key == key)).unwrap_or(0)
 }

@@ -28,7 +28,7 @@ impl Patch {
         let beside = |(right, up): (i64, i64)| {
             let (x, y) = (i64::from(id.x) + right, i64::from(id.y) + up);
             let on_face = (0..nodes_along).contains(&x) && (0..nodes_along).contains(&y);
-            on_face.then(|| NodeId { x: x as u32, y: y as u32, ..id })
+            on_face.then_some(NodeId { x: x as u32, y: y as u32, ..id })
         };
         // Other faces, then coarser ground, then nodes that are there: on a common border the finest wins, whoever asks.
         for block in blocks().filter(|block| beside(*block).is_none()) {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::build::build_now;
 use crate::lod::horizon::face_step;
-use crate::lod::select::spacing_rad;
+use crate::lod::range::spacing_rad;
 use crate::lod::tile::Tile;
 use crate::lod::{Camera, Quality};
 use crate::planet::Planet;
@@ -54,6 +54,7 @@ fn tile_parts(tile: &Tile) -> Box<Tile> {
         max_height_m: tile.max_height_m,
         center_planet_m: tile.center_planet_m,
         bounding_radius_m: tile.bounding_radius_m,
+        blocks: tile.blocks,
     })
 }
 

@@ -2,7 +2,9 @@
 //!
 //! - [`noise`]: million points a second, against fastnoise-lite
 //! - [`edits`]: time from an edit to the finished tiles
+//! - [`air`]: time that new tables of the air take on the GPU
 
+mod air;
 mod edits;
 mod noise;
 
@@ -56,6 +58,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         "noise": noise::measure(),
         "rebuild": rebuilds,
         "edits": edits::measure(default),
+        "air": air::measure(default),
         "heaviest": planets[heaviest].0,
         "heaviest_edits": edits::measure(&planets[heaviest].1),
         "memory_mb": peak_memory_mb(),

@@ -73,13 +73,19 @@ pub fn cell_range(biomes: &Biomes, column: usize, row: usize) -> String {
     )
 }
 
-/// The place of a key in the palette.
-pub fn index_of(biomes: &Biomes, key: char) -> Option<usize> {
-    biomes.palette.iter().position(|biome| biome.key == key)
+/// Moves a biome into the gap before the one that stands at `gap` (or behind the last); gives the new place of `selected`.
+pub fn move_to_gap(biomes: &mut Biomes, index: usize, gap: usize, selected: usize) -> usize {
+    if index >= biomes.palette.len() || gap > biomes.palette.len() {
+        return selected;
+    }
+    let key = biomes.palette.get(selected).map(|biome| biome.key);
+    let biome = biomes.palette.remove(index);
+    biomes.palette.insert(if gap > index { gap - 1 } else { gap }, biome);
+    key.and_then(|key| biomes.index_of(key)).unwrap_or(selected)
 }
 
 fn is_free(biomes: &Biomes, key: char) -> bool {
-    index_of(biomes, key).is_none() && !biomes.table.rows().iter().any(|row| row.contains(key))
+    biomes.index_of(key).is_none() && !biomes.table.rows().iter().any(|row| row.contains(key))
 }
 
 #[cfg(test)]
@@ -120,6 +126,15 @@ mod tests {
         assert_eq!(table.rows(), ["aaaaaabb", "aaaaaabb", "aaaaaaaa", "aaaaaaaa"]);
         assert_eq!(resized(&table, 4, 2), biomes().table);
         assert_eq!(resized(&table, 0, 999).rows().len(), Table::MAX_SIDE);
+    }
+
+    #[test]
+    fn moving_a_biome_keeps_the_table_and_the_selection() {
+        let mut biomes = biomes();
+        let table = biomes.table.clone();
+        assert_eq!(move_to_gap(&mut biomes, 0, 2, 0), 1);
+        assert_eq!((biomes.palette[0].key, biomes.palette[1].key), ('b', 'a'));
+        assert_eq!((move_to_gap(&mut biomes, 7, 0, 1), &biomes.table), (1, &table));
     }
 
     #[test]

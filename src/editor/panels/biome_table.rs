@@ -1,93 +1,241 @@
-//! The biome table as a grid to paint on: a click or a drag paints, a right click picks.
+//! The biome table under the pointer and the keys: gestures become strokes, letters choose biomes.
 
-use super::biome_edit;
+use super::biome_canvas::{Canvas, Overlay};
+use crate::editor::painter::survey::Survey;
+use crate::editor::painter::tools::{Block, Brush, Cell, Gesture, Place, Tool, cell_at};
 use crate::editor::widgets::color32;
 use crate::planet::{Biomes, TableRows};
+use crate::render::MarkedCells;
 use eframe::egui;
 
-/// What was done to the table in this frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TableOutput {
-    /// Cells changed: a stroke is under way.
-    pub painted: bool,
-    /// The biome under a right click.
-    pub picked: Option<usize>,
-    /// The cell under the pointer: column, row.
-    pub hovered: Option<(usize, usize)>,
+/// The table's id: while it has the focus, letters choose biomes.
+pub(super) fn id() -> egui::Id {
+    egui::Id::unique("biome table")
 }
 
-/// Shows the table; `selected` is the biome that is painted with.
-pub fn show(ui: &mut egui::Ui, biomes: &mut Biomes, selected: usize) -> TableOutput {
-    let mut output = TableOutput::default();
-    let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
-    if columns == 0 || rows == 0 {
-        return output;
-    }
-    let (first, last) = match biomes.rows {
-        TableRows::Temperature => ("hot", "cold"),
-        TableRows::Elevation => ("high", "low"),
-    };
-    ui.small(first);
-    let width = ui.available_width();
-    let size = egui::vec2(width, (width * rows as f32 / columns as f32).clamp(48.0, 230.0));
-    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Biome table"));
-    let cell_size = egui::vec2(rect.width() / columns as f32, rect.height() / rows as f32);
-    let cell_at = |pos: egui::Pos2| {
-        let at = (pos - rect.min) / cell_size;
-        let inside = rect.contains(pos) && at.x >= 0.0 && at.y >= 0.0;
-        inside.then(|| ((at.x as usize).min(columns - 1), (at.y as usize).min(rows - 1)))
-    };
+/// Live state of the painter. No part of the document.
+#[derive(Default)]
+pub struct PainterState {
+    /// What the pointer does.
+    pub tool: Tool,
+    /// The brush.
+    pub brush: Brush,
+    /// Where tools paint, if not everywhere; it lights up on the planet.
+    pub selection: Option<Block>,
+    gesture: Option<Gesture>,
+    /// Whether the gesture began in an earlier frame: the pointer's way in this one belongs to it.
+    moves: bool,
+    strokes: u32,
+    /// Where the last stroke ended: Shift draws a line from there.
+    last_end: Option<Place>,
+    /// Just painted: its new ground is not covered with light until the pointer goes on.
+    quiet: Option<Cell>,
+}
 
-    output.hovered = response.hover_pos().and_then(cell_at);
-    let pointer = response.interact_pointer_pos();
-    if let (Some(pos), Some(biome)) = (pointer, biomes.palette.get(selected)) {
-        let key = biome.key;
-        let primary = ui.input(|i| i.pointer.primary_down()) && response.is_pointer_button_down_on();
-        if primary || response.clicked() {
-            // A fast stroke skips cells from one frame to the next: paint along its way.
-            let way = if response.dragged() { response.drag_delta() } else { egui::Vec2::ZERO };
-            for step in 0..=32 {
-                if let Some((column, row)) = cell_at(pos - way * (step as f32 / 32.0))
-                    && biomes.table.key(column, row) != Some(key)
-                {
-                    biomes.table.set_key(column, row, key);
-                    output.painted = true;
-                }
+/// What happened to the table in this frame.
+#[derive(Clone, Debug, Default)]
+pub struct TableOutput {
+    /// Name of the undo step, if cells changed: a stroke is under way.
+    pub painted: Option<&'static str>,
+    /// The biome that was picked.
+    pub picked: Option<usize>,
+    /// The cell under the pointer.
+    pub hovered: Option<Cell>,
+    /// Cells to light up on the planet.
+    pub marked: Option<MarkedCells>,
+}
+
+/// What is shown beside the table itself.
+pub struct Shown<'a> {
+    /// Land in each cell, if it is to be shown.
+    pub survey: Option<&'a Survey>,
+    /// The cell of the place under the pointer on the planet.
+    pub place: Option<Cell>,
+}
+
+impl PainterState {
+    /// Shows the table; `selected` is the biome that is painted with.
+    pub fn show(&mut self, ui: &mut egui::Ui, biomes: &mut Biomes, selected: usize, shown: &Shown<'_>) -> TableOutput {
+        let mut output = TableOutput::default();
+        let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
+        if columns == 0 || rows == 0 {
+            return output;
+        }
+        let (first, last) = match biomes.rows {
+            TableRows::Temperature => {
+                (format!("hot, {:.0} °C", biomes.hottest_c), format!("cold, {:.0} °C", biomes.coldest_c))
+            }
+            TableRows::Elevation => {
+                (format!("high, {:.0} m", biomes.highest_m), format!("low, {:.0} m", biomes.lowest_m))
+            }
+        };
+        ui.small(first);
+        let width = ui.available_width();
+        let size = egui::vec2(width, (width * rows as f32 / columns as f32).clamp(64.0, width.min(320.0)));
+        let rect = ui.allocate_space(size).1;
+        let response = ui.interact(rect, id(), egui::Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Biome table"));
+        let canvas = Canvas::new(rect, biomes);
+        self.keys(ui, &response, biomes, &mut output);
+        self.pointer(ui, &response, &canvas, biomes, selected, &mut output);
+        let hovered = response.hover_pos().filter(|pos| rect.contains(*pos)).map(|pos| canvas.place(pos));
+        output.hovered = hovered.map(|at| cell_at(&biomes.table, at));
+
+        let preview = hovered.filter(|_| self.gesture.is_none()).map(|at| self.preview(ui, biomes, selected, at));
+        let preview = preview.unwrap_or_default();
+        self.quiet = self.quiet.filter(|quiet| output.hovered == Some(*quiet));
+        output.marked = self.marked(biomes, output.hovered, &preview);
+        let color = biomes.palette.get(selected).map_or(egui::Color32::WHITE, |biome| color32(biome.color));
+        let selecting = self.gesture.as_ref().filter(|gesture| gesture.tool() == Tool::Select).map(Gesture::block);
+        let selection = selecting.or(self.selection);
+        let paints = !matches!(self.tool, Tool::Pick | Tool::Select);
+        let overlay = Overlay {
+            survey: shown.survey,
+            preview: if paints { preview } else { Vec::new() },
+            color,
+            selection,
+            place: shown.place,
+        };
+        canvas.paint(ui, biomes, &overlay);
+        ui.horizontal(|ui| {
+            ui.small(last);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.small("dry to wet: left to right");
+            });
+        });
+        output
+    }
+
+    /// The cells that a press here would paint.
+    fn preview(&self, ui: &egui::Ui, biomes: &Biomes, selected: usize, at: Place) -> Vec<Cell> {
+        let Some(biome) = biomes.palette.get(selected) else { return Vec::new() };
+        let modifiers = ui.input(|i| i.modifiers);
+        if matches!(self.tool, Tool::Pick | Tool::Select) || modifiers.alt {
+            return vec![cell_at(&biomes.table, at)];
+        }
+        let new =
+            |from| Gesture::new(self.tool, biome.key, self.brush, self.selection, &biomes.table, from, self.strokes);
+        let line_from = self.last_end.filter(|_| self.tool == Tool::Brush && modifiers.shift);
+        let mut gesture = new(line_from.unwrap_or(at));
+        gesture.go_to(at, false);
+        gesture.cells(modifiers.shift)
+    }
+
+    /// What lights up: nothing under a stroke, so that its ground is seen; what the pointer is on; else the selection.
+    fn marked(&self, biomes: &Biomes, hovered: Option<Cell>, preview: &[Cell]) -> Option<MarkedCells> {
+        let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
+        let stroke = self.gesture.as_ref().is_some_and(|gesture| gesture.tool() != Tool::Select);
+        if stroke || self.quiet.is_some() {
+            return None;
+        }
+        if hovered.is_some() && !preview.is_empty() {
+            return Some(MarkedCells::new(columns, rows, |column, row| preview.contains(&[column, row])));
+        }
+        let selection = self.gesture.as_ref().map(Gesture::block).or(self.selection)?;
+        Some(MarkedCells::new(columns, rows, |column, row| selection.contains([column, row])))
+    }
+
+    fn keys(&mut self, ui: &egui::Ui, response: &egui::Response, biomes: &Biomes, output: &mut TableOutput) {
+        if response.contains_pointer() && !ui.ctx().text_edit_focused() && !ui.input(|i| i.pointer.any_down()) {
+            response.request_focus();
+        }
+        if !response.has_focus() {
+            return;
+        }
+        if ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+            self.selection = None;
+        }
+        let typed: Vec<char> = ui.input(|i| {
+            let texts = i.events.iter().filter_map(|event| match event {
+                egui::Event::Text(text) => Some(text.as_str()),
+                _ => None,
+            });
+            texts.flat_map(str::chars).collect()
+        });
+        for letter in typed {
+            match (biomes.index_of(letter), letter) {
+                (Some(index), _) => output.picked = Some(index),
+                (None, '[') => self.brush.size = (self.brush.size - 1).max(1),
+                (None, ']') => self.brush.size = (self.brush.size + 1).min(Brush::LARGEST),
+                _ => {}
             }
         }
     }
-    if response.secondary_clicked()
-        && let Some((column, row)) = pointer.and_then(cell_at)
-    {
-        output.picked = biomes.table.key(column, row).and_then(|key| biome_edit::index_of(biomes, key));
-    }
 
-    paint(ui, biomes, rect, cell_size, output.hovered);
-    ui.horizontal(|ui| {
-        ui.small(last);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.small("dry to wet: left to right");
-        });
-    });
-    output
-}
-
-fn paint(ui: &egui::Ui, biomes: &Biomes, rect: egui::Rect, cell_size: egui::Vec2, hovered: Option<(usize, usize)>) {
-    let painter = ui.painter_at(rect);
-    let cell_rect = |column: usize, row: usize| {
-        egui::Rect::from_min_size(rect.min + cell_size * egui::vec2(column as f32, row as f32), cell_size)
-    };
-    for (row, keys) in biomes.table.rows().iter().enumerate() {
-        for (column, key) in keys.chars().enumerate() {
-            let color = biome_edit::index_of(biomes, key)
-                .and_then(|index| biomes.palette.get(index))
-                .map_or(ui.visuals().error_fg_color, |biome| color32(biome.color));
-            painter.rect_filled(cell_rect(column, row).shrink(0.5), 0.0, color);
+    fn pointer(
+        &mut self,
+        ui: &egui::Ui,
+        response: &egui::Response,
+        canvas: &Canvas,
+        biomes: &mut Biomes,
+        selected: usize,
+        output: &mut TableOutput,
+    ) {
+        let (modifiers, origin, down, secondary) =
+            ui.input(|i| (i.modifiers, i.pointer.press_origin(), i.pointer.primary_down(), i.pointer.secondary_down()));
+        // A frame may see the button let go far from where the last one saw it: the stroke goes there all the same.
+        let still = self.gesture.is_some().then(|| ui.input(|i| i.pointer.interact_pos())).flatten();
+        let Some(pos) = response.interact_pointer_pos().or(still) else {
+            self.end();
+            return;
+        };
+        let at = canvas.place(pos);
+        let held = response.is_pointer_button_down_on();
+        let primary = (held && down) || response.clicked() || (self.gesture.is_some() && !secondary);
+        let picks = self.tool == Tool::Pick || modifiers.alt;
+        if self.gesture.is_none() && ((held && secondary) || response.secondary_clicked() || (primary && picks)) {
+            let [column, row] = cell_at(&biomes.table, at);
+            output.picked = biomes.table.key(column, row).and_then(|key| biomes.index_of(key));
+            return;
+        }
+        if primary && let Some(biome) = biomes.palette.get(selected) {
+            let mut gesture = self.gesture.take().unwrap_or_else(|| {
+                self.strokes = self.strokes.wrapping_add(1);
+                let begin = canvas.place(origin.filter(|_| down).unwrap_or(pos));
+                let line_from = self.last_end.filter(|_| self.tool == Tool::Brush && modifiers.shift);
+                let from = line_from.unwrap_or(begin);
+                // The preview showed the stroke that comes now.
+                let number = self.strokes - 1;
+                Gesture::new(self.tool, biome.key, self.brush, self.selection, &biomes.table, from, number)
+            });
+            // A fill belongs to where it began: what it has filled would be other ground.
+            if gesture.tool() != Tool::Fill {
+                // All of the way since the last frame, not its end alone.
+                let way = ui.input(|i| {
+                    let moved = i.events.iter().filter_map(|event| match event {
+                        egui::Event::PointerMoved(pos) if self.moves => Some(*pos),
+                        _ => None,
+                    });
+                    moved.collect::<Vec<_>>()
+                });
+                for pos in way {
+                    gesture.go_to(canvas.place(pos), modifiers.shift);
+                }
+                gesture.go_to(at, modifiers.shift);
+            }
+            if gesture.tool() == Tool::Select {
+                let block = gesture.block();
+                self.selection = (block.first != block.last).then_some(block);
+            } else {
+                let table = gesture.table(modifiers.shift);
+                if table != biomes.table {
+                    biomes.table = table;
+                }
+                output.painted = Some(gesture.tool().step());
+                self.quiet = Some(cell_at(&biomes.table, at));
+            }
+            self.gesture = Some(gesture);
+            self.moves = true;
+        }
+        if !(held && down) {
+            self.end();
         }
     }
-    if let Some((column, row)) = hovered {
-        let stroke = egui::Stroke::new(1.5, ui.visuals().strong_text_color());
-        painter.rect_stroke(cell_rect(column, row), 0.0, stroke, egui::StrokeKind::Inside);
+
+    fn end(&mut self) {
+        self.moves = false;
+        if let Some(gesture) = self.gesture.take() {
+            self.last_end = Some(gesture.place());
+        }
     }
 }

@@ -1,28 +1,101 @@
-//! The biomes tab: the table to paint on, the palette, and what the table's axes mean.
+//! The biomes tab: the painter of the table, the palette, the selected biome, and what the table's axes mean.
 
-use super::{Draft, biome_edit, biome_table};
-use crate::editor::widgets::param_row::{Row, color_button, param_row};
+use super::biome_palette::PaletteState;
+use super::biome_table::{PainterState, Shown, TableOutput};
+use super::{Draft, biome_edit, biome_palette, biome_table};
+use crate::editor::command::Command;
+use crate::editor::painter::tools::{Brush, Cell, Tool};
+use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::{Click, PainterLink};
+use crate::editor::widgets::param_row::{Row, param_row};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
-use crate::editor::widgets::{color32, ink_on};
 use crate::planet::param::{ParamPath, ParamValue, Segment, Value};
-use crate::planet::{Biome, Biomes, MAX_BIOMES, Table};
+use crate::planet::{Biome, Biomes, Planet, STARTING_TABLES, Table};
+use crate::render::MarkedCells;
 use eframe::egui;
+use std::sync::Arc;
+
+/// Fewest cells on a side that the painter makes; a preset may hold fewer.
+const LEAST_CELLS: usize = 8;
 
 /// Live state of the tab.
-#[derive(Default)]
 pub struct BiomesState {
-    /// Index of the biome that is painted with.
-    pub selected: usize,
+    /// The palette and the biome that is painted with.
+    pub palette: PaletteState,
+    /// The tools.
+    pub painter: PainterState,
+    /// Whether what the pointer is on lights up on the planet.
+    lights_up: bool,
+    /// Whether dots show how much land lies in each cell.
+    shows_land: bool,
+    marked: Option<Arc<MarkedCells>>,
+}
+
+impl Default for BiomesState {
+    fn default() -> Self {
+        Self {
+            palette: PaletteState::default(),
+            painter: PainterState::default(),
+            lights_up: true,
+            shows_land: true,
+            marked: None,
+        }
+    }
+}
+
+/// Whether the table takes letters and digits now.
+pub fn has_keys(ctx: &egui::Context) -> bool {
+    ctx.memory(|memory| memory.has_focus(biome_table::id()))
+}
+
+impl BiomesState {
+    /// What the painter has to do with the picture of the planet.
+    pub fn link(&self) -> PainterLink {
+        PainterLink { marked: self.marked.clone(), paints: true, picks: self.painter.tool == Tool::Pick }
+    }
+
+    /// A click on the planet: chooses the biome there, or paints the cell of its climate. Gives the name of the edit.
+    pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
+        match click {
+            Click::Pick => {
+                self.palette.selected = under.biome_index;
+                None
+            }
+            Click::Paint => {
+                let key = planet.biomes.palette.get(self.palette.selected)?.key;
+                let [column, row] = under.cell;
+                planet.biomes.table.set_key(column, row, key);
+                Some("Paint a place's climate".to_owned())
+            }
+        }
+    }
+
+    fn light_up(&mut self, marked: Option<MarkedCells>) {
+        let marked = marked.filter(|marked| self.lights_up && marked.count() > 0);
+        // The same cells stay the same picture.
+        if self.marked.as_deref() != marked.as_ref() {
+            self.marked = marked.map(Arc::new);
+        }
+    }
 }
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
-    state.selected = state.selected.min(draft.planet.biomes.palette.len().saturating_sub(1));
-    table(ui, state, draft);
+    let last = draft.planet.biomes.palette.len().saturating_sub(1);
+    state.palette.selected = state.palette.selected.min(last);
+    toolbar(ui, state, draft);
+    let output = table(ui, state, draft);
     ui.separator();
-    palette(ui, state, draft);
+    let hovered = biome_palette::show(ui, &mut state.palette, draft);
+    let biomes = &draft.planet.biomes;
+    let of_biome = hovered.and_then(|index| biomes.palette.get(index)).map(|biome| {
+        let key = Some(biome.key);
+        let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
+        MarkedCells::new(columns, rows, |column, row| biomes.table.key(column, row) == key)
+    });
+    state.light_up(of_biome.or(output.marked));
     ui.separator();
-    selected(ui, state, draft);
+    selected(ui, state.palette.selected, draft);
     ui.separator();
     ui.strong("Table");
     sides(ui, draft);
@@ -31,24 +104,86 @@ pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     params_grid(ui, &grid, &mut draft.planet.biomes, &mut Biomes::default());
 }
 
-fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
-    let output = biome_table::show(ui, &mut draft.planet.biomes, state.selected);
-    if output.painted {
-        draft.name_edit("Paint biomes");
+fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        for tool in Tool::ALL {
+            let chosen = state.painter.tool == tool;
+            if ui.selectable_label(chosen, tool.label()).on_hover_text(tool.tooltip()).clicked() {
+                state.painter.tool = tool;
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        if matches!(state.painter.tool, Tool::Brush | Tool::Line) {
+            let brush = &mut state.painter.brush;
+            let size = egui::DragValue::new(&mut brush.size).range(1..=Brush::LARGEST).speed(0.1).prefix("Size ");
+            ui.add(size)
+                .on_hover_text("Cells across; [ and ] make it smaller and larger")
+                .accessible_name("Brush size");
+            let mut percent = f64::from(brush.softness) * 100.0;
+            let softness = egui::DragValue::new(&mut percent).range(0.0..=100.0).fixed_decimals(0).speed(1.0);
+            let softness = softness.prefix("Soft ").suffix(" %");
+            let tooltip = "How much of the brush is a soft edge: there it paints single cells, fewer outwards";
+            if ui.add(softness).on_hover_text(tooltip).accessible_name("Brush softness").changed() {
+                brush.softness = (percent / 100.0) as f32;
+            }
+        }
+        ui.toggle_value(&mut state.shows_land, "Land").on_hover_text("Dots show how much land lies in each cell");
+        let tooltip = "What the pointer is on, or the selection, lights up on the planet, without its clouds";
+        ui.toggle_value(&mut state.lights_up, "Light up").on_hover_text(tooltip);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.menu_button("Tables", |ui| tables(ui, state, draft));
+        });
+    });
+}
+
+fn tables(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
+    for start in STARTING_TABLES {
+        if ui.button(start.name).on_hover_text(start.note).clicked()
+            && let Some(biomes) = start.biomes()
+        {
+            draft.planet.biomes = biomes;
+            draft.name_edit(format!("Start from table: {}", start.name));
+            state.palette = PaletteState::default();
+            state.painter.selection = None;
+            ui.close();
+        }
+    }
+    ui.separator();
+    for command in [Command::ImportTable, Command::ExportTable] {
+        if ui.button(command.label()).on_hover_text(command.tooltip()).clicked() {
+            draft.commands.push(command);
+            ui.close();
+        }
+    }
+}
+
+fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> TableOutput {
+    let under = draft.under_pointer;
+    let shown = Shown { survey: draft.survey.filter(|_| state.shows_land), place: under.map(|under| under.cell) };
+    let output = state.painter.show(ui, &mut draft.planet.biomes, state.palette.selected, &shown);
+    if let Some(label) = output.painted {
+        draft.name_edit(label);
     }
     if let Some(picked) = output.picked {
-        state.selected = picked;
+        state.palette.selected = picked;
     }
     let biomes = &draft.planet.biomes;
+    let described = |[column, row]: Cell| {
+        let biome =
+            biomes.table.key(column, row).and_then(|key| biomes.index_of(key)).and_then(|i| biomes.palette.get(i));
+        let name = biome.map_or("No biome", |biome| biome.name.as_str());
+        format!("{name}: {}", biome_edit::cell_range(biomes, column, row))
+    };
     // The line is always there, so that nothing jumps when the pointer comes and goes.
-    let text = match output.hovered {
-        Some((column, row)) => {
-            let key = biomes.table.key(column, row).unwrap_or(' ');
-            let biome = biome_edit::index_of(biomes, key).and_then(|index| biomes.palette.get(index));
-            let name = biome.map_or("No biome", |biome| biome.name.as_str());
-            format!("{name}: {}", biome_edit::cell_range(biomes, column, row))
+    let text = match (output.hovered, shown.place) {
+        (Some(cell), _) => {
+            let land = draft.survey.map_or(0.0, |survey| survey.cell(cell[0], cell[1])) * 100.0;
+            format!("{}; {land:.1} % of the land", described(cell))
         }
-        None => "Click or drag paints the selected biome, right click picks one.".to_owned(),
+        (None, Some(cell)) => format!("Here: {}", described(cell)),
+        (None, None) => "Right click or a biome's letter picks. Alt and click on the planet paints there.".to_owned(),
     };
     ui.add(egui::Label::new(egui::RichText::new(text).small().weak()).truncate());
     for (path, problem) in draft.problems {
@@ -56,57 +191,10 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
             ui.colored_label(ui.visuals().error_fg_color, problem);
         }
     }
+    output
 }
 
-fn palette(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
-    ui.horizontal(|ui| {
-        ui.strong("Palette");
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let biomes = &mut draft.planet.biomes;
-            let mut label = None;
-            ui.add_enabled_ui(biomes.palette.len() > 1, |ui| {
-                ui.menu_button("Remove", |ui| {
-                    ui.weak("Its cells become");
-                    for replacement in 0..biomes.palette.len() {
-                        let name = biomes.palette[replacement].name.clone();
-                        if replacement != state.selected && ui.button(name).clicked() {
-                            biome_edit::remove(biomes, state.selected, replacement);
-                            label = Some("Remove biome");
-                            ui.close();
-                            break;
-                        }
-                    }
-                });
-            });
-            if ui.add_enabled(biomes.palette.len() < MAX_BIOMES, egui::Button::new("Add biome")).clicked() {
-                state.selected = biome_edit::add(biomes).unwrap_or(state.selected);
-                label = Some("Add biome");
-            }
-            if let Some(label) = label {
-                draft.name_edit(label);
-            }
-        });
-    });
-    for (index, biome) in draft.planet.biomes.palette.iter_mut().enumerate() {
-        ui.push_id(index, |ui| {
-            ui.horizontal(|ui| {
-                color_button(ui, &format!("Palette colour of {}", biome.name), &mut biome.color);
-                let fill = color32(biome.color);
-                let key = egui::RichText::new(format!(" {} ", biome.key)).monospace();
-                ui.label(key.background_color(fill).color(ink_on(fill)));
-                let chosen = state.selected == index;
-                let button = egui::Button::selectable(chosen, (biome.name.as_str(), egui::Atom::grow())).truncate();
-                let response = ui.add(button.min_size(egui::vec2(ui.available_width(), 20.0)));
-                if response.accessible_name(format!("Biome {}", biome.name)).clicked() {
-                    state.selected = index;
-                }
-            });
-        });
-    }
-}
-
-fn selected(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
-    let index = state.selected;
+fn selected(ui: &mut egui::Ui, index: usize, draft: &mut Draft<'_>) {
     let base = ParamPath::from(vec![Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index)]);
     let Some(biome) = draft.planet.biomes.palette.get_mut(index) else { return };
     let name = biome.name.clone();
@@ -134,7 +222,7 @@ fn sides(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
         for (side, name, tooltip) in
             [(&mut columns, "Columns", "Steps from dry to wet"), (&mut rows, "Rows", "Steps from first to last row")]
         {
-            let range = Table::MIN_SIDE..=Table::MAX_SIDE;
+            let range = LEAST_CELLS.min(*side)..=Table::MAX_SIDE;
             // Taken over when done, so that typing "16" does not squeeze everything into one column first.
             let number = egui::DragValue::new(side).range(range).speed(0.1).update_while_editing(false);
             ui.add(number).on_hover_text(tooltip).accessible_name(format!("{name} of biome table"));

@@ -4,9 +4,12 @@
 //!
 //! - [`parts`]: planet, star, climate, and the parts a planet may lack
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers; what is done to them
-//! - [`biomes`], [`biome_table`], [`biome_edit`]: palette and table; what is done to them
+//! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the painter of the biome table: the tab, the
+//!   table under the pointer, its picture, the palette, what is done to them
 
+pub mod biome_canvas;
 pub mod biome_edit;
+pub mod biome_palette;
 pub mod biome_table;
 pub mod biomes;
 pub mod layer_edit;
@@ -14,6 +17,8 @@ pub mod layers;
 pub mod masks;
 pub mod parts;
 
+use crate::editor::command::Command;
+use crate::editor::painter::survey::Survey;
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::planet::Planet;
 use crate::planet::param::ParamPath;
@@ -66,6 +71,10 @@ pub struct Draft<'a> {
     pub problems: &'a [(ParamPath, String)],
     /// The ground under the pointer.
     pub under_pointer: Option<&'a UnderPointer>,
+    /// Where the planet lies in its biome table.
+    pub survey: Option<&'a Survey>,
+    /// What is asked for beside edits.
+    pub commands: Vec<Command>,
     /// Longitude of the eye, and seconds since time zero.
     pub here: (f64, f64),
 }

@@ -83,6 +83,7 @@ pub fn handle(
     }
 
     if response.double_clicked()
+        && !ui.input(|i| i.modifiers.alt)
         && let Some(pos) = response.interact_pointer_pos()
     {
         let (x, y) = to_view(pos);

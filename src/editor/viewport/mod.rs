@@ -26,7 +26,7 @@ use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, FrameStats, Renderer, TableRuns, Tone};
+use crate::render::{DebugView, Frame, FrameStats, MarkedCells, Renderer, TableRuns, Tone};
 use crate::sphere::LatLon;
 use adaptation::Adaptation;
 use camera::pose::Pose;
@@ -78,6 +78,7 @@ struct PictureKey {
     auto_exposure: bool,
     tone: Tone,
     debug_view: DebugView,
+    marked: Option<Arc<MarkedCells>>,
 }
 
 impl PictureKey {
@@ -91,6 +92,7 @@ impl PictureKey {
             && self.auto_exposure == other.auto_exposure
             && self.tone == other.tone
             && self.debug_view == other.debug_view
+            && self.marked == other.marked
     }
 }
 
@@ -102,13 +104,33 @@ fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
     };
     let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && a.coarser_edges == b.coarser_edges;
     let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
-    Arc::ptr_eq(a, b) || (a.complete == b.complete && all())
+    Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all())
 }
 
 /// What can be drawn with, or why nothing can.
 enum Drawing {
     Ready(Box<Renderer>, RenderState),
     Failed(String),
+}
+
+/// What a click on the planet is for, beside turning it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Click {
+    /// Choose the biome that lies there.
+    Pick,
+    /// Paint the cell of the biome table that the place falls into.
+    Paint,
+}
+
+/// What the painter of the biome table has to do with the picture.
+#[derive(Clone, Debug, Default)]
+pub struct PainterLink {
+    /// Cells whose places light up.
+    pub marked: Option<Arc<MarkedCells>>,
+    /// Whether a click with Alt paints.
+    pub paints: bool,
+    /// Whether a plain click picks.
+    pub picks: bool,
 }
 
 /// The viewport and all of its live state.
@@ -138,6 +160,11 @@ pub struct Viewport {
     moving: bool,
     drag: input::Drag,
     pointer: Probe,
+    /// What the painter of the biome table has to do with the picture.
+    pub painter: PainterLink,
+    /// Clicks that are for the painter: asked about apart from where the pointer is now.
+    clicks: Probe,
+    clicked: Option<Click>,
     pictures: u64,
 }
 
@@ -158,7 +185,7 @@ impl Viewport {
         });
         // On a software adapter the pictures in between would cost more than they please.
         let by_eye = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
-        let (ctx, pointer_ctx) = (ctx.clone(), ctx.clone());
+        let (ctx, pointer_ctx, click_ctx) = (ctx.clone(), ctx.clone(), ctx.clone());
         Self {
             settings: ViewSettings {
                 debug_view: DebugView::default(),
@@ -189,6 +216,9 @@ impl Viewport {
             moving: false,
             drag: input::Drag::None,
             pointer: Probe::new(move || pointer_ctx.request_repaint()),
+            painter: PainterLink::default(),
+            clicks: Probe::new(move || click_ctx.request_repaint()),
+            clicked: None,
             pictures: 0,
         }
     }
@@ -226,6 +256,14 @@ impl Viewport {
     /// What lies under the pointer, if it is over the globe.
     pub fn under_pointer(&self) -> Option<&UnderPointer> {
         self.pointer.answer()
+    }
+
+    /// What was clicked on for the painter, once, when it is known.
+    pub fn take_click(&mut self) -> Option<(Click, UnderPointer)> {
+        let click = self.clicked?;
+        let answer = self.clicks.take()?;
+        self.clicked = None;
+        answer.map(|under| (click, under))
     }
 
     /// What the newest picture took.
@@ -347,6 +385,7 @@ impl Viewport {
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
+        self.take_painter_click(ui, &response, &view, surface.as_ref());
         if let Some(surface) = surface {
             // Sea, air and light of one planet over the ground of another would flash until the new tiles are there.
             let shown = surface.terrain.planet().clone();
@@ -396,6 +435,7 @@ impl Viewport {
             auto_exposure: self.settings.auto_exposure,
             tone: self.settings.tone,
             debug_view: self.settings.debug_view,
+            marked: self.painter.marked.clone(),
         };
         let target = self.target.get_or_insert_with(|| Target::new(state, view.size_px));
         let resized = target.resize(view.size_px);
@@ -407,6 +447,7 @@ impl Viewport {
             }
             return;
         }
+        renderer.marked = key.marked.clone();
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
         renderer.tone = key.tone;
         let begin = Instant::now();
@@ -436,15 +477,46 @@ impl Viewport {
         self.drawn = Some(key);
     }
 
+    /// Asks what lies where one clicked for the painter.
+    fn take_painter_click(
+        &mut self,
+        ui: &egui::Ui,
+        response: &egui::Response,
+        view: &View,
+        surface: Option<&Arc<Surface>>,
+    ) {
+        let alt = ui.input(|i| i.modifiers.alt);
+        let purpose = match (alt, &self.painter) {
+            (true, PainterLink { paints: true, .. }) => Click::Paint,
+            (false, PainterLink { picks: true, .. }) => Click::Pick,
+            _ => return,
+        };
+        if response.hovered() {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+        }
+        if response.clicked()
+            && let (Some(pos), Some(surface)) = (response.interact_pointer_pos(), surface)
+        {
+            let (x, y) = in_view(response.rect, pos);
+            self.clicks.leave();
+            self.clicks.ask(x, y, view, surface);
+            self.clicked = Some(purpose);
+        }
+    }
+
     /// Asks what lies under the pointer.
     fn look_under_pointer(&mut self, response: &egui::Response, view: &View, surface: Option<&Arc<Surface>>) {
         if let (Some(pos), Some(surface)) = (response.hover_pos(), surface) {
-            let rect = response.rect;
-            let x = f64::from((pos.x - rect.center().x) / (0.5 * rect.width()));
-            let y = f64::from((rect.center().y - pos.y) / (0.5 * rect.height()));
+            let (x, y) = in_view(response.rect, pos);
             self.pointer.ask(x, y, view, surface);
         } else {
             self.pointer.leave();
         }
     }
+}
+
+/// A point of the window in the picture: from -1 to 1, right and up.
+fn in_view(rect: egui::Rect, pos: egui::Pos2) -> (f64, f64) {
+    let (x, y) = ((pos.x - rect.center().x) / (0.5 * rect.width()), (rect.center().y - pos.y) / (0.5 * rect.height()));
+    (f64::from(x), f64::from(y))
 }

@@ -16,6 +16,10 @@ pub struct UnderPointer {
     pub temperature_c: f64,
     pub moisture: f64,
     pub biome: String,
+    /// Column and row of the biome table.
+    pub cell: [usize; 2],
+    /// The biome's place in the palette.
+    pub biome_index: usize,
     /// Angle of the ground against the horizontal.
     pub slope_deg: f64,
     /// What each layer changes there.
@@ -85,6 +89,14 @@ impl Probe {
         }
     }
 
+    /// The answer to the question that was asked last, once: what is there, or None where there is only sky.
+    pub fn take(&mut self) -> Option<Option<UnderPointer>> {
+        let first = self.first;
+        let newest = self.answers.try_iter().filter(|(number, _)| *number >= first).last().map(|(_, answer)| answer);
+        // It may have come while the question was still being asked.
+        newest.or_else(|| self.answer.take().map(Some))
+    }
+
     /// The pointer is not over the picture.
     pub fn leave(&mut self) {
         (self.asked, self.answer, self.first) = (None, None, self.next);
@@ -110,6 +122,8 @@ fn look(question: &Question) -> Option<UnderPointer> {
         temperature_c: sample.temperature_c,
         moisture: sample.moisture,
         biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
+        cell: sample.cell,
+        biome_index: sample.biome,
         slope_deg: sample.slope_rad.to_degrees(),
         layers_m: sample.layers_m,
     })

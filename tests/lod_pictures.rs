@@ -1,0 +1,257 @@
+//! Level of detail in pictures: no hole, no pop, mountains beyond the horizon.
+#![cfg(feature = "editor")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+mod support;
+
+use glam::DVec3;
+use std::sync::Arc;
+use std::time::Duration;
+use support::{Gpu, frame, lights};
+use tellus::build::{Builder, Surface, build_now};
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::{Fbm, Layer, Planet, Shape, Water, random, shipped};
+use tellus::render::{DebugView, Frame};
+use tellus::sphere::LatLon;
+use tellus::terrain::Terrain;
+
+const SIZE_PX: [u32; 2] = [96, 64];
+
+/// Numbers from 0 to 1, the same in each run (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Through the middle of a pixel, as many pixels aside.
+fn ray(view: &View, pixel: usize, aside: [f64; 2]) -> DVec3 {
+    let [width, height] = view.size_px.map(f64::from);
+    let (x, y) = ((pixel as f64 % width).floor(), (pixel as f64 / width).floor());
+    let ndc = |at: f64, n: f64| (at + 0.5) / n * 2.0 - 1.0;
+    view.camera.ray_dir_planet(ndc(x + aside[0], width), -ndc(y + aside[1], height), view.aspect())
+}
+
+/// Pixels that show the background although the rays through them and around them hit the ground.
+fn holes(view: &View, terrain: &Terrain, picture: &[u8], dice: &mut Dice) -> usize {
+    const AROUND: [[f64; 2]; 5] = [[0.0, 0.0], [2.5, 0.0], [-2.5, 0.0], [0.0, 2.5], [0.0, -2.5]];
+    let light = lights(picture);
+    let [width, height] = view.size_px.map(|side| side as usize);
+    let black: Vec<usize> = (0..light.len()).filter(|&i| light[i] == 0).collect();
+    let white = |x: usize, y: usize| light[y * width + x] > 0;
+    // Ground on all four sides: likely a hole. Of the others a few will do.
+    let enclosed = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        (0..x).any(|x| white(x, y))
+            && (x + 1..width).any(|x| white(x, y))
+            && (0..y).any(|y| white(x, y))
+            && (y + 1..height).any(|y| white(x, y))
+    };
+    let mut suspects: Vec<usize> = black.iter().copied().filter(|&i| enclosed(i)).take(40).collect();
+    if !black.is_empty() {
+        suspects.extend((0..4).map(|_| black[(dice.roll() * black.len() as f64) as usize]));
+    }
+    let eye = view.camera.position_planet_m;
+    let hit = |i: usize, aside: [f64; 2]| terrain.raycast(eye, ray(view, i, aside)).is_some();
+    suspects.into_iter().filter(|&i| AROUND.into_iter().all(|aside| hit(i, aside))).count()
+}
+
+/// So many poses for each shipped planet and for each of so many random ones. How many there were in all.
+fn look_for_holes(shipped_poses: usize, randoms: u64, random_poses: usize) -> usize {
+    let mut gpu = Gpu::new();
+    let mut dice = Dice(11);
+    let planets = shipped::ALL.iter().map(|shipped| (shipped.load().unwrap(), shipped_poses));
+    let mut looked = 0;
+    for (planet, poses) in planets.chain((0..randoms).map(|seed| (random::random(seed), random_poses))) {
+        let planet = Arc::new(Planet { water: None, ..planet });
+        let terrain = Terrain::new(planet.clone());
+        for _ in 0..poses {
+            let lat_rad = libm::asin(2.0 * dice.roll() - 1.0);
+            let place = LatLon { lat_rad, lon_rad: (2.0 * dice.roll() - 1.0) * std::f64::consts::PI };
+            let altitude_m = 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
+            let radius_m = planet.radius_m() + terrain.height_m(place.direction()) + altitude_m;
+            // Mostly down.
+            let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.8) * 1.8);
+            let camera = Camera::over(place, radius_m, heading, pitch.max(-1.55), Camera::DEFAULT_FOV_Y_RAD);
+            let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
+            let surface = build_now(&planet, &view);
+            let coverage =
+                Frame { view, debug_view: DebugView::Coverage, ..frame(&surface, &planet, camera, (0.0, 0.0)) };
+            let picture = gpu.draw(&coverage);
+            let holes = holes(&view, &terrain, &picture, &mut dice);
+            assert_eq!(holes, 0, "{} from {altitude_m} m, {:?}", planet.name, place.to_degrees());
+            looked += 1;
+        }
+    }
+    looked
+}
+
+#[test]
+fn no_pose_shows_the_background_through_the_ground() {
+    assert_eq!(look_for_holes(6, 20, 1), 50);
+}
+
+#[test]
+#[ignore = "takes ten minutes: a thousand poses over the shipped planets, and a hundred over random ones"]
+fn no_pose_of_a_thousand_shows_the_background_through_the_ground() {
+    assert_eq!(look_for_holes(200, 100, 1), 1100);
+}
+
+fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surface> {
+    builder.request(planet, view);
+    while builder.is_busy() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    builder.surface().unwrap()
+}
+
+/// The same surface with all vertices out in full, and all shading that of the tiles' own level.
+fn unmorphed(surface: &Surface) -> Surface {
+    let mut stiff = surface.clone();
+    (stiff.ranges.least_spacings, stiff.ranges.most_spacings) = (1e12, 1e12);
+    stiff
+}
+
+/// Mean difference of two pictures.
+fn difference(a: &[u8], b: &[u8]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / a.len() as f64
+}
+
+/// What one sees of level changes on a way down in so many steps, of which every so many-th is looked at: the greatest difference
+/// between pictures of one pose, drawn with the tiles of the step before and with its own, with morphing and without. For the shaded
+/// planet and for its normals.
+fn fly_down(planet: Planet, steps: usize, every: usize) -> [[f64; 2]; 2] {
+    // Light that lies still on the ground; nothing before it.
+    let planet = Arc::new(Planet { clouds: None, atmosphere: None, water: None, ..planet });
+    let terrain = Terrain::new(planet.clone());
+    let mut gpu = Gpu::new();
+    let builder = Builder::new(|| {});
+    let place = LatLon::from_degrees(35.0, -5.0);
+    let ground_m = planet.radius_m() + terrain.height_m(place.direction());
+    let view = |step: usize| {
+        let part = step as f64 / steps as f64;
+        let altitude_m = 2.0 * (3.0 * planet.radius_m() / 2.0).powf(1.0 - part);
+        let pitch = -1.5 + 1.2 * part;
+        let camera = Camera::over(place, ground_m + altitude_m, 0.5, pitch, Camera::DEFAULT_FOV_Y_RAD);
+        // Large enough for texels and pixels to be as they are in a window.
+        View { camera, size_px: [480, 320], quality: Quality::Medium }
+    };
+    let mut most = [[0.0_f64; 2]; 2];
+    for step in (1..=steps).step_by(every) {
+        let before = settled(&builder, &planet, &view(step - 1));
+        let after = settled(&builder, &planet, &view(step));
+        let nodes = |surface: &Surface| -> Vec<_> {
+            surface.leaves.iter().map(|leaf| (leaf.tile.id, leaf.detail.as_ref().map(|detail| detail.id))).collect()
+        };
+        if nodes(&before) == nodes(&after) {
+            continue;
+        }
+        for (most, debug_view) in most.iter_mut().zip([DebugView::Shaded, DebugView::Normal]) {
+            let mut draw = |surface: &Surface| {
+                let view = view(step);
+                gpu.draw(&Frame { view, debug_view, ..frame(surface, &planet, view.camera, (30.0, 40.0)) })
+            };
+            let pop = difference(&draw(&before), &draw(&after));
+            let bare = difference(&draw(&unmorphed(&before)), &draw(&unmorphed(&after)));
+            if std::env::var_os("TELLUS_PRINT").is_some() {
+                println!("{step} {debug_view:?}: {pop:.4} with morphing, {bare:.4} without");
+            }
+            *most = [most[0].max(pop), most[1].max(bare)];
+        }
+    }
+    most
+}
+
+#[test]
+fn a_way_down_shows_no_level_change() {
+    for [pop, bare] in fly_down(shipped::ALL[0].load().unwrap(), 600, 20) {
+        assert!(bare > 0.1 && 5.0 * pop < bare, "{pop} with morphing, {bare} without");
+    }
+}
+
+#[test]
+#[ignore = "takes a quarter of an hour: every step of the way, over all shipped planets"]
+fn all_of_a_way_down_shows_no_level_change() {
+    for shipped in shipped::ALL {
+        for [pop, bare] in fly_down(shipped.load().unwrap(), 600, 1) {
+            assert!(bare > 0.1 && 5.0 * pop < bare, "{}: {pop} with morphing, {bare} without", shipped.file);
+        }
+    }
+}
+
+#[test]
+fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
+    let shape = Shape::Fbm(Fbm { wavelength_km: 240.0, octaves: 3, ..Fbm::default() });
+    let layer = Layer { amplitude_m: 9000.0, shape, ..Layer::default() };
+    let mut planet = Planet {
+        radius_km: 6371.0,
+        layers: vec![layer],
+        atmosphere: None,
+        clouds: None,
+        water: None,
+        ..Planet::default()
+    };
+    // The highest of many places; the sea is let in to 8 km below it.
+    let terrain = Terrain::new(Arc::new(planet.clone()));
+    let mut dice = Dice(3);
+    let dirs: Vec<DVec3> = (0..200_000)
+        .map(|_| LatLon { lat_rad: (dice.roll() - 0.5) * 2.0, lon_rad: dice.roll() * 6.0 - 3.0 }.direction())
+        .collect();
+    let heights_m = terrain.heights_m(&dirs);
+    let (peak, height_m) =
+        dirs.iter().zip(&heights_m).max_by(|a, b| a.1.total_cmp(b.1)).map(|(dir, height_m)| (*dir, *height_m)).unwrap();
+    let sea_m = height_m - 8000.0;
+    planet.water = Some(Water { level_m: sea_m, ..Water::default() });
+    let planet = Arc::new(planet);
+    let radius_m = planet.radius_m() + sea_m;
+    let wet = Terrain::new(planet.clone());
+    let (tangent, other) = peak.any_orthonormal_pair();
+    let angle = 250e3 / radius_m;
+    // From where the way across is free.
+    let eye = (0..360)
+        .map(|degrees| tangent * f64::from(degrees).to_radians().cos() + other * f64::from(degrees).to_radians().sin())
+        .map(|aside| (peak * angle.cos() + aside * angle.sin()) * (radius_m + 2.0))
+        .find(|eye| {
+            let top = peak * (radius_m + 7900.0);
+            let away_m = wet.raycast(*eye, (top - *eye).normalize());
+            wet.height_m(*eye) < sea_m - 100.0 && away_m.is_some_and(|away_m| (away_m - 250e3).abs() < 10e3)
+        })
+        .expect("a free way");
+    let up = eye.normalize();
+    let forward = (peak - up * peak.dot(up)).normalize();
+    let camera = Camera::looking(eye, forward, up, 6_f64.to_radians());
+    let view = View { camera, size_px: [192, 128], quality: Quality::Medium };
+    let surface = build_now(&planet, &view);
+    let picture = Gpu::new().draw(&Frame {
+        view,
+        debug_view: DebugView::Coverage,
+        ..frame(&surface, &planet, camera, (0.0, 0.0))
+    });
+    let light = lights(&picture);
+    // Column by column: how high what lies behind the sea's horizon stands in the picture.
+    let tan_y = (camera.fov_y_rad * 0.5).tan();
+    let horizon_px = 64.0 + (2.0 * 2.0 / radius_m).sqrt() / tan_y * 64.0;
+    let mut there = 0;
+    for column in 0..192 {
+        let aside = ((f64::from(column) + 0.5) / 96.0 - 1.0) * tan_y * view.aspect();
+        let away = (forward + forward.cross(up) * aside).normalize();
+        let dirs: Vec<DVec3> =
+            (200..4000).map(|i| f64::from(i) * 100.0 / radius_m).map(|a| up * a.cos() + away * a.sin()).collect();
+        let points =
+            dirs.iter().zip(wet.heights_m(&dirs)).map(|(dir, h)| *dir * (planet.radius_m() + h.max(sea_m)) - eye);
+        let highest = points.map(|rel| rel.dot(up) / rel.dot(forward)).fold(f64::MIN, f64::max);
+        let top_px = 64.0 - highest / tan_y * 64.0;
+        let drawn_px = (0..128).find(|y| light[y * 192 + column as usize] > 0).unwrap_or(128) as f64;
+        if top_px < horizon_px - 3.0 {
+            there += 1;
+            assert!((drawn_px - top_px).abs() < 2.0, "column {column}: drawn from {drawn_px}, ought to be {top_px}");
+        }
+    }
+    assert!(there > 20, "too little to see: {there} columns");
+}
