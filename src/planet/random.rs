@@ -34,8 +34,8 @@ pub fn random(seed: u64) -> Planet {
     });
     let air = kind != Kind::Bare && (water.is_some() || dice.chance(0.7));
     let clouds = (air && dice.chance(if water.is_some() { 0.9 } else { 0.4 })).then(|| Clouds {
-        // On ice they would hide white behind white.
-        coverage: if kind == Kind::Cold { dice.rounded(0.1, 0.35) } else { dice.rounded(0.2, 0.5) },
+        // On ice they would hide white behind white, and deserts have few.
+        coverage: if kind == Kind::Temperate { dice.rounded(0.2, 0.5) } else { dice.rounded(0.1, 0.35) },
         scale_km: three_digits(radius_km * dice.between(0.2, 0.5)),
         curl: dice.rounded(0.3, 1.2),
         seed: dice.seed(),
@@ -147,7 +147,7 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
         Kind::Cold => dice.between(0.3, 1.0),
         _ => dice.between(0.7, 1.5),
     };
-    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(0.7, 2.5) };
+    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(0.3, 1.4) };
     let tint = dice.color([0.7, 0.7, 0.7], [1.3, 1.3, 1.3]);
     let scaled = |color: [f64; 3], factor: f64| color.map(|c| three_digits(c * factor));
     let mut rayleigh_per_km = scaled(earth.rayleigh_per_km, thickness);

@@ -128,6 +128,7 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
     // Lava darkens the lowlands of moons; sand brightens those of many deserts.
     let upside_down = kind != Kind::Bare && dice.chance(0.5);
     let fray = dice.between(0.3, 0.6);
+    let light = dice.between(0.85, 1.1);
     let mut table = Table::uniform('g', COLUMNS, ROWS);
     for (row, column) in (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column))) {
         let height = 1.0 - row as f64 / (ROWS - 1) as f64;
@@ -142,7 +143,7 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
         .map(|((key, name, detail, detail_m), color)| Biome {
             key: *key,
             name: (*name).to_owned(),
-            color: color.map(|c| three_digits(c * dice.between(0.94, 1.06))),
+            color: color.map(|c| three_digits(c * light)),
             variation: dice.rounded(0.12, 0.25),
             roughness: 0.95,
             detail: *detail,
