@@ -169,9 +169,9 @@ fn weighted(d: [f64; 3]) -> [f64; 3] {
 #[inline(always)]
 fn add_body(n: usize, lattice: &Lattice, weight: f64, sum: &mut Lane<f64>) {
     let scale = weight * f64::from(SCALE);
-    for i in 0..n.min(CHUNK) {
+    for (i, sum) in sum.iter_mut().enumerate().take(n) {
         let ways = exact_ways(lattice, i).map(weighted);
-        sum[i] += unscaled(&ways, &lattice.hashes[0], i) * scale;
+        *sum += unscaled(&ways, &lattice.hashes[0], i) * scale;
     }
 }
 for_each_simd!(fn add_one(n: usize, lattice: &Lattice, weight: f64, sum: &mut Lane<f64>) = add_body);
@@ -191,8 +191,8 @@ for_each_simd!(fn add_three(n: usize, lattice: &Lattice, weight: f64, sums: &mut
 
 #[inline(always)]
 fn fill_values_body(n: usize, lattice: &Lattice, value: &mut Lane<f64>) {
-    for i in 0..n.min(CHUNK) {
-        value[i] = unscaled(&exact_ways(lattice, i).map(weighted), &lattice.hashes[0], i) * f64::from(SCALE);
+    for (i, value) in value.iter_mut().enumerate().take(n) {
+        *value = unscaled(&exact_ways(lattice, i).map(weighted), &lattice.hashes[0], i) * f64::from(SCALE);
     }
 }
 for_each_simd!(fn fill_values(n: usize, lattice: &Lattice, value: &mut Lane<f64>) = fill_values_body);
@@ -273,9 +273,9 @@ mod tests {
             for i in 0..CHUNK {
                 assert!((1.0 + 2.0 * f64::from(value[i]) - sum[i]).abs() < 2e-6);
                 assert!((1.0 + 2.0 * wide.value[i] - sum[i]).abs() < 1e-14);
-                for axis in 0..3 {
-                    assert!((gradient[axis][i] - noise.gradient[axis][i]).abs() < 2e-5);
-                    assert!((f64::from(gradient[axis][i]) - wide.gradient[axis][i]).abs() < 2e-5);
+                for ((plain, exact), wide) in gradient.iter().zip(&noise.gradient).zip(&wide.gradient) {
+                    assert!((plain[i] - exact[i]).abs() < 2e-5);
+                    assert!((f64::from(plain[i]) - wide[i]).abs() < 2e-5);
                 }
             }
             wide.values(Simd::detect(), skewed, octave);
