@@ -210,8 +210,7 @@ impl Worker {
                     state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
                 }
             }
-            let coarse_bytes = self.terrain.as_ref().map_or(0, |terrain| terrain.coarse_bytes());
-            state.memory = self.cache.memory().and(coarse_bytes);
+            state.memory = self.cache.memory();
             drop(state);
             wake();
         }
@@ -264,10 +263,16 @@ impl Worker {
             Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => (terrain, 0),
             before => {
                 profiling::scope!("compile");
-                let terrain = Arc::new(match &before {
+                let mut terrain = match &before {
                     Some(before) => Terrain::after(planet.clone(), before),
                     None => Terrain::new(planet.clone()),
-                });
+                };
+                // Where there is little room, it is for tiles.
+                if terrain.coarse_bytes() > self.cache.budget_bytes() / 8 {
+                    terrain.forget_coarse();
+                }
+                self.cache.set_aside(terrain.coarse_bytes());
+                let terrain = Arc::new(terrain);
                 if let Some(before) = before {
                     self.cache.invalidate(stale_stages(&before, &terrain));
                 }

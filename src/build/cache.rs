@@ -14,6 +14,7 @@ use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::kept::KeptFields;
 use std::collections::{HashMap, HashSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -77,12 +78,14 @@ struct State {
 pub(crate) struct Cache {
     state: Mutex<State>,
     budget_bytes: usize,
+    /// What of the budget something else takes.
+    aside_bytes: AtomicUsize,
 }
 
 impl Cache {
     /// An empty one. With a budget of zero nothing outlives a request but the tiles that it shows.
     pub(crate) fn new(budget_bytes: usize) -> Self {
-        Self { state: Mutex::default(), budget_bytes }
+        Self { state: Mutex::default(), budget_bytes, aside_bytes: AtomicUsize::new(0) }
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -135,8 +138,8 @@ impl Cache {
         keep(entry);
         let bytes_after = entry.bytes();
         state.bytes = state.bytes + bytes_after - bytes_before;
-        if state.bytes > self.budget_bytes {
-            state.trim(self.budget_bytes);
+        if state.bytes > self.room_bytes() {
+            state.trim(self.room_bytes());
         }
     }
 
@@ -169,8 +172,8 @@ impl Cache {
         }
         let bytes_after = entry.bytes();
         state.bytes = state.bytes + bytes_after - bytes_before;
-        if state.bytes > self.budget_bytes {
-            state.trim(self.budget_bytes);
+        if state.bytes > self.room_bytes() {
+            state.trim(self.room_bytes());
         }
         done
     }
@@ -209,11 +212,26 @@ impl Cache {
         state.bytes = 0;
     }
 
-    /// How much is kept.
+    /// What it may come to.
+    pub(crate) fn budget_bytes(&self) -> usize {
+        self.budget_bytes
+    }
+
+    /// So much of the budget something else takes from now on.
+    pub(crate) fn set_aside(&self, bytes: usize) {
+        self.aside_bytes.store(bytes, Ordering::Relaxed);
+    }
+
+    /// What is left of the budget.
+    fn room_bytes(&self) -> usize {
+        self.budget_bytes.saturating_sub(self.aside_bytes.load(Ordering::Relaxed))
+    }
+
+    /// How much is kept, what was set aside included.
     pub(crate) fn memory(&self) -> Memory {
         let state = self.lock();
         Memory {
-            used_bytes: state.bytes,
+            used_bytes: state.bytes + self.aside_bytes.load(Ordering::Relaxed),
             budget_bytes: self.budget_bytes,
             tiles: state.entries.values().filter(|entry| entry.tile.is_some()).count(),
             horizons: state.entries.values().filter(|entry| entry.horizon.is_some()).count(),

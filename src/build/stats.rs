@@ -121,10 +121,3 @@ pub struct Memory {
     /// Layer fields of the present planet and of earlier ones.
     pub fields: usize,
 }
-
-impl Memory {
-    /// With more in use.
-    pub(crate) fn and(self, bytes: usize) -> Self {
-        Self { used_bytes: self.used_bytes + bytes, ..self }
-    }
-}

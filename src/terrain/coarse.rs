@@ -26,6 +26,11 @@ impl CoarseFields {
         self.batches.iter().map(KeptFields::bytes).sum()
     }
 
+    /// Forgets the fields.
+    pub(crate) fn forget(&mut self) {
+        self.batches.clear();
+    }
+
     /// The same, for which nothing had to be evaluated.
     pub(crate) fn as_known(&self) -> Self {
         Self { octave_samples: 0, ..self.clone() }

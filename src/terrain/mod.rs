@@ -147,6 +147,11 @@ impl Terrain {
         self.coarse.bytes()
     }
 
+    /// Forgets what the shores were found with: the next planet finds it anew.
+    pub(crate) fn forget_coarse(&mut self) {
+        self.coarse.forget();
+    }
+
     /// Octaves of noise times points that were evaluated to compile it.
     pub(crate) fn octave_samples(&self) -> usize {
         self.coarse.octave_samples

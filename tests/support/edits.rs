@@ -112,7 +112,12 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
         (Value::Curve(_), Domain::Curve { most, .. }) => {
             Value::Curve(vec![[-0.25 * most, -0.2 * most], [0.25 * most, 0.3 * most]])
         }
-        (Value::Letter(_), _) => Value::Letter('z'),
+        (Value::Letter(_), _) if param.name == "key" => Value::Letter('z'),
+        // Which biome it is: another one of the palette.
+        (Value::Letter(key), _) => {
+            let others = planet.biomes.palette.iter().map(|biome| biome.key);
+            Value::Letter(others.filter(|other| *other != key).last().unwrap_or(key))
+        }
         // A mask's layer: another one. A layer that masks refer to keeps its name, or they would follow nobody.
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
         (Value::Text(text), _) => Value::Text(format!("{text}!")),
