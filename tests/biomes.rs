@@ -35,7 +35,7 @@ fn biome_of(palette: &[[u8; 3]], pixel: &[u8]) -> Option<usize> {
 /// farther than a pixel away, how many there are.
 fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, distance_m: f64, points: usize) -> [usize; 3] {
     let planet = terrain.planet();
-    let camera = Camera::over(place, distance_m, 0.0, -1.570_79, Camera::DEFAULT_FOV_Y_RAD);
+    let camera = Camera::over(place, distance_m, 0.0, -std::f64::consts::FRAC_PI_2, Camera::DEFAULT_FOV_Y_RAD);
     let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
     let mut surface = build_now(planet, &view);
     add_detail(&mut surface, &view);

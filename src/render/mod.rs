@@ -321,7 +321,7 @@ impl Renderer {
         self.terrain.prepare(device, queue, &mut encoder, frame, height_range_m.0);
         self.terrain.morph(&mut encoder, &self.passes.morph);
         let globals = &self.globals.group;
-        self.tables.update(device, queue, &mut encoder, globals, &self.passes, frame.planet, self.marked.as_ref());
+        self.tables.update((device, queue), &mut encoder, globals, &self.passes, frame.planet, self.marked.as_ref());
         let groups = [globals, self.tables.group()];
 
         let stats = self.terrain.draw(&mut encoder, &self.passes.terrain, groups, &targets, frame.debug_view);

@@ -46,7 +46,7 @@ impl Renderer {
         let outputs = ["radiance", "transmittance"].map(|label| output(device, label, columns));
         let views = outputs.each_ref().map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sky probe") });
-        self.tables.update(device, queue, &mut encoder, &self.globals.group, &self.passes, planet, None);
+        self.tables.update((device, queue), &mut encoder, &self.globals.group, &self.passes, planet, None);
         let groups = [&self.globals.group, self.tables.group()];
         pass.draw(&mut encoder, groups, &pass.bind(device, &[&input]), &[&views[0], &views[1]]);
         let buffers = outputs.each_ref().map(|texture| copied(device, &mut encoder, texture));

@@ -124,8 +124,7 @@ impl Tables {
     /// Brings everything up to date with a planet. The globals must have been written.
     pub(crate) fn update(
         &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         globals: &wgpu::BindGroup,
         passes: &Passes,

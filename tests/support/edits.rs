@@ -4,7 +4,7 @@
 use tellus::planet::diff;
 use tellus::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
 use tellus::planet::{
-    Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Table, TableRows, Water, param::Choice as _,
+    Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Steep, Table, TableRows, Water, param::Choice as _,
 };
 
 /// A planet on which every parameter has something to do: each kind of layer, masks, all biomes in the table.
@@ -38,11 +38,13 @@ pub fn full_planet() -> Planet {
         }
         planet.layers[1 + i].masks.push(mask);
     }
-    let biome = |key, color| Biome { key, color, ..Biome::default() };
-    planet.biomes.palette = vec![biome('a', [0.1, 0.3, 0.1]), biome('b', [0.4, 0.4, 0.2])];
+    let biome = |key, color, steep| Biome { key, color, steep, ..Biome::default() };
+    planet.biomes.palette = vec![biome('a', [0.1, 0.3, 0.1], Steep::Rock), biome('b', [0.4, 0.4, 0.2], Steep::Biome)];
     planet.biomes.table = Table::uniform('a', 4, 3);
     planet.biomes.table.set_key(1, 1, 'b');
     planet.biomes.rows = TableRows::Temperature;
+    planet.biomes.beach_m = 50.0;
+    planet.biomes.snow = true;
     planet.climate.sea_moisture = 0.3;
     planet
 }
@@ -84,7 +86,9 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
             let relief = reliefs || path.to_string().contains("relief");
             let stages = if relief { diff::touched_stages(planet, &edited) } else { stages };
             let declared = stages.with_consequences();
-            (edited != *planet).then(|| Edit { path: path.to_string(), declared, planet: edited })
+            // Slopes of its own are nothing to a biome that has the rock of all.
+            let idle = path.to_string().starts_with("biomes.palette[0].steep_");
+            (edited != *planet && !idle).then(|| Edit { path: path.to_string(), declared, planet: edited })
         })
         .collect();
     let mut painted = planet.clone();
@@ -116,7 +120,7 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
         // Which biome it is: another one of the palette.
         (Value::Letter(key), _) => {
             let others = planet.biomes.palette.iter().map(|biome| biome.key);
-            Value::Letter(others.filter(|other| *other != key).last().unwrap_or(key))
+            Value::Letter(others.rev().find(|other| *other != key).unwrap_or(key))
         }
         // A mask's layer: another one. A layer that masks refer to keeps its name, or they would follow nobody.
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
