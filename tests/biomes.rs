@@ -104,7 +104,7 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
         let [same, near, all] = sums;
         println!("{}: {same} of {all} the same, {near} within a pixel of it", preset.file);
         assert_eq!(all, POINTS);
-        // Aimed at: 99% and all the rest within a pixel. What is missing has steep ground under it, where the vertices of the
+        // Aimed at: 99% and all the rest within a pixel. What is missing is probably steep ground, where the vertices of the
         // mesh and the point of a query stand at different heights.
         if (same as f64) < 0.985 * all as f64 || (near as f64) < 0.993 * all as f64 {
             problems.push(format!("{}: {same} of {all} the same, {near} within a pixel", preset.file));
