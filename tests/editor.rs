@@ -2,6 +2,10 @@
 #![cfg(feature = "editor")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+#[path = "support/app.rs"]
+mod app;
+
+use app::{Editor, click, planet, undo_label, undo_len};
 use eframe::egui;
 use eframe::egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -9,39 +13,13 @@ use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
-use tellus::editor::dialogs::ScriptedDialogs;
 use tellus::editor::viewport::camera::Mode;
 use tellus::planet::Planet;
 use tellus::render::DebugView;
 
-type Editor = Harness<'static, EditorApp>;
-
 /// An editor in the smallest window that must hold everything; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
-    let mut harness = Harness::builder()
-        .with_size([1024.0, 640.0])
-        .with_step_dt(1.0 / 60.0)
-        .wgpu()
-        .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
-    harness.run_steps(4);
-    harness
-}
-
-fn planet(harness: &Editor) -> Planet {
-    (**harness.state().document().planet()).clone()
-}
-
-fn undo_label(harness: &Editor) -> String {
-    harness.state().document().history().undo_label().unwrap_or_default().to_owned()
-}
-
-fn undo_len(harness: &Editor) -> usize {
-    harness.state().document().history().undo_len()
-}
-
-fn click(harness: &mut Editor, label: &str) {
-    harness.get_by_label(label).click();
-    harness.run_steps(3);
+    app::open([1024.0, 640.0], answers)
 }
 
 fn slide(harness: &mut Editor, label: &str, value: f64) {

@@ -2,27 +2,22 @@
 #![cfg(feature = "editor")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+#[path = "support/app.rs"]
+mod app;
+
+use app::{Editor, click, planet, undo_label, undo_len};
 use eframe::egui;
 use eframe::egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use std::sync::Arc;
-use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
-use tellus::editor::dialogs::ScriptedDialogs;
-use tellus::planet::{Biomes, Planet};
+use tellus::planet::Biomes;
 use tellus::terrain::Terrain;
-
-type Editor = Harness<'static, EditorApp>;
 
 /// An editor on the biomes tab, its picture complete; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
-    let mut harness = Harness::builder()
-        .with_size([1024.0, 760.0])
-        .with_step_dt(1.0 / 60.0)
-        .wgpu()
-        .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
+    let mut harness = app::open([1024.0, 760.0], answers);
     // A picture that is drawn fast: neither sky nor sea.
     harness.state_mut().send(Command::Show(tellus::render::DebugView::Biome));
     harness.run_steps(4);
@@ -56,25 +51,8 @@ fn until(harness: &mut Editor, what: &str, holds: impl Fn(&Editor) -> bool) {
     panic!("never: {what}");
 }
 
-fn planet(harness: &Editor) -> Planet {
-    (**harness.state().document().planet()).clone()
-}
-
 fn biomes(harness: &Editor) -> Biomes {
     planet(harness).biomes
-}
-
-fn undo_len(harness: &Editor) -> usize {
-    harness.state().document().history().undo_len()
-}
-
-fn undo_label(harness: &Editor) -> String {
-    harness.state().document().history().undo_label().unwrap_or_default().to_owned()
-}
-
-fn click(harness: &mut Editor, label: &str) {
-    harness.get_by_label(label).click();
-    harness.run_steps(3);
 }
 
 fn undo(harness: &mut Editor) {

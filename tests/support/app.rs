@@ -1,0 +1,40 @@
+//! The real editor without a window, and what its tests do with it.
+#![allow(unreachable_pub)]
+
+use eframe::egui;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::PathBuf;
+use tellus::editor::EditorApp;
+use tellus::editor::dialogs::ScriptedDialogs;
+use tellus::planet::Planet;
+
+pub type Editor = Harness<'static, EditorApp>;
+
+/// An editor in a window of a size, a few frames old; file dialogs give these answers.
+pub fn open(size: [f32; 2], answers: Vec<Option<PathBuf>>) -> Editor {
+    let mut harness = Harness::builder()
+        .with_size(egui::Vec2::from(size))
+        .with_step_dt(1.0 / 60.0)
+        .wgpu()
+        .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
+    harness.run_steps(4);
+    harness
+}
+
+pub fn planet(harness: &Editor) -> Planet {
+    (**harness.state().document().planet()).clone()
+}
+
+pub fn undo_label(harness: &Editor) -> String {
+    harness.state().document().history().undo_label().unwrap_or_default().to_owned()
+}
+
+pub fn undo_len(harness: &Editor) -> usize {
+    harness.state().document().history().undo_len()
+}
+
+pub fn click(harness: &mut Editor, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}
