@@ -105,10 +105,21 @@ impl LayerPool {
         self.uploaded_bytes
     }
 
-    /// Whether a tile is here; if so it keeps its layer.
-    pub(crate) fn holds(&mut self, serial: u64) -> bool {
-        let held = self.held.get_mut(&serial);
-        held.map(|held| held.wanted_in_frame = self.frame).is_some()
+    /// Uploads a tile ahead of the frame that draws it, if its bytes are `affordable`; one that is here keeps its layer. False if it
+    /// has to wait.
+    pub(crate) fn place_ahead(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        serial: u64,
+        affordable: &mut dyn FnMut(u64) -> bool,
+        texels: impl FnOnce() -> Option<Vec<Vec<u8>>>,
+    ) -> bool {
+        let fits = self.held.contains_key(&serial) || affordable(self.kind.tile_bytes());
+        if fits {
+            self.place(device, queue, serial, texels);
+        }
+        fits
     }
 
     /// Where a tile is; if it is new it is uploaded: `texels` gives the bytes of each image, or nothing for one that cannot be drawn.

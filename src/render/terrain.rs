@@ -248,22 +248,12 @@ impl TerrainResources {
             }
         }
         for tile in surface.leaves.iter().filter_map(|leaf| leaf.horizon.as_deref()) {
-            if !self.horizons.holds(tile.serial) {
-                if affordable(HORIZON.tile_bytes()) {
-                    self.horizons.place(device, queue, tile.serial, || horizon_pool::texels(tile));
-                } else {
-                    done = false;
-                }
-            }
+            let texels = || horizon_pool::texels(tile);
+            done &= self.horizons.place_ahead(device, queue, tile.serial, &mut affordable, texels);
         }
         for tile in surface.leaves.iter().filter_map(|leaf| leaf.detail.as_deref()) {
-            if !self.details.holds(tile.serial) {
-                if affordable(DETAIL.tile_bytes()) {
-                    self.details.place(device, queue, tile.serial, || detail_pool::texels(tile));
-                } else {
-                    done = false;
-                }
-            }
+            let texels = || detail_pool::texels(tile);
+            done &= self.details.place_ahead(device, queue, tile.serial, &mut affordable, texels);
         }
         self.pool.end_round(encoder);
         done
