@@ -67,6 +67,11 @@ pub struct Edit {
     pub planet: Planet,
 }
 
+/// Slopes of its own are nothing to the first biome of the full planet, which has the rock of all.
+pub fn is_idle(path: &str) -> bool {
+    path.starts_with("biomes.palette[0].steep_")
+}
+
 /// An edit of each parameter of a planet that has another value to take, and one of the biome table.
 pub fn every_edit(planet: &Planet) -> Vec<Edit> {
     let mut places: Vec<(ParamPath, Stages)> = Vec::new();
@@ -86,9 +91,8 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
             let relief = reliefs || path.to_string().contains("relief");
             let stages = if relief { diff::touched_stages(planet, &edited) } else { stages };
             let declared = stages.with_consequences();
-            // Slopes of its own are nothing to a biome that has the rock of all.
-            let idle = path.to_string().starts_with("biomes.palette[0].steep_");
-            (edited != *planet && !idle).then(|| Edit { path: path.to_string(), declared, planet: edited })
+            let path = path.to_string();
+            (edited != *planet && !is_idle(&path)).then_some(Edit { path, declared, planet: edited })
         })
         .collect();
     let mut painted = planet.clone();
