@@ -6,6 +6,9 @@
 // From one octave to the next; the same as in globals.rs. Turned octaves never repeat together along an axis.
 const OCTAVE_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
 
+// Height of the bumps of an octave, as a share of its period.
+const BUMPS: f32 = 0.02;
+
 // How much of an octave is shown: it fades before its tile is so small that one sees it repeat.
 fn octave_share(lod: f32) -> f32 { return 1.0 - smoothstep(-0.5, 3.0, lod); }
 
@@ -44,7 +47,7 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
             for (var axis = 0u; axis < 2u; axis++) {
                 let aside = along[axis] * step_m;
                 let risen = octave_at(octave, place + aside, lod) - octave_at(octave, place - aside, lod);
-                rise[axis] += risen * share * 0.035 * octave.w / (2.0 * step_m);
+                rise[axis] += risen * share * BUMPS * octave.w / (2.0 * step_m);
             }
         }
         place = OCTAVE_TURN * place;

@@ -9,6 +9,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use support::{Gpu, frame, lights};
 use tellus::build::{Builder, Surface, build_now};
+use tellus::lod::morph::shifts_m;
+use tellus::lod::range::SHADED_AT;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Fbm, Layer, Planet, Shape, Water, random, shipped};
 use tellus::render::{DebugView, Frame};
@@ -278,4 +280,66 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
         }
     }
     assert!(there > 20, "too little to see: {there} columns");
+}
+
+/// A unit vector from its octahedral form.
+fn from_octahedral(oct: [i16; 2]) -> DVec3 {
+    let [x, y] = oct.map(|v| (f64::from(v) / 32767.0).max(-1.0));
+    let z = 1.0 - x.abs() - y.abs();
+    let sign = |v: f64| if v < 0.0 { -1.0 } else { 1.0 };
+    let [x, y] = if z < 0.0 { [(1.0 - y.abs()) * sign(x), (1.0 - x.abs()) * sign(y)] } else { [x, y] };
+    DVec3::new(x, y, z).normalize()
+}
+
+/// The normal that a pixel of the debug view shows.
+fn shown_normal(pixel: &[u8]) -> DVec3 {
+    let part = |i: usize| {
+        let encoded = f64::from(pixel[i]) / 255.0;
+        let linear = if encoded < 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
+        2.0 * linear.powf(1.0 / 2.2) - 1.0
+    };
+    DVec3::new(part(0), part(1), part(2)).normalize()
+}
+
+#[test]
+fn normals_change_from_a_level_to_the_next_as_the_vertices_have_them() {
+    let planet = bare(shipped::ALL[0].load().unwrap());
+    let camera = support::camera(&planet, 35.0, -5.0, 4000.0, 20.0, -50.0);
+    let view = View { camera, size_px: [480, 320], quality: Quality::Medium };
+    // Without detail tiles: what is shown comes from the vertices alone.
+    let surface = build_now(&planet, &view);
+    let picture =
+        draw(&Frame { view, debug_view: DebugView::Normal, ..frame(&surface, &planet, camera, (30.0, 40.0)) });
+    let (eye, turn) = (camera.position_planet_m, camera.planet_from_view.inverse());
+    let tan_y = (camera.fov_y_rad * 0.5).tan();
+    // How far a pixel is from the blend, from the tile's own normal and from its parent's; where they differ, on the way.
+    let (mut off, mut off_own, mut off_parents) = (Vec::new(), Vec::new(), Vec::new());
+    for leaf in &surface.leaves {
+        let end_m = surface.ranges.always_m(leaf.tile.id.level);
+        let shifts_m = shifts_m(&leaf.tile, eye, &surface.ranges);
+        for (vertex, shift_m) in leaf.tile.vertices.iter().zip(shifts_m) {
+            let position = vertex.position_planet_m();
+            let parents = ((position.distance(eye) / end_m - SHADED_AT) / (1.0 - SHADED_AT)).clamp(0.0, 1.0);
+            let at = turn * (position + position.normalize() * f64::from(shift_m) - eye);
+            let [x, y] = [1.0 + at.x / (-at.z * tan_y * view.aspect()), 1.0 - at.y / (-at.z * tan_y)];
+            let [x, y] = [x * 240.0, y * 160.0];
+            let inside = at.z < 0.0 && x > 1.0 && x < 479.0 && y > 1.0 && y < 319.0;
+            let (own, parent) = (from_octahedral(vertex.normal_oct), from_octahedral(vertex.parent_normal_oct));
+            if !inside || !(0.3..0.7).contains(&parents) || own.distance(parent) < 0.08 {
+                continue;
+            }
+            let pixel = (y as usize * 480 + x as usize) * 4;
+            let shown = shown_normal(&picture[pixel..pixel + 4]);
+            off.push(shown.distance(own.lerp(parent, parents).normalize()));
+            off_own.push(shown.distance(own));
+            off_parents.push(shown.distance(parent));
+        }
+    }
+    let median = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(f64::MAX)
+    };
+    let many = off.len();
+    let [off, own, parents] = [&mut off, &mut off_own, &mut off_parents].map(median);
+    assert!(many > 100 && off < 0.02 && 2.0 * off < own.min(parents), "{many}: {off}, {own} {parents}");
 }
