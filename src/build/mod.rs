@@ -97,7 +97,7 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
 
 /// Finds the horizons and the detail of all tiles that a view shows of a surface, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
-    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true);
+    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true, &|| true);
     find_detail(surface, view, &|_, _| {}, &|| true, &|| true);
 }
 

@@ -39,7 +39,7 @@ fn surface_of(view: &View, height_m: impl Fn(DVec3) -> f64) -> Surface {
         let tile = &leaf.tile;
         leaf.tile = Arc::new(Tile { vertices, min_height_m: -10.0, max_height_m: 6000.0, ..*tile_parts(tile) });
     }
-    assert!(HorizonFinder::new(&surface, view).find(&mut surface, &|_| None, &|_| {}, &|| true));
+    assert!(HorizonFinder::new(&surface, view).find(&mut surface, &|_| None, &|_| {}, &|| true, &|| true));
     surface
 }
 
@@ -248,7 +248,7 @@ fn equal_grounds_find_their_horizons_again_and_another_does_not() {
         surface.leaves.iter().filter_map(|leaf| leaf.horizon.clone()).map(|tile| (tile.id, tile)).collect();
     let made = |surface: &mut Surface| {
         let before = surface.stats.horizons.tiles;
-        HorizonFinder::new(surface, &view).find(surface, &|id| known.get(&id).cloned(), &|_| {}, &|| true);
+        HorizonFinder::new(surface, &view).find(surface, &|id| known.get(&id).cloned(), &|_| {}, &|| true, &|| true);
         surface.stats.horizons.tiles - before
     };
     // Nodes above the leaves are not among the known ones.
