@@ -208,8 +208,11 @@ fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> v
     let n_h = max(dot(n, h), 0.0);
     let alpha = max(roughness * roughness, 0.02);
     let d = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
-    let visible = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
-    let fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    // Under a low star and seen along it, rough ground hides itself by more than its facets: by relief that is drawn nowhere.
+    let visible = 0.5 / (mix(2.0 * n_l * n_v, n_l + n_v, alpha) + 0.15 * alpha);
+    // The facets of rough ground are no mirrors themselves: seen along it, it shines no more than Karis' fit says of the sky's light.
+    let smooth_part = (1.0 - roughness) * (1.0 - roughness);
+    let fresnel = reflectance + max(smooth_part - reflectance, 0.0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
     return vec2f(alpha * alpha / (PI * d * d) * visible * fresnel * n_l, around);
 }
 
