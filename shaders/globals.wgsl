@@ -65,7 +65,8 @@ struct Globals {
     chosen_eye_low_m: vec4f,
     // xyz: point of the reference sphere under the eye in each octave of the noise at borders, in periods; w: period in metres
     border: array<vec4f, 5>,
-    // Of the biome table; x: border jitter in cells; y: 1 for crisp borders; z: 1 while cells are marked
+    // Of the biome table; x: border jitter in cells; y: 1 for crisp borders; z: 1 while cells are marked; w: change of moisture with
+    // each metre of height
     table: vec4f,
 }
 

@@ -107,6 +107,7 @@ struct Relief {
     normal: vec3f,
     height_m: f32,
     climate: vec2f,
+    temperature_c: f32,
 }
 
 // `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
@@ -115,7 +116,7 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
     let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
-    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, in.climate); }
+    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, in.climate, in.temperature_c); }
     let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
     let texels = log2(footprint_m / in.detail_fade.z);
     let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
@@ -127,11 +128,13 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
     let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
     out.height_m = mix(in.detail_fade.w + heights.x + heights.y + heights.z * parent, in.height_m, saturate1(texels - 1.0));
-    // Higher ground is colder; over the sea its surface counts.
+    // Higher ground is colder and drier, from the sea's surface on (the reference sphere's without one): src/terrain/climate.rs.
+    let sea_m = select(0.0, globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    let risen_m = max(out.height_m, sea_m) - max(in.height_m, sea_m);
     let rows_per_m = globals.chosen_eye_high_m.w;
-    let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
-    let risen_m = max(out.height_m, least_m) - max(in.height_m, least_m);
-    out.climate = vec2f(in.climate.x, saturate1(in.climate.y + risen_m * rows_per_m));
+    let rows = select(risen_m, out.height_m - in.height_m, rows_per_m > 0.0) * rows_per_m;
+    out.climate = saturate(in.climate + vec2f(risen_m * globals.table.w, rows));
+    out.temperature_c = in.temperature_c - risen_m * globals.eye_wrap_m.w;
     return out;
 }
 
@@ -147,20 +150,10 @@ fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec
     return normalize(abs(area) * n - tilt + n * 1e-20);
 }
 
-// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its place in the table.
-fn site_of(in: Ground, at: vec2f, risen_m: f32, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
-    let sea_m = globals.water.x * 1000.0;
-    let has_sea = globals.water_absorption.w > 0.0;
-    let above = select(1.0, saturate1((in.height_m - sea_m) * 0.1), has_sea);
-    return Site(
-        at,
-        in.rel_m,
-        slope_cosine,
-        in.temperature_c - risen_m * globals.eye_wrap_m.w * above,
-        select(1e9, in.height_m - sea_m, has_sea),
-        footprint_m,
-        mottle,
-    );
+// What decides about the ground at a pixel. `at`: its place in the table.
+fn site_of(in: Ground, at: vec2f, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
+    let over_sea_m = select(1e9, in.height_m - globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    return Site(at, in.rel_m, slope_cosine, in.temperature_c, over_sea_m, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
@@ -255,7 +248,7 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
+fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
@@ -268,7 +261,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let site = site_of(in, place, risen_m, dot(n, up), 1.0, 0.0);
+            let site = site_of(in, place, dot(n, up), 1.0, 0.0);
             return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
         case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
@@ -288,22 +281,23 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_x = dpdx(on_mesh.rel_m);
     let rel_y = dpdy(on_mesh.rel_m);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
-    let detail = relief_of(on_mesh, up, footprint_m);
+    // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
+    let detail = relief_of(on_mesh, up, select(footprint_m, 1e-6, globals.modes.x == 4u));
     var in = on_mesh;
     in.height_m = detail.height_m;
     in.climate = detail.climate;
-    let risen_m = in.height_m - on_mesh.height_m;
+    in.temperature_c = detail.temperature_c;
     var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up, risen_m), over_sea_m); }
+    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     let relief = relief_at(in.rel_m, footprint_m);
     let place = table_place(in.climate, in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, place, risen_m, dot(n, up), footprint_m, relief.x);
+    let site = site_of(in, place, dot(n, up), footprint_m, relief.x);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place

@@ -228,7 +228,9 @@ fn set_table(g: &mut Globals, planet: &Planet, foot_m: DVec3, marked: bool) {
         place_m = OCTAVE_TURN * place_m;
     }
     let flag = |on: bool| f32::from(u8::from(on));
-    g.table = [planet.biomes.border_jitter as f32, flag(planet.biomes.blend == TableBlend::Crisp), flag(marked), 0.0];
+    let moisture_per_m = -planet.climate.drying_per_km * 1e-3;
+    let is_crisp = planet.biomes.blend == TableBlend::Crisp;
+    g.table = [planet.biomes.border_jitter as f32, flag(is_crisp), flag(marked), moisture_per_m as f32];
 }
 
 /// By how much the row of the biome table changes with each metre of height, 0 to 1 over the whole table. It falls where rows
