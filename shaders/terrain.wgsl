@@ -295,7 +295,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up), over_sea_m); }
+    if globals.modes.x != 0u && globals.modes.x != 12u { return vec4f(debug_color(in, n, up), over_sea_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
@@ -305,6 +305,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
     let site = site_of(in, climate.temperature_c, place, dot(n, up), footprint_m, relief.x);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
+    if globals.modes.x == 12u { return vec4f(ground.albedo, over_sea_m); }
     n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
     // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
