@@ -59,14 +59,15 @@ struct Globals {
     misc: vec4f,
     // x: view (DebugView), y: pixels drawn for one shown, 0 for half; z: the target encodes sRGB itself; w: tone
     modes: vec4u,
-    // The eye that the tiles were chosen for, greater part and rest, metres; w: change of the biome table's row (0 to 1) with
-    // each metre of height, below 0 where rows go by temperature; w of the rest: angle of its pixels, radians
+    // The eye that the tiles were chosen for, greater part and rest, metres; w of the rest: angle of its pixels, radians
     chosen_eye_high_m: vec4f,
     chosen_eye_low_m: vec4f,
     // xyz: point of the reference sphere under the eye in each octave of the noise at borders, in periods; w: period in metres
     border: array<vec4f, 5>,
     // Of the biome table; x: border jitter in cells; y: 1 for crisp borders; z: 1 while cells are marked
     table: vec4f,
+    // Row of the biome table (0 to 1): x + y times the temperature in °C + z times the height over the sea; w: moisture by metre
+    climate: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;

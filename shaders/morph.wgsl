@@ -7,7 +7,7 @@ const QUADS: u32 = 32u;
 const SIDE: u32 = 33u;
 const VERTICES: u32 = 1089u;
 const VERTEX_WORDS: u32 = 13u;
-const SHOWN_WORDS: u32 = 5u;
+const SHOWN_WORDS: u32 = 4u;
 const LANES: u32 = 64u;
 // Must match src/lod/morph.rs.
 const COARSEST_MORPHING: u32 = 4u;
@@ -32,7 +32,7 @@ struct Eye {
 }
 
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
-// For each vertex: shift, metres; moisture; row of the biome table; height, metres; temperature.
+// For each vertex: shift, metres; moisture and temperature on the level that climate counts from; height, metres.
 @group(0) @binding(1) var<storage, read_write> shown: array<f32>;
 @group(0) @binding(2) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(3) var<uniform> eye: Eye;
@@ -49,15 +49,13 @@ fn share_of(word: u32, spacing_m: f32) -> f32 {
 }
 
 // Climate and height as the vertex itself has them, in the order of `shown`.
-fn own(word: u32) -> vec4f {
-    return vec4f(unpack2x16unorm(bitcast<u32>(vertices[word + 8u])), vertices[word + 3u], vertices[word + 7u]);
-}
+fn own(word: u32) -> vec3f { return vec3f(vertices[word + 8u], vertices[word + 7u], vertices[word + 3u]); }
 
-fn shown_of(word: u32) -> vec4f { return vec4f(shown[word + 1u], shown[word + 2u], shown[word + 3u], shown[word + 4u]); }
+fn shown_of(word: u32) -> vec3f { return vec3f(shown[word + 1u], shown[word + 2u], shown[word + 3u]); }
 
-fn show(word: u32, shift_m: f32, rest: vec4f) {
+fn show(word: u32, shift_m: f32, rest: vec3f) {
     shown[word] = shift_m;
-    for (var i = 0u; i < 4u; i++) { shown[word + 1u + i] = rest[i]; }
+    for (var i = 0u; i < 3u; i++) { shown[word + 1u + i] = rest[i]; }
 }
 
 @compute @workgroup_size(64)

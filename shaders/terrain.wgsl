@@ -24,8 +24,8 @@ struct Vertex {
     @location(10) detail_fade: vec4f,
     // How far the vertex is drawn above its place, until it has come out of the coarser mesh (morph.wgsl).
     @location(11) shift_m: f32,
-    // Moisture, row of the biome table, height and temperature, the same way.
-    @location(12) shown: vec4f,
+    // Moisture and temperature on the level that climate counts from, and height, the same way.
+    @location(12) shown: vec3f,
     // See `exposed`.
     @location(13) horizon: vec4f,
 }
@@ -34,10 +34,10 @@ struct Ground {
     @builtin(position) position: vec4f,
     @location(0) rel_m: vec3f,
     @location(1) normal: vec3f,
-    @location(2) climate: vec2f,
+    // Moisture, temperature: on the level that climate counts from
+    @location(2) level_climate: vec2f,
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
-    @location(5) temperature_c: f32,
     // Place in the tile, 0 to 1, and in its detail tile
     @location(6) place: vec4f,
     // From the eye that the tile was chosen for
@@ -79,10 +79,9 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.normal = from_octahedral(in.normal_oct);
     out.parent_normal = from_octahedral(in.parent_normal_oct);
     out.fade_m = in.tile.xy;
-    out.climate = in.shown.xy;
+    out.level_climate = in.shown.xy;
     out.height_m = in.shown.z;
     out.level = in.tile.z;
-    out.temperature_c = in.shown.w;
     // Each tile's vertices are a whole number of tiles from the buffer's start.
     let number = index % (TILE_SIDE * TILE_SIDE);
     let place = vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u);
@@ -106,7 +105,6 @@ fn faded(range_m: vec2f, distance_m: f32) -> f32 {
 struct Relief {
     normal: vec3f,
     height_m: f32,
-    climate: vec2f,
 }
 
 // `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
@@ -115,7 +113,7 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
     let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
-    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, in.climate); }
+    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m); }
     let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
     let texels = log2(footprint_m / in.detail_fade.z);
     let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
@@ -127,11 +125,6 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
     let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
     out.height_m = mix(in.detail_fade.w + heights.x + heights.y + heights.z * parent, in.height_m, saturate1(texels - 1.0));
-    // Higher ground is colder; over the sea its surface counts.
-    let rows_per_m = globals.chosen_eye_high_m.w;
-    let least_m = select(-1e9, globals.water.x * 1000.0, rows_per_m < 0.0 && globals.water_absorption.w > 0.0);
-    let risen_m = max(out.height_m, least_m) - max(in.height_m, least_m);
-    out.climate = vec2f(in.climate.x, saturate1(in.climate.y + risen_m * rows_per_m));
     return out;
 }
 
@@ -155,20 +148,26 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
     return normalize(n - rise.x * tangent - rise.y * other);
 }
 
-// What decides about the ground at a pixel. `risen_m`: over the mesh; `at`: its place in the table.
-fn site_of(in: Ground, at: vec2f, risen_m: f32, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
-    let sea_m = globals.water.x * 1000.0;
-    let has_sea = globals.water_absorption.w > 0.0;
-    let above = select(1.0, saturate1((in.height_m - sea_m) * 0.1), has_sea);
-    return Site(
-        at,
-        in.rel_m,
-        slope_cosine,
-        in.temperature_c - risen_m * globals.eye_wrap_m.w * above,
-        select(1e9, in.height_m - sea_m, has_sea),
-        footprint_m,
-        mottle,
-    );
+struct Climate {
+    temperature_c: f32,
+    moisture: f32,
+    // Of the biome table: 0 for the last to 1 for the first
+    row: f32,
+}
+
+// At a height, as src/terrain/climate.rs has it: higher ground is colder and drier, from the surface of the sea on.
+fn climate_at(in: Ground, height_m: f32) -> Climate {
+    let over_m = height_m - select(0.0, globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    let above_m = max(over_m, 0.0);
+    let temperature_c = in.level_climate.y - above_m * globals.eye_wrap_m.w;
+    let row = globals.climate.x + globals.climate.y * temperature_c + globals.climate.z * over_m;
+    return Climate(temperature_c, saturate1(in.level_climate.x + above_m * globals.climate.w), saturate1(row));
+}
+
+// What decides about the ground at a pixel. `at`: its place in the table.
+fn site_of(in: Ground, temperature_c: f32, at: vec2f, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
+    let over_sea_m = select(1e9, in.height_m - globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    return Site(at, in.rel_m, slope_cosine, temperature_c, over_sea_m, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
@@ -208,8 +207,11 @@ fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> v
     let n_h = max(dot(n, h), 0.0);
     let alpha = max(roughness * roughness, 0.02);
     let d = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
-    let visible = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
-    let fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    // Under a low star and seen along it, rough ground hides itself by more than its facets: by relief that is drawn nowhere.
+    let visible = 0.5 / (mix(2.0 * n_l * n_v, n_l + n_v, alpha) + 0.15 * alpha);
+    // The facets of rough ground are no mirrors themselves: seen along it, it shines no more than Karis' fit says of the sky's light.
+    let smooth_part = (1.0 - roughness) * (1.0 - roughness);
+    let fresnel = reflectance + max(smooth_part - reflectance, 0.0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
     return vec2f(alpha * alpha / (PI * d * d) * visible * fresnel * n_l, around);
 }
 
@@ -263,11 +265,12 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
+fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
-    let place = table_place(in.climate, in.rel_m, 0.0);
+    let climate = climate_at(in, in.height_m);
+    let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
     switch globals.modes.x {
         case 1u: {
             let span = max(globals.misc.z - globals.misc.y, 1.0);
@@ -276,11 +279,11 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, risen_m: f32) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let site = site_of(in, place, risen_m, dot(n, up), 1.0, 0.0);
+            let site = site_of(in, climate.temperature_c, place, dot(n, up), 1.0, 0.0);
             return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
-        case 5u: { return temperature_color((in.temperature_c + 40.0) / 80.0) * lit; }
-        case 6u: { return moisture_color(in.climate.x) * lit; }
+        case 5u: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
+        case 6u: { return moisture_color(climate.moisture) * lit; }
         case 7u: { return level_color(in.level) * lit; }
         case 8u: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
         case 9u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
@@ -296,23 +299,24 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_x = pixel_step(on_mesh, globals.ray_right);
     let rel_y = pixel_step(on_mesh, -globals.ray_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
-    let detail = relief_of(on_mesh, up, footprint_m);
+    // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
+    let detail = relief_of(on_mesh, up, select(footprint_m, 1e-6, globals.modes.x == 4u));
     var in = on_mesh;
     in.height_m = detail.height_m;
-    in.climate = detail.climate;
-    let risen_m = in.height_m - on_mesh.height_m;
     var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u { return vec4f(debug_color(in, n, up, risen_m), over_sea_m); }
+    if globals.modes.x != 0u && globals.modes.x != 12u { return vec4f(debug_color(in, n, up), over_sea_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     let mottle = mottle_at(in.rel_m, footprint_m);
-    let place = table_place(in.climate, in.rel_m, footprint_m);
+    let climate = climate_at(in, in.height_m);
+    let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, place, risen_m, dot(n, up), footprint_m, mottle);
+    let site = site_of(in, climate.temperature_c, place, dot(n, up), footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
+    if globals.modes.x == 12u { return vec4f(ground.albedo, over_sea_m); }
     n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
     // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
@@ -344,7 +348,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
 struct Output {
     // Radiance; height over the sea in metres
     @location(0) light: vec4f,
-    // °C; share of the star's light that the ground around takes
+    // °C on the level of the sea; share of the star's light that the ground around takes
     @location(1) surface: vec4f,
 }
 
@@ -352,5 +356,5 @@ struct Output {
 fn fragment(in: Ground) -> Output {
     let up = normalize(globals.eye_km.xyz + in.rel_m * 0.001);
     let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
-    return Output(shade(in, from_ground), vec4f(in.temperature_c, 1.0 - from_ground.star, 0.0, 0.0));
+    return Output(shade(in, from_ground), vec4f(in.level_climate.y, 1.0 - from_ground.star, 0.0, 0.0));
 }

@@ -4,6 +4,7 @@
 
 mod support;
 
+use glam::DVec3;
 use std::sync::Arc;
 use support::Gpu;
 use tellus::build::{add_detail, build_now};
@@ -14,9 +15,34 @@ use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 use tellus::terrain::survey::spread;
 
-const SIZE_PX: [u32; 2] = [400, 400];
-/// Points asked for on each planet.
+/// Points asked for on each planet, over all poses.
 const POINTS: usize = 2000;
+/// Pixels along a side of each picture.
+const SIDE_PX: usize = 160;
+
+/// How a place is looked at; angles in degrees.
+struct Pose {
+    heading: f64,
+    pitch: f64,
+    /// Width of a pixel on the ground straight below.
+    pixel_m: f64,
+}
+
+const fn pose(heading: f64, pitch: f64, pixel_m: f64) -> Pose {
+    Pose { heading, pitch, pixel_m }
+}
+
+/// Pixels no wider than what decides about biomes: narrow gorges and ridges.
+const POSES: [Pose; 6] = [
+    pose(0.0, -90.0, 500.0),
+    pose(40.0, -90.0, 200.0),
+    pose(200.0, -60.0, 100.0),
+    pose(120.0, -80.0, 300.0),
+    pose(300.0, -65.0, 30.0),
+    pose(70.0, -75.0, 3.0),
+];
+/// From orbit, a pixel is wider than mountains; on a planet of the size of the Earth.
+const ORBIT: Pose = pose(0.0, -90.0, 10_000.0);
 
 /// A colour as the picture encodes it.
 fn srgb(linear: [f64; 3]) -> [u8; 3] {
@@ -31,12 +57,34 @@ fn biome_of(palette: &[[u8; 3]], pixel: &[u8]) -> Option<usize> {
     palette.iter().position(|color| color.iter().zip(pixel).all(|(a, b)| a.abs_diff(*b) <= 1))
 }
 
+/// The ground (below the sea, too) that a ray meets.
+fn ground_along(terrain: &Terrain, eye_m: DVec3, ray: DVec3) -> Option<DVec3> {
+    let over_m = |way_m: f64| {
+        let at_m = eye_m + ray * way_m;
+        at_m.length() - terrain.planet().radius_m() - terrain.height_m(at_m)
+    };
+    // From the surface of the sea on step by step, no farther than to the side of what lies below.
+    let mut way_m = terrain.raycast(eye_m, ray)?;
+    for _ in 0..60 {
+        let above_m = over_m(way_m);
+        if above_m < 0.01 {
+            break;
+        }
+        way_m += 0.7 * above_m;
+    }
+    Some(eye_m + ray * way_m)
+}
+
 /// Of so many points seen at pixels of a view of a planet: how many have the query's biome in the picture, how many have it no
 /// farther than a pixel away, how many there are.
-fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, distance_m: f64, points: usize) -> [usize; 3] {
+fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pose: &Pose, points: usize) -> [usize; 3] {
     let planet = terrain.planet();
-    let camera = Camera::over(place, distance_m, 0.0, -std::f64::consts::FRAC_PI_2, Camera::DEFAULT_FOV_Y_RAD);
-    let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
+    let fov_rad = Camera::DEFAULT_FOV_Y_RAD;
+    let altitude_m = pose.pixel_m * SIDE_PX as f64 / (2.0 * (0.5 * fov_rad).tan());
+    let surface_m = terrain.height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
+    let eye_radius_m = planet.radius_m() + surface_m + altitude_m;
+    let camera = Camera::over(place, eye_radius_m, pose.heading.to_radians(), pose.pitch.to_radians(), fov_rad);
+    let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::Medium };
     let mut surface = build_now(planet, &view);
     add_detail(&mut surface, &view);
     let picture = gpu.draw(&Frame {
@@ -50,22 +98,23 @@ fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, distance_m: f64, po
         debug_view: DebugView::Biome,
     });
     let palette: Vec<[u8; 3]> = planet.biomes.palette.iter().map(|biome| srgb(biome.color)).collect();
-    let [width, height] = SIZE_PX.map(|side| side as usize);
-    let pixel = |x: usize, y: usize| biome_of(&palette, &picture[(y * width + x) * 4..][..3]);
+    let pixel = |x: usize, y: usize| biome_of(&palette, &picture[(y * SIDE_PX + x) * 4..][..3]);
     let mut counts = [0; 3];
     let mut random = 12345_u32;
     for _ in 0..20 * points {
+        if counts[2] == points {
+            break;
+        }
         let mut next = |below: usize| {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (random >> 8) as usize % below
         };
-        let (x, y) = (1 + next(width - 2), 1 + next(height - 2));
-        let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
-        let ray = camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect());
-        let Some(way_m) = terrain.raycast(camera.position_planet_m, ray) else { continue };
-        let ground_m = camera.position_planet_m + ray * way_m;
+        let (x, y) = (1 + next(SIDE_PX - 2), 1 + next(SIDE_PX - 2));
+        let ndc = |i: usize| (i as f64 + 0.5) / SIDE_PX as f64 * 2.0 - 1.0;
+        let ray = camera.ray_dir_planet(ndc(x), -ndc(y), view.aspect());
+        let Some(ground_m) = ground_along(terrain, camera.position_planet_m, ray) else { continue };
         // Well this side of the limb, where one pixel is many places.
-        if -ray.dot(ground_m.normalize()) < 0.55 || counts[2] == points {
+        if -ray.dot(ground_m.normalize()) < 0.55 {
             continue;
         }
         let biome = Some(terrain.sample(ground_m).biome);
@@ -75,6 +124,19 @@ fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, distance_m: f64, po
     counts
 }
 
+/// Places with borders between biomes as far away as a picture reaches, one after the other over the planet.
+fn place_with_borders(terrain: &Terrain, dirs: &mut impl Iterator<Item = DVec3>, pose: &Pose) -> LatLon {
+    let reach_rad = 0.4 * SIDE_PX as f64 * pose.pixel_m / terrain.planet().radius_m();
+    let has_borders = |dir: &DVec3| {
+        let side = dir.any_orthonormal_vector();
+        let ways = [side, -side, dir.cross(side), side.cross(*dir)];
+        let here = terrain.sample(*dir).biome;
+        ways.iter().filter(|way| terrain.sample(*dir + **way * reach_rad).biome != here).count() >= 2
+    };
+    LatLon::from_direction(dirs.find(has_borders).expect("a planet with borders"))
+}
+
+/// The acceptance: of 2,000 points on each planet 99% are the same, and all the rest lie within a pixel of a border.
 #[test]
 fn the_biome_of_a_query_is_the_one_in_the_picture() {
     let mut gpu = Gpu::new();
@@ -82,32 +144,25 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
     for preset in shipped::ALL {
         let planet = Arc::new(preset.load().unwrap());
         let terrain = Terrain::new(planet.clone());
-        let mut sums = [0; 3];
-        // From where a pixel is a kilometre or less. From far away (the last, which does not count) most mountains are finer
-        // than a pixel, and the picture shows the biome of a height between them.
-        for (radii, count) in [(1.05, 1000), (1.01, 1000), (3.2, 200)] {
-            let mut seen = [0; 3];
-            for (lat, lon) in [(25.0, 10.0), (-35.0, 170.0)] {
-                let place = LatLon::from_degrees(lat, lon);
-                let counts = compared(&mut gpu, &terrain, place, radii * planet.radius_m(), count / 2);
-                (0..3).for_each(|k| seen[k] += counts[k]);
-            }
-            println!("{} from {radii} radii: {seen:?}", preset.file);
-            if radii > 2.0 {
-                if seen[0] * 100 < seen[2] * 80 || seen[1] * 100 < seen[2] * 93 {
-                    problems.push(format!("{} from space: {seen:?}", preset.file));
-                }
-                continue;
-            }
-            (0..3).for_each(|k| sums[k] += seen[k]);
+        let mut dirs = spread(40_000).step_by(13);
+        let [mut same, mut near, mut all] = [0; 3];
+        for pose in &POSES {
+            let place = place_with_borders(&terrain, &mut dirs, pose);
+            let counts = compared(&mut gpu, &terrain, place, pose, POINTS.div_ceil(POSES.len()).min(POINTS - all));
+            (same, near, all) = (same + counts[0], near + counts[1], all + counts[2]);
         }
-        let [same, near, all] = sums;
         println!("{}: {same} of {all} the same, {near} within a pixel of it", preset.file);
         assert_eq!(all, POINTS);
-        // Aimed at: 99% and all the rest within a pixel. What is missing is probably steep ground, where the vertices of the
-        // mesh and the point of a query stand at different heights.
-        if (same as f64) < 0.985 * all as f64 || (near as f64) < 0.993 * all as f64 {
+        if same * 100 < 99 * all || near < all {
             problems.push(format!("{}: {same} of {all} the same, {near} within a pixel", preset.file));
+        }
+        // What is finer than a pixel shows as the mean height around.
+        let place = LatLon::from_degrees(17.0, 54.0);
+        let orbit = Pose { pixel_m: ORBIT.pixel_m * planet.radius_km / 6371.0, ..ORBIT };
+        let [same, near, all] = compared(&mut gpu, &terrain, place, &orbit, 200);
+        println!("{} from orbit: {same} of {all} the same, {near} within a pixel of it", preset.file);
+        if same * 100 < 85 * all || near * 100 < 95 * all {
+            problems.push(format!("{} from orbit: {same} of {all} the same, {near} within a pixel", preset.file));
         }
     }
     assert!(problems.is_empty(), "{problems:#?}");

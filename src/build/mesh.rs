@@ -11,9 +11,8 @@ use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Adding this to an f32 below 2^22 leaves the nearest whole number in the low bits; the other one does so for f64.
+/// Adding this to an f32 below 2^22 leaves the nearest whole number in the low bits.
 const ROUNDER_F32: f32 = 12_582_912.0;
-const ROUNDER_F64: f64 = 6_755_399_441_055_744.0;
 
 /// Makes the mesh of a node; whose heights it has is for the caller to say. `dirs_planet`, `heights` (with the gradients of the tile's own spacing and of its parent's) and
 /// `climate` are those of its vertices, and so is `inland_rad` unless it is empty.
@@ -42,7 +41,7 @@ pub(super) fn mesh(
             face(simd, radius_m, dirs, height_m, gradient, &mut lanes.normal_oct[band]);
         }
         let noise = [&climate.temperature[range.clone()], &climate.moisture[range.clone()]];
-        weather(simd, &rules, dirs, height_m, noise, inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), &mut lanes);
+        weather(simd, &rules, dirs, noise, inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), &mut lanes);
         vertices.extend((0..dirs.len()).map(|i| lanes.vertex(i)));
     }
     let mut tile = Tile {
@@ -66,7 +65,7 @@ struct Lanes {
     low_m: [Lane<f32>; 3],
     height_m: Lane<f32>,
     temperature_c: Lane<f32>,
-    climate_unorm: [Lane<u16>; 2],
+    moisture: Lane<f32>,
     /// The tile's own normal and its parent's.
     normal_oct: [[Lane<i16>; 2]; 2],
     /// Square of the greatest distance from the tile's centre, over all chunks so far.
@@ -80,7 +79,7 @@ impl Default for Lanes {
             low_m: [[0.0; CHUNK]; 3],
             height_m: [0.0; CHUNK],
             temperature_c: [0.0; CHUNK],
-            climate_unorm: [[0; CHUNK]; 2],
+            moisture: [0.0; CHUNK],
             normal_oct: [[[0; CHUNK]; 2]; 2],
             farthest_square: [0.0; CHUNK],
         }
@@ -97,7 +96,7 @@ impl Lanes {
             height_m: self.height_m[i],
             position_low_m: three(&self.low_m),
             temperature_c: self.temperature_c[i],
-            climate_unorm: [self.climate_unorm[0][i], self.climate_unorm[1][i]],
+            moisture: self.moisture[i],
             normal_oct: normal(&self.normal_oct[0]),
             parent_normal_oct: normal(&self.normal_oct[1]),
             ..Vertex::default()
@@ -155,25 +154,15 @@ fn face_body(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32];
 }
 for_each_simd!(fn face(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32]; 3], normal_oct: &mut [Lane<i16>; 2]) = face_body);
 
-/// Temperature, moisture and the row of the biome table.
+/// Temperature and moisture at the level that climate counts from.
 #[inline(always)]
-fn weather_body(
-    rules: &Rules,
-    dirs: &[DVec3],
-    height_m: &[f64],
-    noise: [&[f64]; 2],
-    inland_rad: &[f64],
-    lanes: &mut Lanes,
-) {
+fn weather_body(rules: &Rules, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) {
     let [temperature, moisture] = noise;
-    let n = dirs.len().min(height_m.len()).min(temperature.len()).min(moisture.len()).min(inland_rad.len()).min(CHUNK);
-    let unorm = |value: f64| (value * 65535.0 + ROUNDER_F64).to_bits() as u16;
-    let [columns, rows] = &mut lanes.climate_unorm;
+    let n = dirs.len().min(temperature.len()).min(moisture.len()).min(inland_rad.len()).min(CHUNK);
     for i in 0..n {
-        let climate = rules.at(dirs[i].z, height_m[i], [temperature[i], moisture[i]], inland_rad[i]);
-        lanes.temperature_c[i] = climate.temperature_c as f32;
-        columns[i] = unorm(climate.moisture);
-        rows[i] = unorm(climate.row);
+        let [temperature_c, moisture] = rules.at_km(dirs[i].z, 0.0, [temperature[i], moisture[i]], inland_rad[i]);
+        lanes.temperature_c[i] = temperature_c as f32;
+        lanes.moisture[i] = moisture as f32;
     }
 }
-for_each_simd!(fn weather(rules: &Rules, dirs: &[DVec3], height_m: &[f64], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) = weather_body);
+for_each_simd!(fn weather(rules: &Rules, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) = weather_body);

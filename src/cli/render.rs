@@ -108,6 +108,7 @@ impl ValueEnum for DebugView {
             DebugView::Error => "error",
             DebugView::Wireframe => "wireframe",
             DebugView::Coverage => "coverage",
+            DebugView::Albedo => "albedo",
         }))
     }
 }

@@ -73,6 +73,7 @@ impl Command {
         Command::Show(DebugView::Wireframe),
         Command::Show(DebugView::Error),
         Command::Show(DebugView::Coverage),
+        Command::Show(DebugView::Albedo),
         Command::FreezeDetail,
         Command::AddBookmark,
         Command::GoTo(0),
@@ -180,6 +181,7 @@ impl Command {
             Command::Show(DebugView::Wireframe) => "Show the edges of the triangles.",
             Command::Show(DebugView::Error) => "Show the vertex spacing: blue 1 pixel, green 4, yellow 16, red 64.",
             Command::Show(DebugView::Coverage) => "Show ground white and all else black.",
+            Command::Show(DebugView::Albedo) => "Show the ground's own colour without light.",
             Command::AddBookmark => "Keep this view in the preset.",
             Command::GoTo(_) => "Fly to this bookmark.",
             Command::ImportTable => {
@@ -213,7 +215,10 @@ impl Command {
             Command::TogglePanel => const { &[plain(Key::F9)] },
             Command::TogglePerformance => const { &[plain(Key::F8)] },
             Command::ToggleFullscreen => const { &[plain(Key::F11)] },
-            Command::ToggleTheme | Command::ImportTable | Command::ExportTable => &[],
+            Command::ToggleTheme
+            | Command::ImportTable
+            | Command::ExportTable
+            | Command::Show(DebugView::Albedo) => &[],
             Command::RandomPlanet => const { &[ctrl(Key::R)] },
             Command::Controls => const { &[plain(Key::F1), plain(Key::Questionmark)] },
             Command::Move(Mode::Orbit) => const { &[plain(Key::F2)] },

@@ -72,11 +72,11 @@ pub struct Vertex {
     pub height_m: f32,
     /// Rest of the position, metres.
     pub position_low_m: [f32; 3],
-    /// Temperature at the surface, °C.
+    /// Temperature in °C at the level that climate counts from: the sea's, or the reference sphere's. What height adds is
+    /// for whoever knows the height of a place between vertices.
     pub temperature_c: f32,
-    /// Where in the biome table: moisture (0 dry to 65535 wet) and row (0 = last row, coldest
-    /// or lowest; 65535 = first).
-    pub climate_unorm: [u16; 2],
+    /// Moisture at the same level, before it is cut to 0 (dry) to 1 (wet).
+    pub moisture: f32,
     /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex
     /// spacing is faded out of it.
     pub normal_oct: [i16; 2],

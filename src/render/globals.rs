@@ -53,6 +53,7 @@ struct Globals {
     chosen_eye_low_m: [f32; 4],
     border: [[f32; 4]; border::OCTAVES],
     table: [f32; 4],
+    climate: [f32; 4],
 }
 
 /// What of a frame is not in [`Frame`].
@@ -214,7 +215,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     ];
     let view = DebugView::ALL.iter().position(|&v| v == frame.debug_view).unwrap_or(0) as u32;
     g.modes = [view, setup.scale, u32::from(setup.srgb_target), setup.tone as u32];
-    g.chosen_eye_high_m = vec4(chosen_high, rows_per_metre(frame.planet));
+    g.chosen_eye_high_m = vec4(chosen_high, 0.0);
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     set_table(&mut g, planet, up * radius_m, setup.marked);
     g
@@ -228,16 +229,24 @@ fn set_table(g: &mut Globals, planet: &Planet, foot_m: DVec3, marked: bool) {
         place_m = OCTAVE_TURN * place_m;
     }
     let flag = |on: bool| f32::from(u8::from(on));
-    g.table = [planet.biomes.border_jitter as f32, flag(planet.biomes.blend == TableBlend::Crisp), flag(marked), 0.0];
+    let is_crisp = planet.biomes.blend == TableBlend::Crisp;
+    g.table = [planet.biomes.border_jitter as f32, flag(is_crisp), flag(marked), 0.0];
+    g.climate = climate_by_height(planet).map(|number| number as f32);
 }
 
-/// By how much the row of the biome table changes with each metre of height, 0 to 1 over the whole table. It falls where rows
-/// go by temperature; below the sea it then stays, as the climate has it.
-fn rows_per_metre(planet: &Planet) -> f64 {
-    let (climate, biomes) = (&planet.climate, &planet.biomes);
+/// The row of the biome table where temperature and height are 0, its change by °C and by metre, and that of moisture by metre.
+fn climate_by_height(planet: &Planet) -> [f64; 4] {
+    let biomes = &planet.biomes;
+    let moisture_per_m = -planet.climate.drying_per_km * 1e-3;
     match biomes.rows {
-        TableRows::Temperature => -climate.lapse_c_per_km * 0.001 / (biomes.hottest_c - biomes.coldest_c),
-        TableRows::Elevation => 1.0 / (biomes.highest_m - biomes.lowest_m),
+        TableRows::Temperature => {
+            let per_c = 1.0 / (biomes.hottest_c - biomes.coldest_c);
+            [-biomes.coldest_c * per_c, per_c, 0.0, moisture_per_m]
+        }
+        TableRows::Elevation => {
+            let per_m = 1.0 / (biomes.highest_m - biomes.lowest_m);
+            [-biomes.lowest_m * per_m, 0.0, per_m, moisture_per_m]
+        }
     }
 }
 

@@ -84,11 +84,13 @@ pub enum DebugView {
     Error,
     /// White where there is ground, black elsewhere.
     Coverage,
+    /// The ground's own colour (its albedo), patterns and all, without light.
+    Albedo,
 }
 
 impl DebugView {
     /// All of them.
-    pub const ALL: [DebugView; 12] = [
+    pub const ALL: [DebugView; 13] = [
         DebugView::Shaded,
         DebugView::Height,
         DebugView::Normal,
@@ -101,6 +103,7 @@ impl DebugView {
         DebugView::Wireframe,
         DebugView::Error,
         DebugView::Coverage,
+        DebugView::Albedo,
     ];
 
     /// The name a person reads.
@@ -118,6 +121,7 @@ impl DebugView {
             DebugView::Error => "Error",
             DebugView::Wireframe => "Wireframe",
             DebugView::Coverage => "Coverage",
+            DebugView::Albedo => "Albedo",
         }
     }
 }

@@ -10,9 +10,9 @@ use glam::DVec3;
 
 /// What a vertex shows: how far it is drawn above its place; moisture, row of the biome table, height and temperature.
 pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
-    wgpu::vertex_attr_array![11 => Float32, 12 => Float32x4];
+    wgpu::vertex_attr_array![11 => Float32, 12 => Float32x3];
 /// Bytes of it.
-pub(crate) const SHOWN_BYTES: u64 = 5 * 4;
+pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Bytes of what belongs to one buffer of the pool.
 const PART_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * SHOWN_BYTES;
 

@@ -137,14 +137,7 @@ impl Rules {
     pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> PointClimate {
         // Over a sea the surface is the sea's.
         let above_m = height_m - self.sea_m;
-        let above_km = above_m.max(0.0) / 1000.0;
-        let sin2_lat = sin_lat * sin_lat;
-        let temperature_c = self.equator_c + self.warmer_c * sin2_lat - self.lapse_c_per_km * above_km
-            + self.temperature_variation_c * noise[0];
-        let left = (1.0 - inland_rad / self.sea_reach_rad).max(0.0);
-        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1]
-            - self.drying_per_km * above_km
-            + self.sea_moisture * left * left;
+        let [temperature_c, moisture] = self.at_km(sin_lat, above_m.max(0.0) / 1000.0, noise, inland_rad);
         let temperature = (temperature_c - self.coldest_c) / self.range_c;
         let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
         PointClimate {
@@ -153,6 +146,19 @@ impl Rules {
             moisture: moisture.clamp(0.0, 1.0),
             row: row.clamp(0.0, 1.0),
         }
+    }
+
+    /// Temperature in °C, and moisture that may lie beyond 0 to 1, so many kilometres above the level that climate counts from.
+    #[inline(always)]
+    pub(crate) fn at_km(&self, sin_lat: f64, above_km: f64, noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
+        let sin2_lat = sin_lat * sin_lat;
+        let temperature_c = self.equator_c + self.warmer_c * sin2_lat - self.lapse_c_per_km * above_km
+            + self.temperature_variation_c * noise[0];
+        let left = (1.0 - inland_rad / self.sea_reach_rad).max(0.0);
+        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1]
+            - self.drying_per_km * above_km
+            + self.sea_moisture * left * left;
+        [temperature_c, moisture]
     }
 
     /// How much moisture and row change with each metre of height, where they do.

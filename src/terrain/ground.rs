@@ -1,8 +1,9 @@
 //! Which biome lies at a place: the table's, or what the rules for steep ground, beaches and snow put in its stead. `material.wgsl`
 //! goes by the same rules with soft edges, halfway where a rule changes its answer here.
 //!
-//! Slopes are the evaluator's own here, every octave in them. A picture knows only what its detail shows: seen from far away, ground
-//! is gentler and a rule about slopes answers as it does for that.
+//! Heights and slopes are the evaluator's own here, every octave in them, whoever asks from wherever. A picture knows what its detail
+//! shows, down to about two pixels: from near it is the same, biome for biome. Where a pixel is wider than the mountains, their valleys
+//! and cliffs are none of its heights and slopes, and it shows the biome of the ground between.
 
 use crate::planet::{Biomes, Planet};
 

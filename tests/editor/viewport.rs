@@ -26,12 +26,19 @@ fn a_drag_with_shift_turns_the_star_in_one_step() {
     assert_eq!(undo_len(&harness), 1);
 }
 
-/// The same with a picture that is drawn fast: neither sky nor sea.
+/// Frames to a second where one travels: so few that tests are quick.
+const FRAMES_PER_SEC: f32 = 15.0;
+
+/// An editor to travel in, with a picture that is drawn fast: neither sky nor sea.
 fn plain_editor(answers: Vec<Option<PathBuf>>) -> Editor {
-    let mut harness = editor(answers);
+    let mut harness = app::open_at_rate([1024.0, 640.0], answers, FRAMES_PER_SEC);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::Num8);
     wait_for_picture(&mut harness);
     harness
+}
+
+fn run_secs(harness: &mut Editor, secs: f32) {
+    harness.run_steps((secs * FRAMES_PER_SEC).round() as usize);
 }
 
 /// Steps until the camera is at rest.
@@ -63,7 +70,7 @@ fn keys_change_the_way_to_move_and_the_status_says_so() {
     assert!(harness.query_by_label("Fly").is_some());
     assert!((eye_height_m(&harness) / from_space_m - 1.0).abs() < 1e-9, "the eye stays where it was");
     harness.key_down(egui::Key::W);
-    harness.run_steps(20);
+    run_secs(&mut harness, 0.34);
     harness.key_up(egui::Key::W);
     wait_for_camera(&mut harness);
     assert!(eye_height_m(&harness) < 0.9 * from_space_m, "W goes to where one looks");
@@ -74,14 +81,14 @@ fn keys_change_the_way_to_move_and_the_status_says_so() {
     assert!((eye_height_m(&harness) - 1.7).abs() < 1e-3, "{}", eye_height_m(&harness));
     let start = harness.state().viewport().pose(&planet(&harness)).position_planet_m;
     harness.key_down(egui::Key::W);
-    harness.run_steps(60);
+    run_secs(&mut harness, 1.0);
     harness.key_up(egui::Key::W);
     wait_for_camera(&mut harness);
     let way_m = start.distance(harness.state().viewport().pose(&planet(&harness)).position_planet_m);
     assert!((0.2..20.0).contains(&way_m), "a second's walk is {way_m} m");
     assert!((eye_height_m(&harness) - 1.7).abs() < 1e-3);
     harness.key_press(egui::Key::Space);
-    harness.run_steps(8);
+    run_secs(&mut harness, 0.2);
     assert!(eye_height_m(&harness) > 1.9, "a jump: {}", eye_height_m(&harness));
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F2);
     assert_eq!(mode(&harness), Mode::Orbit);
@@ -123,7 +130,7 @@ fn frozen_detail_stays_while_the_camera_goes_on() {
     assert!(harness.query_by_label_contains("detail frozen").is_some());
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
     harness.key_down(egui::Key::W);
-    harness.run_steps(60);
+    run_secs(&mut harness, 1.0);
     harness.key_up(egui::Key::W);
     wait_for_picture(&mut harness);
     let viewport = harness.state().viewport();
