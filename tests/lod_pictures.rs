@@ -115,11 +115,11 @@ fn look_for_holes(shipped_poses: usize, randoms: u64, random_poses: usize) -> us
 
 #[test]
 fn no_pose_shows_the_background_through_the_ground() {
-    assert_eq!(look_for_holes(4, 10, 1), 30);
+    assert_eq!(look_for_holes(3, 10, 1), 25);
 }
 
 #[test]
-#[ignore = "takes ten minutes: a thousand poses over the shipped planets, and a hundred over random ones"]
+#[ignore = "takes a quarter of an hour: a thousand poses over the shipped planets, and a hundred over random ones"]
 fn no_pose_of_a_thousand_shows_the_background_through_the_ground() {
     assert_eq!(look_for_holes(200, 100, 1), 1100);
 }
@@ -199,16 +199,16 @@ fn is_gentle([with, without]: [f64; 2]) -> bool {
 
 #[test]
 fn a_way_down_shows_no_level_change() {
-    for most in fly_down(shipped::ALL[0].load().unwrap(), 600, 20) {
+    for most in fly_down(shipped::ALL[0].load().unwrap(), 600, 40) {
         assert!(is_gentle(most), "{most:?} with morphing and without");
     }
 }
 
 #[test]
-#[ignore = "takes a quarter of an hour: every step of the way, over all shipped planets"]
+#[ignore = "takes half an hour: every step of the way down to one planet, every twelfth to the others"]
 fn all_of_a_way_down_shows_no_level_change() {
-    for shipped in shipped::ALL {
-        for most in fly_down(shipped.load().unwrap(), 600, 1) {
+    for (i, shipped) in shipped::ALL.iter().enumerate() {
+        for most in fly_down(shipped.load().unwrap(), 600, if i == 0 { 1 } else { 12 }) {
             assert!(is_gentle(most), "{}: {most:?} with morphing and without", shipped.file);
         }
     }
