@@ -1,4 +1,4 @@
-//! A region has the same colour from orbit as on the ground: pictures of one place, each eight times as fine as the one before.
+//! A region has the same colour from orbit as on the ground: pictures of one place, each four times as fine as the one before.
 #![cfg(feature = "editor")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::expect_used)]
 
@@ -16,10 +16,10 @@ use tellus::terrain::survey::spread;
 
 /// Pixels along a side of each picture, and how much finer each is than the one before.
 const SIDE_PX: usize = 128;
-const FINER: usize = 8;
+const FINER: usize = 4;
 /// Width of a pixel in the first picture, metres, and how many pictures follow it.
 const COARSEST_M: f64 = 4000.0;
-const STEPS: usize = 5;
+const STEPS: usize = 6;
 
 /// The albedo of the ground around a place, pixel by pixel.
 fn albedo(gpu: &mut Gpu, planet: &Arc<Planet>, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<[f64; 3]> {
@@ -73,9 +73,18 @@ fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
                 let (far, near) = (mean(&coarse, SIDE_PX / FINER), mean(&fine, SIDE_PX));
                 let light = |color: [f64; 3]| color.iter().sum::<f64>();
                 let off = light(near) / light(far) - 1.0;
-                println!("{} {:?} {pixel_m:.2} m: {far:.4?} {near:.4?} {:.2}%", preset.file, place.to_degrees(), 100.0 * off);
+                println!(
+                    "{} {:?} {pixel_m:.2} m: {far:.4?} {near:.4?} {:.2}%",
+                    preset.file,
+                    place.to_degrees(),
+                    100.0 * off
+                );
                 if off.abs() > 0.03 {
-                    problems.push(format!("{} at {:?}, pixels of {pixel_m:.2} m: {off:.3}", preset.file, place.to_degrees()));
+                    problems.push(format!(
+                        "{} at {:?}, pixels of {pixel_m:.2} m: {off:.3}",
+                        preset.file,
+                        place.to_degrees()
+                    ));
                 }
                 coarse = fine;
             }
