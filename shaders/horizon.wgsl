@@ -5,9 +5,9 @@
 @group(3) @binding(0) var horizons: texture_2d_array<f32>;
 
 // Must match src/lod/horizon.rs, src/lod/tile.rs and src/render/horizon_pool.rs.
-const AZIMUTHS: u32 = 32u;
+const AZIMUTHS: u32 = 48u;
 const HORIZON_SIDE: f32 = 33.0;
-const IMAGES_ALONG: u32 = 6u;
+const IMAGES_ALONG: u32 = 7u;
 
 struct Exposed {
     // Share of the star's disc that the ground leaves of what the smooth planet would
@@ -37,6 +37,20 @@ fn horizon_image(place: vec2f, layer: i32, image: u32, far: f32) -> f32 {
     return mix(found.x, found.y, far);
 }
 
+// Sine of the horizon's elevation: a cubic through the four nearest azimuths (Catmull and Rom, A class of local interpolating
+// splines, 1974). A straight line between two of them would cut off the peaks, and shadows would pulsate while the star moves.
+fn horizon_sine(place: vec2f, layer: i32, azimuth: f32, far: f32) -> f32 {
+    let first = u32(azimuth) + AZIMUTHS - 1u;
+    let f = fract(azimuth);
+    let outer = f * (1.0 - f) * vec2f(f - 1.0, -f) * 0.5;
+    let inner = vec2f(1.0 - f, f) - 2.0 * outer + outer.yx;
+    let a = horizon_image(place, layer, first % AZIMUTHS, far);
+    let b = horizon_image(place, layer, (first + 1u) % AZIMUTHS, far);
+    let c = horizon_image(place, layer, (first + 2u) % AZIMUTHS, far);
+    let d = horizon_image(place, layer, (first + 3u) % AZIMUTHS, far);
+    return dot(outer, vec2f(a, d)) + dot(inner, vec2f(b, c));
+}
+
 // At a place of a tile (0 to 1) whose parent has taken over by `far`. `tile`: layer, -1 for none; width of the tile in that of the
 // node the horizon is of, and where it lies there. `h`: altitude in km.
 fn exposed(tile: vec4f, slope_axis: vec3f, tile_place: vec2f, tile_far: f32, up: vec3f, h: f32) -> Exposed {
@@ -48,10 +62,6 @@ fn exposed(tile: vec4f, slope_axis: vec3f, tile_place: vec2f, tile_far: f32, up:
     let sun_mu = dot(up, globals.sun_dir.xyz);
     let plain = disc_share(sun_mu - horizon_cosine(h), 0.0);
     if plain <= 0.0 { return Exposed(0.0, sky); }
-    let azimuth = star_azimuth(slope_axis, up);
-    let first = u32(azimuth) % AZIMUTHS;
-    let a = horizon_image(place, layer, first, far);
-    let b = horizon_image(place, layer, (first + 1u) % AZIMUTHS, far);
-    let over = sun_mu - mix(a, b, fract(azimuth));
+    let over = sun_mu - horizon_sine(place, layer, star_azimuth(slope_axis, up), far);
     return Exposed(saturate1(disc_share(over, 0.0) / plain), sky);
 }

@@ -1,6 +1,14 @@
 // Table: irradiance of the sky on level ground, by cosine to the star and altitude.
 #include "screen.wgsl"
-#include "scattering.wgsl"
+#include "ring.wgsl"
+
+// Gauss and Legendre's places between 0 and 1, and what each counts.
+const PLACES: array<vec2f, 4> = array<vec2f, 4>(
+    vec2f(0.0694318442, 0.1739274226),
+    vec2f(0.3300094782, 0.3260725774),
+    vec2f(0.6699905218, 0.3260725774),
+    vec2f(0.9305681558, 0.1739274226),
+);
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
@@ -8,17 +16,11 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let root = x.x * 2.0 - 1.0;
     let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
     let h = x.y * x.y * globals.air.x * 0.9999;
-    let sun = vec3f(sqrt(max(0.0, 1.0 - sun_mu * sun_mu)), 0.0, sun_mu);
-    const RINGS: u32 = 6u;
-    const AROUND: u32 = 5u;
     var sum = vec3f(0.0);
-    for (var i = 0u; i < RINGS * AROUND; i++) {
-        // Directions spread by the cosine: each has the same share of the irradiance.
-        let mu = sqrt((f32(i / AROUND) + 0.5) / f32(RINGS));
-        let angle = PI * (f32(i % AROUND) + 0.5) / f32(AROUND);
-        let flat = sqrt(1.0 - mu * mu);
-        let dir = vec3f(flat * cos(angle), flat * sin(angle), mu);
-        sum += scattered_from(h, vec3f(0.0, 0.0, 1.0), dir, sun, 12.0);
+    for (var i = 0u; i < 4u; i++) {
+        // The square root spreads rings by the cosine, as irradiance counts them.
+        let place = PLACES[i];
+        sum += ring_light(h, sqrt(place.x), sun_mu, 5u, 8u) * place.y;
     }
-    return vec4f(sum * (PI / f32(RINGS * AROUND)), 1.0);
+    return vec4f(sum * PI, 1.0);
 }

@@ -48,6 +48,6 @@ fn sky_irradiance(h: f32, mu: f32) -> vec3f {
 fn sky_radiance(view_mu: f32, sun_mu: f32) -> vec3f {
     if globals.air.x <= 0.0 { return vec3f(0.0); }
     let x = vec2f(signed_root(sun_mu) * 0.5 + 0.5, sqrt(saturate1(view_mu)));
-    let table = textureSampleLevel(sky_table, clamped, texel_from_unit(x, vec2f(64.0, 32.0)), 0.0).rgb;
+    let table = textureSampleLevel(sky_table, clamped, texel_from_unit(x, vec2f(64.0, 20.0)), 0.0).rgb;
     return table * globals.sun_irradiance.rgb;
 }

@@ -3,32 +3,57 @@
 #include "globals.wgsl"
 #include "tables.wgsl"
 
-// About -1 to 1 with mean 0, at a point relative to the eye; `footprint_m`: width of a pixel there.
-fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 { return relief_at(rel_m, footprint_m).x; }
-
 // From one octave to the next; the same as in globals.rs. Turned octaves never repeat together along an axis.
 const OCTAVE_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
+
+// Height of the bumps of an octave, as a share of its period.
+const BUMPS: f32 = 0.02;
 
 // How much of an octave is shown: it fades before its tile is so small that one sees it repeat.
 fn octave_share(lod: f32) -> f32 { return 1.0 - smoothstep(-0.5, 3.0, lod); }
 
-// The same (x), with the height in metres of the small bumps that belong to it (y).
-fn relief_at(rel_m: vec3f, footprint_m: f32) -> vec2f {
+fn octave_at(octave: vec4f, place: vec3f, lod: f32) -> f32 {
+    return textureSampleLevel(noise_tile, repeated, octave.xyz + place / octave.w, lod).g;
+}
+
+// About -1 to 1 with mean 0, at a point relative to the eye; `footprint_m`: width of a pixel there.
+fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
     var sum = 0.0;
-    var bumps_m = 0.0;
     var place = rel_m;
     for (var i = 0u; i < 7u; i++) {
         let octave = globals.mottle[i];
         let lod = log2(footprint_m * 64.0 / octave.w);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
-        let n = textureSampleLevel(noise_tile, repeated, octave.xyz + place / octave.w, lod).g;
-        let weight = (n - 0.5) * share;
-        sum += weight;
-        if i >= 3u { bumps_m += weight * octave.w * 0.035; }
+        sum += (octave_at(octave, place, lod) - 0.5) * share;
         place = OCTAVE_TURN * place;
     }
-    return vec2f(clamp(sum * 1.1, -1.0, 1.0), bumps_m);
+    return clamp(sum * 1.1, -1.0, 1.0);
+}
+
+// Rise over run along two tangents of the small bumps that belong to it. By differences over a texel to either side: less would show the
+// texels' edges, and differences from pixel to pixel the triangles'.
+fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f {
+    var rise = vec2f(0.0);
+    var place = rel_m;
+    var along = tangents;
+    for (var i = 0u; i < 7u; i++) {
+        let octave = globals.mottle[i];
+        let lod = log2(footprint_m * 64.0 / octave.w);
+        let share = octave_share(lod);
+        if share <= 0.0 { break; }
+        if i >= 3u {
+            let step_m = max(octave.w / 64.0, 0.5 * footprint_m);
+            for (var axis = 0u; axis < 2u; axis++) {
+                let aside = along[axis] * step_m;
+                let risen = octave_at(octave, place + aside, lod) - octave_at(octave, place - aside, lod);
+                rise[axis] += risen * share * BUMPS * octave.w / (2.0 * step_m);
+            }
+        }
+        place = OCTAVE_TURN * place;
+        along = array<vec3f, 2>(OCTAVE_TURN * along[0], OCTAVE_TURN * along[1]);
+    }
+    return rise;
 }
 
 // Broad independent octaves that bend the edges of ice.

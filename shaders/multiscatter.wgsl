@@ -2,6 +2,28 @@
 #include "screen.wgsl"
 #include "light.wgsl"
 
+// Rings of equal height, as in src/atmosphere/multiscatter.rs. What is seen changes from one side of the horizon to the other, so
+// that each side has its own: Gauss and Legendre's places between 0, the horizon, and 1, and what each counts.
+const UPPER: u32 = 7u;
+const LOWER: u32 = 5u;
+const PLACES: array<vec2f, 12> = array<vec2f, 12>(
+    vec2f(0.0254460438, 0.0647424831),
+    vec2f(0.1292344072, 0.1398526957),
+    vec2f(0.2970774243, 0.1909150253),
+    vec2f(0.5, 0.2089795918),
+    vec2f(0.7029225757, 0.1909150253),
+    vec2f(0.8707655928, 0.1398526957),
+    vec2f(0.9745539562, 0.0647424831),
+    vec2f(0.0469100770, 0.1184634425),
+    vec2f(0.2307653449, 0.2393143352),
+    vec2f(0.5, 0.2844444444),
+    vec2f(0.7692346551, 0.2393143352),
+    vec2f(0.9530899230, 0.1184634425),
+);
+// Points along half of each ring, a quarter of the ring apart; the other half is its mirror image.
+const ASIDE: f32 = 0.70710678;
+const STEPS: u32 = 14u;
+
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let x = (pixel.xy - 0.5) / 31.0;
@@ -10,26 +32,26 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let radius = globals.eye_km.w;
     let top = globals.air.x;
     let h = clamp(x.y * x.y * top, top * 1e-5, top * 0.9999);
-    let sun = vec3f(sqrt(max(0.0, 1.0 - sun_mu * sun_mu)), 0.0, sun_mu);
+    let sun_flat = sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
+    let horizon = horizon_cosine(h);
 
-    // Rings of equal height, and points along half of each, the other half being its mirror image.
-    const RINGS: u32 = 16u;
-    const AROUND: u32 = 4u;
-    const STEPS: u32 = 20u;
-    const SHARE: f32 = 1.0 / f32(RINGS * AROUND);
     var second = vec3f(0.0);
     var returned = vec3f(0.0);
-    for (var i = 0u; i < RINGS; i++) {
-        let mu = 1.0 - 2.0 * (f32(i) + 0.5) / f32(RINGS);
+    for (var i = 0u; i < UPPER + LOWER; i++) {
+        let place = PLACES[i];
+        let hits = i >= UPPER;
+        let span = select(1.0 - horizon, -1.0 - horizon, hits);
+        let mu = horizon + span * place.x;
+        let share = 0.5 * abs(span) * place.y;
         let b = (radius + h) * mu;
         let shell = ray_sphere(b, (h - top) * (2.0 * radius + h + top));
         let ground = ray_sphere(b, h * (2.0 * radius + h));
-        let hits = ground.y >= ground.x && ground.x > 0.0;
         let way = select(shell.y, ground.x, hits);
         let middle = clamp(-b, 0.0, way);
         let start = -sqrt(middle);
         let step = (sqrt(way - middle) - start) / f32(STEPS);
-        let flat = sqrt(1.0 - mu * mu);
+        let ahead = ASIDE * sqrt(1.0 - mu * mu) * sun_flat;
+        let cosines = mu * sun_mu + vec2f(ahead, -ahead);
         var transmittance = vec3f(1.0);
         for (var s = 0u; s < STEPS; s++) {
             let w = start + f32(s) * step;
@@ -37,23 +59,17 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
             let t = bent(w + 0.5 * step, middle);
             let height = altitude_along(radius, h, mu, t);
             let air = air_at(height);
-            let scattering = air.rayleigh + air.mie;
-            let inside = transmittance * scattering * shining_length(air.extinction, length_km);
-            for (var k = 0u; k < AROUND; k++) {
-                let cosine = mu * sun_mu + flat * sun.x * cos(PI * (f32(k) + 0.5) / f32(AROUND));
-                let step_mu = clamp(((radius + h) * sun_mu + t * cosine) / (radius + height), -1.0, 1.0);
-                second += inside * sun_transmittance(height, step_mu) * (SHARE / (4.0 * PI));
-            }
-            returned += inside / f32(RINGS);
+            let inside = transmittance * (air.rayleigh + air.mie) * shining_length(air.extinction, length_km);
+            let mus = clamp(((radius + h) * sun_mu + t * cosines) / (radius + height), vec2f(-1.0), vec2f(1.0));
+            let light = sun_transmittance(height, mus.x) + sun_transmittance(height, mus.y);
+            second += inside * light * (share / (8.0 * PI));
+            returned += inside * share;
             transmittance *= exp(-air.extinction * length_km);
         }
         if hits {
-            for (var k = 0u; k < AROUND; k++) {
-                let cosine = mu * sun_mu + flat * sun.x * cos(PI * (f32(k) + 0.5) / f32(AROUND));
-                let ground_mu = clamp(((radius + h) * sun_mu + way * cosine) / radius, -1.0, 1.0);
-                second += transmittance * sun_transmittance(0.0, ground_mu) * max(ground_mu, 0.0)
-                    * globals.ground_albedo.rgb * (SHARE / PI);
-            }
+            let mus = clamp(((radius + h) * sun_mu + way * cosines) / radius, vec2f(-1.0), vec2f(1.0));
+            let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0) + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
+            second += transmittance * light * globals.ground_albedo.rgb * (share / (2.0 * PI));
         }
     }
     // Each further scattering returns the same share, so the sum is a geometric series.

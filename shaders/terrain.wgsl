@@ -183,16 +183,24 @@ fn climate_at(in: Ground, height_m: f32) -> Climate {
     return Climate(temperature_c, saturate1(in.level_climate.x + above_m * globals.climate.w), saturate1(row));
 }
 
-// Tilts a normal by a height that is only known pixel by pixel (Mikkelsen, Bump Mapping Unparametrized Surfaces on the
-// GPU, 2010). `bump_x`, `bump_y`, `rel_x`, `rel_y`: differences from pixel to pixel, in metres.
-fn bumped(n: vec3f, rel_x: vec3f, rel_y: vec3f, bump_x: f32, bump_y: f32) -> vec3f {
-    let across = cross(rel_y, n);
-    let along = cross(n, rel_x);
-    let area = dot(rel_x, across);
-    var tilt = (bump_x * across + bump_y * along) * sign(area);
-    // From one triangle to another behind it the differences mean nothing: no bump is steeper than this.
-    tilt *= min(1.0, 0.6 * abs(area) / max(length(tilt), 1e-20));
-    return normalize(abs(area) * n - tilt + n * 1e-20);
+// From a pixel to the next one to the right or below along the ground, metres: by the vertices' normals, which bend from triangle to
+// triangle without a step. What follows the triangles themselves shows them as stripes where one looks along them.
+fn pixel_step(in: Ground, half_picture: vec4f) -> vec3f {
+    let away_m = dot(in.rel_m, globals.ray_forward.xyz);
+    let across = half_picture.xyz * (2.0 / half_picture.w);
+    let ray = in.rel_m / away_m;
+    let n = normalize(in.normal);
+    // Seen from behind, or nearly, a normal says no more than that.
+    let towards = max(-dot(ray, n), 0.02 * length(ray));
+    return away_m * (across + ray * (dot(across, n) / towards));
+}
+
+// Tilts a normal by the small bumps of the ground.
+fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
+    let tangent = normalize(cross(n, select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), abs(n.z) > 0.7)));
+    let other = cross(n, tangent);
+    let rise = bumps_at(rel_m, footprint_m, array<vec3f, 2>(tangent, other));
+    return normalize(n - rise.x * tangent - rise.y * other);
 }
 
 // What decides about the ground at a pixel. `at`: its place in the table.
@@ -238,8 +246,11 @@ fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> v
     let n_h = max(dot(n, h), 0.0);
     let alpha = max(roughness * roughness, 0.02);
     let d = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
-    let visible = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
-    let fresnel = reflectance + (1.0 - reflectance) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    // Under a low star and seen along it, rough ground hides itself by more than its facets: by relief that is drawn nowhere.
+    let visible = 0.5 / (mix(2.0 * n_l * n_v, n_l + n_v, alpha) + 0.15 * alpha);
+    // The facets of rough ground are no mirrors themselves: seen along it, it shines no more than Karis' fit says of the sky's light.
+    let smooth_part = (1.0 - roughness) * (1.0 - roughness);
+    let fresnel = reflectance + max(smooth_part - reflectance, 0.0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
     return vec2f(alpha * alpha / (PI * d * d) * visible * fresnel * n_l, around);
 }
 
@@ -324,8 +335,8 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let rel_x = dpdx(on_mesh.rel_m);
-    let rel_y = dpdy(on_mesh.rel_m);
+    let rel_x = pixel_step(on_mesh, globals.ray_right);
+    let rel_y = pixel_step(on_mesh, -globals.ray_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
     let detail = relief_of(on_mesh, up, select(footprint_m, 1e-6, globals.modes.x == 4u));
@@ -338,14 +349,14 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
-    let relief = relief_at(in.rel_m, footprint_m);
+    let mottle = mottle_at(in.rel_m, footprint_m);
     let climate = climate_at(in, in.height_m);
     let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, climate.temperature_c, place, dot(n, up), detail.steep, footprint_m, relief.x);
+    let site = site_of(in, climate.temperature_c, place, dot(n, up), detail.steep, footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     if globals.modes.x == 12u { return vec4f(ground.albedo, over_sea_m); }
-    n = bumped(n, rel_x, rel_y, dpdx(relief.y), dpdy(relief.y));
+    n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
     // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
     let tilt = ground.slope - n * dot(n, ground.slope);

@@ -4,7 +4,7 @@
 use glam::{DVec3, Mat4, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
-use tellus::build::{Surface, build_now, lowest_radius_m};
+use tellus::build::{Surface, budget_tiles, build_now, lowest_radius_m};
 use tellus::lod::chords::chords;
 use tellus::lod::morph::{COARSEST_MORPHING, shifts_m};
 use tellus::lod::range::FULL_AT;
@@ -95,44 +95,49 @@ fn surfaces() -> Vec<Surface> {
 
 #[test]
 fn tiles_meet_to_the_bit_and_exactly_on_the_coarser_edge() {
-    for surface in surfaces() {
-        let eye = surface.view.camera.position_planet_m;
-        let mut drawn: HashMap<[u64; 3], ([u32; 3], usize)> = HashMap::new();
-        let (mut skipped, mut shared) = (0, 0);
-        let all: Vec<(&Tile, Vec<f32>, u8)> = surface
-            .leaves
-            .iter()
-            .map(|leaf| (&*leaf.tile, shifts_m(&leaf.tile, eye, &surface.ranges), leaf.coarser_edges))
-            .collect();
-        for (tile, shifts_m, coarser) in &all {
-            for side in Edge::ALL {
-                for (n, i) in edge(side).enumerate() {
-                    let vertex = &tile.vertices[i];
-                    let place = drawn_rel_m(vertex, shifts_m[i], eye);
-                    if n % 2 == 1 && coarser & side.bit() != 0 {
-                        // Left out: the coarser edge runs through its place.
-                        skipped += 1;
-                        let step = edge(side).nth(1).unwrap() - edge(side).next().unwrap();
-                        let [a, b] = [i - step, i + step].map(|i| drawn_rel_m(&tile.vertices[i], shifts_m[i], eye));
-                        let chord = (b - a).normalize();
-                        let off_m = ((place - a) - chord * (place - a).dot(chord)).length();
-                        let pixel_m = place.length() * surface.view.pixel_rad() as f32;
-                        // At the coarsest levels the middle of a chord is not the place where the vertical crosses it.
-                        assert!(off_m < 0.1 * pixel_m, "{:?} {off_m} m, a pixel is {pixel_m} m", tile.id);
-                        continue;
-                    }
-                    let (other, times) = drawn.entry(key(vertex)).or_insert((bits(place), 0));
-                    assert_eq!(*other, bits(place), "{:?} {side:?} {n}", tile.id);
-                    *times += 1;
-                    shared += usize::from(*times > 1);
+    surfaces().iter().for_each(assert_meets);
+}
+
+fn assert_meets(surface: &Surface) {
+    let seen = Culling::new(&surface.view, lowest_radius_m(&surface.terrain));
+    let eye = surface.view.camera.position_planet_m;
+    let mut drawn: HashMap<[u64; 3], ([u32; 3], usize)> = HashMap::new();
+    let (mut skipped, mut shared) = (0, 0);
+    let all: Vec<(&Tile, Vec<f32>, u8)> = surface
+        .leaves
+        .iter()
+        .map(|leaf| (&*leaf.tile, shifts_m(&leaf.tile, eye, &surface.ranges), leaf.coarser_edges))
+        .collect();
+    for (tile, shifts_m, coarser) in &all {
+        for side in Edge::ALL {
+            for (n, i) in edge(side).enumerate() {
+                let vertex = &tile.vertices[i];
+                let place = drawn_rel_m(vertex, shifts_m[i], eye);
+                if n % 2 == 1 && coarser & side.bit() != 0 {
+                    // Left out: the coarser edge runs through its place.
+                    skipped += 1;
+                    let step = edge(side).nth(1).unwrap() - edge(side).next().unwrap();
+                    let [a, b] = [i - step, i + step].map(|i| drawn_rel_m(&tile.vertices[i], shifts_m[i], eye));
+                    let chord = (b - a).normalize();
+                    let off_m = ((place - a) - chord * (place - a).dot(chord)).length();
+                    let pixel_m = place.length() * surface.view.pixel_rad() as f32;
+                    // At the coarsest levels the middle of a chord is not the place where the vertical crosses it. Beside
+                    // the picture neighbours are as coarse as they may be.
+                    let fits = off_m < 0.1 * pixel_m || !seen.sees_sphere(vertex.position_planet_m(), 0.0);
+                    assert!(fits, "{:?} {off_m} m, a pixel is {pixel_m} m", tile.id);
+                    continue;
                 }
+                let (other, times) = drawn.entry(key(vertex)).or_insert((bits(place), 0));
+                assert_eq!(*other, bits(place), "{:?} {side:?} {n}", tile.id);
+                *times += 1;
+                shared += usize::from(*times > 1);
             }
         }
-        assert!(shared > 500 && skipped > 50, "{shared} {skipped}");
-        // A mesh without gaps: whatever lies on an edge is known on its other side.
-        let alone = drawn.values().filter(|(_, times)| *times < 2).count();
-        assert_eq!(alone, 0);
     }
+    assert!(shared > 500 && skipped > 50, "{shared} {skipped}");
+    // A mesh without gaps: whatever lies on an edge is known on its other side.
+    let alone = drawn.values().filter(|(_, times)| *times < 2).count();
+    assert_eq!(alone, 0);
 }
 
 #[test]
@@ -266,4 +271,29 @@ fn steps_of_a_millimetre_move_every_vertex_as_they_should() {
         }
     }
     assert!(tested > 50_000 && worst_px < 0.1, "{worst_px} px, {tested} vertices");
+}
+
+#[test]
+fn a_view_never_shows_more_triangles_than_its_quality_allows() {
+    let place = LatLon::from_degrees(35.0, -5.0);
+    let window = [1280, 720];
+    for shipped in shipped::ALL.iter().take(2) {
+        let planet = Arc::new(shipped.load().unwrap());
+        let ground_m =
+            Terrain::new(planet.clone()).height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
+        for (quality, size_px, altitude_m) in
+            [(Quality::High, window, 2.0), (Quality::Low, window, 2.0), (Quality::Medium, [3840, 2160], 2.0)]
+        {
+            let radius_m = planet.radius_m() + ground_m + altitude_m;
+            let camera = Camera::over(place, radius_m, 0.4, -0.1, Camera::DEFAULT_FOV_Y_RAD);
+            let view = View { camera, size_px, quality };
+            let surface = build_now(&planet, &view);
+            let culling = Culling::new(&view, lowest_radius_m(&surface.terrain));
+            let seen = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).count();
+            let (most, all) = (budget_tiles(quality), surface.leaves.len());
+            let what = format!("{}, {quality:?} {size_px:?} from {altitude_m} m: {seen} of {all}", planet.name);
+            assert!(seen <= most && seen > most / 2, "{what}, {most} are allowed");
+            assert_meets(&surface);
+        }
+    }
 }

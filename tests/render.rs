@@ -7,8 +7,7 @@ mod support;
 use std::sync::Arc;
 use support::edits::{every_edit, full_planet};
 use support::{Gpu, camera, earth, frame, inside_disc, lights, surface};
-use tellus::build::Surface;
-use tellus::lod::Quality;
+use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Planet};
 use tellus::render::{DebugView, Frame, Metering};
@@ -171,33 +170,33 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     let planet = Arc::new(full_planet());
     let mut gpu = Gpu::new();
     let camera = camera(&planet, 10.0, 10.0, 3e6, 40.0, -90.0);
-    let first = surface(&planet, &camera);
-    let mut draw = |surface: &Surface, planet: &Planet| {
+    // Tables follow the planet, not the tiles: one surface does for all, in a picture as small as may be.
+    let surface = surface(&planet, &camera);
+    let view = View { camera, size_px: [32, 18], quality: Quality::Low };
+    let mut draw = |planet: &Planet| {
         // Clouds that have drifted for a while, and the planet turned: the wind and the length of the day show.
         let sun = planet.star.place(1000.0).to_degrees();
         let before = gpu.renderer.table_runs();
-        gpu.draw(&Frame { time_secs: 1000.0, ..frame(surface, planet, camera, sun) });
+        gpu.draw_only(&Frame { time_secs: 1000.0, view, ..frame(&surface, planet, camera, sun) }, 1);
         let after = gpu.renderer.table_runs();
-        (
+        [
             after.uniforms - before.uniforms,
-            [after.biomes - before.biomes, after.weather - before.weather, after.air - before.air],
-        )
+            after.biomes - before.biomes,
+            after.weather - before.weather,
+            after.air - before.air,
+        ]
     };
-    draw(&first, &planet);
+    draw(&planet);
     for edit in every_edit(&planet) {
-        let tiles = edit.declared.touches_tiles();
-        // The radius would need another camera; its tiles are not what this is about.
-        let edited = Arc::new(edit.planet);
-        let built = if tiles && edit.path != "radius_km" { Some(surface(&edited, &camera)) } else { None };
-        let (uniforms, tables) = draw(built.as_ref().unwrap_or(&first), &edited);
-        let declared =
-            [Stage::Material, Stage::CloudMap, Stage::AirTables].map(|s| u64::from(edit.declared.contains(s)));
-        assert_eq!(tables, declared, "biomes, weather, air: {}", edit.path);
-        // Heights move the near plane, which stands in the uniforms too.
-        if edit.declared.contains(Stage::Uniform) || !tiles {
-            assert_eq!(uniforms, u64::from(edit.declared.contains(Stage::Uniform)), "uniforms: {}", edit.path);
+        let stages = [Stage::Uniform, Stage::Material, Stage::CloudMap, Stage::AirTables];
+        let mut declared = stages.map(|stage| u64::from(edit.declared.contains(stage)));
+        let drawn = draw(&edit.planet);
+        // With new tiles anything may come that the uniforms take from them.
+        if edit.declared.touches_tiles() && declared[0] == 0 {
+            declared[0] = drawn[0];
         }
-        draw(&first, &planet);
+        assert_eq!(drawn, declared, "uniforms, biomes, weather, air: {}", edit.path);
+        draw(&planet);
     }
 }
 

@@ -139,6 +139,77 @@ fn at_noon_nothing_is_in_shadow() {
     assert!(most < Some(60), "{most:?}");
 }
 
+/// Where a place is in a picture, in pixels; the camera must have it before it.
+fn pixel_of(view: &View, place_planet_m: DVec3) -> [f64; 2] {
+    let camera = &view.camera;
+    let in_view = camera.planet_from_view.conjugate() * (place_planet_m - camera.position_planet_m);
+    let tan = (0.5 * camera.fov_y_rad).tan() * -in_view.z;
+    let [width, height] = view.size_px.map(f64::from);
+    [(in_view.x / (tan * view.aspect()) + 1.0) * 0.5 * width, (1.0 - in_view.y / tan) * 0.5 * height]
+}
+
+/// Whether the pixels around a place are all lit or all dark; nothing where some are and some are not.
+fn state(lit: &[bool], [width, height]: [usize; 2], [x, y]: [f64; 2]) -> Option<bool> {
+    let inside = |at: f64, side: usize| (at >= 1.0 && at < side as f64 - 1.0).then_some(at as usize);
+    let (x, y) = (inside(x, width)?, inside(y, height)?);
+    let mut around = (0..9).map(|i| lit[(y + i / 3 - 1) * width + x + i % 3 - 1]);
+    let first = around.next()?;
+    around.all(|other| other == first).then_some(first)
+}
+
+#[test]
+fn shadows_stay_where_they_are_while_the_camera_moves() {
+    const FRAMES: usize = 26;
+    let mut gpu = Gpu::new();
+    let planet = bare("pallor.ron");
+    let (lat, lon) = (-35.0, 140.0);
+    let up = LatLon::from_degrees(lat, lon).direction();
+    let (east, north) = geo::east_north(up);
+    let (rise, along) = 9.0_f64.to_radians().sin_cos();
+    let sun_dir = up * rise + (north * 0.6 + east * 0.8) * along;
+    // Down from 90 km to 20 km and sideways: tiles split, and horizons with them, all over the picture.
+    let views: Vec<View> = (0..FRAMES)
+        .map(|i| view(&planet, lat, lon + 0.012 * i as f64, 90e3 * 0.9417_f64.powi(i as i32), -80.0))
+        .collect();
+    let builder = Builder::new(|| {});
+    let (mut pictures, mut levels) = (Vec::new(), Vec::new());
+    for view in &views {
+        builder.request(&planet, view);
+        while builder.is_busy() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let surface = builder.surface().unwrap();
+        assert!(builder.has_all_tiles());
+        levels.push(surface.leaves.iter().map(|leaf| leaf.tile.id.level).max().unwrap());
+        let drawn = lights(&gpu.draw(&frame(&planet, &surface, *view, sun_dir)));
+        pictures.push(drawn.into_iter().map(|light| light > 12).collect::<Vec<bool>>());
+    }
+    assert!(levels.last() >= levels.first().map(|level| level + 2).as_ref(), "{levels:?}");
+
+    // Places seen in the last picture are in all of them.
+    let (last, terrain) = (views[FRAMES - 1], Terrain::new(planet.clone()));
+    let (mut seen, mut dark, mut changed, mut back) = (0, 0, 0, 0);
+    for i in 0..40 * 25 {
+        let [x, y] = [(f64::from(i % 40) + 0.5) / 20.0 - 1.0, 1.0 - (f64::from(i / 40) + 0.5) / 12.5];
+        let eye = last.camera.position_planet_m;
+        let ray = last.camera.ray_dir_planet(x, y, last.aspect());
+        let Some(distance_m) = terrain.raycast(eye, ray) else { continue };
+        let place = eye + ray * distance_m;
+        let size = SIZE_PX.map(|side| side as usize);
+        let states: Vec<bool> =
+            views.iter().zip(&pictures).filter_map(|(v, lit)| state(lit, size, pixel_of(v, place))).collect();
+        let changes = states.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        seen += usize::from(states.len() > FRAMES / 3);
+        dark += usize::from(states.last() == Some(&false));
+        changed += usize::from(changes > 0);
+        back += usize::from(changes > 1);
+    }
+    let told = format!("of {seen} places, {dark} of them dark, {changed} changed, {back} of them more than once");
+    eprintln!("{told}");
+    assert!(seen > 500 && dark > 50 && dark < seen - 50, "{told}");
+    assert!(changed * 50 < seen && back * 500 < seen, "{told}");
+}
+
 #[test]
 fn only_another_ground_makes_other_horizons() {
     let planet = bare("pallor.ron");

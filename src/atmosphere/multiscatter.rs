@@ -2,20 +2,36 @@
 //! directions and steps as in `multiscatter.wgsl`, in 64 bits.
 
 use super::depth::bilinear;
-use super::line::Line;
+use super::line::{Line, horizon_mu};
 use super::medium::Medium;
 use super::scatter::Lit;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Texels along each side, as in `multiscatter.wgsl`. They crowd at the ground and about the terminator.
 const SIDE: usize = 32;
-/// Rings of equal height from zenith to nadir.
-const RINGS: usize = 16;
-/// Points along half of each ring; the other half is its mirror image.
-const AROUND: usize = 4;
-const STEPS: u32 = 20;
+/// Rings of equal height. What is seen changes from one side of the horizon to the other, so that each side has its own: Gauss and
+/// Legendre's places between 0, the horizon, and 1, and what each counts.
+const UPPER: [(f64, f64); 7] = [
+    (0.025_446_043_828_620_7, 0.064_742_483_084_434_9),
+    (0.129_234_407_200_302_8, 0.139_852_695_744_638_4),
+    (0.297_077_424_311_301_4, 0.190_915_025_252_559_4),
+    (0.5, 0.208_979_591_836_734_6),
+    (0.702_922_575_688_698_5, 0.190_915_025_252_559_4),
+    (0.870_765_592_799_697_2, 0.139_852_695_744_638_4),
+    (0.974_553_956_171_379_3, 0.064_742_483_084_434_9),
+];
+const LOWER: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_6),
+    (0.230_765_344_947_158_4, 0.239_314_335_249_683_2),
+    (0.5, 0.284_444_444_444_444_3),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
+    (0.953_089_922_969_331_9, 0.118_463_442_528_094_6),
+];
+/// Points along half of each ring, so far from its middle, of one; the other half is its mirror image.
+const ASIDE: [f64; 2] = [FRAC_1_SQRT_2, -FRAC_1_SQRT_2];
+const STEPS: u32 = 14;
 /// Most of the light that may come back: where nothing gets out, the series has no end.
 const MOST_RETURNED: f64 = 0.999;
 
@@ -25,16 +41,18 @@ pub(super) struct MultiscatterTable {
     texels: Vec<DVec3>,
 }
 
-/// Cosine to the zenith of each ring.
-fn rings() -> impl Iterator<Item = f64> {
-    (0..RINGS).map(|ring| 1.0 - 2.0 * (ring as f64 + 0.5) / RINGS as f64)
+/// Cosine to the zenith of each ring seen from an altitude, and its share of all directions.
+fn rings(radius: f64, altitude: f64) -> impl Iterator<Item = (f64, f64)> {
+    let horizon = horizon_mu(radius, altitude);
+    let side = move |span: f64| move |(x, weight): (f64, f64)| (horizon + span * x, weight * 0.5 * span.abs());
+    UPPER.into_iter().map(side(1.0 - horizon)).chain(LOWER.into_iter().map(side(-1.0 - horizon)))
 }
 
 /// The share of isotropic light from a place that the air sends back to it: f_ms. Always less than one.
 pub(super) fn returned(medium: &Medium, radius: f64, altitude: f64) -> DVec3 {
     let mut returned = DVec3::ZERO;
-    for mu in rings() {
-        march(medium, &Line { radius, altitude, mu }, |_, inside| returned += inside / RINGS as f64);
+    for (mu, share) in rings(radius, altitude) {
+        march(medium, &Line { radius, altitude, mu }, |_, inside| returned += inside * share);
     }
     returned.min(DVec3::splat(MOST_RETURNED))
 }
@@ -78,14 +96,10 @@ impl MultiscatterTable {
 fn second(lit: &Lit, altitude: f64, sun_mu: f64) -> DVec3 {
     let (radius, sun_flat) = (lit.radius, (1.0 - sun_mu * sun_mu).max(0.0).sqrt());
     let mut sum = DVec3::ZERO;
-    let share = 1.0 / (RINGS * AROUND) as f64;
-    for mu in rings() {
+    for (mu, share) in rings(radius, altitude) {
         let line = Line { radius, altitude, mu };
         let flat = (1.0 - mu * mu).max(0.0).sqrt();
-        let cosines: [f64; AROUND] = std::array::from_fn(|i| {
-            let angle = PI * (i as f64 + 0.5) / AROUND as f64;
-            mu * sun_mu + flat * sun_flat * angle.cos()
-        });
+        let cosines = ASIDE.map(|aside| mu * sun_mu + flat * sun_flat * aside);
         // Cosine between zenith and star after a way along each of the rays of the ring.
         let sun_mus = |t: f64, altitude_there: f64| {
             cosines.map(|c| (((radius + altitude) * sun_mu + t * c) / (radius + altitude_there)).clamp(-1.0, 1.0))
@@ -93,11 +107,11 @@ fn second(lit: &Lit, altitude: f64, sun_mu: f64) -> DVec3 {
         let transmittance = march(&lit.medium, &line, |t, inside| {
             let there = line.altitude_at(t);
             let light: DVec3 = sun_mus(t, there).into_iter().map(|mu| lit.sunlight(there, mu)).sum();
-            sum += inside * light * (share / (4.0 * PI));
+            sum += inside * light * (share / (8.0 * PI));
         });
         if let Some(ground) = line.ground() {
             let light: DVec3 = sun_mus(ground, 0.0).into_iter().map(|mu| lit.sunlight(0.0, mu) * mu.max(0.0)).sum();
-            sum += transmittance * light * lit.medium.ground_albedo * (share / PI);
+            sum += transmittance * light * lit.medium.ground_albedo * (share / (2.0 * PI));
         }
     }
     sum

@@ -24,6 +24,8 @@ use std::time::{Duration, Instant};
 const FIRST_SLICE: Duration = Duration::from_millis(30);
 /// How long it runs even if a newer request is waiting.
 const GRACE: Duration = Duration::from_millis(25);
+/// How long detail is sought even if another view is waiting.
+const DETAIL_GRACE: Duration = Duration::from_millis(15);
 /// How long each further slice may take: something is on screen by then, and fewer steps disturb less.
 const NEXT_SLICE: Duration = Duration::from_millis(80);
 
@@ -38,6 +40,8 @@ struct Shared {
     changed: Condvar,
     /// Grows with each request; work asks it whether it is still wanted.
     newest: AtomicU64,
+    /// The newest request with another planet than the one before.
+    newest_planet: AtomicU64,
 }
 
 #[derive(Default)]
@@ -68,6 +72,11 @@ impl Shared {
 
     fn is_newest(&self, number: u64) -> bool {
         self.newest.load(Ordering::Relaxed) == number
+    }
+
+    /// Whether what is found of a request's planet will still serve, if perhaps another view.
+    fn is_newest_planet(&self, number: u64) -> bool {
+        self.newest_planet.load(Ordering::Relaxed) <= number
     }
 }
 
@@ -105,11 +114,14 @@ impl Builder {
     /// Asks for a planet as seen from a view. Cheap when nothing changed since the last call; call it every frame.
     pub fn request(&self, planet: &Arc<Planet>, view: &View) {
         let mut state = self.shared.lock();
-        let same = |request: &Request| {
-            request.view == *view && (Arc::ptr_eq(&request.planet, planet) || request.planet == *planet)
-        };
-        if !state.request.as_ref().is_some_and(same) {
+        let before = state.request.as_ref();
+        let same_planet =
+            before.is_some_and(|request| Arc::ptr_eq(&request.planet, planet) || request.planet == *planet);
+        if !same_planet || before.is_some_and(|request| request.view != *view) {
             let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
+            if !same_planet {
+                self.shared.newest_planet.store(number, Ordering::Relaxed);
+            }
             state.request = Some(Request { planet: planet.clone(), view: *view, asked: Instant::now(), number });
             self.shared.changed.notify_all();
         }
@@ -146,6 +158,7 @@ impl Drop for Builder {
     fn drop(&mut self) {
         self.shared.lock().closing = true;
         self.shared.newest.fetch_add(1, Ordering::Relaxed);
+        self.shared.newest_planet.store(u64::MAX, Ordering::Relaxed);
         self.shared.changed.notify_all();
     }
 }
@@ -238,8 +251,8 @@ impl Worker {
                 if !surface.complete {
                     return (surface, false);
                 }
-                // Where tiles had to be built, they are shown before time is spent on their detail.
-                if surface.stats.tiles_built > stats.tiles_built {
+                // They are shown before time is spent on their detail.
+                if is_first || surface.stats.tiles_built > stats.tiles_built {
                     self.complete = Some((request.number, surface.clone(), None));
                     return (surface, false);
                 }
@@ -248,9 +261,11 @@ impl Worker {
         };
         let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, &request.view));
         let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
-        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going);
+        // While the eye moves, a moment of each view goes into what serves the next one, too; after an edit none of it does.
+        let wanted = || shared.is_newest_planet(request.number);
+        let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && wanted());
+        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &wanted);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let wanted = || shared.is_newest(request.number);
         let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted) && has_horizons;
         self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
         (surface, done)

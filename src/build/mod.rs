@@ -19,7 +19,7 @@ mod stats;
 pub use builder::Builder;
 pub use cache::DEFAULT_BUDGET_BYTES;
 pub use horizon::HorizonWork;
-pub use refine::lowest_radius_m;
+pub use refine::{budget_tiles, lowest_radius_m};
 pub use stats::{BuildStats, Memory, StageWork};
 
 use crate::lod::horizon::HorizonTile;
@@ -81,7 +81,7 @@ impl Surface {
     pub fn morphing_eye_m(&self, eye_planet_m: DVec3) -> DVec3 {
         let chosen_m = self.view.camera.position_planet_m;
         let finest = self.leaves.iter().map(|leaf| leaf.tile.id.level).max().unwrap_or(0);
-        let allowed_m = self.ranges.always_m(finest);
+        let allowed_m = self.ranges.eye_spacings() * self.ranges.spacing_m(finest);
         chosen_m + (eye_planet_m - chosen_m).clamp_length_max(allowed_m)
     }
 }
@@ -97,7 +97,7 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
 
 /// Finds the horizons and the detail of all tiles that a view shows of a surface, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
-    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true);
+    horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true, &|| true);
     find_detail(surface, view, &|_, _| {}, &|| true, &|| true);
 }
 

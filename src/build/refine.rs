@@ -17,8 +17,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Most tiles that the picture may show; a tile is 2,048 triangles.
-fn budget_tiles(quality: Quality) -> usize {
+/// Most tiles that the picture may show; a tile is 2,048 triangles. Of the tiles of a surface up to half lie around the picture,
+/// coarser the farther: they are there for when the eye turns, and are not drawn.
+pub fn budget_tiles(quality: Quality) -> usize {
     match quality {
         Quality::Low => 300,
         Quality::Medium => 500,
@@ -31,7 +32,7 @@ fn leniency_factor(step: u32) -> f64 {
     (f64::from(step) * 0.125).exp2()
 }
 /// ...of which there are so many.
-const MOST_LENIENT: u32 = 32;
+const MOST_LENIENT: u32 = 48;
 
 /// Builds the tiles that a view needs, as far as `keep_going` allows (it is asked before each layer of each tile beyond the
 /// coarsest; after it says no, no finer level is begun). Tiles are taken from and left in `cache`. `stats` goes on from what
@@ -143,6 +144,10 @@ fn choose(
         let (mut wanted, leaves): (Vec<Arc<Tile>>, Vec<_>) = tiles.partition(|tile| selection.wants_split(tile));
         choice.seen += leaves.iter().filter(|tile| selection.sees(tile)).count();
         if wanted.is_empty() {
+            // Counted anew: neighbours have been split, too.
+            choice.seen = leaf_ids(&choice.split)
+                .filter(|id| nearest_tile(*id, cache).is_some_and(|tile| selection.sees(&tile)))
+                .count();
             return choice;
         }
         // The most lenient choice there is has to do whatever it comes to.
@@ -227,14 +232,21 @@ fn split_with_neighbours(id: NodeId, split: &mut HashSet<NodeId>) {
     }
 }
 
+/// The nodes that are left whole.
+fn leaf_ids(split: &HashSet<NodeId>) -> impl Iterator<Item = NodeId> {
+    let nodes = NodeId::roots().into_iter().chain(split.iter().flat_map(|id| id.children()));
+    nodes.filter(|id| !split.contains(id))
+}
+
+/// The tile of a node, or while it is not there that of the nearest node above it.
+fn nearest_tile(id: NodeId, cache: &Cache) -> Option<Arc<Tile>> {
+    std::iter::successors(Some(id), |id| id.parent()).find_map(|id| cache.tile(id))
+}
+
 /// The nodes that are shown, each with the edges beyond which the neighbour is coarser, and with its detail as far as it is there.
 fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
     let split = &choice.split;
-    let mut ids: Vec<NodeId> = NodeId::roots()
-        .into_iter()
-        .chain(split.iter().flat_map(|id| id.children()))
-        .filter(|id| !split.contains(id))
-        .collect();
+    let mut ids: Vec<NodeId> = leaf_ids(split).collect();
     ids.sort_unstable();
     let mut reliefs: HashMap<NodeId, Option<Relief>> = HashMap::new();
     ids.into_iter()

@@ -9,8 +9,9 @@ use crate::sphere::{Face, NodeId};
 use glam::DVec3;
 use half::f16;
 
-/// Azimuths in which a horizon is known, evenly around.
-pub const AZIMUTHS: usize = 32;
+/// Azimuths in which a horizon is known, evenly around. Between them it is a cubic through the four nearest (Catmull and Rom), so that
+/// the shadow of a peak does not shrink while the star moves from one to the next.
+pub const AZIMUTHS: usize = 48;
 /// Images of a horizon tile: one for each azimuth, and the openness.
 pub const HORIZON_IMAGES: usize = AZIMUTHS + 1;
 /// Points along the side of what a tile keeps of its parent.

@@ -11,8 +11,13 @@ use crate::lod::tile::TILE_QUADS;
 /// A level shows at least as far out as so many of its vertex spacings, however small the picture: nodes must be small against
 /// their distance for what is shaded to change from level to level without a step.
 const LEAST_SPACINGS: f64 = 100.0;
+/// Where that is too much for the budget of triangles, it is so many.
+const FEWEST_SPACINGS: f64 = 70.0;
 /// And at most so many times as far out as it must: what a tile knows of older vertices suffices only so far (`morph.rs`).
 const MOST_OVER_LEAST: f64 = 3.0;
+/// Errors may be so many times as large as the quality asks before all levels show less far, and so many times before they show
+/// less far than is good for what is shaded.
+const LENIENT: [f64; 2] = [4.0, 8.0];
 /// A vertex has come out in full when the eye is at this share of the distance where it began.
 pub const FULL_AT: f64 = 0.6;
 /// Shading changes from a level to the next between this share of the level's range and its end.
@@ -42,10 +47,20 @@ impl Ranges {
         };
         let focal_px = 1.0 / view.pixel_rad();
         // A level takes over where the one before has become too coarse: at twice its own spacing.
-        let least_spacings = (2.0 * focal_px / coarsest_px).max(LEAST_SPACINGS);
+        let floor = (LEAST_SPACINGS * LENIENT[1] / leniency).clamp(FEWEST_SPACINGS, LEAST_SPACINGS);
+        let least_spacings = (2.0 * focal_px / (coarsest_px * (leniency / LENIENT[0]).max(1.0))).max(floor);
         let most_spacings = (2.0 * focal_px / finest_px).clamp(least_spacings, MOST_OVER_LEAST * least_spacings);
         let root_spacing_m = spacing_rad(0) * radius_m;
         Self { root_spacing_m, least_spacings, most_spacings, reach: focal_px / (error_px * leniency) }
+    }
+
+    /// How far an eye may be from the one that tiles were chosen for, in spacings of the finest: a vertex that is older than its tile knows
+    /// must have come out in full even at the tile's far end.
+    pub fn eye_spacings(&self) -> f64 {
+        // Where a level three before has come out, less the farthest that a level shows and the diagonal of the node split for it.
+        let known = 8.0 * FULL_AT * self.least_spacings;
+        let farthest = MOST_OVER_LEAST * self.least_spacings + 2.0 * TILE_QUADS as f64 * std::f64::consts::SQRT_2;
+        (known - farthest).clamp(0.0, self.least_spacings)
     }
 
     /// Metres from vertex to vertex of a level (nominal).

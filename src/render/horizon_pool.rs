@@ -6,10 +6,10 @@ use crate::lod::tile::{TILE_SIDE, TILE_VERTICES};
 use half::f16;
 
 /// Images along a side of the texture; must match `horizon.wgsl`.
-const IMAGES_ALONG: usize = 6;
+const IMAGES_ALONG: usize = 7;
 const SIDE_PX: usize = IMAGES_ALONG * TILE_SIDE;
 
-/// 10 MB an array.
+/// 14 MB an array.
 pub(crate) const HORIZON: LayerKind = LayerKind {
     label: "horizon tiles",
     side_px: SIDE_PX as u32,

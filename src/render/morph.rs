@@ -140,7 +140,8 @@ impl Morph {
 
 impl Part {
     fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, vertices: &wgpu::Buffer, eye: &wgpu::Buffer) -> Self {
-        let shown = buffer(device, PART_BYTES, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX);
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_SRC;
+        let shown = buffer(device, PART_BYTES, usage);
         let jobs_bytes = u64::from(SLOTS) * size_of::<Job>() as u64;
         let jobs = buffer(device, jobs_bytes, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST);
         let buffers = [vertices, &shown, &jobs, eye];
@@ -156,4 +157,86 @@ impl Part {
 
 fn buffer(device: &wgpu::Device, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor { label: Some("morph"), size, usage, mapped_at_creation: false })
+}
+
+#[cfg(all(test, feature = "editor"))]
+mod tests {
+    use super::*;
+    use crate::build::build_now;
+    use crate::lod::morph::shifts_m;
+    use crate::lod::{Camera, Quality, View};
+    use crate::planet::shipped;
+    use crate::render::pool::TilePool;
+    use crate::sphere::LatLon;
+    use crate::terrain::Terrain;
+    use std::sync::Arc;
+
+    /// What was written to a buffer.
+    fn read(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Vec<f32> {
+        let descriptor = wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        };
+        let copy = device.create_buffer(&descriptor);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+        queue.submit([encoder.finish()]);
+        copy.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+        device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        let mapped = copy.slice(..).get_mapped_range().unwrap();
+        bytemuck::cast_slice(&mapped).to_vec()
+    }
+
+    /// The shader puts vertices where `lod::morph` says they are, to a thousandth of a pixel.
+    #[test]
+    fn vertices_come_out_on_the_gpu_as_on_the_cpu() {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle().with_env());
+        let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default());
+        let adapter = pollster::block_on(adapter).unwrap();
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default())).unwrap();
+        let pass = MorphPass::new(&device).unwrap();
+        let mut pool = TilePool::new(&device);
+        let mut morph = Morph::new(&device);
+        let planet = Arc::new(shipped::default_planet());
+        let place = LatLon::from_degrees(35.0, -5.0);
+        let ground_m = planet.radius_m() + Terrain::new(planet.clone()).height_m(place.direction());
+        for (altitude_m, quality) in [(1.7, Quality::Low), (2000.0, Quality::Medium), (1e6, Quality::High)] {
+            let camera = Camera::over(place, ground_m + altitude_m, 0.4, -0.4, Camera::DEFAULT_FOV_Y_RAD);
+            let view = View { camera, size_px: [320, 200], quality };
+            let surface = build_now(&planet, &view);
+            // Away from where the tiles were chosen for, as a frame of a flight is.
+            let eye = surface.morphing_eye_m(camera.position_planet_m * (1.0 + 0.02 * altitude_m / ground_m));
+            let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            pool.begin_round();
+            let places: Vec<Place> =
+                surface.leaves.iter().map(|leaf| pool.place(&device, &mut encoder, &leaf.tile).unwrap()).collect();
+            let tiles: Vec<(Place, u8)> =
+                places.iter().zip(&surface.leaves).map(|(place, leaf)| (*place, leaf.tile.id.level)).collect();
+            morph.prepare(&device, &queue, pool.buffers(), &surface.ranges, eye, &tiles);
+            pool.end_round(&encoder);
+            morph.find(&mut encoder, &pass);
+            queue.submit([encoder.finish()]);
+            let shown: Vec<Vec<f32>> =
+                (0..pool.buffers().len()).map(|buffer| read(&device, &queue, morph.of(buffer).unwrap())).collect();
+            let (mut worst_px, mut on_their_way, mut morphing_tiles) = (0.0_f64, 0, 0);
+            for (place, leaf) in places.iter().zip(&surface.leaves) {
+                let expected_m = shifts_m(&leaf.tile, eye, &surface.ranges);
+                let moved = |i: &usize| expected_m[*i] != 0.0;
+                let many = (0..TILE_VERTICES).filter(moved).count();
+                on_their_way += many;
+                morphing_tiles += usize::from(many > 0);
+                for (i, vertex) in leaf.tile.vertices.iter().enumerate() {
+                    let first = place.base_vertex as usize + i;
+                    let found_m = shown[place.buffer][first * SHOWN_BYTES as usize / 4];
+                    let pixel_m = vertex.position_planet_m().distance(eye) * view.pixel_rad();
+                    worst_px = worst_px.max(f64::from((found_m - expected_m[i]).abs()) / pixel_m);
+                }
+            }
+            let name = adapter.get_info().name;
+            assert!(morphing_tiles > 10 && on_their_way > 5000, "{altitude_m} m: {on_their_way} in {morphing_tiles}");
+            assert!(worst_px < 1e-3, "{altitude_m} m: {worst_px} px on {name}, {on_their_way} on their way");
+        }
+    }
 }

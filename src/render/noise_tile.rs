@@ -77,10 +77,8 @@ fn tile() -> Vec<[f32; 2]> {
             let p = [at(i % SIDE), at(i / SIDE % SIDE), at(i / (SIDE * SIDE))];
             let cells = 0.55 * cell_noise(p, 4, 1) + 0.28 * cell_noise(p, 9, 2) + 0.17 * cell_noise(p, 18, 3);
             let soft = value_noise(p, 4, 4) + 0.5 * value_noise(p, 8, 5);
-            let ground = value_noise(p, 6, 6)
-                + 0.6 * value_noise(p, 12, 7)
-                + 0.4 * value_noise(p, 24, 8)
-                + 0.25 * value_noise(p, 48, 9);
+            // Up to where the next octave of the ground begins, whose tile is an eighth as large.
+            let ground = gradient_noise(p, 6, 6) + 0.6 * gradient_noise(p, 12, 7) + 0.4 * gradient_noise(p, 24, 8);
             [-cells + 0.18 * soft, ground]
         })
         .collect();
@@ -126,19 +124,30 @@ fn cell_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
     nearest.sqrt().min(1.0)
 }
 
-/// Smoothly interpolated lattice values, -1..1.
-fn value_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
+/// What makes each corner of the lattice cell around a point count less with distance, and where the point is from it, in cells.
+fn corners(p: [f32; 3], period: i32) -> impl Iterator<Item = ([i32; 3], f32, [f32; 3])> {
     let q = p.map(|x| x * period as f32);
     let base = q.map(|x| x.floor() as i32);
-    let f: [f32; 3] = std::array::from_fn(|i| {
-        let f = q[i] - base[i] as f32;
-        f * f * f * (f * (f * 6.0 - 15.0) + 10.0)
-    });
-    let mut sum = 0.0;
-    for (dz, dy, dx) in grid(2) {
-        let cell = [base[0] + dx as i32, base[1] + dy as i32, base[2] + dz as i32];
-        let weight = |d: usize, f: f32| if d == 1 { f } else { 1.0 - f };
-        sum += lattice(cell, period, seed)[0] * weight(dx, f[0]) * weight(dy, f[1]) * weight(dz, f[2]);
-    }
-    2.0 * sum - 1.0
+    let f: [f32; 3] = std::array::from_fn(|i| q[i] - base[i] as f32);
+    let smooth = f.map(|f| f * f * f * (f * (f * 6.0 - 15.0) + 10.0));
+    grid(2).map(move |(dz, dy, dx)| {
+        let at = [dx, dy, dz];
+        let weight = (0..3).map(|i| if at[i] == 1 { smooth[i] } else { 1.0 - smooth[i] }).product();
+        (std::array::from_fn(|i| base[i] + at[i] as i32), weight, std::array::from_fn(|i| f[i] - at[i] as f32))
+    })
+}
+
+/// Smoothly interpolated lattice values, -1..1.
+fn value_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
+    corners(p, period).map(|(cell, weight, _)| weight * (2.0 * lattice(cell, period, seed)[0] - 1.0)).sum()
+}
+
+/// Planes of random slopes through 0 on the lattice, smoothly blended: its lattice shows less than that of values (Perlin, Improving
+/// Noise, 2002).
+fn gradient_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
+    let plane = |(cell, weight, from): ([i32; 3], f32, [f32; 3])| {
+        let slope = lattice(cell, period, seed);
+        weight * (0..3).map(|i| (2.0 * slope[i] - 1.0) * from[i]).sum::<f32>()
+    };
+    corners(p, period).map(plane).sum()
 }

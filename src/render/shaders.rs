@@ -38,6 +38,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "mottle.wgsl",
     "multiscatter.wgsl",
     "optical_depth.wgsl",
+    "ring.wgsl",
     "scattering.wgsl",
     "screen.wgsl",
     "sea.wgsl",

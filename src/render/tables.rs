@@ -81,7 +81,7 @@ impl Tables {
             gpu::target(device, "optical depth", [256, 64], FORMAT),
             gpu::target(device, "multiscatter", [32, 32], FORMAT),
             gpu::target(device, "irradiance", [64, 16], FORMAT),
-            gpu::target(device, "sky", [64, 32], FORMAT),
+            gpu::target(device, "sky", [64, 20], FORMAT),
         ];
         let weather = cloud_map::texture(device);
         let noise = [noise_tile::upload(device, queue), border_tile::upload(device, queue)];

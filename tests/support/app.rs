@@ -13,9 +13,14 @@ pub type Editor = Harness<'static, EditorApp>;
 
 /// An editor in a window of a size, a few frames old; file dialogs give these answers.
 pub fn open(size: [f32; 2], answers: Vec<Option<PathBuf>>) -> Editor {
+    open_at_rate(size, answers, 60.0)
+}
+
+/// The same with so many frames to a second.
+pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec: f32) -> Editor {
     let mut harness = Harness::builder()
         .with_size(egui::Vec2::from(size))
-        .with_step_dt(1.0 / 60.0)
+        .with_step_dt(1.0 / frames_per_sec)
         .wgpu()
         .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
     harness.run_steps(4);

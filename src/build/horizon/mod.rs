@@ -66,7 +66,7 @@ impl HorizonFinder {
         Self { pyramid: Pyramid::new(surface), wanted, found: HashMap::new(), radius_m }
     }
 
-    /// Goes on for as long as `keep_going` says so. `known` has horizons found earlier, and each new one is given to `keep`.
+    /// Goes on for as long as `keep_going` says so; once `wanted`, asked far more often, says no, this finder is of no more use. `known` has horizons found earlier, and each new one is given to `keep`.
     /// Leaves whose own is not there yet keep that of an earlier planet, or have that of a coarser node. Whether all are there now.
     pub(super) fn find(
         &mut self,
@@ -74,6 +74,7 @@ impl HorizonFinder {
         known: &dyn Fn(NodeId) -> Option<Arc<HorizonTile>>,
         keep: &dyn Fn(&Arc<HorizonTile>),
         keep_going: &dyn Fn() -> bool,
+        wanted: &(dyn Fn() -> bool + Sync),
     ) -> bool {
         if self.wanted.is_empty() {
             return true;
@@ -84,7 +85,7 @@ impl HorizonFinder {
         while !self.wanted.is_empty() && keep_going() {
             let missing = self.next_missing(side, known);
             let make = |(id, key, parent): &Missing| {
-                make_horizon(&self.pyramid, *id, *key, parent.as_deref(), self.radius_m).map(Arc::new)
+                make_horizon(&self.pyramid, *id, *key, parent.as_deref(), self.radius_m, wanted).map(Arc::new)
             };
             let made: Vec<Arc<HorizonTile>> = missing.par_iter().filter_map(make).collect();
             made.iter().for_each(keep);
@@ -147,13 +148,15 @@ fn attach(leaf: &mut Leaf, found: &HashMap<NodeId, Arc<HorizonTile>>, complete: 
     }
 }
 
-/// The horizon of a node from the grounds around it and from its parent's; nothing if one of them is not known.
+/// The horizon of a node from the grounds around it and from its parent's; nothing if one of them is not known, or if it is
+/// not `wanted` any more.
 fn make_horizon(
     pyramid: &Pyramid,
     id: NodeId,
     key: u64,
     parent: Option<&HorizonTile>,
     radius_m: f64,
+    wanted: &dyn Fn() -> bool,
 ) -> Option<HorizonTile> {
     profiling::scope!("horizon");
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
@@ -170,6 +173,9 @@ fn make_horizon(
     let slopes = Slopes::new(&patch);
     let mut sines = vec![0.0; TILE_VERTICES];
     for azimuth in 0..AZIMUTHS {
+        if !wanted() {
+            return None;
+        }
         let dir = direction(azimuth);
         let along = metric.along(dir);
         let (mut tangents, mut nearness) = match &inherited {

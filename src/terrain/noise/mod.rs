@@ -24,7 +24,10 @@ pub(crate) use near::{Nearby, SLOPE_BOUND, near};
 pub(crate) const BOUND: f64 = 1.45;
 
 /// Scales the sum of corners so that the noise's standard deviation is about 0.33.
-const SCALE: f32 = 90.0 / 512.0;
+const SCALE: f32 = 90.0 / 512.0 / GRADIENT_UNIT;
+
+/// One of a component of a corner's gradient. A power of two, so that it changes no bits of the noise.
+const GRADIENT_UNIT: f32 = (1 << 22) as f32;
 
 /// Adding and subtracting this rounds an f64 below 2^51 to a whole number and leaves that number in the low bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
@@ -72,12 +75,24 @@ pub(crate) fn cell_hash(cell: [u32; 3], seed: u32) -> u32 {
     h ^ (h >> 16)
 }
 
-/// A corner's gradient, each component an odd whole number from -511 to 511.
+/// A corner's gradient out of its random bits, each component an odd whole number from -511 to 511 of
+/// [`GRADIENT_UNIT`].
+///
+/// Ten bits each, of which the lowest counts as set. The highest ten stay where they are and count as an integer. The
+/// others stay where they are too, in the mantissa of a number whose exponent makes the lowest of them one unit; what
+/// remains is to take that number's own 1 and half the range away. Shifts would cost more, and the compiler makes
+/// multiplications of them.
 #[inline(always)]
-fn gradient<S: Scalar>(hash_x: u32, hash_y: u32, hash_z: u32, seed: u32) -> [S; 3] {
-    let h = scramble(hash_x ^ hash_y ^ hash_z ^ seed);
-    let component = |bits: u32| S::from_i32((bits as i32 >> 22) | 1);
-    [component(h), component(h << 10), component(h << 20)]
+fn gradient<S: Scalar>(hash: u32) -> [S; 3] {
+    let odd = |lowest: u32| 1 << lowest;
+    let others = |lowest: u32| 0x3FE << lowest;
+    let in_mantissa = |lowest: u32| {
+        // The unit is 2^22, and the bit before the mantissa counts 2^(23 - lowest) of it; signs are two's complement.
+        let one = f32::from_bits((127 + 22 + 23 - lowest) << 23);
+        let number = (hash & others(lowest)) ^ (one.to_bits() | odd(lowest) | 0x200 << lowest);
+        S::from_f32(f32::from_bits(number) - (one + 512.0 * GRADIENT_UNIT))
+    };
+    [S::from_i32((hash & others(22) | odd(22)) as i32), in_mantissa(12), in_mantissa(2)]
 }
 
 /// What one corner of the simplex adds: its weight cubed, and gradient dot distance.
@@ -96,10 +111,8 @@ fn corners<S: Scalar>([ix, iy, iz]: [u32; 3], [x, y, z]: [S; 3], seed: u32) -> (
     let (xy, yz, zx) = (x >= y, y >= z, z > x);
     let first = [xy & !zx, yz & !xy, zx & !yz];
     let second = [xy | !zx, yz | !xy, zx | !yz];
-    let step = |on: bool| if on { S::of(1.0) } else { S::of(0.0) };
-    let away = |offset: [bool; 3], unskew: S| {
-        [d0[0] - step(offset[0]) + unskew, d0[1] - step(offset[1]) + unskew, d0[2] - step(offset[2]) + unskew]
-    };
+    let further = [d0[0] - S::of(1.0), d0[1] - S::of(1.0), d0[2] - S::of(1.0)];
+    let away = |o: [bool; 3], unskew: S| [0, 1, 2].map(|a| (if o[a] { further[a] } else { d0[a] }) + unskew);
     let d1 = away(first, sixth);
     let d2 = away(second, third);
     let d3 = [d0[0] - half, d0[1] - half, d0[2] - half];
@@ -107,9 +120,9 @@ fn corners<S: Scalar>([ix, iy, iz]: [u32; 3], [x, y, z]: [S; 3], seed: u32) -> (
     let base = [ix.wrapping_mul(PRIME[0]), iy.wrapping_mul(PRIME[1]), iz.wrapping_mul(PRIME[2])];
     let next = [base[0].wrapping_add(PRIME[0]), base[1].wrapping_add(PRIME[1]), base[2].wrapping_add(PRIME[2])];
     let pick = |on: bool, axis: usize| if on { next[axis] } else { base[axis] };
-    let at = |o: [bool; 3]| gradient(pick(o[0], 0), pick(o[1], 1), pick(o[2], 2), seed);
-    let g0 = gradient(base[0], base[1], base[2], seed);
-    let g3 = gradient(next[0], next[1], next[2], seed);
+    let at = |o: [bool; 3]| gradient(scramble(pick(o[0], 0) ^ pick(o[1], 1) ^ pick(o[2], 2) ^ seed));
+    let g0 = gradient(scramble(base[0] ^ base[1] ^ base[2] ^ seed));
+    let g3 = gradient(scramble(next[0] ^ next[1] ^ next[2] ^ seed));
     ([d0, d1, d2, d3], [g0, at(first), at(second), g3])
 }
 
@@ -226,6 +239,15 @@ mod tests {
     }
 
     #[test]
+    fn gradients_are_three_odd_numbers_of_ten_bits() {
+        for state in 0..100_000 {
+            let hash = mix(state) as u32;
+            let component = |bits: u32| f64::from((bits as i32 >> 22) | 1) * f64::from(GRADIENT_UNIT);
+            assert_eq!(gradient::<f64>(hash), [hash, hash << 10, hash << 20].map(component));
+        }
+    }
+
+    #[test]
     fn mean_and_spread_are_as_promised() {
         let n = 200_000;
         let values: Vec<f64> = (0..n)
@@ -273,7 +295,7 @@ mod tests {
     /// The greatest that corners can add up to, over a grid of places in a simplex.
     #[test]
     fn bounds_hold_with_the_worst_of_gradients() {
-        let longest = 511.0 * 3.0_f64.sqrt() * f64::from(SCALE);
+        let longest = 511.0 * 3.0_f64.sqrt() * f64::from(GRADIENT_UNIT) * f64::from(SCALE);
         let (mut value, mut slope, mut curvature, mut twist) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         let n = 80;
         for (i, j, k) in (0..=n).flat_map(|i| (0..=i).flat_map(move |j| (0..=j).map(move |k| (i, j, k)))) {

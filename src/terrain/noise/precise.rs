@@ -7,7 +7,7 @@
 //! lattice, which differ by their hashes.
 
 use super::batch::{CHUNK, Lane, Points3};
-use super::{Octave, PRIME, SCALE, dot, falloff, scramble, split};
+use super::{Octave, PRIME, SCALE, dot, falloff, gradient, scramble, split};
 use crate::terrain::jet::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
@@ -130,10 +130,8 @@ fn ways<S: Scalar>([x, y, z]: [S; 3], order: [bool; 3]) -> [[S; 3]; 4] {
     let t = (x + y + z) * sixth;
     let d0 = [x - t, y - t, z - t];
     let [first, second] = steps(order);
-    let step = |on: bool| if on { S::of(1.0) } else { S::of(0.0) };
-    let away = |o: [bool; 3], unskew: S| {
-        [d0[0] - step(o[0]) + unskew, d0[1] - step(o[1]) + unskew, d0[2] - step(o[2]) + unskew]
-    };
+    let further = [d0[0] - S::of(1.0), d0[1] - S::of(1.0), d0[2] - S::of(1.0)];
+    let away = |o: [bool; 3], unskew: S| [0, 1, 2].map(|a| (if o[a] { further[a] } else { d0[a] }) + unskew);
     [d0, away(first, sixth), away(second, third), [d0[0] - half, d0[1] - half, d0[2] - half]]
 }
 
@@ -143,12 +141,6 @@ fn exact_ways(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
     let [x, y, z] = &lattice.fraction;
     let (x, y, z) = (x[i], y[i], z[i]);
     ways([x, y, z], [x >= y, y >= z, z > x])
-}
-
-/// The gradient of a corner out of its random bits.
-#[inline(always)]
-fn gradient<S: Scalar>(hash: u32) -> [S; 3] {
-    [hash, hash << 10, hash << 20].map(|bits| S::from_i32((bits as i32 >> 22) | 1))
 }
 
 /// The sum of the corners' contributions, from ways that are weighted already.

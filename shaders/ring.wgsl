@@ -1,0 +1,43 @@
+// Light of the sky from all sides at once, for the tables.
+#include "light.wgsl"
+
+// Mean radiance of the sky at a cosine to the zenith (0 to 1) over all azimuths, from an altitude, for unit irradiance. One march
+// serves all azimuths. `around`: points along half of the ring; the other half is its mirror image.
+fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
+    let radius = globals.eye_km.w;
+    let top = globals.air.x;
+    let b = (radius + h) * mu;
+    let way = max(ray_sphere(b, (h - top) * (2.0 * radius + h + top)).y, 0.0);
+    let step = sqrt(way) / f32(steps);
+    let flat = sqrt(max(0.0, 1.0 - mu * mu)) * sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
+    var sum = vec3f(0.0);
+    var transmittance = vec3f(1.0);
+    // Distance and height of the stretch before, to know how the star's height changes.
+    var last_t = 0.0;
+    var last_height = h;
+    for (var i = 0u; i < steps; i++) {
+        let w = f32(i) * step;
+        let length_km = bent(w + step, 0.0) - bent(w, 0.0);
+        let t = bent(w + 0.5 * step, 0.0);
+        let height = altitude_along(radius, h, mu, t);
+        let air = air_at(height);
+        let scattering = air.rayleigh + air.mie;
+        let horizon = horizon_cosine(height);
+        let last_horizon = horizon_cosine(last_height);
+        var shine = vec3f(0.0);
+        for (var k = 0u; k < around; k++) {
+            let cosine = mu * sun_mu + flat * cos(PI * (f32(k) + 0.5) / f32(around));
+            let along = vec2f(t, last_t) * cosine + (radius + h) * sun_mu;
+            let mus = clamp(along / (radius + vec2f(height, last_height)), vec2f(-1.0), vec2f(1.0));
+            let over = mus - vec2f(horizon, last_horizon);
+            let visible = disc_share(over.x, select(over.x - over.y, 0.0, i == 0u));
+            let direct = air.rayleigh * rayleigh_phase(cosine) + air.mie * mie_phase(cosine);
+            shine += scattering * multiscatter(height, mus.x) + direct * clear_transmittance(height, mus.x) * visible;
+        }
+        sum += transmittance * shine * shining_length(air.extinction, length_km);
+        transmittance *= exp(-air.extinction * length_km);
+        last_t = t;
+        last_height = height;
+    }
+    return sum / f32(around);
+}

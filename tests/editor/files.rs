@@ -1,0 +1,163 @@
+//! Opening, saving, what is never lost.
+
+use super::*;
+
+#[test]
+fn saved_as_and_opened_again_it_is_the_same_planet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let mut harness = editor(vec![Some(path.clone()), Some(path.clone())]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::S);
+    assert!(path.exists());
+    assert!(!harness.state().document().is_dirty());
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+    send(&mut harness, Command::New);
+    assert_ne!(planet(&harness), edited);
+    send(&mut harness, Command::Open);
+    assert_eq!(planet(&harness), edited);
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+}
+
+#[test]
+fn unsaved_work_is_never_dropped_without_asking() {
+    let mut harness = editor(vec![None]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+
+    send(&mut harness, Command::New);
+    assert_eq!(planet(&harness), edited, "nothing happens before the answer");
+    click(&mut harness, "Cancel");
+    assert_eq!(planet(&harness), edited);
+
+    send(&mut harness, Command::New);
+    click(&mut harness, "Save changes");
+    assert_eq!(planet(&harness), edited, "the file dialog was cancelled");
+
+    send(&mut harness, Command::New);
+    click(&mut harness, "Discard changes");
+    assert_ne!(planet(&harness), edited);
+    assert!(!harness.state().document().is_dirty());
+}
+
+#[test]
+fn closing_the_window_with_unsaved_work_asks() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let root = harness.ctx.viewport_id();
+    harness.input_mut().viewports.entry(root).or_default().events.push(egui::ViewportEvent::Close);
+    harness.step();
+    let commands = harness.output().viewport_output[&root].commands.clone();
+    assert!(commands.contains(&egui::ViewportCommand::CancelClose), "{commands:?}");
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Save your changes?").is_some());
+}
+
+#[test]
+fn a_file_that_cannot_be_opened_is_explained_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("broken.ron");
+    std::fs::write(&path, "(version: 1, radius_km: \"large\")").unwrap();
+    let mut harness = editor(vec![Some(path)]);
+    let before = planet(&harness);
+    send(&mut harness, Command::Open);
+    assert!(harness.query_by_label("The planet could not be opened").is_some());
+    assert!(harness.query_by_label_contains("radius_km").is_some());
+    click(&mut harness, "Dismiss");
+    assert_eq!(planet(&harness), before);
+}
+
+#[test]
+fn unsaved_work_outlives_a_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = || {
+        let mut harness = Harness::builder()
+            .with_size([1024.0, 640.0])
+            .with_step_dt(1.0 / 60.0)
+            .wgpu()
+            .build_eframe(|cc| EditorApp::new(cc, None).with_recovery(folder.path()));
+        harness.run_steps(4);
+        harness
+    };
+    let mut harness = start();
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let edited = planet(&harness);
+    for _ in 0..200 {
+        harness.step();
+        if folder.path().join("recovery-0.ron").exists() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    // Dropped without the orderly end that eframe announces: a crash.
+    drop(harness);
+
+    let mut harness = start();
+    assert_ne!(planet(&harness), edited);
+    click(&mut harness, "Recover");
+    assert_eq!(planet(&harness), edited);
+    assert!(harness.state().document().is_dirty());
+}
+
+#[test]
+fn a_height_map_is_chosen_undone_saved_and_missed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let picture = path("maps/heights.png");
+    std::fs::create_dir(path("maps")).unwrap();
+    let pixels: Vec<u8> = (0..8 * 16).map(|i| 100 + i).collect();
+    image::save_buffer(&picture, &pixels, 16, 8, image::ExtendedColorType::L8).unwrap();
+    let preset = path("mine.ron");
+    let mut harness = editor(vec![Some(picture.clone()), Some(preset.clone()), Some(preset.clone())]);
+    let height_m = |harness: &Editor| {
+        let planet = (**harness.state().document().planet()).clone();
+        tellus::terrain::Terrain::new(planet.into()).sample(glam::DVec3::X).layers_m[1]
+    };
+    let settled = |harness: &mut Editor| {
+        for _ in 0..200 {
+            harness.run_steps(1);
+            if !harness.state().pictures().is_reading() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        harness.run_steps(2);
+    };
+    click(&mut harness, "Terrain");
+    click(&mut harness, "Add layer");
+    click(&mut harness, "HeightMap");
+    assert_eq!(height_m(&harness), 0.0);
+    click(&mut harness, "Browse…");
+    settled(&mut harness);
+    let chosen_m = height_m(&harness);
+    assert!(chosen_m > 300.0, "{chosen_m}");
+    assert_eq!(undo_label(&harness), "Choose picture");
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(height_m(&harness), 0.0);
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    settled(&mut harness);
+    assert_eq!(height_m(&harness), chosen_m);
+
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::S);
+    assert!(!harness.state().document().is_dirty());
+    assert!(std::fs::read_to_string(&preset).unwrap().contains("file: \"maps/heights.png\""));
+    assert_eq!(height_m(&harness), chosen_m);
+
+    std::fs::rename(&picture, path("away.png")).unwrap();
+    send(&mut harness, Command::New);
+    send(&mut harness, Command::Open);
+    settled(&mut harness);
+    assert_eq!(harness.state().document().path(), Some(preset.as_path()), "it opens without its picture");
+    assert!(!harness.state().document().is_dirty());
+    assert_eq!(height_m(&harness), 0.0);
+    assert!(harness.query_all_by_label_contains("put the picture there").next().is_some());
+    std::fs::rename(path("away.png"), &picture).unwrap();
+    harness.run_steps(2);
+    settled(&mut harness);
+    assert_eq!(height_m(&harness), chosen_m, "the file is back");
+}

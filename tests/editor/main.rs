@@ -1,0 +1,294 @@
+//! Drives the real editor without a window: here its panels.
+//!
+//! - `files`: opening, saving, what is never lost
+//! - `viewport`: the camera and what is seen through it
+#![cfg(feature = "editor")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+#[path = "../support/app.rs"]
+mod app;
+mod files;
+mod viewport;
+
+use app::{Editor, click, planet, undo_label, undo_len};
+use eframe::egui;
+use eframe::egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::PathBuf;
+use tellus::editor::EditorApp;
+use tellus::editor::command::Command;
+use tellus::editor::viewport::camera::Mode;
+use tellus::planet::Planet;
+use tellus::render::DebugView;
+
+/// An editor in the smallest window that must hold everything; file dialogs give these answers.
+fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
+    app::open([1024.0, 640.0], answers)
+}
+
+fn slide(harness: &mut Editor, label: &str, value: f64) {
+    harness.get_by_role_and_label(Role::Slider, label).set_value_accesskit(value);
+    harness.run_steps(3);
+}
+
+fn send(harness: &mut Editor, command: Command) {
+    harness.state_mut().send(command);
+    harness.run_steps(4);
+}
+
+fn press(harness: &mut Editor, modifiers: egui::Modifiers, key: egui::Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(3);
+}
+
+#[test]
+fn a_slider_edits_and_undo_and_redo_go_back_and_forth() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 1234.0);
+    assert_eq!(planet(&harness).radius_km, 1234.0);
+    assert!(harness.state().document().is_dirty());
+    assert!(harness.query_by_label_contains("•").is_some(), "the dirty mark is on screen");
+    assert_eq!(undo_label(&harness), "Change radius");
+
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(planet(&harness), before);
+    assert!(!harness.state().document().is_dirty());
+    press(&mut harness, egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    assert_eq!(planet(&harness).radius_km, 1234.0);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Y);
+    assert_eq!(planet(&harness).radius_km, 1234.0);
+}
+
+#[test]
+fn a_drag_of_a_slider_is_one_step_and_reset_goes_back_to_the_default() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_role_and_label(Role::Slider, "Radius of planet").rect();
+    harness.drag_at(rect.center());
+    for step in 1..8 {
+        harness.hover_at(rect.center() + egui::vec2(4.0 * step as f32, 0.0));
+    }
+    harness.drop_at(rect.center() + egui::vec2(28.0, 0.0));
+    harness.run_steps(3);
+    assert_ne!(planet(&harness).radius_km, Planet::default().radius_km);
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, "Reset Radius of planet");
+    assert_eq!(planet(&harness).radius_km, Planet::default().radius_km);
+}
+
+#[test]
+fn layers_are_added_edited_and_masked() {
+    let mut harness = editor(vec![]);
+    let count = planet(&harness).layers.len();
+    click(&mut harness, "Terrain");
+    click(&mut harness, "Add layer");
+    click(&mut harness, "Ridged");
+    assert_eq!(planet(&harness).layers.len(), count + 1);
+    assert_eq!(undo_label(&harness), "Add layer");
+    click(&mut harness, "Duplicate layer");
+    let names: Vec<String> = planet(&harness).layers.iter().map(|layer| layer.name.clone()).collect();
+    let selected = names.iter().position(|name| name.ends_with(" 2")).unwrap();
+    slide(&mut harness, &format!("Amplitude of {}", names[selected]), 4321.0);
+    assert_eq!(planet(&harness).layers[selected].amplitude_m, 4321.0);
+    assert_eq!(undo_label(&harness), format!("Change amplitude of {}", names[selected]));
+    harness.get_by_label("Add mask").scroll_to_me();
+    harness.run_steps(30);
+    click(&mut harness, "Add mask");
+    assert_eq!(planet(&harness).layers[selected].masks.len(), 1);
+    harness.get_by_label("Remove layer").scroll_to_me();
+    harness.run_steps(30);
+    click(&mut harness, "Remove layer");
+    assert_eq!(planet(&harness).layers.len(), count + 1);
+}
+
+#[test]
+fn a_layer_is_dragged_to_another_place_in_one_step() {
+    let mut harness = editor(vec![]);
+    let names =
+        |harness: &Editor| -> Vec<String> { planet(harness).layers.iter().map(|layer| layer.name.clone()).collect() };
+    let before = names(&harness);
+    let steps = undo_len(&harness);
+    let row = |harness: &Editor, index: usize| harness.get_by_label(&format!("Layer {}", before[index])).rect();
+    let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(to);
+    harness.run_steps(2);
+    harness.drop_at(to);
+    harness.run_steps(3);
+    let mut expected = before.clone();
+    let moved = expected.remove(0);
+    expected.insert(2, moved);
+    assert_eq!(names(&harness), expected);
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Move layer".to_owned()));
+    send(&mut harness, Command::Undo);
+    assert_eq!(names(&harness), before);
+}
+
+#[test]
+fn a_curve_is_bent_by_its_points() {
+    let mut harness = editor(vec![]);
+    let index = planet(&harness).layers.iter().position(|layer| layer.curve.is_empty()).unwrap();
+    let name = planet(&harness).layers[index].name.clone();
+    let curve = |harness: &Editor| planet(harness).layers[index].curve.clone();
+    click(&mut harness, &format!("Layer {name}"));
+    click(&mut harness, &format!("Bend Curve of {name}"));
+    assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
+
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
+    let middle = rect.center();
+    harness.drag_at(middle);
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 20.0));
+    harness.run_steps(2);
+    harness.hover_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    harness.drop_at(middle - egui::vec2(0.0, 30.0));
+    harness.run_steps(2);
+    let [x, y] = curve(&harness)[1];
+    assert!(x.abs() < 0.1 && (0.3..0.9).contains(&y), "{x} {y}");
+    assert_eq!(undo_len(&harness), steps + 1);
+    click(&mut harness, &format!("Reset Curve of {name}"));
+    assert!(curve(&harness).is_empty());
+}
+
+#[test]
+fn a_stroke_on_the_biome_table_paints_cells_in_one_step() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Biomes");
+    click(&mut harness, "Add biome");
+    let biomes = planet(&harness).biomes;
+    let key = biomes.palette.last().unwrap().key;
+    let steps = undo_len(&harness);
+    let rect = harness.get_by_label("Biome table").rect();
+    let cell = rect.size() / egui::vec2(biomes.table.columns() as f32, biomes.table.rows().len() as f32);
+    let first = rect.min + cell * 0.5;
+    harness.drag_at(first);
+    harness.hover_at(first + egui::vec2(cell.x, 0.0));
+    harness.hover_at(first + egui::vec2(3.0 * cell.x, 0.0));
+    harness.drop_at(first + egui::vec2(3.0 * cell.x, 0.0));
+    harness.run_steps(3);
+    let table = planet(&harness).biomes.table;
+    for column in 0..4 {
+        assert_eq!(table.key(column, 0), Some(key), "column {column}");
+    }
+    assert_eq!(table.key(4, 0), biomes.table.key(4, 0));
+    assert_eq!(undo_len(&harness), steps + 1);
+    assert_eq!(undo_label(&harness), "Paint biomes");
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness).biomes, biomes);
+}
+
+#[test]
+fn clouds_turned_off_and_on_are_the_same_clouds() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Clouds");
+    if planet(&harness).clouds.is_none() {
+        click(&mut harness, "This planet has clouds");
+    }
+    slide(&mut harness, "Coverage of clouds", 0.25);
+    let clouds = planet(&harness).clouds;
+    assert_eq!(clouds.as_ref().unwrap().coverage, 0.25);
+    click(&mut harness, "This planet has clouds");
+    assert_eq!(planet(&harness).clouds, None);
+    assert_eq!(undo_label(&harness), "Turn clouds off");
+    click(&mut harness, "This planet has clouds");
+    assert_eq!(planet(&harness).clouds, clouds);
+}
+
+#[test]
+fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
+    let mut harness = editor(vec![]);
+    for tab in ["Planet", "Terrain", "Climate", "Biomes", "Water", "Air", "Clouds", "Star"] {
+        harness.get_by_role_and_label(Role::Button, tab).click();
+        harness.run_steps(3);
+        harness.check_accessibility();
+        for node in harness.query_all_by_role(Role::Slider) {
+            let rect = node.rect();
+            assert!(rect.left() >= 0.0 && rect.right() <= 1024.0, "{tab}: {rect:?}");
+        }
+    }
+}
+
+/// Steps until the picture is complete and its time is known.
+fn wait_for_picture(harness: &mut Editor) {
+    for _ in 0..600 {
+        harness.step();
+        let viewport = harness.state().viewport();
+        if viewport.surface().is_some_and(|surface| surface.complete) && !viewport.is_busy() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    harness.run_steps(3);
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    harness.run_steps(3);
+}
+
+#[test]
+fn an_idle_editor_draws_nothing() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
+    let pictures = harness.state().viewport().pictures();
+    assert!(pictures > 0);
+    harness.run_steps(20);
+    assert_eq!(harness.state().viewport().pictures(), pictures);
+    harness.state_mut().viewport_mut().settings.exposure_ev = 1.0;
+    harness.run_steps(3);
+    assert_eq!(harness.state().viewport().pictures(), pictures + 1);
+}
+
+#[test]
+fn the_time_from_an_edit_to_its_picture_is_measured() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
+    assert_eq!(harness.state().viewport().edit_clock.last(), None);
+    click(&mut harness, "Star");
+    slide(&mut harness, "Brightness of star", 2.0);
+    wait_for_picture(&mut harness);
+    let uniform = harness.state().viewport().edit_clock.last();
+    assert!(uniform.is_some(), "an edit that rebuilds nothing");
+    click(&mut harness, "Climate");
+    slide(&mut harness, "Equator of climate", 20.0);
+    for _ in 0..100 {
+        wait_for_picture(&mut harness);
+        if harness.state().viewport().edit_clock.last() != uniform {
+            break;
+        }
+    }
+    assert_ne!(harness.state().viewport().edit_clock.last(), uniform, "an edit that rebuilds tiles");
+}
+
+#[test]
+fn the_performance_panel_tells_where_an_edit_went() {
+    let mut harness = editor(vec![]);
+    wait_for_picture(&mut harness);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
+    assert!(harness.query_by_label_contains("times of the next edit").is_some());
+    click(&mut harness, "Climate");
+    slide(&mut harness, "Region size of climate", 900.0);
+    for _ in 0..100 {
+        wait_for_picture(&mut harness);
+        if harness.state().viewport().edit_clock.last().is_some() {
+            break;
+        }
+    }
+    harness.run_steps(2);
+    for step in ["Compare and compile", "Choose tiles", "Climate noise", "Vertices", "Upload", "Draw", "Present"] {
+        assert!(harness.query_by_label(step).is_some(), "{step}");
+    }
+    assert!(harness.query_by_label("Layer noise").is_none(), "no layer was touched");
+    let timeline = harness.state().viewport().edit_clock.timeline().unwrap().clone();
+    let mut ends = timeline.steps.iter().map(|step| step.end_secs);
+    assert!(ends.all(|end_secs| end_secs <= timeline.total.as_secs_f64()), "{timeline:?}");
+    assert!(timeline.uploaded_bytes > 0 && timeline.build.octave_samples > 0);
+    assert!(harness.state().viewport().memory().used_bytes > 0);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
+    assert!(harness.query_by_label("Draw").is_none());
+}
