@@ -15,11 +15,12 @@ use tellus::terrain::Terrain;
 use tellus::terrain::survey::spread;
 
 /// Pixels along a side of each picture, and how much finer each is than the one before.
-const SIDE_PX: usize = 128;
+const SIDE_PX: usize = 192;
 const FINER: usize = 4;
-/// Width of a pixel in the first picture, metres, and how many pictures follow it.
+/// Width of a pixel in the first picture, metres, and how many pictures follow it: of one place down to the ground, of another as far
+/// as mountains are larger than pixels.
 const COARSEST_M: f64 = 4000.0;
-const STEPS: usize = 6;
+const STEPS: [usize; 2] = [6, 3];
 
 /// The albedo of the ground around a place, pixel by pixel.
 fn albedo(gpu: &mut Gpu, planet: &Arc<Planet>, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<[f64; 3]> {
@@ -64,10 +65,10 @@ fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
         let terrain = Terrain::new(planet.clone());
         let sea_m = planet.sea_level_m().unwrap_or(f64::MIN);
         let land = spread(60).filter(|dir| terrain.height_m(*dir) > sea_m + 300.0);
-        for dir in land.step_by(7).take(2) {
+        for (dir, steps) in land.step_by(7).zip(STEPS) {
             let place = LatLon::from_direction(dir);
             let mut coarse = albedo(&mut gpu, &planet, &terrain, place, COARSEST_M);
-            for step in 1..=STEPS {
+            for step in 1..=steps {
                 let pixel_m = COARSEST_M / (FINER as f64).powi(step as i32);
                 let fine = albedo(&mut gpu, &planet, &terrain, place, pixel_m);
                 let (far, near) = (mean(&coarse, SIDE_PX / FINER), mean(&fine, SIDE_PX));
