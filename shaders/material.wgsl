@@ -18,6 +18,7 @@ struct Site {
     rel_m: vec3f,
     // Of the ground against the horizontal
     slope_cosine: f32,
+    steep: Steepness,
     temperature_c: f32,
     // Height over the level of the sea, metres; beyond every beach where there is no sea
     over_sea_m: f32,
@@ -42,6 +43,27 @@ fn biome_at(cell: vec2i) -> i32 {
     return i32(textureLoad(biome_ids, clamp(cell, vec2i(0), last), 0).r * 255.0 + 0.5);
 }
 
+// Cosines of the slopes at the texels around a pixel, and the share of each; the same of the parent's.
+struct Steepness {
+    own: vec4f,
+    own_shares: vec4f,
+    parents: vec4f,
+    parents_shares: vec4f,
+}
+
+fn even_steepness(cosine: f32) -> Steepness { return Steepness(vec4f(cosine), vec4f(0.25), vec4f(1.0), vec4f(0.0)); }
+
+// `soft` of the cosine of the slope, a share of the ground: rules are asked at texels, where slopes are known, and what they
+// answer is mixed.
+fn soft_slope(from_x: f32, to_x: f32, steep: Steepness, shift: f32) -> f32 {
+    var sum = 0.0;
+    for (var i = 0; i < 4; i++) {
+        if steep.own_shares[i] > 0.0 { sum += steep.own_shares[i] * soft(from_x, to_x, steep.own[i] + shift); }
+        if steep.parents_shares[i] > 0.0 { sum += steep.parents_shares[i] * soft(from_x, to_x, steep.parents[i] + shift); }
+    }
+    return sum;
+}
+
 // From 0 at `from` to 1 at `to`, whichever is greater.
 fn soft(from_x: f32, to_x: f32, x: f32) -> f32 {
     let span = to_x - from_x;
@@ -55,10 +77,10 @@ struct Steep {
     share: f32,
 }
 
-fn steep_of(id: i32, slope_cosine: f32) -> Steep {
+fn steep_of(id: i32, site: Site, shift: f32) -> Steep {
     let rule = biome_param(id, 5);
     if rule.x < 0.0 { return Steep(id, 0.0); }
-    return Steep(i32(rule.x), soft(rule.y, rule.z, slope_cosine));
+    return Steep(i32(rule.x), soft_slope(rule.y, rule.z, site.steep, shift));
 }
 
 // How much of the ground is beach (x) and snow (y) by height, temperature and slope.
@@ -69,12 +91,12 @@ fn covers(site: Site) -> vec2f {
     var share = vec2f(0.0);
     if beach.x >= 0.0 {
         let edge_m = beach.y * (1.0 + 0.25 * site.mottle);
-        share.x = soft(1.3 * edge_m, 0.7 * edge_m, abs(site.over_sea_m)) * soft(slopes.y, slopes.x, site.slope_cosine);
+        share.x = soft(1.3 * edge_m, 0.7 * edge_m, abs(site.over_sea_m)) * soft_slope(slopes.y, slopes.x, site.steep, 0.0);
     }
     if snow.x >= 0.0 {
         let line_c = snow.y + 0.35 * snow.z * site.mottle;
         share.y = soft(line_c + 0.5 * snow.z, line_c - 0.5 * snow.z, site.temperature_c)
-            * soft(slopes.w, slopes.z, site.slope_cosine + 0.03 * site.mottle);
+            * soft_slope(slopes.w, slopes.z, site.steep, 0.03 * site.mottle);
     }
     return share;
 }
@@ -82,7 +104,7 @@ fn covers(site: Site) -> vec2f {
 // The biome by the same rules without soft edges: what a query answers.
 fn biome_of(site: Site) -> i32 {
     var id = biome_at(vec2i(floor(site.table * vec2f(textureDimensions(biome_ids)))));
-    let steep = steep_of(id, site.slope_cosine);
+    let steep = steep_of(id, site, 0.0);
     if steep.share > 0.5 && steep.id != ROCK { id = steep.id; }
     var plain = site;
     plain.mottle = 0.0;
@@ -160,7 +182,7 @@ fn mixture_at(site: Site) -> Mixture {
         let corner = vec2i(i & 1, i >> 1u);
         let share = mix(1.0 - f, f, vec2f(corner));
         ids[2 * i] = biome_at(cell + corner);
-        let steep = steep_of(ids[2 * i], site.slope_cosine + site.mottle * 0.04);
+        let steep = steep_of(ids[2 * i], site, site.mottle * 0.04);
         let weight = bare * share.x * share.y;
         weights[2 * i] = weight * (1.0 - steep.share);
         ids[2 * i + 1] = steep.id;

@@ -5,7 +5,8 @@
 #include "horizon.wgsl"
 
 // The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents show
-// them; height in metres as a sum of two, and how much higher the parents show it.
+// them; height in metres as a sum of two, how much higher the parents show it, and how much steeper (rise over run) the ground is at
+// the very texel.
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
@@ -105,6 +106,43 @@ fn faded(range_m: vec2f, distance_m: f32) -> f32 {
 struct Relief {
     normal: vec3f,
     height_m: f32,
+    steep: Steepness,
+}
+
+// How steep the ground is at the texels around a pixel, everything counted in: from far away, slopes that are too fine to be shown still
+// decide what share of the ground is steep. `slopes`: at the pixel.
+fn steepness_of(in: Ground, slopes: vec4f, parent: f32) -> Steepness {
+    var out = Steepness(vec4f(1.0), vec4f(0.0), vec4f(1.0), vec4f(0.0));
+    let layer = i32(in.layer);
+    let at = in.place.zw * (DETAIL_SIDE - 1.0);
+    let last = vec2i(i32(DETAIL_SIDE) - 1);
+    for (var i = 0; i < 4; i++) {
+        let corner = vec2i(i & 1, i >> 1u);
+        if parent < 1.0 {
+            let low = min(vec2i(floor(at)), last - 1);
+            let f = saturate(at - vec2f(low));
+            let share = mix(1.0 - f, f, vec2f(corner));
+            let rise = length(slopes.xy) + textureLoad(detail_heights, low + corner, layer, 0).w;
+            out.own[i] = cosine_of(rise);
+            out.own_shares[i] = (1.0 - parent) * share.x * share.y;
+        }
+        if parent > 0.0 {
+            // Every second texel is one of the parent's.
+            let low = min(vec2i(floor(at * 0.5)), last / 2 - 1);
+            let f = saturate(at * 0.5 - vec2f(low));
+            let share = mix(1.0 - f, f, vec2f(corner));
+            let there = textureLoad(detail_slopes, 2 * (low + corner), layer, 0);
+            let steeper = textureLoad(detail_heights, 2 * (low + corner), layer, 0).w + length(there.xy) - length(there.zw);
+            out.parents[i] = cosine_of(length(slopes.zw) + steeper);
+            out.parents_shares[i] = parent * share.x * share.y;
+        }
+    }
+    return out;
+}
+
+fn cosine_of(rise: f32) -> f32 {
+    let r = max(rise, 0.0);
+    return inverseSqrt(1.0 + r * r);
 }
 
 // `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
@@ -113,7 +151,7 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
     let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
-    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m); }
+    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, even_steepness(dot(smooth_normal, up))); }
     let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
     let texels = log2(footprint_m / in.detail_fade.z);
     let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
@@ -125,7 +163,24 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
     let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
     out.height_m = mix(in.detail_fade.w + heights.x + heights.y + heights.z * parent, in.height_m, saturate1(texels - 1.0));
+    out.steep = steepness_of(in, slopes, parent);
     return out;
+}
+
+struct Climate {
+    temperature_c: f32,
+    moisture: f32,
+    // Of the biome table: 0 for the last to 1 for the first
+    row: f32,
+}
+
+// At a height, as src/terrain/climate.rs has it: higher ground is colder and drier, from the surface of the sea on.
+fn climate_at(in: Ground, height_m: f32) -> Climate {
+    let over_m = height_m - select(0.0, globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    let above_m = max(over_m, 0.0);
+    let temperature_c = in.level_climate.y - above_m * globals.eye_wrap_m.w;
+    let row = globals.climate.x + globals.climate.y * temperature_c + globals.climate.z * over_m;
+    return Climate(temperature_c, saturate1(in.level_climate.x + above_m * globals.climate.w), saturate1(row));
 }
 
 // From a pixel to the next one to the right or below along the ground, metres: by the vertices' normals, which bend from triangle to
@@ -148,26 +203,10 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
     return normalize(n - rise.x * tangent - rise.y * other);
 }
 
-struct Climate {
-    temperature_c: f32,
-    moisture: f32,
-    // Of the biome table: 0 for the last to 1 for the first
-    row: f32,
-}
-
-// At a height, as src/terrain/climate.rs has it: higher ground is colder and drier, from the surface of the sea on.
-fn climate_at(in: Ground, height_m: f32) -> Climate {
-    let over_m = height_m - select(0.0, globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
-    let above_m = max(over_m, 0.0);
-    let temperature_c = in.level_climate.y - above_m * globals.eye_wrap_m.w;
-    let row = globals.climate.x + globals.climate.y * temperature_c + globals.climate.z * over_m;
-    return Climate(temperature_c, saturate1(in.level_climate.x + above_m * globals.climate.w), saturate1(row));
-}
-
 // What decides about the ground at a pixel. `at`: its place in the table.
-fn site_of(in: Ground, temperature_c: f32, at: vec2f, slope_cosine: f32, footprint_m: f32, mottle: f32) -> Site {
+fn site_of(in: Ground, temperature_c: f32, at: vec2f, slope_cosine: f32, steep: Steepness, footprint_m: f32, mottle: f32) -> Site {
     let over_sea_m = select(1e9, in.height_m - globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
-    return Site(at, in.rel_m, slope_cosine, temperature_c, over_sea_m, footprint_m, mottle);
+    return Site(at, in.rel_m, slope_cosine, steep, temperature_c, over_sea_m, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
@@ -265,7 +304,7 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
+fn debug_color(in: Ground, n: vec3f, up: vec3f, steep: Steepness) -> vec3f {
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
@@ -279,7 +318,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let site = site_of(in, climate.temperature_c, place, dot(n, up), 1.0, 0.0);
+            let site = site_of(in, climate.temperature_c, place, dot(n, up), steep, 1.0, 0.0);
             return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
         case 5u: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
@@ -306,7 +345,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     var n = detail.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u && globals.modes.x != 12u { return vec4f(debug_color(in, n, up), over_sea_m); }
+    if globals.modes.x != 0u && globals.modes.x != 12u { return vec4f(debug_color(in, n, up, detail.steep), over_sea_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
@@ -314,7 +353,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let climate = climate_at(in, in.height_m);
     let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, climate.temperature_c, place, dot(n, up), footprint_m, mottle);
+    let site = site_of(in, climate.temperature_c, place, dot(n, up), detail.steep, footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     if globals.modes.x == 12u { return vec4f(ground.albedo, over_sea_m); }
     n = bumped(n, in.rel_m, footprint_m);

@@ -21,6 +21,8 @@ struct Texel {
     height_m: f64,
     /// Along the two tangents.
     slope: [f64; 2],
+    /// How much steeper the ground is there, all told.
+    steeper: f64,
 }
 
 /// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
@@ -34,19 +36,20 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> b
     let (mut slopes, mut heights) = (Vec::with_capacity(own_texels.len()), Vec::with_capacity(own_texels.len()));
     let half = |value: f64, most: f64| f16::from_f64(value.clamp(-most, most));
     for (i, own) in own_texels.iter().enumerate() {
-        let parent = between(&parents, i % DETAIL_SIDE, i / DETAIL_SIDE);
-        let ([x, y], [parent_x, parent_y]) = (own.slope, parent.slope);
-        slopes.push([x, y, parent_x, parent_y].map(|slope| half(slope, STEEPEST)));
+        let (x, y) = (i % DETAIL_SIDE, i / DETAIL_SIDE);
+        let parent = between(&parents, x, y);
+        let ([along, across], [parent_along, parent_across]) = (own.slope, parent.slope);
+        slopes.push([along, across, parent_along, parent_across].map(|slope| half(slope, STEEPEST)));
         let height_m = own.height_m - f64::from(base_m);
         let greater = half(height_m, MOST);
         let rest = half(height_m - f64::from(greater), MOST);
-        heights.push([greater, rest, half(parent.height_m - own.height_m, MOST), f16::ZERO]);
+        heights.push([greater, rest, half(parent.height_m - own.height_m, MOST), half(own.steeper, STEEPEST)]);
     }
     let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
     Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
 }
 
-/// Every so many texels of a node, row by row, without what they are too far apart to show.
+/// Every so many texels of a node, row by row, without the slopes that they are too far apart to show.
 fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> bool) -> Option<Vec<Texel>> {
     let quads = (DETAIL_SIDE - 1) / stride;
     let side = quads + 1;
@@ -59,10 +62,11 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
         let range = start..(start + BATCH).min(side * side);
         let place = |i: usize| id.direction((i % side) as f64 / quads as f64, (i / side) as f64 / quads as f64);
         let dirs: Vec<DVec3> = range.map(place).collect();
-        let seen = terrain.seen_relief(dirs.clone(), spacing_rad);
+        let relief = terrain.relief_at(dirs.clone(), &[spacing_rad, 0.0]);
         texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
-            let slope = slope_basis(id.face, *dir).map(|tangent| seen.slopes[i].dot(tangent));
-            Texel { height_m: seen.height_m[i], slope }
+            let [seen, all] = [0, 1].map(|band| relief.slopes[band][i]);
+            let slope = slope_basis(id.face, *dir).map(|tangent| seen.dot(tangent));
+            Texel { height_m: relief.height_m[i], slope, steeper: all.length() - seen.length() }
         }));
     }
     Some(texels)

@@ -215,10 +215,9 @@ impl Command {
             Command::TogglePanel => const { &[plain(Key::F9)] },
             Command::TogglePerformance => const { &[plain(Key::F8)] },
             Command::ToggleFullscreen => const { &[plain(Key::F11)] },
-            Command::ToggleTheme
-            | Command::ImportTable
-            | Command::ExportTable
-            | Command::Show(DebugView::Albedo) => &[],
+            Command::ToggleTheme | Command::ImportTable | Command::ExportTable | Command::Show(DebugView::Albedo) => {
+                &[]
+            }
             Command::RandomPlanet => const { &[ctrl(Key::R)] },
             Command::Controls => const { &[plain(Key::F1), plain(Key::Questionmark)] },
             Command::Move(Mode::Orbit) => const { &[plain(Key::F2)] },

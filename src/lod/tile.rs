@@ -16,7 +16,8 @@ pub const DETAIL_SIDE: usize = 4 * TILE_QUADS + 1;
 /// The ground of a node four times as fine as its mesh: the relief that a tile's vertices are too coarse to show, for shading.
 ///
 /// Values lie on [`DETAIL_SIDE`] rows of [`DETAIL_SIDE`] texels, the first and the last on the node's edges, with linear
-/// interpolation between. What is finer than twice the texel spacing is faded out.
+/// interpolation between. Heights are the evaluator's, as on vertices: what is made of them (climate, shores, biomes) covers the same
+/// share of the ground at every level. From slopes, what is finer than twice the texel spacing is faded out.
 #[derive(Debug)]
 pub struct DetailTile {
     /// The node.
@@ -30,7 +31,8 @@ pub struct DetailTile {
     pub slopes: Vec<[half::f16; 4]>,
     /// The height that [`DetailTile::heights`] count from, metres.
     pub base_m: f32,
-    /// Height in metres as the sum of the first two; the third is how much higher the parent's detail shows it.
+    /// Height in metres as the sum of the first two; the third is how much higher the parent's detail shows it. The fourth is how
+    /// much steeper (rise over run) the ground is at that point with what is faded out of [`DetailTile::slopes`].
     pub heights: Vec<[half::f16; 4]>,
 }
 

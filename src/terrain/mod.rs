@@ -44,7 +44,7 @@ pub use height::curve_at;
 use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
 use coarse::{CoarseFields, coarse_heights_m};
 use coast::Coast;
-use field::{EXACT, Field};
+use field::{Components, EXACT, Field};
 use glam::DVec3;
 use height::{CompiledLayer, Heights, LayerStack};
 use landform::Landform;
@@ -97,11 +97,11 @@ pub struct Sample {
     pub layers_m: Vec<f64>,
 }
 
-/// The ground without what is not seen at a spacing.
-pub(crate) struct SeenRelief {
+/// The ground at points.
+pub(crate) struct GroundRelief {
     pub(crate) height_m: Vec<f64>,
-    /// See [`tangent_slope`].
-    pub(crate) slopes: Vec<DVec3>,
+    /// For each spacing asked for, the slopes without what is not seen at it: see [`tangent_slope`].
+    pub(crate) slopes: Vec<Vec<DVec3>>,
 }
 
 impl Terrain {
@@ -188,7 +188,7 @@ impl Terrain {
             layers_m[layer] = heights_m[0] - before_m;
             before_m = heights_m[0];
         });
-        self.raise(&mut heights, &points, EXACT, false);
+        self.raise(&mut heights, &points, EXACT);
         let height_m = heights.height_m[0];
         let gradient = DVec3::from_array(heights.gradients[0].each_ref().map(|component| f64::from(component[0])));
         let slope = tangent_slope(dir, gradient, self.planet.radius_m() + height_m);
@@ -256,9 +256,9 @@ impl Terrain {
     }
 
     /// Adds what biomes have of their own to heights that the layers made.
-    fn raise(&self, heights: &mut Heights, points: &Points, spacings_rad: &[f64], seen_only: bool) {
+    fn raise(&self, heights: &mut Heights, points: &Points, spacings_rad: &[f64]) {
         let Some(relief) = &self.relief else { return };
-        let fields = relief::fields(relief, self.simd, points, spacings_rad, seen_only);
+        let fields = relief::fields(relief, self.simd, points, spacings_rad);
         let (climate, inland_rad) = (self.climate.field(self.simd, points), self.climate.inland_rad(&points.dirs));
         relief.add(heights, spacings_rad, points, &fields, &climate, &inland_rad);
     }
@@ -278,34 +278,26 @@ impl Terrain {
         self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
     }
 
-    /// The same without what is seen at none of the spacings.
-    fn seen_fields(&self, points: &Points, spacings_rad: &[f64]) -> Vec<Option<Arc<Field>>> {
-        let field = |layer: &CompiledLayer| {
-            Arc::new(Field::seen_only(&layer.landform, self.simd, points, &layer.spacings_rad(spacings_rad)))
-        };
-        self.stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect()
-    }
-
-    /// The ground at unit directions as points so far apart can show it, for shading.
-    pub(crate) fn seen_relief(&self, dirs_planet: Vec<DVec3>, spacing_rad: f64) -> SeenRelief {
+    /// The ground at unit directions, its slopes as points so far apart (as angles) can show them.
+    pub(crate) fn relief_at(&self, dirs_planet: Vec<DVec3>, spacings_rad: &[f64]) -> GroundRelief {
         let points = Points::new(dirs_planet);
         let radius_m = self.planet.radius_m();
-        let fields = self.seen_fields(&points, &[spacing_rad]);
-        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &[spacing_rad], |_, _| {});
-        self.raise(&mut heights, &points, &[spacing_rad], true);
-        let slope = |i: usize| {
-            let gradient = heights.gradients[0].each_ref().map(|component| f64::from(component[i]));
+        let fields = self.fields(&points, spacings_rad);
+        let mut heights = height::combine(&self.stack, self.simd, &points, &fields, spacings_rad, |_, _| {});
+        self.raise(&mut heights, &points, spacings_rad);
+        let slope = |components: &Components, i: usize| {
+            let gradient = components.each_ref().map(|component| f64::from(component[i]));
             tangent_slope(points.dirs[i], DVec3::from_array(gradient), radius_m + heights.height_m[i])
         };
-        let slopes = (0..points.len()).map(slope).collect();
-        SeenRelief { height_m: heights.height_m, slopes }
+        let slopes = |components| (0..points.len()).map(|i| slope(components, i)).collect();
+        GroundRelief { slopes: heights.gradients.iter().map(slopes).collect(), height_m: heights.height_m }
     }
 
     fn heights_of(&self, dirs_planet: Vec<DVec3>) -> Vec<f64> {
         let points = Points::new(dirs_planet);
         let fields = self.fields(&points, &[]);
         let mut heights = height::combine(&self.stack, self.simd, &points, &fields, &[], |_, _| {});
-        self.raise(&mut heights, &points, &[], false);
+        self.raise(&mut heights, &points, &[]);
         heights.height_m
     }
 }

@@ -160,13 +160,6 @@ struct Share {
 }
 
 /// The fields of a relief's noises.
-pub(crate) fn fields(
-    relief: &Relief,
-    simd: Simd,
-    points: &Points,
-    spacings_rad: &[f64],
-    seen_only: bool,
-) -> Vec<Arc<Field>> {
-    let evaluate = if seen_only { Field::seen_only } else { Field::new };
-    relief.noises.iter().map(|noise| Arc::new(evaluate(noise, simd, points, spacings_rad))).collect()
+pub(crate) fn fields(relief: &Relief, simd: Simd, points: &Points, spacings_rad: &[f64]) -> Vec<Arc<Field>> {
+    relief.noises.iter().map(|noise| Arc::new(Field::new(noise, simd, points, spacings_rad))).collect()
 }

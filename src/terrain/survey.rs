@@ -39,7 +39,7 @@ impl Terrain {
         let points = Points::new(dirs.to_vec());
         let fields = self.fields(&points, EXACT);
         let mut heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |_, _| {});
-        self.raise(&mut heights, &points, EXACT, false);
+        self.raise(&mut heights, &points, EXACT);
         let noise = self.climate.field(self.simd, &points);
         let inland_rad = self.climate.inland_rad(dirs);
         let rules = Rules::new(&self.planet);
