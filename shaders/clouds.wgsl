@@ -44,6 +44,9 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         1.0 / (4.0 * PI),
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
+    // From above one sees tops that a low star only grazes (Lommel and Seeliger's law); the march looks too coarsely at them to know.
+    let high = max(sun_mu, 0.0) + 0.06;
+    let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
     for (var i = 0.0; i < steps; i += 1.0) {
         let s0 = i / steps;
@@ -67,7 +70,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
             + 1.5 * phases.z * exp(-0.07 * sun_depth);
         let ambient = (sky * (0.35 + 0.65 * height) + below * (1.0 - height)) / PI;
-        let shine = globals.cloud_color.rgb * (sunlight * direct * 1.5 + ambient * 0.8);
+        let shine = globals.cloud_color.rgb * (sunlight * direct * (1.5 * grazed) + ambient * 0.8);
         let passed = exp(-extinction * density * length_km);
         let seen = out.transmittance * (1.0 - passed);
         out.light += seen * shine;

@@ -12,10 +12,11 @@ struct Exposure {
 // x: share of the way that is gone now
 @group(0) @binding(2) var<uniform> step: vec4f;
 
-// Luminance in stops that suits an exposure of 0, and how far the eye follows what is brighter or darker: at night it stays
-// darker than by day.
+// Luminance in stops that suits an exposure of 0, and how far the eye follows what is darker and what is brighter: at night it
+// stays darker than by day, and snow stays white.
 const NORMAL_EV: f32 = -2.6;
-const FOLLOWED: f32 = 0.78;
+const FOLLOWED_DARK: f32 = 0.78;
+const FOLLOWED_BRIGHT: f32 = 0.35;
 const LEAST_EV: f32 = -4.0;
 const MOST_EV: f32 = 9.0;
 // What is so much darker than the brightest does not count, such as the night side beside a crescent.
@@ -53,7 +54,8 @@ fn compute() {
         let mean = sum / weight;
         // Where there is next to no light the eye gives up, or the end of dusk would be a sudden noon of stars.
         let most = min(MOST_EV, (mean - DARKEST_EV) * 1.5);
-        ev = clamp((NORMAL_EV - mean) * FOLLOWED, LEAST_EV, max(most, 0.0));
+        let off = NORMAL_EV - mean;
+        ev = clamp(off * select(FOLLOWED_DARK, FOLLOWED_BRIGHT, off < 0.0), LEAST_EV, max(most, 0.0));
     }
     exposure.ev = mix(exposure.ev, ev, step.x);
     exposure.factor = exp2(exposure.ev);

@@ -139,13 +139,13 @@ params! {
         /// Scattering by molecules at the reference sphere, for red, green and blue.
         rayleigh_per_km: [f64; 3] = [0.005802, 0.013558, 0.0331], "Rayleigh scattering", Unit::PerKilometre, triple(2.0), Stage::AirTables;
         /// Height over which molecules thin out by a factor of e.
-        rayleigh_scale_km: f64 = 8.0, "Rayleigh scale height", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        rayleigh_scale_km: f64 = 8.0, "Rayleigh scale", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
         /// Scattering by dust and droplets at the reference sphere.
         mie_scattering_per_km: [f64; 3] = [0.003996, 0.003996, 0.003996], "Mie scattering", Unit::PerKilometre, triple(2.0), Stage::AirTables;
         /// Absorption by dust and droplets at the reference sphere.
         mie_absorption_per_km: [f64; 3] = [0.000444, 0.000444, 0.000444], "Mie absorption", Unit::PerKilometre, triple(2.0), Stage::AirTables;
         /// Height over which dust and droplets thin out by a factor of e.
-        mie_scale_km: f64 = 1.2, "Mie scale height", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        mie_scale_km: f64 = 1.2, "Mie scale", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
         /// How much dust and droplets scatter forward: 0 is evenly, near 1 is a tight glow around the star.
         mie_anisotropy: f64 = 0.8, "Mie anisotropy", Unit::None, linear(-0.95, 0.95), Stage::AirTables;
         /// Absorption in the middle of the absorbing layer, such as ozone.
@@ -193,7 +193,7 @@ params! {
         /// Longitude over which the star stands overhead.
         longitude_deg: f64 = 0.0, "Longitude", Unit::Degrees, linear(-180.0, 180.0), Stage::Uniform;
         /// Time from noon to noon; 0 if the star stands still.
-        day_hours: f64 = 24.0, "Day", Unit::Hours, log(0.0, 10_000.0), Stage::Uniform;
+        day_hours: f64 = 24.0, "Day length", Unit::Hours, log(0.0, 10_000.0), Stage::Uniform;
         /// Tilt of the planet's axis: how far north and south the star gets in a year. Seasons are set by it.
         tilt_deg: f64 = 23.4, "Axial tilt", Unit::Degrees, linear(0.0, 90.0), Stage::Label;
         /// Colour of its light (linear sRGB).

@@ -13,7 +13,7 @@ pub enum Tone {
 }
 
 /// Stops by which AgX is lifted so that white ground at noon is about as bright as in the other curves, as a factor.
-const AGX_LIFT: f64 = 1.25;
+const AGX_LIFT: f64 = 1.45;
 /// From Rec. 709 to the working space of AgX and back, row by row.
 const AGX_IN: [[f64; 3]; 3] = [
     [0.842479062253094, 0.0784335999999992, 0.0792237451477643],
@@ -29,6 +29,13 @@ const AGX_OUT: [[f64; 3]; 3] = [
 const AGX_STOPS: (f64, f64) = (-12.47393, 4.02607);
 /// The curve over them, the highest power first.
 const AGX_CURVE: [f64; 7] = [15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232];
+
+/// A look over it, as its makers have several: between their plain one, under which planets are pale, and their punchy one. A power
+/// and a factor of what is not grey.
+const AGX_CONTRAST: f64 = 1.15;
+const AGX_SATURATION: f64 = 1.3;
+/// What the primaries count in a grey.
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 impl Tone {
     /// All of them.
@@ -61,9 +68,10 @@ fn agx(radiance: [f64; 3]) -> [f64; 3] {
     let mixed = times(&AGX_IN, radiance.map(|c| (c * AGX_LIFT).max(0.0)));
     let curved = mixed.map(|c| {
         let x = ((libm::log2(c.max(1e-10)) - AGX_STOPS.0) / (AGX_STOPS.1 - AGX_STOPS.0)).clamp(0.0, 1.0);
-        AGX_CURVE.iter().fold(0.0, |sum, k| sum * x + k).max(0.0)
+        libm::pow(AGX_CURVE.iter().fold(0.0, |sum, k| sum * x + k).max(0.0), AGX_CONTRAST)
     });
-    times(&AGX_OUT, curved).map(|c| libm::pow(c.clamp(0.0, 1.0), 2.2))
+    let grey: f64 = (0..3).map(|k| LUMINANCE[k] * curved[k]).sum();
+    times(&AGX_OUT, curved.map(|c| grey + AGX_SATURATION * (c - grey))).map(|c| libm::pow(c.clamp(0.0, 1.0), 2.2))
 }
 
 fn neutral(radiance: [f64; 3]) -> [f64; 3] {
@@ -101,8 +109,8 @@ mod tests {
         }
         // Published values: Neutral leaves base colours but for the 4% that a surface reflects anyway.
         assert!((Tone::Neutral.shown([0.5, 0.3, 0.2])[0] - 0.46).abs() < 1e-12);
-        // AgX shows middle grey, but for the lift, half way up the display's scale: 0.5 in sRGB.
-        let grey = Tone::AgX.shown([0.18 / AGX_LIFT; 3])[1];
+        // AgX shows middle grey, but for lift and contrast, half way up the display's scale: 0.5 in sRGB.
+        let grey = libm::pow(Tone::AgX.shown([0.18 / AGX_LIFT; 3])[1], 1.0 / AGX_CONTRAST);
         assert!((grey - 0.2140).abs() < 0.005, "{grey}");
         for (i, row) in AGX_IN.iter().enumerate() {
             let back = times(&AGX_OUT, [0, 1, 2].map(|k| AGX_IN[k][i]));

@@ -1,6 +1,7 @@
 //! The parts that are nothing but parameters: planet, star, climate, and those a planet may lack.
 
 use super::Draft;
+use crate::editor::widgets::param_row::labelled_row;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::param::{ParamPath, Params, Segment};
 use crate::planet::{
@@ -25,13 +26,12 @@ pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 
 /// The star.
 pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    ui.horizontal(|ui| {
-        let label = ui.label("Colour of a star of");
+    labelled_row(ui, "Temperature", |ui, label| {
         let mut kelvin = star_kelvin(draft.planet.star.color).round();
         let value = egui::DragValue::new(&mut kelvin).range(STAR_KELVIN).speed(20.0).suffix(" K");
-        let response = ui.add(value).labelled_by(label.id);
-        if response.on_hover_text("Sets the colour to that of a star of this temperature; the Sun has 5772 K").changed()
-        {
+        let response = ui.add(value).labelled_by(label);
+        let told = "Sets the colour to that of a star of this temperature; the Sun has 5772 K";
+        if response.on_hover_text(told).changed() {
             draft.planet.star.color = star_color(kelvin);
         }
     });
@@ -46,18 +46,18 @@ pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     let (lon_deg, time_secs) = draft.here;
     let star = &mut draft.planet.star;
-    ui.horizontal(|ui| {
-        let label = ui.label("Hour here");
+    labelled_row(ui, "Hour here", |ui, label| {
         let mut hour = (star.hour(lon_deg, time_secs) * 100.0).round() / 100.0;
         let value = egui::DragValue::new(&mut hour).range(0.0..=24.0).speed(0.02).suffix(" h");
-        let response = ui.add(value).labelled_by(label.id);
+        let response = ui.add(value).labelled_by(label);
         if response.on_hover_text("Of a day of 24 where the camera is; sets the star's longitude").changed() {
             star.set_hour(hour, lon_deg, time_secs);
         }
-        let label = ui.label("Season");
+    });
+    labelled_row(ui, "Season", |ui, label| {
         let mut season_deg = star.season_deg().round();
         let value = egui::DragValue::new(&mut season_deg).range(-90.0..=90.0).speed(0.5).suffix("°");
-        let response = ui.add(value).labelled_by(label.id);
+        let response = ui.add(value).labelled_by(label);
         let told =
             "From -90, midwinter in the north, to 90, midsummer; sets the star's latitude by the tilt of the axis";
         if response.on_hover_text(told).changed() {
@@ -72,11 +72,11 @@ fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
     let share = |c: &f64| if strength > 0.0 { (c / strength) as f32 } else { 1.0 };
     let mut color: [f32; 3] = std::array::from_fn(|i| share(&per_km[i]));
     let mut changed = strength;
-    ui.horizontal(|ui| {
-        let label = ui.label(format!("{name} as colour and strength"));
-        let button = ui.color_edit_button_rgb(&mut color).labelled_by(label.id);
-        let value = egui::DragValue::new(&mut changed).range(0.0..=2.0).speed(strength.max(1e-4) * 0.01).suffix(" 1/km");
-        let drag = ui.add(value.max_decimals(6)).labelled_by(label.id);
+    labelled_row(ui, &format!("{name} colour"), |ui, label| {
+        let button = ui.color_edit_button_rgb(&mut color).labelled_by(label);
+        let value =
+            egui::DragValue::new(&mut changed).range(0.0..=2.0).speed(strength.max(1e-4) * 0.01).suffix(" 1/km");
+        let drag = ui.add(value.max_decimals(6)).labelled_by(label);
         let told = "The same as the three coefficients: what the strongest colour scatters, and how strong the others are to it";
         if button.on_hover_text(told).changed() || drag.on_hover_text(told).changed() {
             let most = color.iter().copied().fold(1e-6, f32::max);

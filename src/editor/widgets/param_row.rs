@@ -37,7 +37,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
             let total = ui.available_width();
-            let label_width = (total * 0.34).clamp(84.0, 150.0);
+            let label_width = label_width(total);
             label(ui, row, &mut value, label_width);
             let control_width = (total - label_width - RESET_WIDTH - 14.0).max(60.0);
             ui.allocate_ui_with_layout(
@@ -67,6 +67,25 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
         }
     });
     browse
+}
+
+/// Width of the labels where so much is there for a row.
+fn label_width(total: f32) -> f32 {
+    (total * 0.34).clamp(84.0, 150.0)
+}
+
+/// A row of other widgets, in line with those of parameters. They get the label's id, which names them.
+pub fn labelled_row(ui: &mut egui::Ui, text: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        let size = egui::vec2(label_width(ui.available_width()), ui.spacing().interact_size.y);
+        let layout = egui::Layout::left_to_right(egui::Align::Center);
+        let label = ui.allocate_ui_with_layout(size, layout, |ui| {
+            ui.set_min_width(size.x);
+            ui.add(egui::Label::new(text).truncate())
+        });
+        add(ui, label.inner.id);
+    });
 }
 
 fn name(row: &Row<'_>) -> String {
