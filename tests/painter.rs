@@ -310,6 +310,6 @@ fn the_painter_looks_as_it_did() {
     // What lies left of the panel is the planet; below, the status bar says how long things took.
     let (left, height) = (picture.width() * 61 / 100, picture.height() * 94 / 100);
     let panel = image::imageops::crop_imm(&picture, left, 0, picture.width() - left, height).to_image();
-    let options = egui_kittest::SnapshotOptions::new().threshold(1.0).failed_pixel_count_threshold(200);
+    let options = egui_kittest::SnapshotOptions::new().threshold(1.0).max_failed_pixels(200);
     egui_kittest::image_snapshot_options(&panel, "painter", &options);
 }
