@@ -298,3 +298,18 @@ fn a_ready_made_table_goes_out_as_a_picture_and_comes_back() {
     harness.run_steps(4);
     assert!(harness.query_by_label("The biome table could not be imported").is_some());
 }
+
+/// The panel as it looks; goldens by Mesa's software driver, made anew with `UPDATE_SNAPSHOTS=1`. The planet beside it is left out: tests
+/// of its own compare it.
+#[test]
+fn the_painter_looks_as_it_did() {
+    let mut harness = editor(vec![]);
+    choose(&mut harness, 3);
+    settle(&mut harness);
+    let picture = harness.render().unwrap();
+    // What lies left of the panel is the planet; below, the status bar says how long things took.
+    let (left, height) = (picture.width() * 61 / 100, picture.height() * 94 / 100);
+    let panel = image::imageops::crop_imm(&picture, left, 0, picture.width() - left, height).to_image();
+    let options = egui_kittest::SnapshotOptions::new().threshold(1.0).max_failed_pixels(200);
+    egui_kittest::image_snapshot_options(&panel, "painter", &options);
+}

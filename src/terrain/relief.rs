@@ -5,6 +5,10 @@
 //! of gradients: over the hundreds of kilometres between two cells of the table, that is less than a millionth of a relief's height
 //! for each metre.
 //!
+//! The noise that moves borders to and fro (`border`) does not move the blend: it is a tile with creases from texel to texel, and heights
+//! made with it would have creases in their normals, and cliffs where its finest octaves cross a step of the table. So the relief of a
+//! biome begins gently up to half a cell before or after the border that one sees.
+//!
 //! The arithmetic is the same whatever the instruction set; the noise is the layers' own.
 
 use super::climate::{ClimateField, CompiledClimate, NO_SEA, Rules};
