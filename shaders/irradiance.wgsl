@@ -16,6 +16,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let root = x.x * 2.0 - 1.0;
     let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
     let h = x.y * x.y * globals.air.x * 0.9999;
+    if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
     var sum = vec3f(0.0);
     for (var i = 0u; i < 4u; i++) {
         // The square root spreads rings by the cosine, as irradiance counts them.

@@ -24,6 +24,13 @@ fn sun_transmittance(h: f32, mu: f32) -> vec3f {
     return clear_transmittance(h, mu) * visible;
 }
 
+// Whether the star has set for all air that is seen from an altitude: the farthest is where a ray that grazes the ground leaves it.
+fn all_is_dark(h: f32, sun_mu: f32) -> bool {
+    let radius = globals.eye_km.w;
+    let dips = acos(radius / (radius + max(h, 0.0))) + 2.0 * acos(radius / (radius + globals.air.x));
+    return asin(sun_mu) < -dips - max(globals.sun_dir.w, 0.0015) - 0.02;
+}
+
 // The square root spreads tables about the terminator.
 fn signed_root(x: f32) -> f32 { return sign(x) * sqrt(abs(x)); }
 

@@ -32,6 +32,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let radius = globals.eye_km.w;
     let top = globals.air.x;
     let h = clamp(x.y * x.y * top, top * 1e-5, top * 0.9999);
+    if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
     let sun_flat = sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
     let horizon = horizon_cosine(h);
 

@@ -224,12 +224,14 @@ fn seabed(ground: Material, site: Site) -> Material {
 }
 
 // Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model).
+// To be multiplied with the cosine to the light: that of a tilt which is part of the roughness, too. Counted twice, patterns would make
+// ground brighter from near than from far away, where they are too fine to be seen.
 fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, roughness: f32) -> f32 {
     let sigma = roughness * 0.6;
     let s = l_v - n_l * n_v;
     let t = select(1.0, max(max(n_l, n_v), 1e-3), s > 0.0);
     let a = 1.0 / (PI + (PI / 2.0 - 2.0 / 3.0) * sigma);
-    return n_l * (a + sigma * a * s / t);
+    return a + sigma * a * s / t;
 }
 
 // What a surface mirrors of the star's light (x) and, on the whole, of the sky's (y): GGX with the visibility of Hammon (PBR Diffuse
@@ -361,10 +363,10 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
     let tilt = ground.slope - n * dot(n, ground.slope);
     let area = sqrt(1.0 + dot(tilt, tilt));
-    n = (n - tilt) / area;
-    let n_v = max(dot(n, v), 0.0);
-
     let sun = globals.sun_dir.xyz;
+    let rough = rough_diffuse(max(dot(n, sun), 0.0), max(dot(n, v), 0.0), dot(sun, v), ground.roughness);
+    n = (n - tilt) / area;
+
     let sun_mu = dot(up, sun);
     let h = max(in.height_m * 0.001, 0.0);
     let sunlight = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu);
@@ -372,7 +374,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
     let sky_share = overcast(shadow);
     shadow *= from_ground.star;
-    let diffuse = rough_diffuse(max(dot(n, sun), 0.0), n_v, dot(sun, v), ground.roughness);
+    let diffuse = max(dot(n, sun), 0.0) * rough;
     let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
     let open = saturate1(0.5 + 0.5 * dot(n, up) * area) * from_ground.sky;
     // What the ground around sends back to a slope that does not see the whole sky.
