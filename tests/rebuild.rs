@@ -45,6 +45,8 @@ fn each_parameter_runs_the_stages_it_declares_and_no_others() {
     let view = view(30.0, 3.0);
     let builder = Builder::new(|| {});
     ask(&builder, &planet, &view);
+    // One looks at it for longer than at any edit, or those would be what is remembered.
+    std::thread::sleep(Duration::from_millis(1500));
     let edits = every_edit(&planet);
     planet.clone().each(&mut |path, _, _| {
         let path = path.to_string();
