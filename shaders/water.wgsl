@@ -2,7 +2,8 @@
 #include "surface.wgsl"
 #include "sea.wgsl"
 
-// Temperature, °C; share of the star's light that the ground around takes.
+// Temperature, °C; share of the star's light that the ground around takes; how far the ground within a pixel goes above and below its
+// height, metres.
 @group(2) @binding(2) var surface: texture_2d<f32>;
 
 // Light that comes out of the water: the floor through it, and what the water itself sends back.
@@ -58,7 +59,6 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     let scene = textureLoad(scene_color, pixel, 0);
     let height_m = scene.a;
-    let change_m = max(fwidth(height_m), 0.05);
     let ray = pixel_ray(position.xy);
     let ray_length = length(ray);
     let dir = ray / ray_length;
@@ -85,9 +85,11 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let sin_lat = normalize(globals.eye_km.xyz + dir * hits.x).z;
     var temperature_c = mix(globals.water.z, globals.water.w, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
-        wet = saturate1(0.5 - height_m / change_m);
-        depth_m = max(-height_m, 0.0);
         let found = textureLoad(surface, pixel, 0);
+        let spread_m = max(found.b, 0.025);
+        wet = saturate1(0.5 - 0.5 * height_m / spread_m);
+        // In the middle of what is under water.
+        depth_m = max(0.5 * (spread_m - height_m - min(height_m + spread_m, 0.0)), 0.0);
         temperature_c = found.r;
         // The floor that is seen lies aside of the sea's surface; too far aside its shadow is another one.
         let mu = dot(dir, normalize(globals.eye_km.xyz + dir * hits.x));
