@@ -1,7 +1,7 @@
 // The ground of many tiles, four times as fine as their meshes: what a detail tile (src/lod/tile.rs) knows around a pixel.
 
-// Slopes along both tangents, and the same as the parents show them; height in metres as a sum of two, how much higher the parents
-// show it, and how much steeper (rise over run) the ground is at the very texel.
+// Slopes along both tangents, and the same as the parents show them; height in metres as a sum of two, and how much steeper (rise over
+// run) the ground is at the very texel than the parents show it, and than the tile itself does.
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
@@ -9,56 +9,52 @@
 const DETAIL_SIDE: f32 = 129.0;
 const DETAIL_APRON: i32 = 2;
 
-// Where a pixel lies in a detail tile.
+// What a pixel covers of a detail tile.
 struct DetailPlace {
     // -1 without a tile
     layer: i32,
-    // Texels from the node's corner
+    // Its middle, in texels from the node's corner
     at: vec2f,
-    // How far the parent has taken over, 0 to 1
+    // From one end to the other along its longer side and across, in texels
+    along: vec2f,
+    across: vec2f,
+    // How far the parent has taken over by distance, 0 to 1
     parent: f32,
-    // How many times as far apart as the tile's own the texels lie that show no more than the pixel does, as a power of two: beyond 1
-    // where tiles are finer than pixels, in slopes that are seen from the side
+    // Its shorter side in texels, as a power of two
+    width: f32,
+    // How many times as far apart as the tile's own the texels are that are looked at, as a power of two: beyond 1 where tiles are finer
+    // than pixels
     level: f32,
+    // Looked at along the longer side, one after the other (as anisotropic texture filters do)
+    parts: i32,
+}
+
+// `right`, `below`: from pixel to pixel, texels; `parent`: by distance.
+fn detail_place(layer: f32, at: vec2f, right: vec2f, below: vec2f, parent: f32) -> DetailPlace {
+    let is_right = dot(right, right) > dot(below, below);
+    let along = select(below, right, is_right);
+    // What of the other side is not along the first.
+    let other = select(right, below, is_right);
+    let length_along = max(length(along), 1e-6);
+    let across = other - along * (dot(other, along) / (length_along * length_along));
+    // Texels two to each side are averaged: up to twice as long as wide is one part.
+    let fewest = length_along / max(length(across), length_along / 8.0);
+    let parts = select(select(4, 2, fewest <= 4.0), 1, fewest <= 2.0 || length_along < 2.0);
+    let width = log2(max(length(across), length_along / 8.0));
+    return DetailPlace(i32(layer), at, along, across, parent, width, clamp(width, parent, 5.0), parts);
+}
+
+// One of its parts; `detail_slopes_at` is not for them.
+fn part_of(place: DetailPlace, number: i32) -> DetailPlace {
+    var out = place;
+    out.at += place.along * ((f32(number) + 0.5) / f32(place.parts) - 0.5);
+    out.along /= f32(place.parts);
+    return out;
 }
 
 fn detail_slopes_at(place: DetailPlace) -> vec4f {
     let apron = f32(DETAIL_APRON);
     return textureSampleLevel(detail_slopes, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0);
-}
-
-// Height over the tile's own zero (x), and how much it changes from texel to texel along both sides (yz): of the very patch between
-// four texels that is drawn.
-fn detail_height_at(place: DetailPlace) -> vec3f {
-    let low = floor(place.at);
-    let f = place.at - low;
-    var corners: vec4f;
-    for (var i = 0; i < 4; i++) {
-        let texel = textureLoad(detail_heights, vec2i(low) + vec2i(i & 1, i >> 1u) + DETAIL_APRON, place.layer, 0);
-        corners[i] = texel.x + texel.y + texel.z * place.parent;
-    }
-    let rows = mix(corners.xz, corners.yw, f.x);
-    return vec3f(mix(rows.x, rows.y, f.y), mix(corners.y - corners.x, corners.w - corners.z, f.y), rows.y - rows.x);
-}
-
-// Mean height over the tile's own zero (x) of the texels around, two to each side, and the standard deviation (y).
-fn detail_heights_around(place: DetailPlace) -> vec2f {
-    var sum = 0.0;
-    var squares = 0.0;
-    // Counted from the middle, or squares would lose it all.
-    let middle_m = detail_height_at(place).x;
-    for (var coarser = 0; coarser < 2; coarser++) {
-        let taps = taps_around(place, coarser, 2.0);
-        if taps.share <= 0.0 { continue; }
-        for (var i = 0; i < taps.across * taps.across; i++) {
-            let tap = tap_of(taps, i);
-            let texel = textureLoad(detail_heights, tap.texel, place.layer, 0);
-            let height_m = texel.x + texel.y - middle_m;
-            sum += tap.weight * height_m;
-            squares += tap.weight * height_m * height_m;
-        }
-    }
-    return vec2f(middle_m + sum, sqrt(max(squares - sum * sum, 0.0)));
 }
 
 // Texels around a pixel, so many to each side: every one of the tile, or every second (which are its parent's), or fourth...
@@ -92,6 +88,67 @@ fn tap_of(taps: Taps, number: i32) -> Tap {
     let last = i32(DETAIL_SIDE) + 2 * DETAIL_APRON - 1;
     let inside = clamp(vec2i(texel) * taps.stride + DETAIL_APRON, vec2i(0), vec2i(last));
     return Tap(inside, taps.share * tent.x * tent.y);
+}
+
+// Height over the tile's own zero (x), and how much it changes from texel to texel along both sides (yz): of the very patches between
+// texels that are drawn.
+fn patch_height(place: DetailPlace) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var coarser = 0; coarser < 2; coarser++) {
+        let taps = taps_around(place, coarser, 1.0);
+        if taps.share <= 0.0 { continue; }
+        var corners: vec4f;
+        for (var i = 0; i < 4; i++) {
+            let texel = textureLoad(detail_heights, tap_of(taps, i).texel, place.layer, 0);
+            corners[i] = texel.x + texel.y;
+        }
+        let f = fract(taps.at);
+        let rows = mix(corners.xz, corners.yw, f.x);
+        let change = vec2f(mix(corners.y - corners.x, corners.w - corners.z, f.y), rows.y - rows.x) / f32(taps.stride);
+        sum += taps.share * vec3f(mix(rows.x, rows.y, f.y), change);
+    }
+    return sum;
+}
+
+// The middle of the heights in a pixel over the tile's own zero (x), and how far the ground goes above and below it (y): of the plane that
+// fits the texels around best, two to each side, and what they deviate from it.
+fn heights_around(place: DetailPlace) -> vec2f {
+    // Counted from a texel nearby, or squares would lose it all.
+    let near = textureLoad(detail_heights, tap_of(taps_around(place, 0, 1.0), 0).texel, place.layer, 0);
+    let zero_m = near.x + near.y;
+    var sum = 0.0;
+    var squares = 0.0;
+    var by_place = vec2f(0.0);
+    var places = vec3f(0.0);
+    let one = 1.0 / f32(place.parts);
+    for (var number = 0; number < place.parts; number++) {
+        let part = part_of(place, number);
+        for (var coarser = 0; coarser < 2; coarser++) {
+            let taps = taps_around(part, coarser, 2.0);
+            if taps.share <= 0.0 { continue; }
+            for (var i = 0; i < taps.across * taps.across; i++) {
+                let tap = tap_of(taps, i);
+                let texel = textureLoad(detail_heights, tap.texel, place.layer, 0);
+                let height_m = texel.x + texel.y - zero_m;
+                let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
+                sum += one * tap.weight * height_m;
+                squares += one * tap.weight * height_m * height_m;
+                by_place += one * tap.weight * height_m * away;
+                places += one * tap.weight * away.xxy * away.xyy;
+            }
+        }
+    }
+    let determinant = max(places.x * places.z - places.y * places.y, 1e-6);
+    let change = vec2f(places.z * by_place.x - places.y * by_place.y, places.x * by_place.y - places.y * by_place.x) / determinant;
+    let rest = max(squares - sum * sum - dot(change, by_place), 0.0);
+    // As if deviations were spread evenly.
+    return vec2f(zero_m + sum, 0.5 * (abs(dot(change, place.along)) + abs(dot(change, place.across))) + sqrt(3.0 * rest));
+}
+
+// The same as exactly as it is known.
+fn height_at(place: DetailPlace) -> vec2f {
+    let patch_m = patch_height(place);
+    return vec2f(patch_m.x, 0.5 * (abs(dot(patch_m.yz, place.along)) + abs(dot(patch_m.yz, place.across))));
 }
 
 // What the ground around a pixel is known to be as steep as, everything counted in: slopes too fine to be shown still decide what
@@ -143,22 +200,23 @@ fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
         add_slope(&out, rules, steep.cosine, 1.0);
         return out;
     }
-    for (var coarser = 0; coarser < 2; coarser++) {
-        let taps = taps_around(place, coarser, steep.reach);
-        if taps.share <= 0.0 { continue; }
-        for (var i = 0; i < taps.across * taps.across; i++) {
-            let tap = tap_of(taps, i);
-            if tap.weight <= 0.0 { continue; }
-            var rise = textureLoad(detail_heights, tap.texel, place.layer, 0).w;
-            if taps.stride == 1 {
-                rise += steep.shown.x;
-            } else {
-                let slopes = textureLoad(detail_slopes, tap.texel, place.layer, 0);
-                rise += length(slopes.xy);
-                // Where the parent's texels show as much as the pixel does, the pixel's own place between them counts.
-                if taps.stride == 2 { rise += steep.shown.y - length(slopes.zw); }
+    for (var part = 0; part < place.parts; part++) {
+        for (var coarser = 0; coarser < 2; coarser++) {
+            let taps = taps_around(part_of(place, part), coarser, steep.reach);
+            if taps.share <= 0.0 { continue; }
+            for (var i = 0; i < taps.across * taps.across; i++) {
+                let tap = tap_of(taps, i);
+                if tap.weight <= 0.0 { continue; }
+                let heights = textureLoad(detail_heights, tap.texel, place.layer, 0);
+                var rise = heights.w;
+                // Where texels show as much as the pixel does, the pixel's own place between them counts.
+                switch select(taps.stride, 0, place.parts > 1) {
+                    case 1: { rise += steep.shown.x; }
+                    case 2: { rise = heights.z + steep.shown.y; }
+                    default: { rise += length(textureLoad(detail_slopes, tap.texel, place.layer, 0).xy); }
+                }
+                add_slope(&out, rules, cosine_of(rise), tap.weight / f32(place.parts));
             }
-            add_slope(&out, rules, cosine_of(rise), tap.weight);
         }
     }
     return out;

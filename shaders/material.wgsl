@@ -25,8 +25,6 @@ struct Site {
     over_sea_m: f32,
     // How far the ground within the pixel goes above and below that
     spread_m: f32,
-    // How far what lies around goes above and below the height of table and temperature
-    around_m: f32,
     // What a metre of height adds to the place in the table (xy) and to the temperature (z)
     by_height: vec3f,
     footprint_m: f32,
@@ -80,7 +78,7 @@ fn covers_by_height(site: Site) -> vec2f {
     if snow.x >= 0.0 {
         let line_c = snow.y + 0.35 * snow.z * site.mottle;
         // As if the edge were as much softer as temperatures in the pixel differ.
-        let spread_c = site.around_m * site.by_height.z;
+        let spread_c = site.spread_m * site.by_height.z;
         let soft_c = 0.5 * sqrt(snow.z * snow.z + 6.7 * spread_c * spread_c);
         share.y = soft(line_c + soft_c, line_c - soft_c, site.temperature_c);
     }
@@ -210,7 +208,7 @@ fn mixture_over(site: Site) -> Mixture {
     let cells = abs(site.by_height.xy) * vec2f(textureDimensions(biome_ids));
     let snow = biome_param(RULES, 1);
     let by_snow = select(0.0, abs(site.by_height.z) / max(snow.z, 0.5), snow.x >= 0.0);
-    let layers = i32(clamp(ceil(2.0 * site.around_m * max(max(cells.x, cells.y), by_snow)), 1.0, 5.0));
+    let layers = i32(clamp(ceil(2.0 * site.spread_m * max(max(cells.x, cells.y), by_snow)), 1.0, 5.0));
     // An odd number, for the middle one has the patterns.
     let half = layers / 2;
     var sum = mixture_at(layer_of(site, 0.0, f32(2 * half + 1)));
@@ -232,9 +230,10 @@ fn mixture_over(site: Site) -> Mixture {
 // One of so many layers of the ground in a pixel, the middle one's number being 0.
 fn layer_of(site: Site, number: f32, layers: f32) -> Site {
     var out = site;
-    out.around_m = site.around_m / layers;
-    let above_m = 2.0 * number * out.around_m;
+    out.spread_m = site.spread_m / layers;
+    let above_m = 2.0 * number * out.spread_m;
     let last = vec2f(1.0) - 0.5 / vec2f(textureDimensions(biome_ids));
+    out.over_sea_m += above_m;
     out.table = clamp(site.table + above_m * site.by_height.xy, vec2f(0.0), last);
     out.temperature_c += above_m * site.by_height.z;
     return out;

@@ -101,8 +101,6 @@ struct Relief {
     height_m: f32,
     // How far the ground within the pixel goes above and below that
     spread_m: f32,
-    // The same of what lies around it, for climate: peaks and valleys no wider than pixels do not show one by one.
-    around_m: vec2f,
     steep: Steepness,
 }
 
@@ -119,31 +117,23 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
     let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
     let texels = log2(footprint_m / in.detail_fade.z);
-    let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
-    let place = DetailPlace(i32(in.layer), in.place.zw * (DETAIL_SIDE - 1.0), parent, clamp(texels, parent, 4.0));
-    let on_vertices = vec2f(in.height_m, 0.5 * (abs(step.right.z) + abs(step.below.z)));
-    var out = Relief(smooth_normal, on_vertices.x, on_vertices.y, on_vertices, Steepness(place, vec2f(0.0), reach, dot(smooth_normal, up)));
+    let by_distance = faded(in.detail_fade.xy, in.chosen_distance_m);
+    let parent = max(by_distance, saturate1(texels));
+    let place = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
+    var out = Relief(smooth_normal, in.height_m, 0.5 * (abs(step.right.z) + abs(step.below.z)), Steepness(place, vec2f(0.0), reach, dot(smooth_normal, up)));
     if in.layer < 0.0 { return out; }
     let slopes = detail_slopes_at(place);
     let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
-    let height = detail_height_at(place);
-    let height_m = in.detail_fade.w + height.x;
-    // Over many texels heights do not go on rising as between two.
-    let most = 2.0 / max(max(length(step.right.xy), length(step.below.xy)), 2.0);
-    let spread_m = 0.5 * most * (abs(dot(height.yz, step.right.xy)) + abs(dot(height.yz, step.below.xy)));
-    let shown = mix(vec2f(height_m, spread_m), on_vertices, saturate1(texels - 1.0));
-    out.height_m = shown.x;
-    out.spread_m = shown.y;
-    out.around_m = shown;
-    let apart = smoothstep(-1.5, -0.5, texels);
-    if apart > 0.0 {
-        let around = detail_heights_around(place);
-        // Evenly from so much below to so much above the mean.
-        out.around_m = mix(shown, vec2f(in.detail_fade.w + around.x, 1.732 * around.y), apart);
-    }
+    // Where texels are as wide as pixels their heights count together: peaks, valleys and rivers no wider than that would sparkle.
+    let apart = smoothstep(-1.5, -0.5, place.width - by_distance);
+    var heights = vec2f(0.0);
+    if apart < 1.0 { heights += (1.0 - apart) * height_at(place); }
+    if apart > 0.0 { heights += apart * heights_around(place); }
+    out.height_m = in.detail_fade.w + heights.x;
+    out.spread_m = heights.y;
     out.steep.shown = vec2f(length(slopes.xy), length(slopes.zw));
     return out;
 }
@@ -191,7 +181,7 @@ fn site_of(in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f,
     let colder = select(0.0, globals.eye_wrap_m.w, over_sea_m > 0.0);
     let drier = select(0.0, globals.climate.w, over_sea_m > 0.0);
     let by_height = vec3f(drier, globals.climate.y * colder - globals.climate.z, -colder);
-    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.spread_m, relief.around_m.y, by_height, footprint_m, mottle);
+    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.spread_m, by_height, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
@@ -335,9 +325,10 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let rel_y = pixel_step(on_mesh, -globals.ray_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let at = vec3f(on_mesh.place.zw * (DETAIL_SIDE - 1.0), on_mesh.height_m);
-    let step = Step(dpdx(at), dpdy(at));
     // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
     let exact = globals.modes.x == 4u;
+    let share = select(1.0, 0.0, exact);
+    let step = Step(share * dpdx(at), share * dpdy(at));
     let relief = relief_of(on_mesh, up, select(footprint_m, 1e-6, exact), step, select(2.0, 1.0, exact));
     var in = on_mesh;
     in.height_m = relief.height_m;
@@ -349,7 +340,7 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     let mottle = mottle_at(in.rel_m, footprint_m);
-    let climate = climate_at(in, relief.around_m.x);
+    let climate = climate_at(in, in.height_m);
     let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
     let site = site_of(in, relief, up, climate.temperature_c, place, footprint_m, mottle);

@@ -21,8 +21,14 @@ struct Texel {
     height_m: f64,
     /// Along the two tangents.
     slope: [f64; 2],
-    /// How much steeper the ground is there, all told.
-    steeper: f64,
+    /// How steep the ground is there, all told.
+    steepest: f64,
+}
+
+impl Texel {
+    fn rise(&self) -> f64 {
+        self.slope[0].hypot(self.slope[1])
+    }
 }
 
 /// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
@@ -42,7 +48,9 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> b
         let height_m = own.height_m - f64::from(base_m);
         let greater = half(height_m, MOST);
         let rest = half(height_m - f64::from(greater), MOST);
-        heights.push([greater, rest, half(parent.height_m - own.height_m, MOST), half(own.steeper, STEEPEST)]);
+        let rises = [parent.rise(), own.rise()];
+        let [than_parent, than_own] = rises.map(|rise| half(own.steepest - rise, STEEPEST));
+        heights.push([greater, rest, than_parent, than_own]);
     }
     let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
     Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
@@ -67,7 +75,7 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
         texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
             let [seen, all] = [0, 1].map(|band| relief.slopes[band][i]);
             let slope = slope_basis(id.face, *dir).map(|tangent| seen.dot(tangent));
-            Texel { height_m: relief.height_m[i], slope, steeper: all.length() - seen.length() }
+            Texel { height_m: relief.height_m[i], slope, steepest: all.length() }
         }));
     }
     Some(texels)
