@@ -94,8 +94,11 @@ mod tests {
 
     const SPACINGS_M: [f64; 5] = [0.0, 50.0, 400.0, 800.0, 3200.0];
 
-    /// Points of a path, each with its height and the slope that each of the spacings shows.
-    fn walk(layers: Vec<Layer>) -> Vec<(f64, [DVec3; 5])> {
+    /// The height of a point and the slope that each of the spacings shows there.
+    type Place = (f64, [DVec3; 5]);
+
+    /// Points of a path.
+    fn walk(layers: Vec<Layer>) -> Vec<Place> {
         let planet = Planet { layers, ..Planet::default() };
         let (count, radius_m) = (3000, planet.radius_m());
         let dirs = (0..count).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
@@ -121,8 +124,8 @@ mod tests {
         let (plain, cut) = (walk(vec![ground()]), walk(vec![ground(), terraces()]));
         let steepest = plain.iter().map(|(_, slopes)| slopes[0].length()).fold(0.0, f64::max);
         assert!(steepest > 0.3, "{steepest}");
-        let off = |band: usize, against: &[(f64, [DVec3; 5])], with: usize| {
-            let apart = |(a, b): (&(f64, [DVec3; 5]), &(f64, [DVec3; 5]))| a.1[band].distance(b.1[with]);
+        let off = |band: usize, against: &[Place], with: usize| {
+            let apart = |(a, b): (&Place, &Place)| a.1[band].distance(b.1[with]);
             cut.iter().zip(against).map(apart).collect::<Vec<_>>()
         };
         let most = |all: Vec<f64>| all.into_iter().fold(0.0, f64::max);
