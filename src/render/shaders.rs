@@ -23,6 +23,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "cloud_map.wgsl",
     "cloud_model.wgsl",
     "clouds.wgsl",
+    "detail.wgsl",
     "exposure.wgsl",
     "globals.wgsl",
     "highlight.wgsl",
