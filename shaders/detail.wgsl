@@ -1,7 +1,7 @@
 // The ground of many tiles, four times as fine as their meshes: what a detail tile (src/lod/tile.rs) knows around a pixel.
 
-// Slopes along both tangents, and the same as the parents show them; height in metres as a sum of two, and how much steeper (rise over
-// run) the ground is at the very texel than the parents show it, and than the tile itself does.
+// Slopes along both tangents, and the same as the parents show them; height in metres as a sum of two, and how steep (rise over run) the
+// ground is at the very texel as far as slopes show it, and all told.
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
@@ -110,9 +110,28 @@ fn patch_height(place: DetailPlace) -> vec3f {
     return sum;
 }
 
-// The middle of the heights in a pixel over the tile's own zero (x), and how far the ground goes above and below it (y): of the plane that
-// fits the texels around best, two to each side, and what they deviate from it.
-fn heights_around(place: DetailPlace) -> vec2f {
+// Heights in and around a pixel.
+struct Heights {
+    // In the middle, over the tile's own zero
+    middle_m: f32,
+    // Of the plane that fits best, metres to the next texel
+    change: vec2f,
+    // Standard deviation from that plane
+    rest_m: f32,
+}
+
+// How far the plane goes above and below the middle within the pixel.
+fn plane_spread_m(heights: Heights, place: DetailPlace) -> f32 {
+    return 0.5 * (abs(dot(heights.change, place.along)) + abs(dot(heights.change, place.across)));
+}
+
+// A plane that is fitted to so few texels (about nine, by their weights) takes up a third of what they deviate from the true one.
+// Between texels that are seen apart some of it shows.
+const NEAR: f32 = 0.4;
+const SWELL: f32 = 1.25;
+
+// Of the texels around, two to each side.
+fn heights_around(place: DetailPlace) -> Heights {
     // Counted from a texel nearby, or squares would lose it all.
     let near = textureLoad(detail_heights, tap_of(taps_around(place, 0, 1.0), 0).texel, place.layer, 0);
     let zero_m = near.x + near.y;
@@ -140,15 +159,22 @@ fn heights_around(place: DetailPlace) -> vec2f {
     }
     let determinant = max(places.x * places.z - places.y * places.y, 1e-6);
     let change = vec2f(places.z * by_place.x - places.y * by_place.y, places.x * by_place.y - places.y * by_place.x) / determinant;
-    let rest = max(squares - sum * sum - dot(change, by_place), 0.0);
-    // As if deviations were spread evenly.
-    return vec2f(zero_m + sum, 0.5 * (abs(dot(change, place.along)) + abs(dot(change, place.across))) + sqrt(3.0 * rest));
+    return Heights(zero_m + sum, change, SWELL * sqrt(max(squares - sum * sum - dot(change, by_place), 0.0)));
 }
 
-// The same as exactly as it is known.
-fn height_at(place: DetailPlace) -> vec2f {
+// As exactly as they are known at the very place, or around it where texels are no wider than pixels: peaks, valleys and rivers as wide as
+// a texel would sparkle. What they deviate from the plane counts as long as texels are but a few pixels wide, for between them the ground
+// deviates, too. `apart`: 0 to 1.
+fn heights_at(place: DetailPlace, apart: f32) -> Heights {
+    let rough = smoothstep(-4.0, -3.0, place.width - place.parent);
+    if rough <= 0.0 {
+        let patch_m = patch_height(place);
+        return Heights(patch_m.x, patch_m.yz, 0.0);
+    }
+    let around = heights_around(place);
+    if apart >= 1.0 { return around; }
     let patch_m = patch_height(place);
-    return vec2f(patch_m.x, 0.5 * (abs(dot(patch_m.yz, place.along)) + abs(dot(patch_m.yz, place.across))));
+    return Heights(mix(patch_m.x, around.middle_m, apart), mix(patch_m.yz, around.change, apart), rough * mix(NEAR, 1.0, apart) * around.rest_m);
 }
 
 // What the ground around a pixel is known to be as steep as, everything counted in: slopes too fine to be shown still decide what
@@ -157,6 +183,9 @@ struct Steepness {
     place: DetailPlace,
     // Rise over run that the detail shows at the pixel, its own and the parent's
     shown: vec2f,
+    heights: Heights,
+    // 0 where texels are wider than pixels, 1 where they are finer
+    apart: f32,
     // How many texels away the last are that have a say: 1 is what is nearest, 2 has no speckles where the ground is finer than texels.
     reach: f32,
     // Where there is no detail
@@ -167,8 +196,11 @@ struct Steepness {
 struct SlopeRules {
     cells_from: vec4f,
     cells_to: vec4f,
+    // Beach, snow
     covers_from: vec2f,
     covers_to: vec2f,
+    // Snow lies only where it is cold, too: all of it where the ground is this far above the middle, none where it is this far (metres)
+    snow_m: vec2f,
 }
 
 // How much of the ground each rule holds for.
@@ -182,13 +214,14 @@ fn cosine_of(rise: f32) -> f32 {
     return inverseSqrt(1.0 + r * r);
 }
 
-fn add_slope(shares: ptr<function, SlopeShares>, rules: SlopeRules, cosine: f32, weight: f32) {
+fn add_slope(shares: ptr<function, SlopeShares>, rules: SlopeRules, cosine: f32, above_m: f32, weight: f32) {
     let cells_span = rules.cells_to - rules.cells_from;
     let cells = saturate((cosine - rules.cells_from) / select(cells_span, vec4f(1e-6), cells_span == vec4f(0.0)));
     (*shares).cells += weight * cells * cells * (3.0 - 2.0 * cells);
     let covers_span = rules.covers_to - rules.covers_from;
     let covers = saturate((cosine - rules.covers_from) / select(covers_span, vec2f(1e-6), covers_span == vec2f(0.0)));
-    (*shares).covers += weight * covers * covers * (3.0 - 2.0 * covers);
+    let cold = saturate1((above_m - rules.snow_m.y) / (rules.snow_m.x - rules.snow_m.y));
+    (*shares).covers += weight * covers * covers * (3.0 - 2.0 * covers) * vec2f(1.0, cold * cold * (3.0 - 2.0 * cold));
 }
 
 // Rules are asked at texels, where slopes are known, and what they answer is mixed: the other way round, slopes that are mixed first
@@ -197,7 +230,7 @@ fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
     var out = SlopeShares(vec4f(0.0), vec2f(0.0));
     let place = steep.place;
     if place.layer < 0 {
-        add_slope(&out, rules, steep.cosine, 1.0);
+        add_slope(&out, rules, steep.cosine, 0.0, 1.0);
         return out;
     }
     for (var part = 0; part < place.parts; part++) {
@@ -209,13 +242,16 @@ fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
                 if tap.weight <= 0.0 { continue; }
                 let heights = textureLoad(detail_heights, tap.texel, place.layer, 0);
                 var rise = heights.w;
-                // Where texels show as much as the pixel does, the pixel's own place between them counts.
-                switch select(taps.stride, 0, place.parts > 1) {
-                    case 1: { rise += steep.shown.x; }
-                    case 2: { rise = heights.z + steep.shown.y; }
-                    default: { rise += length(textureLoad(detail_slopes, tap.texel, place.layer, 0).xy); }
+                // Where texels are wider than pixels, the pixel's own place between them counts.
+                if steep.apart < 1.0 && taps.stride == 1 { rise += (1.0 - steep.apart) * (steep.shown.x - heights.z); }
+                if steep.apart < 1.0 && taps.stride == 2 {
+                    let parents = textureLoad(detail_slopes, tap.texel, place.layer, 0).zw;
+                    rise += (1.0 - steep.apart) * (steep.shown.y - length(parents));
                 }
-                add_slope(&out, rules, cosine_of(rise), tap.weight / f32(place.parts));
+                // What lies below and above the plane.
+                let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
+                let above_m = heights.x + heights.y - steep.heights.middle_m - dot(steep.heights.change, away);
+                add_slope(&out, rules, cosine_of(rise), mix(NEAR * SWELL, SWELL, steep.apart) * above_m, tap.weight / f32(place.parts));
             }
         }
     }

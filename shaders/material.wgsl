@@ -23,7 +23,8 @@ struct Site {
     temperature_c: f32,
     // Height over the level of the sea, metres; beyond every beach where there is no sea
     over_sea_m: f32,
-    // How far the ground within the pixel goes above and below that
+    // How far the ground within the pixel goes above and below that: by its slope alone, and with all that is no wider than pixels
+    plane_m: f32,
     spread_m: f32,
     // What a metre of height adds to the place in the table (xy) and to the temperature (z)
     by_height: vec3f,
@@ -61,47 +62,48 @@ fn beach_to(edge_m: f32, height_m: f32) -> f32 {
     return sign(height_m) * edge_m * (min(abs(height_m) / edge_m, 0.7) + 0.6 * (u - u * u * u + 0.5 * u * u * u * u));
 }
 
-// How much of the ground is beach (x) and snow (y) by height and temperature. Where a pixel is wider than a beach, its share of the
-// land that is in the pixel.
-fn covers_by_height(site: Site) -> vec2f {
+// How much of the ground is beach by height. Where a pixel is wider than a beach, its share of the land that is in the pixel.
+fn beach_by_height(site: Site) -> f32 {
     let beach = biome_param(RULES, 0);
+    if beach.x < 0.0 { return 0.0; }
+    let edge_m = beach.y * (1.0 + 0.25 * site.mottle);
+    let spread_m = max(site.spread_m, 0.02 * edge_m);
+    let high_m = site.over_sea_m + spread_m;
+    let low_m = site.over_sea_m - spread_m;
+    let land_m = mix(low_m, max(low_m, 0.0), saturate1(high_m / spread_m));
+    return saturate1((beach_to(edge_m, high_m) - beach_to(edge_m, land_m)) / max(high_m - land_m, 1e-4));
+}
+
+// How far above the middle of a pixel snow covers all of the ground (x), and how far none (y): metres.
+fn snow_heights(site: Site) -> vec2f {
     let snow = biome_param(RULES, 1);
-    var share = vec2f(0.0);
-    if beach.x >= 0.0 {
-        let edge_m = beach.y * (1.0 + 0.25 * site.mottle);
-        let spread_m = max(site.spread_m, 0.02 * edge_m);
-        let high_m = site.over_sea_m + spread_m;
-        let low_m = site.over_sea_m - spread_m;
-        let land_m = mix(low_m, max(low_m, 0.0), saturate1(high_m / spread_m));
-        share.x = saturate1((beach_to(edge_m, high_m) - beach_to(edge_m, land_m)) / max(high_m - land_m, 1e-4));
-    }
-    if snow.x >= 0.0 {
-        let line_c = snow.y + 0.35 * snow.z * site.mottle;
-        // As if the edge were as much softer as temperatures in the pixel differ.
-        let spread_c = site.spread_m * site.by_height.z;
-        let soft_c = 0.5 * sqrt(snow.z * snow.z + 6.7 * spread_c * spread_c);
-        share.y = soft(line_c + soft_c, line_c - soft_c, site.temperature_c);
-    }
-    return share;
+    if snow.x < 0.0 { return vec2f(2e9, 1e9); }
+    let line_c = snow.y + 0.35 * snow.z * site.mottle;
+    // As if the edge were as much softer as temperatures in the pixel differ by its slope.
+    let colder = min(site.by_height.z, -1e-6);
+    let plane_c = site.plane_m * colder;
+    let soft_c = 0.5 * sqrt(snow.z * snow.z + 6.7 * plane_c * plane_c + 1e-6);
+    return (vec2f(line_c - soft_c, line_c + soft_c) - site.temperature_c) / colder;
 }
 
 // The rules for slopes of the biomes around (rows 5 of their numbers), and of beach and snow.
-fn slope_rules(cells: array<vec4f, 4>, cells_shift: f32, snow_shift: f32) -> SlopeRules {
+fn slope_rules(cells: array<vec4f, 4>, site: Site) -> SlopeRules {
     let covers = biome_param(RULES, 2);
-    let from_x = vec4f(cells[0].y, cells[1].y, cells[2].y, cells[3].y) - cells_shift;
-    let to_x = vec4f(cells[0].z, cells[1].z, cells[2].z, cells[3].z) - cells_shift;
-    let shift = vec2f(0.0, snow_shift);
-    return SlopeRules(from_x, to_x, covers.yw - shift, covers.xz - shift);
+    let shift = 0.04 * site.mottle;
+    let from_x = vec4f(cells[0].y, cells[1].y, cells[2].y, cells[3].y) - shift;
+    let to_x = vec4f(cells[0].z, cells[1].z, cells[2].z, cells[3].z) - shift;
+    let covers_shift = vec2f(0.0, 0.03 * site.mottle);
+    return SlopeRules(from_x, to_x, covers.yw - covers_shift, covers.xz - covers_shift, snow_heights(site));
 }
 
 // The biome by the same rules without soft edges: what a query answers.
 fn biome_of(site: Site) -> i32 {
     var id = biome_at(vec2i(floor(site.table * vec2f(textureDimensions(biome_ids)))));
     let rule = biome_param(id, 5);
-    let steep = slope_shares(site.steep, slope_rules(array<vec4f, 4>(rule, rule, rule, rule), 0.0, 0.0)).cells.x;
-    if rule.x >= 0.0 && steep > 0.5 && i32(rule.x) != ROCK { id = i32(rule.x); }
     var plain = site;
     plain.mottle = 0.0;
+    let steep = slope_shares(site.steep, slope_rules(array<vec4f, 4>(rule, rule, rule, rule), plain)).cells.x;
+    if rule.x >= 0.0 && steep > 0.5 && i32(rule.x) != ROCK { id = i32(rule.x); }
     let rules = covers_hard(plain);
     if rules.x { id = i32(biome_param(RULES, 0).x); }
     if rules.y { id = i32(biome_param(RULES, 1).x); }
@@ -163,29 +165,41 @@ fn put(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
     }
 }
 
-fn mixture_at(site: Site) -> Mixture {
-    // The cells around, as a texture's linear filter has them.
-    let at = site.table * vec2f(textureDimensions(biome_ids)) - 0.5;
+// The cells of the table around a place, as a texture's linear filter has them.
+struct Cells {
+    ids: array<i32, 4>,
+    shares: vec4f,
+    // Rows 5 of their numbers
+    rules: array<vec4f, 4>,
+}
+
+fn cells_at(table: vec2f) -> Cells {
+    let at = table * vec2f(textureDimensions(biome_ids)) - 0.5;
     let cell = vec2i(floor(at));
     let f = border_blend(at - floor(at));
+    var out: Cells;
+    out.shares = vec4f(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4f(1.0 - f.y, 1.0 - f.y, f.y, f.y);
+    for (var i = 0; i < 4; i++) {
+        out.ids[i] = biome_at(cell + vec2i(i & 1, i >> 1u));
+        out.rules[i] = biome_param(out.ids[i], 5);
+    }
+    return out;
+}
+
+// `steep`: how much of each cell's ground is steep; `cover`: how much is beach and snow.
+fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
     var ids: array<i32, 10>;
     var weights: array<f32, 10>;
-    var rules: array<vec4f, 4>;
-    for (var i = 0; i < 4; i++) {
-        ids[2 * i] = biome_at(cell + vec2i(i & 1, i >> 1u));
-        rules[i] = biome_param(ids[2 * i], 5);
-    }
-    let by_slope = slope_shares(site.steep, slope_rules(rules, 0.04 * site.mottle, 0.03 * site.mottle));
-    let cover = covers_by_height(site) * by_slope.covers;
     let bare = (1.0 - cover.x) * (1.0 - cover.y);
     for (var i = 0; i < 4; i++) {
-        let share = mix(1.0 - f, f, vec2f(vec2i(i & 1, i >> 1u)));
-        let weight = bare * share.x * share.y;
+        let weight = bare * cells.shares[i];
         // What gives way to nothing has no rule.
-        let steep = select(0.0, by_slope.cells[i], rules[i].x >= 0.0);
-        weights[2 * i] = weight * (1.0 - steep);
-        ids[2 * i + 1] = select(ids[2 * i], i32(rules[i].x), rules[i].x >= 0.0);
-        weights[2 * i + 1] = weight * steep;
+        let into = cells.rules[i].x;
+        let gone = select(0.0, steep[i], into >= 0.0);
+        ids[2 * i] = cells.ids[i];
+        weights[2 * i] = weight * (1.0 - gone);
+        ids[2 * i + 1] = select(cells.ids[i], i32(into), into >= 0.0);
+        weights[2 * i + 1] = weight * gone;
     }
     ids[8] = max(i32(biome_param(RULES, 0).x), 0);
     weights[8] = cover.x * (1.0 - cover.y);
@@ -202,46 +216,43 @@ fn mixture_at(site: Site) -> Mixture {
     return mixture;
 }
 
-// The same where a pixel has more height in it than a cell of the table or the edge of the snow: in the middle of each of a few layers,
-// or peaks and valleys as wide as pixels would sparkle.
-fn mixture_over(site: Site) -> Mixture {
-    let cells = abs(site.by_height.xy) * vec2f(textureDimensions(biome_ids));
-    let snow = biome_param(RULES, 1);
-    let by_snow = select(0.0, abs(site.by_height.z) / max(snow.z, 0.5), snow.x >= 0.0);
-    let layers = i32(clamp(ceil(2.0 * site.spread_m * max(max(cells.x, cells.y), by_snow)), 1.0, 5.0));
-    // An odd number, for the middle one has the patterns.
-    let half = layers / 2;
-    var sum = mixture_at(layer_of(site, 0.0, f32(2 * half + 1)));
-    for (var i = 1; i <= half; i++) {
-        for (var sign = -1; sign <= 1; sign += 2) {
-            let other = mixture_at(layer_of(site, f32(sign * i), f32(2 * half + 1)));
-            sum.albedo += other.albedo;
-            sum.roughness += other.roughness;
-            sum.specular += other.specular;
-        }
-    }
+// The mixture at a pixel. Where it has more height in it than a cell of the table, that of a few layers from the lowest to the highest
+// ground: peaks and valleys no wider than pixels would sparkle.
+fn mixture_at(site: Site) -> Mixture {
+    let cells = cells_at(site.table);
+    let rules = slope_rules(cells.rules, site);
+    let shares = slope_shares(site.steep, rules);
+    let cover = vec2f(beach_by_height(site) * shares.covers.x, shares.covers.y);
+    var sum = mixture_of(cells, shares.cells, cover, site);
+    let size = vec2f(textureDimensions(biome_ids));
+    let spread = site.spread_m * site.by_height.xy;
+    let crossed = max(abs(spread.x) * size.x, abs(spread.y) * size.y);
+    // Above and below the middle one, which has the patterns.
+    let half = i32(clamp(ceil(crossed - 0.25), 0.0, 2.0));
     let share = 1.0 / f32(2 * half + 1);
+    for (var i = -half; i <= half; i++) {
+        if i == 0 { continue; }
+        let place = clamp(site.table + f32(2 * i) * share * spread, vec2f(0.0), vec2f(1.0) - 0.5 / size / size);
+        let others = cells_at(place);
+        let others_rules = slope_rules(others.rules, site);
+        var steep = shares.cells;
+        if any(others_rules.cells_from != rules.cells_from) || any(others_rules.cells_to != rules.cells_to) {
+            steep = slope_shares(site.steep, others_rules).cells;
+        }
+        let other = mixture_of(others, steep, cover, site);
+        sum.albedo += other.albedo;
+        sum.roughness += other.roughness;
+        sum.specular += other.specular;
+    }
     sum.albedo *= share;
     sum.roughness *= share;
     sum.specular *= share;
     return sum;
 }
 
-// One of so many layers of the ground in a pixel, the middle one's number being 0.
-fn layer_of(site: Site, number: f32, layers: f32) -> Site {
-    var out = site;
-    out.spread_m = site.spread_m / layers;
-    let above_m = 2.0 * number * out.spread_m;
-    let last = vec2f(1.0) - 0.5 / vec2f(textureDimensions(biome_ids));
-    out.over_sea_m += above_m;
-    out.table = clamp(site.table + above_m * site.by_height.xy, vec2f(0.0), last);
-    out.temperature_c += above_m * site.by_height.z;
-    return out;
-}
-
 // Everything at a pixel. `rel_x`, `rel_y`: from pixel to pixel, metres; `n`, `up`: of the ground and of the sphere.
 fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> Material {
-    let mixture = mixture_over(site);
+    let mixture = mixture_at(site);
     let both = mixture.weights.x + mixture.weights.y;
     let share = mixture.weights.y / max(both, 1e-6);
     let seen = Seen(site.rel_m, n, up, rel_x, rel_y, site.footprint_m);

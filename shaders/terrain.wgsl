@@ -99,7 +99,8 @@ fn faded(range_m: vec2f, distance_m: f32) -> f32 {
 struct Relief {
     normal: vec3f,
     height_m: f32,
-    // How far the ground within the pixel goes above and below that
+    // How far the ground within the pixel goes above and below that: by its slope alone, and with all that is no wider than pixels
+    plane_m: f32,
     spread_m: f32,
     steep: Steepness,
 }
@@ -120,21 +121,24 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
     let by_distance = faded(in.detail_fade.xy, in.chosen_distance_m);
     let parent = max(by_distance, saturate1(texels));
     let place = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
-    var out = Relief(smooth_normal, in.height_m, 0.5 * (abs(step.right.z) + abs(step.below.z)), Steepness(place, vec2f(0.0), reach, dot(smooth_normal, up)));
+    let change_m = 0.5 * (abs(step.right.z) + abs(step.below.z));
+    let steep = Steepness(place, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
+    var out = Relief(smooth_normal, in.height_m, change_m, change_m, steep);
     if in.layer < 0.0 { return out; }
     let slopes = detail_slopes_at(place);
     let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
-    // Where texels are as wide as pixels their heights count together: peaks, valleys and rivers no wider than that would sparkle.
-    let apart = smoothstep(-1.5, -0.5, place.width - by_distance);
-    var heights = vec2f(0.0);
-    if apart < 1.0 { heights += (1.0 - apart) * height_at(place); }
-    if apart > 0.0 { heights += apart * heights_around(place); }
-    out.height_m = in.detail_fade.w + heights.x;
-    out.spread_m = heights.y;
+    let apart = smoothstep(-2.0, -1.0, place.width - by_distance);
+    let heights = heights_at(place, apart);
+    out.height_m = in.detail_fade.w + heights.middle_m;
+    out.plane_m = plane_spread_m(heights, place);
+    // As if what deviates were spread evenly.
+    out.spread_m = out.plane_m + 1.732 * heights.rest_m;
     out.steep.shown = vec2f(length(slopes.xy), length(slopes.zw));
+    out.steep.heights = heights;
+    out.steep.apart = apart;
     return out;
 }
 
@@ -181,7 +185,7 @@ fn site_of(in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f,
     let colder = select(0.0, globals.eye_wrap_m.w, over_sea_m > 0.0);
     let drier = select(0.0, globals.climate.w, over_sea_m > 0.0);
     let by_height = vec3f(drier, globals.climate.y * colder - globals.climate.z, -colder);
-    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.spread_m, by_height, footprint_m, mottle);
+    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m, by_height, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.

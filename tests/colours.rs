@@ -16,8 +16,10 @@ use tellus::terrain::Terrain;
 use tellus::terrain::survey::spread;
 
 /// Pixels along a side of each picture, and how much finer each is than the one before.
-const SIDE_PX: usize = 192;
+const SIDE_PX: usize = 256;
 const FINER: usize = 4;
+/// Narrow: seen from nearer, mountains lean farther out of the picture, and it is no longer of the same region.
+const FOV_DEG: f64 = 5.0;
 /// What a colour may be off between any two pictures of a place, however much finer one is: a share of each channel.
 const MOST_OFF: f64 = 0.03;
 
@@ -26,7 +28,7 @@ type Color = [f64; 3];
 /// The albedo of the ground around a place, pixel by pixel.
 fn albedo(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<Color> {
     let planet = terrain.planet();
-    let fov_rad = Camera::DEFAULT_FOV_Y_RAD;
+    let fov_rad = FOV_DEG.to_radians();
     let altitude_m = pixel_m * SIDE_PX as f64 / (2.0 * (0.5 * fov_rad).tan());
     let eye_radius_m = planet.radius_m() + terrain.height_m(place.direction()) + altitude_m;
     let camera = Camera::over(place, eye_radius_m, 0.0, -std::f64::consts::FRAC_PI_2, fov_rad);
@@ -83,7 +85,7 @@ fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
             spread(60).filter_map(|dir| Some((dir, widest_m(&terrain, dir)?))).collect();
         places.sort_by(|a, b| b.1.total_cmp(&a.1));
         // Of one place down to the ground, of another as far as mountains are larger than pixels.
-        for ((dir, widest_m), finest_m) in places.into_iter().step_by(3).zip([1.0, 50.0]) {
+        for ((dir, widest_m), finest_m) in places.into_iter().step_by(3).zip([1.0, 200.0]) {
             let place = LatLon::from_direction(dir);
             let mut coarse = albedo(&mut gpu, &terrain, place, widest_m);
             // How much brighter than in the first picture; the least and the most of it so far.

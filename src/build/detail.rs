@@ -25,12 +25,6 @@ struct Texel {
     steepest: f64,
 }
 
-impl Texel {
-    fn rise(&self) -> f64 {
-        self.slope[0].hypot(self.slope[1])
-    }
-}
-
 /// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
 pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> bool) -> Option<DetailTile> {
     profiling::scope!("detail");
@@ -48,9 +42,7 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> b
         let height_m = own.height_m - f64::from(base_m);
         let greater = half(height_m, MOST);
         let rest = half(height_m - f64::from(greater), MOST);
-        let rises = [parent.rise(), own.rise()];
-        let [than_parent, than_own] = rises.map(|rise| half(own.steepest - rise, STEEPEST));
-        heights.push([greater, rest, than_parent, than_own]);
+        heights.push([greater, rest, half(own.slope[0].hypot(own.slope[1]), STEEPEST), half(own.steepest, STEEPEST)]);
     }
     let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
     Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })

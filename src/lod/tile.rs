@@ -35,8 +35,8 @@ pub struct DetailTile {
     pub slopes: Vec<[half::f16; 4]>,
     /// The height that [`DetailTile::heights`] count from, metres.
     pub base_m: f32,
-    /// Height in metres as the sum of the first two. The others are how much steeper (rise over run) the ground is at that very point,
-    /// with what is faded out of [`DetailTile::slopes`], than the parent's detail shows it, and than this one does.
+    /// Height in metres as the sum of the first two. The others are how steep (rise over run) the ground is at that very point as
+    /// far as [`DetailTile::slopes`] show it, and with what is faded out of them.
     pub heights: Vec<[half::f16; 4]>,
 }
 
