@@ -20,6 +20,10 @@ const FOLLOWED_DARK: f32 = 0.78;
 const DIM_EV: f32 = 9.0;
 const FOLLOWED_DIM: f32 = 0.73;
 const FOLLOWED_BRIGHT: f32 = 0.35;
+// Beside dark ground a bright sky keeps its colours, and the darker it is the darker it looks: most stops if its luminance were 1, and
+// more for each stop less.
+const SKY_EV: f32 = 2.3;
+const SKY_FOLLOWED: f32 = 0.575;
 const LEAST_EV: f32 = -4.0;
 const MOST_EV: f32 = 14.5;
 // What is so much darker than the brightest does not count, such as the night side beside a crescent.
@@ -57,7 +61,8 @@ fn compute() {
         let mean = sum / weight;
         let off = NORMAL_EV - mean;
         let darker = min(off, DIM_EV) * FOLLOWED_DARK + max(off - DIM_EV, 0.0) * FOLLOWED_DIM;
-        ev = clamp(select(darker, off * FOLLOWED_BRIGHT, off < 0.0), LEAST_EV, MOST_EV);
+        let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
+        ev = clamp(select(darker, off * FOLLOWED_BRIGHT, off < 0.0), LEAST_EV, most);
     }
     exposure.ev = mix(exposure.ev, ev, step.x);
     exposure.factor = exp2(exposure.ev);
