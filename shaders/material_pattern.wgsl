@@ -69,6 +69,23 @@ fn plane_shares(n: vec3f) -> vec3f {
     return w / (w.x + w.y + w.z);
 }
 
+// The nth of the axes whose planes show: taps that count for nothing are left out, not multiplied by zero.
+fn shown_axis(planes: vec3f, nth: u32) -> u32 {
+    let is_shown = planes > vec3f(0.0);
+    let x = u32(is_shown.x);
+    let xy = x + u32(is_shown.y);
+    return select(select(2u, 1u, nth < xy), 0u, nth < x);
+}
+
+// Seen from the side, a pixel is long: so many taps along it stay sharper than one as wide as it is long. One is enough where pixels
+// are hardly longer than wide, and where the whole pixel lies within a texel.
+fn taps_along(seen: Seen, texel_m: f32, most: u32) -> u32 {
+    let x = length(seen.rel_x);
+    let y = length(seen.rel_y);
+    let needed = max(x, y) / max(min(x, y), texel_m);
+    return min(most, select(select(4u, 2u, needed < 2.8), 1u, needed < 1.4));
+}
+
 // The pattern of a biome (a column of `biome_params`); -1 has none. One loop over all taps: a program that has each of them spelled
 // out takes a software driver minutes to compile.
 fn pattern_of(id: i32, seen: Seen) -> Pattern {
@@ -91,22 +108,21 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let planes = plane_shares(seen.n);
     // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
     let scales = select(1u, 2u, globals.eye_wrap_far_m.w > 0.0 && lod < 7.0);
-    // Seen from the side, a pixel is long: a few taps along it stay sharper than one as wide as it is long.
-    let steps = 1u << u32(globals.eye_wrap_far_m.w);
-    let copies = 3u * scales * steps;
+    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, 1u << u32(globals.eye_wrap_far_m.w));
+    let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
+    let copies = axes * scales * steps;
     let taps = copies * select(1u, 2u, flows);
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
     var rest = vec3f(0.0);
     for (var tap = 0u; tap < taps; tap++) {
-        let axis = tap % 3u;
-        let is_fine = (tap / 3u) % scales == 1u;
-        let step = (tap / (3u * scales)) % steps;
+        let axis = shown_axis(planes, tap % axes);
+        let is_fine = (tap / axes) % scales == 1u;
+        let step = (tap / (axes * scales)) % steps;
         let is_second = tap >= copies;
         var weight = planes[axis];
         let phase = fract(turn + select(0.0, 0.5, is_second));
         if flows { weight *= 1.0 - abs(2.0 * phase - 1.0); }
-        if weight <= 0.002 { continue; }
         weight /= f32(steps);
         let carried_m = select(vec3f(0.0), way_m * (phase - 0.5), flows);
         let x = flat_on(seen.rel_x, axis);

@@ -4,12 +4,6 @@
 #include "highlight.wgsl"
 #include "horizon.wgsl"
 
-// The ground of many tiles, four times as fine as their meshes: slopes along both tangents, and the same as the parents show
-// them; height in metres as a sum of two, how much higher the parents show it, and how much steeper (rise over run) the ground is at
-// the very texel.
-@group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
-@group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
-
 struct Vertex {
     @location(0) high_m: vec3f,
     @location(2) low_m: vec3f,
@@ -54,9 +48,8 @@ struct Ground {
     @location(13) @interpolate(flat) horizon: vec4f,
 }
 
-// Vertices along the side of a tile, and texels along that of a detail tile; must match src/lod/tile.rs.
+// Vertices along the side of a tile; must match src/lod/tile.rs.
 const TILE_SIDE: u32 = 33u;
-const DETAIL_SIDE: f32 = 129.0;
 
 // Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
 fn from_octahedral(e: vec2f) -> vec3f {
@@ -106,64 +99,42 @@ fn faded(range_m: vec2f, distance_m: f32) -> f32 {
 struct Relief {
     normal: vec3f,
     height_m: f32,
+    // How far the ground within the pixel goes above and below that
+    spread_m: f32,
     steep: Steepness,
 }
 
-// How steep the ground is at the texels around a pixel, everything counted in: from far away, slopes that are too fine to be shown still
-// decide what share of the ground is steep. `slopes`: at the pixel.
-fn steepness_of(in: Ground, slopes: vec4f, parent: f32) -> Steepness {
-    var out = Steepness(vec4f(1.0), vec4f(0.0), vec4f(1.0), vec4f(0.0));
-    let layer = i32(in.layer);
-    let at = in.place.zw * (DETAIL_SIDE - 1.0);
-    let last = vec2i(i32(DETAIL_SIDE) - 1);
-    for (var i = 0; i < 4; i++) {
-        let corner = vec2i(i & 1, i >> 1u);
-        if parent < 1.0 {
-            let low = min(vec2i(floor(at)), last - 1);
-            let f = saturate(at - vec2f(low));
-            let share = mix(1.0 - f, f, vec2f(corner));
-            let rise = length(slopes.xy) + textureLoad(detail_heights, low + corner, layer, 0).w;
-            out.own[i] = cosine_of(rise);
-            out.own_shares[i] = (1.0 - parent) * share.x * share.y;
-        }
-        if parent > 0.0 {
-            // Every second texel is one of the parent's.
-            let low = min(vec2i(floor(at * 0.5)), last / 2 - 1);
-            let f = saturate(at * 0.5 - vec2f(low));
-            let share = mix(1.0 - f, f, vec2f(corner));
-            let there = textureLoad(detail_slopes, 2 * (low + corner), layer, 0);
-            let steeper = textureLoad(detail_heights, 2 * (low + corner), layer, 0).w + length(there.xy) - length(there.zw);
-            out.parents[i] = cosine_of(length(slopes.zw) + steeper);
-            out.parents_shares[i] = parent * share.x * share.y;
-        }
-    }
-    return out;
-}
-
-fn cosine_of(rise: f32) -> f32 {
-    let r = max(rise, 0.0);
-    return inverseSqrt(1.0 + r * r);
+// From a pixel to the next to the right and below: places in the detail tile, in texels; height of the vertices.
+struct Step {
+    right: vec3f,
+    below: vec3f,
 }
 
 // `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
 // to its parent's, that to the vertices', and those to the parent's. A child does so an octave later, and so shows the same.
-fn relief_of(in: Ground, up: vec3f, footprint_m: f32) -> Relief {
+fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) -> Relief {
     let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
     let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
-    if in.layer < 0.0 { return Relief(smooth_normal, in.height_m, even_steepness(dot(smooth_normal, up))); }
-    let texel = (in.place.zw * (DETAIL_SIDE - 1.0) + 0.5) / DETAIL_SIDE;
     let texels = log2(footprint_m / in.detail_fade.z);
-    let parent = max(faded(in.detail_fade.xy, in.chosen_distance_m), saturate1(texels));
-    let slopes = textureSampleLevel(detail_slopes, clamped, texel, i32(in.layer), 0.0);
+    let by_distance = faded(in.detail_fade.xy, in.chosen_distance_m);
+    let parent = max(by_distance, saturate1(texels));
+    let place = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
+    var out = Relief(smooth_normal, in.height_m, 0.5 * (abs(step.right.z) + abs(step.below.z)), Steepness(place, vec2f(0.0), reach, dot(smooth_normal, up)));
+    if in.layer < 0.0 { return out; }
+    let slopes = detail_slopes_at(place);
     let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
-    var out: Relief;
     let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
-    let heights = textureSampleLevel(detail_heights, clamped, texel, i32(in.layer), 0.0);
-    out.height_m = mix(in.detail_fade.w + heights.x + heights.y + heights.z * parent, in.height_m, saturate1(texels - 1.0));
-    out.steep = steepness_of(in, slopes, parent);
+    // Where texels are as wide as pixels their heights count together: peaks, valleys and rivers no wider than that would sparkle.
+    let apart = smoothstep(-1.5, -0.5, place.width - by_distance);
+    var heights = vec2f(0.0);
+    if apart < 1.0 { heights += (1.0 - apart) * height_at(place); }
+    if apart > 0.0 { heights += apart * heights_around(place); }
+    out.height_m = in.detail_fade.w + heights.x;
+    out.spread_m = heights.y;
+    out.steep.shown = vec2f(length(slopes.xy), length(slopes.zw));
     return out;
 }
 
@@ -204,9 +175,13 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
 }
 
 // What decides about the ground at a pixel. `at`: its place in the table.
-fn site_of(in: Ground, temperature_c: f32, at: vec2f, slope_cosine: f32, steep: Steepness, footprint_m: f32, mottle: f32) -> Site {
-    let over_sea_m = select(1e9, in.height_m - globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
-    return Site(at, in.rel_m, slope_cosine, steep, temperature_c, over_sea_m, footprint_m, mottle);
+fn site_of(in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32) -> Site {
+    let over_sea_m = select(1e9, relief.height_m - globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    // See `climate_at`.
+    let colder = select(0.0, globals.eye_wrap_m.w, over_sea_m > 0.0);
+    let drier = select(0.0, globals.climate.w, over_sea_m > 0.0);
+    let by_height = vec3f(drier, globals.climate.y * colder - globals.climate.z, -colder);
+    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.spread_m, by_height, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
@@ -218,7 +193,8 @@ fn seabed(ground: Material, site: Site) -> Material {
     if beach >= 0.0 { sand = biome_param(i32(beach), 0).rgb; }
     let depth_m = -site.over_sea_m;
     sand = mix(sand, vec3f(0.10, 0.10, 0.10), smoothstep(5.0, 250.0, depth_m));
-    let wet = smoothstep(-2.0, 2.0, depth_m + site.mottle * 2.0);
+    // As long as there is land in the pixel, that is what the sea leaves of it.
+    let wet = smoothstep(-2.0, 2.0, depth_m - site.spread_m + site.mottle * 2.0);
     out.albedo = mix(out.albedo, sand * (1.0 + site.mottle * 0.3), wet);
     return out;
 }
@@ -306,7 +282,8 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, n: vec3f, up: vec3f, steep: Steepness) -> vec3f {
+fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
+    let n = relief.normal;
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Here, where all pixels of a quad pass: derivatives need that.
     let edge = border(in);
@@ -320,7 +297,7 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, steep: Steepness) -> vec3f {
         case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case 4u: {
-            let site = site_of(in, climate.temperature_c, place, dot(n, up), steep, 1.0, 0.0);
+            let site = site_of(in, relief, up, climate.temperature_c, place, 1.0, 0.0);
             return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
         case 5u: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
@@ -333,21 +310,32 @@ fn debug_color(in: Ground, n: vec3f, up: vec3f, steep: Steepness) -> vec3f {
     }
 }
 
-fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
+// Radiance; height over the sea; how far the ground within the pixel goes above and below that.
+struct Shaded {
+    radiance: vec3f,
+    over_sea_m: f32,
+    spread_m: f32,
+}
+
+fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
     let rel_x = pixel_step(on_mesh, globals.ray_right);
     let rel_y = pixel_step(on_mesh, -globals.ray_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
+    let at = vec3f(on_mesh.place.zw * (DETAIL_SIDE - 1.0), on_mesh.height_m);
     // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
-    let detail = relief_of(on_mesh, up, select(footprint_m, 1e-6, globals.modes.x == 4u));
+    let exact = globals.modes.x == 4u;
+    let share = select(1.0, 0.0, exact);
+    let step = Step(share * dpdx(at), share * dpdy(at));
+    let relief = relief_of(on_mesh, up, select(footprint_m, 1e-6, exact), step, select(2.0, 1.0, exact));
     var in = on_mesh;
-    in.height_m = detail.height_m;
-    var n = detail.normal;
+    in.height_m = relief.height_m;
+    var n = relief.normal;
     let sea_level_m = globals.water.x * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u && globals.modes.x != 12u { return vec4f(debug_color(in, n, up, detail.steep), over_sea_m); }
+    if globals.modes.x != 0u && globals.modes.x != 12u { return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
@@ -355,9 +343,9 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let climate = climate_at(in, in.height_m);
     let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, climate.temperature_c, place, dot(n, up), detail.steep, footprint_m, mottle);
+    let site = site_of(in, relief, up, climate.temperature_c, place, footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
-    if globals.modes.x == 12u { return vec4f(ground.albedo, over_sea_m); }
+    if globals.modes.x == 12u { return Shaded(ground.albedo, over_sea_m, relief.spread_m); }
     n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
     // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
@@ -383,13 +371,14 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> vec4f {
     let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;
     let shown = lit_up(radiance, place, globals.sun_irradiance.rgb / PI);
-    return vec4f(min(shown, vec3f(60000.0)), over_sea_m);
+    return Shaded(min(shown, vec3f(60000.0)), over_sea_m, relief.spread_m);
 }
 
 struct Output {
     // Radiance; height over the sea in metres
     @location(0) light: vec4f,
-    // °C on the level of the sea; share of the star's light that the ground around takes
+    // °C on the level of the sea; share of the star's light that the ground around takes; how far the ground within the pixel goes
+    // above and below its height, metres
     @location(1) surface: vec4f,
 }
 
@@ -397,5 +386,6 @@ struct Output {
 fn fragment(in: Ground) -> Output {
     let up = normalize(globals.eye_km.xyz + in.rel_m * 0.001);
     let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
-    return Output(shade(in, from_ground), vec4f(in.level_climate.y, 1.0 - from_ground.star, 0.0, 0.0));
+    let shaded = shade(in, from_ground);
+    return Output(vec4f(shaded.radiance, shaded.over_sea_m), vec4f(in.level_climate.y, 1.0 - from_ground.star, min(shaded.spread_m, 60000.0), 0.0));
 }

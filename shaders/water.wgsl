@@ -2,15 +2,19 @@
 #include "surface.wgsl"
 #include "sea.wgsl"
 
-// Temperature, °C; share of the star's light that the ground around takes.
+// Temperature, °C; share of the star's light that the ground around takes; how far the ground within a pixel goes above and below its
+// height, metres.
 @group(2) @binding(2) var surface: texture_2d<f32>;
 
-// Light that comes out of the water: the floor through it, and what the water itself sends back.
-fn body(floor: vec3f, depth_m: f32, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
+// Light that comes out of the water: the floor through it, and what the water itself sends back. `depths_m`: least and greatest in the
+// pixel.
+fn body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
     // Snell: the way under water is steeper than over it.
-    let view_way = depth_m / sqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769);
-    let sun_way = depth_m / sqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
-    let left = exp(-globals.water_absorption.rgb * min(view_way + sun_way, 1e5));
+    let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769) + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
+    let shallow = globals.water_absorption.rgb * min(way * depths_m.x, 1e5);
+    let deeper = globals.water_absorption.rgb * min(way * (depths_m.y - depths_m.x), 1e5);
+    // Mean over all depths between.
+    let left = exp(-shallow) * select((1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3)), 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
     return floor * left + globals.water_color.rgb * downwelling / PI * (1.0 - left);
 }
 
@@ -25,7 +29,7 @@ fn foam_down_to(depth_m: f32) -> f32 {
 
 // Foam where waves run up the shore.
 fn foam_between(depths_m: vec2f) -> f32 {
-    return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / (depths_m.y - depths_m.x);
+    return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / max(depths_m.y - depths_m.x, 1e-3);
 }
 
 // `depths_m`: least and greatest depth of what is wet of the pixel; what lines the shore would sparkle if its middle told all.
@@ -58,8 +62,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
         // Rough water mirrors a patch of sky above the exact direction.
         let mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
         let reflection = sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI;
-        let depth_m = 0.5 * (depths_m.x + depths_m.y);
-        water = body(floor, depth_m, view_mu, max(sun_mu, 0.0), downwelling) * (1.0 - fresnel) + reflection * fresnel;
+        water = body(floor, depths_m, view_mu, max(sun_mu, 0.0), downwelling) * (1.0 - fresnel) + reflection * fresnel;
         water += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
         let foam = foam_between(depths_m) * smoothstep(0.1, 0.6, mottle + 0.25);
         water = mix(water, vec3f(0.7) * downwelling / PI, foam * 0.6);
@@ -73,7 +76,6 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     let scene = textureLoad(scene_color, pixel, 0);
     let height_m = scene.a;
-    let change_m = max(fwidth(height_m), 0.05);
     let ray = pixel_ray(position.xy);
     let ray_length = length(ray);
     let dir = ray / ray_length;
@@ -100,10 +102,10 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let sin_lat = normalize(globals.eye_km.xyz + dir * hits.x).z;
     var temperature_c = mix(globals.water.z, globals.water.w, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
-        wet = saturate1(0.5 - height_m / change_m);
-        let greatest_m = max(0.5 * change_m - height_m, 1e-3);
-        depths_m = vec2f(clamp(-height_m - 0.5 * change_m, 0.0, greatest_m - 1e-3), greatest_m);
         let found = textureLoad(surface, pixel, 0);
+        let spread_m = max(found.b, 0.025);
+        wet = saturate1(0.5 - 0.5 * height_m / spread_m);
+        depths_m = max(vec2f(-height_m - spread_m, spread_m - height_m), vec2f(0.0));
         temperature_c = found.r;
         // The floor that is seen lies aside of the sea's surface; too far aside its shadow is another one.
         let mu = dot(dir, normalize(globals.eye_km.xyz + dir * hits.x));

@@ -1,7 +1,7 @@
 //! The detail tile of one node: slopes and heights finer than its mesh, from the evaluator.
 
 use crate::lod::range::spacing_rad;
-use crate::lod::tile::{DETAIL_SIDE, DetailTile, TILE_QUADS, Tile, slope_basis};
+use crate::lod::tile::{DETAIL_APRON, DETAIL_IMAGE, DETAIL_SIDE, DetailTile, TILE_QUADS, Tile, slope_basis};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use glam::DVec3;
@@ -21,8 +21,14 @@ struct Texel {
     height_m: f64,
     /// Along the two tangents.
     slope: [f64; 2],
-    /// How much steeper the ground is there, all told.
-    steeper: f64,
+    /// How steep the ground is there, all told.
+    steepest: f64,
+}
+
+impl Texel {
+    fn rise(&self) -> f64 {
+        self.slope[0].hypot(self.slope[1])
+    }
 }
 
 /// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
@@ -36,23 +42,25 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> b
     let (mut slopes, mut heights) = (Vec::with_capacity(own_texels.len()), Vec::with_capacity(own_texels.len()));
     let half = |value: f64, most: f64| f16::from_f64(value.clamp(-most, most));
     for (i, own) in own_texels.iter().enumerate() {
-        let (x, y) = (i % DETAIL_SIDE, i / DETAIL_SIDE);
-        let parent = between(&parents, x, y);
+        let parent = between(&parents, i % DETAIL_IMAGE, i / DETAIL_IMAGE);
         let ([along, across], [parent_along, parent_across]) = (own.slope, parent.slope);
         slopes.push([along, across, parent_along, parent_across].map(|slope| half(slope, STEEPEST)));
         let height_m = own.height_m - f64::from(base_m);
         let greater = half(height_m, MOST);
         let rest = half(height_m - f64::from(greater), MOST);
-        heights.push([greater, rest, half(parent.height_m - own.height_m, MOST), half(own.steeper, STEEPEST)]);
+        let rises = [parent.rise(), own.rise()];
+        let [than_parent, than_own] = rises.map(|rise| half(own.steepest - rise, STEEPEST));
+        heights.push([greater, rest, than_parent, than_own]);
     }
     let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
     Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
 }
 
-/// Every so many texels of a node, row by row, without the slopes that they are too far apart to show.
+/// Every so many texels of a node and around it, row by row, without the slopes that they are too far apart to show.
 fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> bool) -> Option<Vec<Texel>> {
     let quads = (DETAIL_SIDE - 1) / stride;
-    let side = quads + 1;
+    let apron = DETAIL_APRON / stride;
+    let side = quads + 1 + 2 * apron;
     let spacing_rad = spacing_rad(id.level) * TILE_QUADS as f64 / quads as f64;
     let mut texels = Vec::with_capacity(side * side);
     for start in (0..side * side).step_by(BATCH) {
@@ -60,21 +68,22 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
             return None;
         }
         let range = start..(start + BATCH).min(side * side);
-        let place = |i: usize| id.direction((i % side) as f64 / quads as f64, (i / side) as f64 / quads as f64);
+        let along = |texel: usize| (texel as f64 - apron as f64) / quads as f64;
+        let place = |i: usize| id.direction(along(i % side), along(i / side));
         let dirs: Vec<DVec3> = range.map(place).collect();
         let relief = terrain.relief_at(dirs.clone(), &[spacing_rad, 0.0]);
         texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
             let [seen, all] = [0, 1].map(|band| relief.slopes[band][i]);
             let slope = slope_basis(id.face, *dir).map(|tangent| seen.dot(tangent));
-            Texel { height_m: relief.height_m[i], slope, steeper: all.length() - seen.length() }
+            Texel { height_m: relief.height_m[i], slope, steepest: all.length() }
         }));
     }
     Some(texels)
 }
 
-/// What is shown at a texel by texels twice as far apart.
+/// What is shown at a texel of the image by texels twice as far apart.
 fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
-    const WIDE_SIDE: usize = (DETAIL_SIDE - 1) / 2 + 1;
+    const WIDE_SIDE: usize = DETAIL_IMAGE.div_ceil(2);
     let mut mean = Texel::default();
     for (x, y) in [(x / 2, y / 2), (x.div_ceil(2), y / 2), (x / 2, y.div_ceil(2)), (x.div_ceil(2), y.div_ceil(2))] {
         let texel = wide[y * WIDE_SIDE + x];
@@ -93,6 +102,11 @@ mod tests {
     use crate::planet::shipped;
     use std::sync::Arc;
 
+    /// Index of a texel of the node itself.
+    fn texel(x: usize, y: usize) -> usize {
+        (DETAIL_APRON + y) * DETAIL_IMAGE + DETAIL_APRON + x
+    }
+
     /// Neighbours share their borders: the same slopes from either side, whatever face they lie on.
     #[test]
     fn borders_are_shared_and_the_rise_is_small() {
@@ -100,7 +114,7 @@ mod tests {
         let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
         let detail = make_detail(&surface.terrain, tile, &|| true).unwrap();
-        assert_eq!(detail.slopes.len(), DETAIL_SIDE * DETAIL_SIDE);
+        assert_eq!(detail.slopes.len(), DETAIL_IMAGE * DETAIL_IMAGE);
         let mut neighbours = 0;
         for edge in crate::sphere::Edge::ALL {
             let id = tile.id.neighbour(edge);
@@ -113,7 +127,7 @@ mod tests {
                     .map(|(x, y)| {
                         let dir = id.direction(x as f64 / last as f64, y as f64 / last as f64);
                         let [east, north] = slope_basis(id.face, dir);
-                        let [u, v, ..] = detail.slopes[y * DETAIL_SIDE + x].map(f64::from);
+                        let [u, v, ..] = detail.slopes[texel(x, y)].map(f64::from);
                         (dir, east * u + north * v)
                     })
                     .collect()
@@ -132,7 +146,7 @@ mod tests {
         assert!(neighbours > 0, "no neighbour of the same level was compared");
         // On a vertex it is the mesh, but for what is too fine to be seen.
         let relief_m = tile.max_height_m - tile.min_height_m;
-        let [greater, rest, ..] = detail.heights[0].map(f64::from);
+        let [greater, rest, ..] = detail.heights[texel(0, 0)].map(f64::from);
         let rise_m = f64::from(detail.base_m) + greater + rest - f64::from(tile.vertices[0].height_m);
         assert!(rise_m.abs() < 0.2 * relief_m + 50.0, "{rise_m} of {relief_m}");
     }
@@ -150,10 +164,10 @@ mod tests {
         let offset = (DETAIL_SIDE - 1) / 2;
         let (mut worst, mut steepest) = (0.0_f64, 0.0_f64);
         for (x, y) in (0..DETAIL_SIDE).step_by(2).flat_map(|y| (0..DETAIL_SIDE).step_by(2).map(move |x| (x, y))) {
-            let theirs = parent[(offset + y / 2) * DETAIL_SIDE + offset + x / 2].slope;
-            let ours = between(&child, x, y).slope;
-            let height_m = parent[(offset + y / 2) * DETAIL_SIDE + offset + x / 2].height_m;
-            assert_eq!(between(&child, x, y).height_m, height_m, "{x} {y}");
+            let theirs = &parent[texel(offset + x / 2, offset + y / 2)];
+            let ours = between(&child, DETAIL_APRON + x, DETAIL_APRON + y);
+            assert_eq!(ours.height_m, theirs.height_m, "{x} {y}");
+            let (theirs, ours) = (theirs.slope, ours.slope);
             worst = worst.max((theirs[0] - ours[0]).abs().max((theirs[1] - ours[1]).abs()));
             steepest = steepest.max(theirs[0].abs().max(theirs[1].abs()));
         }

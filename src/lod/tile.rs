@@ -12,11 +12,15 @@ pub const TILE_VERTICES: usize = TILE_SIDE * TILE_SIDE;
 
 /// Texels along a detail tile's side, one on each vertex and three between: borders are shared with the neighbours.
 pub const DETAIL_SIDE: usize = 4 * TILE_QUADS + 1;
+/// Texels beyond the node on each side: what is averaged over texels around a point is the same from either side of a border.
+pub const DETAIL_APRON: usize = 2;
+/// Texels along the side of a detail tile's images.
+pub const DETAIL_IMAGE: usize = DETAIL_SIDE + 2 * DETAIL_APRON;
 
 /// The ground of a node four times as fine as its mesh: the relief that a tile's vertices are too coarse to show, for shading.
 ///
-/// Values lie on [`DETAIL_SIDE`] rows of [`DETAIL_SIDE`] texels, the first and the last on the node's edges, with linear
-/// interpolation between. Heights are the evaluator's, as on vertices: what is made of them (climate, shores, biomes) covers the same
+/// Values lie on [`DETAIL_IMAGE`] rows of [`DETAIL_IMAGE`] texels, with linear interpolation between; but for [`DETAIL_APRON`] around,
+/// the first and the last lie on the node's edges. Heights are the evaluator's, as on vertices: what is made of them (climate, shores, biomes) covers the same
 /// share of the ground at every level. From slopes, what is finer than twice the texel spacing is faded out.
 #[derive(Debug)]
 pub struct DetailTile {
@@ -31,8 +35,8 @@ pub struct DetailTile {
     pub slopes: Vec<[half::f16; 4]>,
     /// The height that [`DetailTile::heights`] count from, metres.
     pub base_m: f32,
-    /// Height in metres as the sum of the first two; the third is how much higher the parent's detail shows it. The fourth is how
-    /// much steeper (rise over run) the ground is at that point with what is faded out of [`DetailTile::slopes`].
+    /// Height in metres as the sum of the first two. The others are how much steeper (rise over run) the ground is at that very point,
+    /// with what is faded out of [`DetailTile::slopes`], than the parent's detail shows it, and than this one does.
     pub heights: Vec<[half::f16; 4]>,
 }
 

@@ -1,19 +1,19 @@
 //! Detail tiles as textures: slopes and heights.
 
 use super::layer_pool::LayerKind;
-use crate::lod::tile::{DETAIL_SIDE, DetailTile};
+use crate::lod::tile::{DETAIL_IMAGE, DetailTile};
 
-/// 17 MB an array.
+/// 18 MB an array.
 pub(crate) const DETAIL: LayerKind = LayerKind {
     label: "detail tiles",
-    side_px: DETAIL_SIDE as u32,
+    side_px: DETAIL_IMAGE as u32,
     formats: &[wgpu::TextureFormat::Rgba16Float; 2],
     layers: 64,
 };
 
 /// The bytes of both textures; nothing for a tile that is not a whole grid.
 pub(crate) fn texels(tile: &DetailTile) -> Option<Vec<Vec<u8>>> {
-    if tile.slopes.len() != DETAIL_SIDE * DETAIL_SIDE || tile.heights.len() != tile.slopes.len() {
+    if tile.slopes.len() != DETAIL_IMAGE * DETAIL_IMAGE || tile.heights.len() != tile.slopes.len() {
         return None;
     }
     let bytes = |texels: &[[half::f16; 4]]| texels.iter().flatten().copied().flat_map(half::f16::to_le_bytes).collect();

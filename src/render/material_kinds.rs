@@ -1,11 +1,9 @@
 //! The patterns of the ground, one function for each [`Detail`]: what a square of it looks like that repeats without a seam.
 
-use super::material_noise::{Cells, Fractal, Smooth, Warp, hash, step};
+use super::material_noise::{Cells, Drawn, Fractal, SIDE, Texel, Warp, hash, step};
 use crate::planet::Detail;
+use rayon::prelude::*;
 use std::f32::consts::TAU;
-
-/// Texels along a side of a pattern.
-pub(super) const SIDE: usize = 256;
 
 /// What a pattern has at one place.
 #[derive(Clone, Copy, Default)]
@@ -54,9 +52,8 @@ pub(super) fn draw(kind: Detail) -> Vec<Spot> {
     }
 }
 
-fn each(spot: impl Fn([f32; 2]) -> Spot) -> Vec<Spot> {
-    let at = |i: usize| [((i % SIDE) as f32 + 0.5) / SIDE as f32, ((i / SIDE) as f32 + 0.5) / SIDE as f32];
-    (0..SIDE * SIDE).map(|i| spot(at(i))).collect()
+fn each(spot: impl Fn(Texel) -> Spot + Sync) -> Vec<Spot> {
+    (0..SIDE * SIDE).into_par_iter().with_min_len(16 * SIDE).map(|i| spot(Texel::new(i))).collect()
 }
 
 fn grey(light: f32) -> [f32; 3] {
@@ -68,8 +65,8 @@ fn tinted([r, g, b]: [f32; 3], light: f32) -> [f32; 3] {
 }
 
 /// A number of each texel's own, -1..1.
-fn grain(at: [f32; 2], seed: u32) -> f32 {
-    2.0 * hash(at.map(|w| (w * SIDE as f32) as u32), seed)[0] - 1.0
+fn grain(texel: Texel, seed: u32) -> f32 {
+    2.0 * hash([(texel.index % SIDE) as u32, (texel.index / SIDE) as u32], seed)[0] - 1.0
 }
 
 /// Paints over the pattern, without a seam: `spot` sees the place relative to the stroke's middle, in texels, and paints where it
@@ -96,7 +93,7 @@ fn dice(number: u32, seed: u32) -> [f32; 6] {
 }
 
 fn grass() -> Vec<Spot> {
-    let lumps = Smooth::new(20, 1);
+    let lumps = Drawn::new(20, 1, 1);
     let mut canvas = each(|at| Spot {
         height: 0.01 * (1.0 + lumps.at(at)),
         tint: tinted([0.62, 0.42, 0.40], 0.75 + 0.25 * grain(at, 2)),
@@ -130,7 +127,7 @@ fn grass() -> Vec<Spot> {
 }
 
 fn litter() -> Vec<Spot> {
-    let lumps = Smooth::new(16, 21);
+    let lumps = Drawn::new(16, 1, 21);
     let mut canvas = each(|at| Spot {
         height: 0.004 * (1.0 + lumps.at(at)),
         tint: tinted([0.75, 0.5, 0.45], 0.55 + 0.2 * grain(at, 22)),
@@ -169,7 +166,7 @@ fn litter() -> Vec<Spot> {
 }
 
 fn sand() -> Vec<Spot> {
-    let (warp, strong, lumps) = (Warp::new(3, 0.055, 31), Fractal::new(2, 3, 33), Fractal::new(24, 3, 36));
+    let (warp, strong, lumps) = (Warp::new(3, 0.055, 31), Drawn::new(2, 3, 33), Drawn::new(24, 3, 36));
     each(|at| {
         let [u, v] = warp.at(at);
         // Gentle before the wind and steep behind, stronger here than there.
@@ -188,7 +185,7 @@ fn sand() -> Vec<Spot> {
 }
 
 fn gravel() -> Vec<Spot> {
-    let (lumps, stains, grit) = (Fractal::new(10, 4, 42), Fractal::new(20, 3, 43), Fractal::new(48, 2, 48));
+    let (lumps, stains, grit) = (Drawn::new(10, 4, 42), Drawn::new(20, 3, 43), Drawn::new(48, 2, 48));
     // Big stones are few, small ones lie everywhere.
     let sizes = [(38, 0.6, 44), (21, 0.45, 45), (11, 0.3, 46), (6, 0.22, 47)].map(|(period, share, seed)| {
         (period as f32, share, Warp::new(period, 0.16 / period as f32, seed + 50), Cells::new(period, seed))
@@ -208,7 +205,10 @@ fn gravel() -> Vec<Spot> {
                 continue;
             }
             let radius = 0.30 + 0.5 * tone * (1.0 - size);
-            let inside = (cell.border / 0.12).min((radius - cell.nearest) / (0.7 * radius));
+            if cell.nearest >= radius {
+                continue;
+            }
+            let inside = (cell.border() / 0.12).min((radius - cell.nearest) / (0.7 * radius));
             if inside > 0.0 {
                 let dome = inside.min(1.0) * (2.0 - inside.min(1.0));
                 let height = (0.006 + 0.32 * dome.sqrt() * radius / period) * 0.8;
@@ -226,16 +226,16 @@ fn gravel() -> Vec<Spot> {
 fn rock() -> Vec<Spot> {
     let (bend, bend_chips) = (Warp::new(3, 0.07, 61), Warp::new(6, 0.05, 63));
     let (slabs, chips) = (Cells::new(4, 62), Cells::new(11, 64));
-    let (rough, layers, growth) = (Fractal::new(6, 6, 66), Fractal::new(5, 3, 65), Fractal::new(5, 4, 67));
-    let (open, specks) = (Fractal::new(3, 2, 70), Smooth::new(40, 68));
+    let (rough, layers, growth) = (Drawn::new(6, 6, 66), Drawn::new(5, 3, 65), Drawn::new(5, 4, 67));
+    let (open, specks) = (Drawn::new(3, 2, 70), Drawn::new(40, 1, 68));
     let tilt = |own: [f32; 3], [x, y]: [f32; 2]| (own[0] - 0.5) * x + (own[1] - 0.5) * y;
     each(|at| {
         let bent = bend.at(at);
         let (slab, chip) = (slabs.at(bent), chips.at(bend_chips.at(at)));
         // Some joints gape, most are only where two faces meet.
         let gape = step(-0.1, 0.6, open.at(at));
-        let crack = (1.0 - step(0.0, 0.015 + 0.05 * gape, slab.border)) * (0.35 + 0.65 * gape);
-        let split = (1.0 - step(0.0, 0.06, chip.border)) * step(0.45, 0.75, chip.own[2]);
+        let crack = (1.0 - step(0.0, 0.015 + 0.05 * gape, slab.border())) * (0.35 + 0.65 * gape);
+        let split = (1.0 - step(0.0, 0.06, chip.border())) * step(0.45, 0.75, chip.own[2]);
         let strata = (TAU * (7.0 * bent[1] + 2.0 * bent[0] + 0.5 * layers.at(at))).sin();
         let rough = rough.at(at);
         let lichen = step(0.25, 0.55, growth.at(at)) * step(-0.3, 0.3, specks.at(at));
@@ -258,7 +258,7 @@ fn rock() -> Vec<Spot> {
 
 fn snow() -> Vec<Spot> {
     let (warp, drifts, cuts, lumps) =
-        (Warp::new(2, 0.10, 71), Fractal::new(3, 4, 72), Fractal::new(2, 3, 73), Fractal::new(30, 2, 76));
+        (Warp::new(2, 0.10, 71), Fractal::new(3, 4, 72), Fractal::new(2, 3, 73), Drawn::new(30, 2, 76));
     each(|at| {
         let [u, v] = warp.at(at);
         // Sastrugi: crests cut by the wind, drawn out along it.
@@ -281,14 +281,14 @@ fn snow() -> Vec<Spot> {
 fn ice() -> Vec<Spot> {
     let line = |period: usize, width: f32, seed: u32| {
         let (warp, cells) = (Warp::new(period + 1, 0.22 / period as f32, seed + 3), Cells::new(period, seed));
-        move |at: [f32; 2]| {
+        move |at: Texel| {
             let cell = cells.at(warp.at(at));
-            1.0 - step(0.0, width * (0.4 + cell.own[0]), cell.border)
+            1.0 - step(0.0, width * (0.4 + cell.own[0]), cell.border())
         }
     };
-    let (wide, fine, some) = (line(3, 0.035, 81), line(8, 0.03, 82), Fractal::new(3, 2, 83));
+    let (wide, fine, some) = (line(3, 0.035, 81), line(8, 0.03, 82), Drawn::new(3, 2, 83));
     let (warp, clouds, foam, waves) =
-        (Warp::new(4, 0.16, 84), Fractal::new(4, 5, 85), Fractal::new(40, 2, 86), Fractal::new(3, 3, 87));
+        (Warp::new(4, 0.16, 84), Fractal::new(4, 5, 85), Drawn::new(40, 2, 86), Drawn::new(3, 3, 87));
     each(|at| {
         let (wide, fine) = (wide(at), fine(at) * step(-0.1, 0.4, some.at(at)));
         let cloudy = step(-0.55, 0.65, clouds.at(warp.at(at)));
@@ -305,14 +305,15 @@ fn ice() -> Vec<Spot> {
 }
 
 fn mud() -> Vec<Spot> {
-    let (bend, bend_inner, rough) = (Warp::new(5, 0.05, 91), Warp::new(9, 0.03, 93), Fractal::new(18, 4, 95));
+    let (bend, bend_inner, rough) = (Warp::new(5, 0.05, 91), Warp::new(9, 0.03, 93), Drawn::new(18, 4, 95));
     let (plates, inner) = (Cells::new(5, 92), Cells::new(11, 94));
     each(|at| {
         let (plate, inner) = (plates.at(bend.at(at)), inner.at(bend_inner.at(at)));
-        let gap = 1.0 - step(0.015, 0.075, plate.border);
-        let hair = (1.0 - step(0.0, 0.05, inner.border)) * step(0.3, 0.5, plate.own[1]);
+        let border = plate.border();
+        let gap = 1.0 - step(0.015, 0.075, border);
+        let hair = (1.0 - step(0.0, 0.05, inner.border())) * step(0.3, 0.5, plate.own[1]);
         // Plates curl up at their edges as they dry.
-        let curl = step(0.35, 0.06, plate.border);
+        let curl = step(0.35, 0.06, border);
         let rough = rough.at(at);
         let light = 1.0 + 0.16 * (plate.own[0] - 0.5) + 0.10 * curl + 0.10 * rough + 0.04 * grain(at, 96);
         Spot {
@@ -326,16 +327,17 @@ fn mud() -> Vec<Spot> {
 
 fn lava() -> Vec<Spot> {
     let (bend, bend_chips, fold) = (Warp::new(3, 0.09, 101), Warp::new(7, 0.05, 103), Warp::new(4, 0.07, 107));
-    let (plates, chips, rough) = (Cells::new(4, 102), Cells::new(10, 104), Fractal::new(12, 5, 106));
+    let (plates, chips, rough) = (Cells::new(4, 102), Cells::new(10, 104), Drawn::new(12, 5, 106));
     each(|at| {
         let (plate, chip) = (plates.at(bend.at(at)), chips.at(bend_chips.at(at)));
+        let border = plate.border();
         // Ropes: folds pushed up across the flow, bowed on each plate.
         let ([x, y], [u, _]) = (plate.from, fold.at(at));
-        let across = 3.4 * (x + 0.9 * y * y) + 5.0 * (u - at[0]) + plate.own[0];
-        let ropes = (TAU * across).sin() * step(0.02, 0.3, plate.border) * (0.4 + 0.6 * plate.own[1]);
+        let across = 3.4 * (x + 0.9 * y * y) + 5.0 * (u - at.at[0]) + plate.own[0];
+        let ropes = (TAU * across).sin() * step(0.02, 0.3, border) * (0.4 + 0.6 * plate.own[1]);
         let rough = rough.at(at);
-        let gap = 1.0 - step(0.0, 0.11, plate.border + 0.07 * rough);
-        let vein = (1.0 - step(0.0, 0.06, chip.border)) * step(0.5, 0.8, plate.own[2]);
+        let gap = 1.0 - step(0.0, 0.11, border + 0.07 * rough);
+        let vein = (1.0 - step(0.0, 0.06, chip.border())) * step(0.5, 0.8, plate.own[2]);
         let hot = (gap + 0.5 * vein).min(1.0);
         let light = 0.9 + 0.35 * (plate.own[0] - 0.5) + 0.2 * ropes + 0.35 * rough;
         Spot {

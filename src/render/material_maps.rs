@@ -6,13 +6,14 @@
 //!
 //! Made once for the whole process, on all cores, from noise alone.
 
-use super::material_kinds::{KINDS, SIDE, Spot, draw};
+use super::material_kinds::{KINDS, Spot, draw};
+use super::material_noise::SIDE;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Greatest slope that is stored; must match `material_detail.wgsl`.
+/// Greatest slope that is stored; must match `material_pattern.wgsl`.
 const STEEPEST: f32 = 1.25;
-/// Most that is added to a roughness, either way; must match `material_detail.wgsl`.
+/// Most that is added to a roughness, either way; must match `material_pattern.wgsl`.
 const MOST_ROUGHNESS: f32 = 0.5;
 
 type Texels = Vec<[u8; 4]>;
@@ -85,9 +86,9 @@ impl Layer {
         let mut tints: Vec<[f32; 3]> = spots.iter().map(|spot| spot.tint).collect();
         even_out(&mut tints);
         neutralize(&mut tints);
-        let ranks = ranks(&spots.iter().map(|spot| spot.height).collect::<Vec<_>>());
+        let heights: Vec<f32> = spots.iter().map(|spot| spot.height).collect();
+        let (ranks, slopes) = (ranks(&heights), slopes(&heights));
         let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
-        let slopes = slopes(spots);
         let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
             let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
             [signed(x, STEEPEST), signed(y, STEEPEST), signed(spot.roughness, MOST_ROUGHNESS), spot.glow]
@@ -107,26 +108,31 @@ fn even_out(tints: &mut [[f32; 3]]) {
         means[i / SIDE / width * CELLS + i % SIDE / width] += light(tint) / (width * width) as f32;
     }
     let all = means.iter().sum::<f32>() / means.len() as f32;
-    for (i, tint) in tints.iter_mut().enumerate() {
-        // Between the middles of four cells.
-        let at = |w: usize| (w as f32 + 0.5) / width as f32 - 0.5 + CELLS as f32;
-        let (x, y) = (at(i % SIDE), at(i / SIDE));
-        let mean = |dx: usize, dy: usize| means[(y as usize + dy) % CELLS * CELLS + (x as usize + dx) % CELLS];
-        let (u, v) = (x.fract(), y.fract());
-        let here =
-            (mean(0, 0) * (1.0 - u) + mean(1, 0) * u) * (1.0 - v) + (mean(0, 1) * (1.0 - u) + mean(1, 1) * u) * v;
-        let scale = 1.0 + TAKEN * (all / here.max(1e-3) - 1.0);
-        *tint = tint.map(|c| c * scale);
+    // Between the middles of four cells.
+    let between: [_; SIDE] = std::array::from_fn(|w| {
+        let at = (w as f32 + 0.5) / width as f32 - 0.5 + CELLS as f32;
+        (at as usize % CELLS, (at as usize + 1) % CELLS, at.fract())
+    });
+    for (tints, (y, y_next, v)) in tints.chunks_mut(SIDE).zip(between) {
+        let row: [_; CELLS] = std::array::from_fn(|x| means[y * CELLS + x] * (1.0 - v) + means[y_next * CELLS + x] * v);
+        for (tint, (x, x_next, u)) in tints.iter_mut().zip(between) {
+            let here = row[x] * (1.0 - u) + row[x_next] * u;
+            let scale = 1.0 + TAKEN * (all / here.max(1e-3) - 1.0);
+            *tint = tint.map(|c| c * scale);
+        }
     }
 }
 
 /// Scales each colour so that its mean is 1 although none is stored beyond 2.
 fn neutralize(tints: &mut [[f32; 3]]) {
     for _ in 0..4 {
-        for channel in 0..3 {
-            let sum: f64 = tints.iter().map(|tint| f64::from(tint[channel].clamp(0.0, 2.0))).sum();
-            let scale = (tints.len() as f64 / sum.max(1e-9)) as f32;
-            tints.iter_mut().for_each(|tint| tint[channel] = (tint[channel] * scale).clamp(0.0, 2.0));
+        let mut sums = [0.0_f64; 3];
+        for tint in tints.iter() {
+            sums.iter_mut().zip(tint).for_each(|(sum, c)| *sum += f64::from(c.clamp(0.0, 2.0)));
+        }
+        let scales = sums.map(|sum| (tints.len() as f64 / sum.max(1e-9)) as f32);
+        for tint in tints.iter_mut() {
+            tint.iter_mut().zip(scales).for_each(|(c, scale)| *c = (*c * scale).clamp(0.0, 2.0));
         }
     }
 }
@@ -135,30 +141,37 @@ fn neutralize(tints: &mut [[f32; 3]]) {
 fn ranks(values: &[f32]) -> Vec<f32> {
     const BINS: usize = 1 << 14;
     let (lo, hi) = values.iter().fold((f32::MAX, f32::MIN), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
-    let bin = |v: f32| (((v - lo) / (hi - lo).max(1e-9) * BINS as f32) as usize).min(BINS - 1);
+    let bin = |v: &f32| (((v - lo) / (hi - lo).max(1e-9) * BINS as f32) as usize).min(BINS - 1);
+    let bins: Vec<usize> = values.iter().map(bin).collect();
     let mut below = vec![0_u32; BINS + 1];
-    values.iter().for_each(|v| below[bin(*v) + 1] += 1);
+    bins.iter().for_each(|bin| below[bin + 1] += 1);
     (0..BINS).for_each(|i| below[i + 1] += below[i]);
     let middle = |i: usize| 0.5 * (below[i] + below[i + 1]) as f32 / values.len() as f32;
-    values.iter().map(|v| middle(bin(*v))).collect()
+    bins.into_iter().map(middle).collect()
 }
 
 /// Rise over run along both sides, as far as it is stored, and none on the whole: seen from far away, no pattern leans.
-fn slopes(spots: &[Spot]) -> Vec<[f32; 2]> {
-    let height = |x: usize, y: usize| spots[(y % SIDE) * SIDE + x % SIDE].height;
+fn slopes(heights: &[f32]) -> Vec<[f32; 2]> {
+    let row = |y: usize| &heights[y % SIDE * SIDE..][..SIDE];
     let per_run = 0.5 * SIDE as f32;
-    let mut slopes: Vec<[f32; 2]> = (0..spots.len())
-        .map(|i| {
-            let (x, y) = (i % SIDE + SIDE, i / SIDE + SIDE);
-            [(height(x + 1, y) - height(x - 1, y)) * per_run, (height(x, y + 1) - height(x, y - 1)) * per_run]
-        })
-        .collect();
+    let limited = |slope: f32| slope.clamp(-STEEPEST, STEEPEST);
+    let mut slopes = Vec::with_capacity(heights.len());
+    for y in 0..SIDE {
+        let (below, here, above) = (row(y + SIDE - 1), row(y), row(y + 1));
+        slopes.extend((0..SIDE).map(|x| {
+            let along = here[(x + 1) % SIDE] - here[(x + SIDE - 1) % SIDE];
+            [along * per_run, (above[x] - below[x]) * per_run]
+        }));
+    }
     // What is cut off on one side is not on the other; cut off again, it hardly matters.
     for _ in 0..3 {
-        for axis in 0..2 {
-            let limited = |slope: &[f32; 2]| slope[axis].clamp(-STEEPEST, STEEPEST);
-            let mean = (slopes.iter().map(|slope| f64::from(limited(slope))).sum::<f64>() / slopes.len() as f64) as f32;
-            slopes.iter_mut().for_each(|slope| slope[axis] = limited(slope) - mean);
+        let mut sums = [0.0_f64; 2];
+        for slope in &slopes {
+            sums.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += f64::from(limited(*slope)));
+        }
+        let means = sums.map(|sum| (sum / slopes.len() as f64) as f32);
+        for slope in &mut slopes {
+            slope.iter_mut().zip(means).for_each(|(slope, mean)| *slope = limited(*slope) - mean);
         }
     }
     slopes
@@ -166,7 +179,7 @@ fn slopes(spots: &[Spot]) -> Vec<[f32; 2]> {
 
 /// The mip levels: means of two by two, rounded only when stored.
 fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
-    let byte = |share: f32| (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let byte = |share: f32| (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     let mut levels = Vec::new();
     let mut side = SIDE;
     loop {
@@ -174,15 +187,18 @@ fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
         if side == 1 {
             return levels;
         }
-        let at = |x: usize, y: usize| texels[y * side + x];
         let half = side / 2;
-        texels = (0..half * half)
-            .map(|i| {
-                let (x, y) = (2 * (i % half), 2 * (i / half));
-                let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
-                std::array::from_fn(|c| 0.25 * four.iter().map(|texel| texel[c]).sum::<f32>())
-            })
-            .collect();
+        let mut means = Vec::with_capacity(half * half);
+        for rows in texels.chunks_exact(2 * side) {
+            let (below, above) = rows.split_at(side);
+            let pairs = below.chunks_exact(2).zip(above.chunks_exact(2));
+            means.extend(
+                pairs.map(|(b, a)| -> [f32; 4] {
+                    std::array::from_fn(|c| 0.25 * (b[0][c] + b[1][c] + a[0][c] + a[1][c]))
+                }),
+            );
+        }
+        texels = means;
         side = half;
     }
 }

@@ -1,5 +1,30 @@
 //! Noise that repeats without a seam over the unit square, for the patterns of the ground. Each kind is a table of its lattice, so
-//! that a million places are a matter of milliseconds.
+//! that a million places are a matter of milliseconds; where all texels of a pattern are wanted ([`Drawn`]), a row at a time
+//! shares what its texels have in common.
+
+use rayon::prelude::*;
+
+/// Texels along a side of a pattern.
+pub(super) const SIDE: usize = 256;
+
+/// One of a pattern's texels.
+#[derive(Clone, Copy)]
+pub(super) struct Texel {
+    /// Its number, row by row.
+    pub(super) index: usize,
+    /// Its middle in the unit square.
+    pub(super) at: [f32; 2],
+}
+
+impl Texel {
+    pub(super) fn new(index: usize) -> Self {
+        Self { index, at: [middle(index % SIDE), middle(index / SIDE)] }
+    }
+}
+
+fn middle(texel: usize) -> f32 {
+    (texel as f32 + 0.5) / SIDE as f32
+}
 
 /// Three numbers in 0..1 for a place of a lattice (the finaliser of murmur3).
 pub(super) fn hash([x, y]: [u32; 2], seed: u32) -> [f32; 3] {
@@ -36,14 +61,33 @@ impl Lattice {
         Self { period, stride, numbers }
     }
 
+    /// The row or column of cells of a coordinate, and the place in it.
+    fn cell(&self, w: f32) -> (usize, f32) {
+        // Whole numbers by way of an integer: `floor` is a call on processors that know no better.
+        let whole = w as i32 as f32;
+        let q = (w - if whole > w { whole - 1.0 } else { whole }) * self.period as f32;
+        let cell = (q as i32 as usize).min(self.period - 1);
+        (cell, q - cell as f32)
+    }
+
     /// The lattice cell of a place (index of its corner) and the place in it.
     fn find(&self, at: [f32; 2]) -> (usize, [f32; 2]) {
-        let q = at.map(|w| (w - w.floor()) * self.period as f32);
-        let cell = q.map(|w| (w as usize).min(self.period - 1));
-        let index = (cell[1] + BORDER) * self.stride + cell[0] + BORDER;
-        (index, [q[0] - cell[0] as f32, q[1] - cell[1] as f32])
+        let ((column, x), (row, y)) = (self.cell(at[0]), self.cell(at[1]));
+        ((row + BORDER) * self.stride + column + BORDER, [x, y])
     }
 }
+
+/// The way between two corners, without a crease at either.
+fn fade(f: f32) -> f32 {
+    f * f * f * (f * (f * 6.0 - 15.0) + 10.0)
+}
+
+fn mix(p: f32, q: f32, t: f32) -> f32 {
+    p + (q - p) * t
+}
+
+/// Scales gradient noise to about -1..1.
+const SMOOTH: f32 = 1.4;
 
 /// Gradient noise of one octave, about -1..1.
 pub(super) struct Smooth(Lattice);
@@ -55,14 +99,45 @@ impl Smooth {
     }
 
     pub(super) fn at(&self, at: [f32; 2]) -> f32 {
-        let (index, f) = self.0.find(at);
-        let [a, b] = f.map(|f| f * f * f * (f * (f * 6.0 - 15.0) + 10.0));
+        let (index, [x, y]) = self.0.find(at);
         let corner = |dx: usize, dy: usize| {
-            let [x, y, _] = self.0.numbers[index + dy * self.0.stride + dx];
-            (2.0 * x - 1.0) * (f[0] - dx as f32) + (2.0 * y - 1.0) * (f[1] - dy as f32)
+            let [gx, gy, _] = self.0.numbers[index + dy * self.0.stride + dx];
+            (2.0 * gx - 1.0) * (x - dx as f32) + (2.0 * gy - 1.0) * (y - dy as f32)
         };
-        let mix = |p: f32, q: f32, t: f32| p + (q - p) * t;
-        1.4 * mix(mix(corner(0, 0), corner(1, 0), a), mix(corner(0, 1), corner(1, 1), a), b)
+        let a = fade(x);
+        SMOOTH * mix(mix(corner(0, 0), corner(1, 0), a), mix(corner(0, 1), corner(1, 1), a), fade(y))
+    }
+
+    /// For each column of texels its column of cells, the place in it, and the way between its sides.
+    fn columns(&self) -> [(usize, f32, f32); SIDE] {
+        std::array::from_fn(|x| {
+            let (cell, f) = self.0.cell(middle(x));
+            (cell + BORDER, f, fade(f))
+        })
+    }
+
+    /// Adds a row of texels. `columns` are its own; `sides` is room to work in.
+    fn add_row(
+        &self,
+        y: usize,
+        columns: &[(usize, f32, f32); SIDE],
+        weight: f32,
+        sides: &mut Vec<[f32; 2]>,
+        sums: &mut [f32],
+    ) {
+        let (cell, f) = self.0.cell(middle(y));
+        let (start, b) = ((cell + BORDER) * self.0.stride, fade(f));
+        let (below, above) = self.0.numbers[start..start + 2 * self.0.stride].split_at(self.0.stride);
+        // Along a row each line of corners is a slope and a height.
+        sides.clear();
+        sides.extend(below.iter().zip(above).map(|([px, py, _], [qx, qy, _])| {
+            let signed = |w: &f32| 2.0 * w - 1.0;
+            [mix(signed(px), signed(qx), b), mix(signed(py) * f, signed(qy) * (f - 1.0), b)]
+        }));
+        for (sum, (column, f, a)) in sums.iter_mut().zip(columns) {
+            let ([slope, level], [next_slope, next_level]) = (sides[*column], sides[*column + 1]);
+            *sum += weight * SMOOTH * mix(slope * f + level, next_slope * (f - 1.0) + next_level, *a);
+        }
     }
 }
 
@@ -81,20 +156,44 @@ impl Fractal {
     }
 }
 
-/// Displaces places by soft noise, so that nothing is straight.
+/// Octaves at all texels.
+pub(super) struct Drawn(Vec<f32>);
+
+impl Drawn {
+    /// As [`Fractal::new`].
+    pub(super) fn new(period: usize, octaves: u32, seed: u32) -> Self {
+        let fractal = Fractal::new(period, octaves, seed);
+        let columns: Vec<_> = fractal.0.iter().map(Smooth::columns).collect();
+        let mut values = vec![0.0; SIDE * SIDE];
+        values.par_chunks_mut(SIDE).enumerate().with_min_len(32).for_each_init(Vec::new, |sides, (y, row)| {
+            let mut weight = 1.0;
+            for (octave, columns) in fractal.0.iter().zip(&columns) {
+                octave.add_row(y, columns, weight, sides, row);
+                weight *= 0.5;
+            }
+        });
+        Self(values)
+    }
+
+    pub(super) fn at(&self, texel: Texel) -> f32 {
+        self.0[texel.index]
+    }
+}
+
+/// Displaces texels by soft noise, so that nothing is straight.
 pub(super) struct Warp {
     by: f32,
-    noise: [Fractal; 2],
+    noise: [Drawn; 2],
 }
 
 impl Warp {
     /// By at most about so much, over so many cells along a side.
     pub(super) fn new(period: usize, by: f32, seed: u32) -> Self {
-        Self { by, noise: [Fractal::new(period, 3, seed), Fractal::new(period, 3, seed + 7)] }
+        Self { by, noise: [Drawn::new(period, 3, seed), Drawn::new(period, 3, seed + 7)] }
     }
 
-    pub(super) fn at(&self, at: [f32; 2]) -> [f32; 2] {
-        [at[0] + self.by * self.noise[0].at(at), at[1] + self.by * self.noise[1].at(at)]
+    pub(super) fn at(&self, texel: Texel) -> [f32; 2] {
+        std::array::from_fn(|axis| texel.at[axis] + self.by * self.noise[axis].at(texel))
     }
 }
 
@@ -103,47 +202,77 @@ impl Warp {
 pub(super) struct Cell {
     /// Distance to it.
     pub(super) nearest: f32,
-    /// Distance to the border with the next one.
-    pub(super) border: f32,
     /// The way from it.
     pub(super) from: [f32; 2],
     /// Three numbers of its own, 0..1.
     pub(super) own: [f32; 3],
+    /// The ways from all points around, and which of them is the nearest.
+    ways: [[f32; 9]; 2],
+    which: usize,
+}
+
+impl Cell {
+    /// Distance to the border with the next one: it stands halfway, across the line between the two points.
+    pub(super) fn border(&self) -> f32 {
+        let ([xs, ys], [fx, fy]) = (&self.ways, self.from);
+        let near = fx * fx + fy * fy;
+        let mut squares = [0.0_f32; 9];
+        for ((square, x), y) in squares.iter_mut().zip(xs).zip(ys) {
+            let (ax, ay) = (fx - x, fy - y);
+            let farther = x * x + y * y - near;
+            *square = farther * farther / (ax * ax + ay * ay + 1e-12);
+        }
+        squares[self.which] = f32::MAX;
+        0.5 * squares.into_iter().fold(f32::MAX, |a, b| if b < a { b } else { a }).sqrt()
+    }
+}
+
+/// What a number that is not negative has after the point.
+fn fraction(w: f32) -> f32 {
+    w - w as i32 as f32
 }
 
 /// Scattered points, one in each cell.
-pub(super) struct Cells(Lattice);
+pub(super) struct Cells {
+    lattice: Lattice,
+    /// Where in its cell each point is.
+    points: Vec<[f32; 2]>,
+}
 
 impl Cells {
     /// With so many cells along a side.
     pub(super) fn new(period: usize, seed: u32) -> Self {
-        Self(Lattice::new(period, seed))
+        let lattice = Lattice::new(period, seed);
+        // Not up to the cell's sides, or its neighbours' neighbours would matter.
+        let points = lattice.numbers.iter().map(|[x, y, _]| [x, y].map(|w| 0.08 + 0.84 * w)).collect();
+        Self { lattice, points }
     }
 
     pub(super) fn at(&self, at: [f32; 2]) -> Cell {
-        let (index, f) = self.0.find(at);
-        let mut ways = [([0.0_f32; 2], 0_usize); 9];
-        for (i, way) in ways.iter_mut().enumerate() {
-            let cell = index + (i / 3) * self.0.stride + i % 3 - self.0.stride - 1;
-            let [x, y, _] = self.0.numbers[cell];
-            // Not up to the cell's sides, or its neighbours' neighbours would matter.
-            let point = [0.08 + 0.84 * x + (i % 3) as f32 - 1.0, 0.08 + 0.84 * y + (i / 3) as f32 - 1.0];
-            *way = ([f[0] - point[0], f[1] - point[1]], cell);
+        let ((index, place), stride) = (self.lattice.find(at), self.lattice.stride);
+        let (mut ways, mut squares, start) = ([[0.0_f32; 9]; 2], [0.0_f32; 9], index - stride - 1);
+        for row in 0..3 {
+            let start = start + row * stride;
+            for (column, [x, y]) in self.points[start..start + 3].iter().enumerate() {
+                ways[0][3 * row + column] = place[0] - (x + (column as f32 - 1.0));
+                ways[1][3 * row + column] = place[1] - (y + (row as f32 - 1.0));
+            }
         }
-        let square = |[x, y]: [f32; 2]| x * x + y * y;
-        let (from, own) = ways.iter().copied().fold(ways[4], |a, b| if square(b.0) < square(a.0) { b } else { a });
-        // The border with another point stands halfway, across the line between the two.
-        let border = ways.iter().filter(|(_, cell)| *cell != own).map(|(way, _)| {
-            let apart = [from[0] - way[0], from[1] - way[1]];
-            (square(*way) - square(from)) * 0.5 / square(apart).sqrt().max(1e-6)
-        });
-        let [x, y, z] = self.0.numbers[own];
+        for (i, square) in squares.iter_mut().enumerate() {
+            *square = ways[0][i] * ways[0][i] + ways[1][i] * ways[1][i];
+        }
+        let (mut which, mut nearest) = (0, f32::MAX);
+        for (i, square) in squares.into_iter().enumerate() {
+            (which, nearest) = if square < nearest { (i, square) } else { (which, nearest) };
+        }
+        let [x, y, z] = self.lattice.numbers[start + which / 3 * stride + which % 3];
         Cell {
-            nearest: square(from).sqrt(),
-            border: border.fold(f32::MAX, f32::min),
-            from,
+            nearest: nearest.sqrt(),
+            from: ways.map(|ways| ways[which]),
             // Other numbers than those that say where it lies.
-            own: [z, (x * 61.0 + z * 17.0).fract(), (y * 53.0 + z * 29.0).fract()],
+            own: [z, fraction(x * 61.0 + z * 17.0), fraction(y * 53.0 + z * 29.0)],
+            ways,
+            which,
         }
     }
 }

@@ -24,6 +24,7 @@ const EMBEDDED: &[(&str, &str)] = embedded![
     "cloud_map.wgsl",
     "cloud_model.wgsl",
     "clouds.wgsl",
+    "detail.wgsl",
     "display.wgsl",
     "exposure.wgsl",
     "globals.wgsl",

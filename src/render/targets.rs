@@ -7,8 +7,8 @@ pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Fl
 /// Reverse-Z depth.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Temperature of the surface, °C (what is frozen follows the climate that a query gives), and the share of the star's light that
-/// the ground around it takes.
-pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
+/// the ground around it takes; how far the ground within a pixel goes above and below its height, metres.
+pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Stars, see `air.wgsl`.
 pub(crate) const STARS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Distance of the clouds.

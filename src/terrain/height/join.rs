@@ -6,7 +6,7 @@
 
 use super::lanes::{self, Masking, Output, Shaped};
 use super::lanes::{CHUNK, Lane};
-use super::{Band, CompiledLayer, CompiledMask, LayerStack, Source, curve};
+use super::{Band, CompiledLayer, CompiledMask, LayerStack, Source, curve, steps};
 use crate::planet;
 use crate::terrain::field::{Components, Field};
 use crate::terrain::landform::MAX_BANDS;
@@ -57,9 +57,10 @@ pub(crate) fn combine(
     };
     SCRATCH.with_borrow_mut(|scratch| {
         for start in (0..n).step_by(CHUNK) {
-            let chunk = Chunk { stack, simd, points, fields, bands: &bands, range: start..(start + CHUNK).min(n) };
+            let range = start..(start + CHUNK).min(n);
+            let chunk = Chunk { stack, simd, points, fields, bands: &bands, shown: spacings_rad.len(), range };
             chunk.join(scratch, &mut each);
-            chunk.finish(scratch, spacings_rad.len());
+            chunk.finish(scratch);
             heights.height_m.extend_from_slice(&scratch.height[..chunk.len()]);
             for (components, lanes) in heights.gradients.iter_mut().zip(&scratch.gradients) {
                 for (component, lane) in components.iter_mut().zip(lanes) {
@@ -83,6 +84,8 @@ struct Scratch {
     /// What a mask looks at, where that is not kept elsewhere; the derivative of a curve.
     source: Lane<f64>,
     bent: Lane<f64>,
+    /// What a band shows of steps.
+    seen: Lane<f32>,
     dirs: [Lane<f64>; 3],
 }
 
@@ -93,10 +96,16 @@ impl Default for Scratch {
             gradients: [[[0.0; CHUNK]; 3]; MAX_BANDS],
             noise: [0.0; CHUNK],
             shaped: Shaped { by_noise: [0.0; CHUNK], by_height: [0.0; CHUNK] },
-            output: Output { target: [0.0; CHUNK], by_height: [0.0; CHUNK], by_noise: [0.0; CHUNK] },
+            output: Output {
+                target: [0.0; CHUNK],
+                by_height: [0.0; CHUNK],
+                by_noise: [0.0; CHUNK],
+                by_steps: [0.0; CHUNK],
+            },
             masking: Masking { mask: [0.0; CHUNK], step: [0.0; CHUNK], by_source: [[0.0; CHUNK]; planet::MAX_MASKS] },
             source: [0.0; CHUNK],
             bent: [0.0; CHUNK],
+            seen: [0.0; CHUNK],
             dirs: [[0.0; CHUNK]; 3],
         }
     }
@@ -109,6 +118,8 @@ struct Chunk<'a> {
     points: &'a Points,
     fields: &'a [Option<Arc<Field>>],
     bands: &'a [Band],
+    /// So many of them, the first, are asked for; the rest are what masks look at.
+    shown: usize,
     range: Range<usize>,
 }
 
@@ -160,7 +171,7 @@ impl Chunk<'_> {
             self.reshape(layer, field, slopes, scratch);
         }
         self.mask(layer, slopes, scratch);
-        let Scratch { height, gradients, noise, shaped, output, masking, dirs, .. } = scratch;
+        let Scratch { height, gradients, noise, shaped, output, masking, seen, dirs, .. } = scratch;
         let noise: &[f64] = if reshaped { &noise[..n] } else { &field.value[self.range.clone()] };
         lanes::blend(simd, slopes, n, &layer.blend, height, noise, output);
         if layer.masks.is_empty() {
@@ -189,7 +200,14 @@ impl Chunk<'_> {
             for (number, band) in bands() {
                 let gradient = &mut gradients[number];
                 if let Some(noise) = self.gradient(field, band) {
-                    lanes::mix(simd, n, output, &noise, gradient);
+                    // Masks make heights, and those do not depend on what can be seen.
+                    match layer.steps.as_ref().filter(|_| number < self.shown) {
+                        Some(cut) => {
+                            steps::seen(simd, n, (cut, band.spacing_rad), dirs, gradient, &noise, seen);
+                            steps::mix(simd, n, seen, output, &noise, gradient);
+                        }
+                        None => lanes::mix(simd, n, output, &noise, gradient),
+                    }
                 }
                 for (mask, by_source) in layer.masks.iter().zip(&masking.by_source) {
                     match mask.source {
@@ -213,7 +231,7 @@ impl Chunk<'_> {
         let Scratch { height, noise, shaped, source, bent, .. } = scratch;
         noise[..n].copy_from_slice(&field.value[self.range.clone()]);
         match &layer.steps {
-            Some(steps) => lanes::cut(simd, slopes, n, steps, height, noise, shaped),
+            Some(cut) => steps::cut(simd, slopes, n, cut, height, noise, shaped),
             None => {
                 shaped.by_noise[..n].fill(1.0);
                 shaped.by_height[..n].fill(0.0);
@@ -255,8 +273,8 @@ impl Chunk<'_> {
         }
     }
 
-    /// The curve over all, and limits; of the gradients, only the first few are wanted.
-    fn finish(&self, scratch: &mut Scratch, wanted: usize) {
+    /// The curve over all, and limits.
+    fn finish(&self, scratch: &mut Scratch) {
         let (simd, n) = (self.simd, self.len());
         let Scratch { height, gradients, source: slope, bent, .. } = scratch;
         match &self.stack.height_curve {
@@ -267,7 +285,7 @@ impl Chunk<'_> {
             None => slope[..n].fill(1.0),
         }
         lanes::limit(simd, n, self.stack.limits_m(), height, slope);
-        for gradient in gradients.iter_mut().take(wanted) {
+        for gradient in gradients.iter_mut().take(self.shown) {
             lanes::finish(simd, n, slope, gradient);
         }
     }

@@ -3,7 +3,7 @@
 //! Heights are in f64. Slopes are the partial derivatives by which gradients are mixed afterwards, all bands alike, in
 //! f32; loops with `SLOPES` unset leave them out for queries that want heights alone.
 
-use super::{Blend, Edge, Steps};
+use super::{Blend, Edge};
 use crate::planet::MAX_MASKS;
 
 use crate::terrain::simd::{Simd, for_each_simd};
@@ -14,9 +14,6 @@ pub(super) const CHUNK: usize = 1152;
 
 /// One number for each point of a chunk.
 pub(super) type Lane<T> = [T; CHUNK];
-
-/// Adding and subtracting this rounds an f64 below 2^51 to a whole number.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Compiles a loop for each instruction set, once with slopes and once without; `slopes` says which is wanted.
 macro_rules! joining {
@@ -29,6 +26,7 @@ macro_rules! joining {
         }
     };
 }
+pub(super) use joining;
 
 /// What a layer makes of its own noise and of the height below it, before masks.
 pub(super) struct Output {
@@ -37,6 +35,8 @@ pub(super) struct Output {
     /// Its derivatives by the height below and by the noise.
     pub(super) by_height: Lane<f32>,
     pub(super) by_noise: Lane<f32>,
+    /// As much of the derivative by the height below as comes of steps cut into it.
+    pub(super) by_steps: Lane<f32>,
 }
 
 /// How the noise that counts depends on the layer's own noise and on the height below, where it was reshaped.
@@ -109,34 +109,6 @@ fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, n
 }
 joining!(fn blend(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], output: &mut Output) = blend_body);
 
-/// Cuts the height below into steps: `noise` becomes the way from there to its step, in steps.
-///
-/// A step's tread is flat around its own height, with a riser half-way to the next: `S(t) - t`, where `t` is the place
-/// between two treads and `S` a smoothstep across the riser.
-#[inline(always)]
-fn cut_body<const SLOPES: bool>(
-    n: usize,
-    steps: &Steps,
-    height: &Lane<f64>,
-    noise: &mut Lane<f64>,
-    shaped: &mut Shaped,
-) {
-    let (per_metre, riser) = (1.0 / steps.height_m, 0.5 - 0.4 * steps.sharpness);
-    let (start, per_riser) = (0.5 - riser, 0.5 / riser);
-    for i in 0..n.min(CHUNK) {
-        let place = (height[i] * per_metre + steps.waviness * noise[i]).clamp(-1e12, 1e12);
-        let t = place - ((place - 0.5 + ROUNDER) - ROUNDER);
-        let s = ((t - start) * per_riser).clamp(0.0, 1.0);
-        noise[i] = steps.sharpness * (s * s * (3.0 - 2.0 * s) - t);
-        if SLOPES {
-            let slope = steps.sharpness * (6.0 * s * (1.0 - s) * per_riser - 1.0);
-            shaped.by_noise[i] = slope * steps.waviness;
-            shaped.by_height[i] = slope * per_metre;
-        }
-    }
-}
-joining!(fn cut(n: usize, steps: &Steps, height: &Lane<f64>, noise: &mut Lane<f64>, shaped: &mut Shaped) = cut_body);
-
 /// Multiplies the masks so far by a smoothstep of `source`; it is the `number`th.
 #[inline(always)]
 fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) {
@@ -173,7 +145,7 @@ fn join_body<const SLOPES: bool>(
     output: &mut Output,
     height: &mut Lane<f64>,
 ) {
-    let Output { target, by_height, by_noise } = output;
+    let Output { target, by_height, by_noise, .. } = output;
     // From here on the change, not the target.
     let change = target;
     for i in 0..n.min(CHUNK) {
@@ -250,7 +222,8 @@ for_each_simd!(pub(super) fn mirror(n: usize, sine: &Lane<f64>, slope: &mut Lane
 #[inline(always)]
 fn through_body(n: usize, shaped: &Shaped, output: &mut Output) {
     for i in 0..n.min(CHUNK) {
-        output.by_height[i] += output.by_noise[i] * shaped.by_height[i] as f32;
+        output.by_steps[i] = output.by_noise[i] * shaped.by_height[i] as f32;
+        output.by_height[i] += output.by_steps[i];
         output.by_noise[i] *= shaped.by_noise[i] as f32;
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! - [`LayerStack`]: the layers of a planet, ready to be joined
 //! - `join`: heights at a batch of points, chunk by chunk; `lanes`: its loops
+//! - `steps`: terraces
 //! - `curve`: curves through points
 //! - `bounds`: how low and how high the ground can be
 //!
@@ -14,6 +15,7 @@ mod bounds;
 mod curve;
 mod join;
 mod lanes;
+mod steps;
 
 pub use curve::curve_at;
 pub(crate) use join::{Heights, combine};
@@ -163,10 +165,11 @@ impl LayerStack {
         }
     }
 
-    /// Whether a mask needs to know where on the planet it is.
+    /// Whether a layer needs to know where on the planet it is.
     fn looks_at_directions(&self) -> bool {
-        let looks = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
-        self.layers.iter().any(|layer| layer.enabled && layer.masks.iter().any(looks))
+        let mask = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
+        let looks = |layer: &CompiledLayer| layer.steps.is_some() || layer.masks.iter().any(mask);
+        self.layers.iter().any(|layer| layer.enabled && looks(layer))
     }
 
     /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths

@@ -1,0 +1,223 @@
+// The ground of many tiles, four times as fine as their meshes: what a detail tile (src/lod/tile.rs) knows around a pixel.
+
+// Slopes along both tangents, and the same as the parents show them; height in metres as a sum of two, and how much steeper (rise over
+// run) the ground is at the very texel than the parents show it, and than the tile itself does.
+@group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
+@group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
+
+// Texels along the node's side, and of the ground around on each side; must match src/lod/tile.rs.
+const DETAIL_SIDE: f32 = 129.0;
+const DETAIL_APRON: i32 = 2;
+
+// What a pixel covers of a detail tile.
+struct DetailPlace {
+    // -1 without a tile
+    layer: i32,
+    // Its middle, in texels from the node's corner
+    at: vec2f,
+    // From one end to the other along its longer side and across, in texels
+    along: vec2f,
+    across: vec2f,
+    // How far the parent has taken over by distance, 0 to 1
+    parent: f32,
+    // Its shorter side in texels, as a power of two
+    width: f32,
+    // How many times as far apart as the tile's own the texels are that are looked at, as a power of two: beyond 1 where tiles are finer
+    // than pixels
+    level: f32,
+    // Looked at along the longer side, one after the other (as anisotropic texture filters do)
+    parts: i32,
+}
+
+// `right`, `below`: from pixel to pixel, texels; `parent`: by distance.
+fn detail_place(layer: f32, at: vec2f, right: vec2f, below: vec2f, parent: f32) -> DetailPlace {
+    let is_right = dot(right, right) > dot(below, below);
+    let along = select(below, right, is_right);
+    // What of the other side is not along the first.
+    let other = select(right, below, is_right);
+    let length_along = max(length(along), 1e-6);
+    let across = other - along * (dot(other, along) / (length_along * length_along));
+    // Texels two to each side are averaged: up to twice as long as wide is one part.
+    let fewest = length_along / max(length(across), length_along / 8.0);
+    let parts = select(select(4, 2, fewest <= 4.0), 1, fewest <= 2.0 || length_along < 2.0);
+    let width = log2(max(length(across), length_along / 8.0));
+    return DetailPlace(i32(layer), at, along, across, parent, width, clamp(width, parent, 5.0), parts);
+}
+
+// One of its parts; `detail_slopes_at` is not for them.
+fn part_of(place: DetailPlace, number: i32) -> DetailPlace {
+    var out = place;
+    out.at += place.along * ((f32(number) + 0.5) / f32(place.parts) - 0.5);
+    out.along /= f32(place.parts);
+    return out;
+}
+
+fn detail_slopes_at(place: DetailPlace) -> vec4f {
+    let apron = f32(DETAIL_APRON);
+    return textureSampleLevel(detail_slopes, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0);
+}
+
+// Texels around a pixel, so many to each side: every one of the tile, or every second (which are its parent's), or fourth...
+struct Taps {
+    // In strides
+    at: vec2f,
+    reach: f32,
+    across: i32,
+    share: f32,
+    stride: i32,
+}
+
+struct Tap {
+    texel: vec2i,
+    // Of all taps: a tent
+    weight: f32,
+}
+
+// Those of the level that is just finer than the place's, or just coarser.
+fn taps_around(place: DetailPlace, coarser: i32, reach: f32) -> Taps {
+    let finer = floor(place.level);
+    let share = select(1.0 + finer - place.level, place.level - finer, coarser == 1);
+    let stride = 1 << u32(i32(finer) + coarser);
+    return Taps(place.at / f32(stride), reach, i32(2.0 * reach), share, stride);
+}
+
+fn tap_of(taps: Taps, number: i32) -> Tap {
+    let texel = floor(taps.at) - (taps.reach - 1.0) + vec2f(f32(number % taps.across), f32(number / taps.across));
+    let tent = max(1.0 - abs(taps.at - texel) / taps.reach, vec2f(0.0)) / taps.reach;
+    // Of a parent's, only those of no weight lie outside the image.
+    let last = i32(DETAIL_SIDE) + 2 * DETAIL_APRON - 1;
+    let inside = clamp(vec2i(texel) * taps.stride + DETAIL_APRON, vec2i(0), vec2i(last));
+    return Tap(inside, taps.share * tent.x * tent.y);
+}
+
+// Height over the tile's own zero (x), and how much it changes from texel to texel along both sides (yz): of the very patches between
+// texels that are drawn.
+fn patch_height(place: DetailPlace) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var coarser = 0; coarser < 2; coarser++) {
+        let taps = taps_around(place, coarser, 1.0);
+        if taps.share <= 0.0 { continue; }
+        var corners: vec4f;
+        for (var i = 0; i < 4; i++) {
+            let texel = textureLoad(detail_heights, tap_of(taps, i).texel, place.layer, 0);
+            corners[i] = texel.x + texel.y;
+        }
+        let f = fract(taps.at);
+        let rows = mix(corners.xz, corners.yw, f.x);
+        let change = vec2f(mix(corners.y - corners.x, corners.w - corners.z, f.y), rows.y - rows.x) / f32(taps.stride);
+        sum += taps.share * vec3f(mix(rows.x, rows.y, f.y), change);
+    }
+    return sum;
+}
+
+// The middle of the heights in a pixel over the tile's own zero (x), and how far the ground goes above and below it (y): of the plane that
+// fits the texels around best, two to each side, and what they deviate from it.
+fn heights_around(place: DetailPlace) -> vec2f {
+    // Counted from a texel nearby, or squares would lose it all.
+    let near = textureLoad(detail_heights, tap_of(taps_around(place, 0, 1.0), 0).texel, place.layer, 0);
+    let zero_m = near.x + near.y;
+    var sum = 0.0;
+    var squares = 0.0;
+    var by_place = vec2f(0.0);
+    var places = vec3f(0.0);
+    let one = 1.0 / f32(place.parts);
+    for (var number = 0; number < place.parts; number++) {
+        let part = part_of(place, number);
+        for (var coarser = 0; coarser < 2; coarser++) {
+            let taps = taps_around(part, coarser, 2.0);
+            if taps.share <= 0.0 { continue; }
+            for (var i = 0; i < taps.across * taps.across; i++) {
+                let tap = tap_of(taps, i);
+                let texel = textureLoad(detail_heights, tap.texel, place.layer, 0);
+                let height_m = texel.x + texel.y - zero_m;
+                let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
+                sum += one * tap.weight * height_m;
+                squares += one * tap.weight * height_m * height_m;
+                by_place += one * tap.weight * height_m * away;
+                places += one * tap.weight * away.xxy * away.xyy;
+            }
+        }
+    }
+    let determinant = max(places.x * places.z - places.y * places.y, 1e-6);
+    let change = vec2f(places.z * by_place.x - places.y * by_place.y, places.x * by_place.y - places.y * by_place.x) / determinant;
+    let rest = max(squares - sum * sum - dot(change, by_place), 0.0);
+    // As if deviations were spread evenly.
+    return vec2f(zero_m + sum, 0.5 * (abs(dot(change, place.along)) + abs(dot(change, place.across))) + sqrt(3.0 * rest));
+}
+
+// The same as exactly as it is known.
+fn height_at(place: DetailPlace) -> vec2f {
+    let patch_m = patch_height(place);
+    return vec2f(patch_m.x, 0.5 * (abs(dot(patch_m.yz, place.along)) + abs(dot(patch_m.yz, place.across))));
+}
+
+// What the ground around a pixel is known to be as steep as, everything counted in: slopes too fine to be shown still decide what
+// share of the ground is steep.
+struct Steepness {
+    place: DetailPlace,
+    // Rise over run that the detail shows at the pixel, its own and the parent's
+    shown: vec2f,
+    // How many texels away the last are that have a say: 1 is what is nearest, 2 has no speckles where the ground is finer than texels.
+    reach: f32,
+    // Where there is no detail
+    cosine: f32,
+}
+
+// Rules that ask for the cosine of the slope: how much a rule holds goes from 0 at `from` to 1 at `to`, whichever is greater.
+struct SlopeRules {
+    cells_from: vec4f,
+    cells_to: vec4f,
+    covers_from: vec2f,
+    covers_to: vec2f,
+}
+
+// How much of the ground each rule holds for.
+struct SlopeShares {
+    cells: vec4f,
+    covers: vec2f,
+}
+
+fn cosine_of(rise: f32) -> f32 {
+    let r = max(rise, 0.0);
+    return inverseSqrt(1.0 + r * r);
+}
+
+fn add_slope(shares: ptr<function, SlopeShares>, rules: SlopeRules, cosine: f32, weight: f32) {
+    let cells_span = rules.cells_to - rules.cells_from;
+    let cells = saturate((cosine - rules.cells_from) / select(cells_span, vec4f(1e-6), cells_span == vec4f(0.0)));
+    (*shares).cells += weight * cells * cells * (3.0 - 2.0 * cells);
+    let covers_span = rules.covers_to - rules.covers_from;
+    let covers = saturate((cosine - rules.covers_from) / select(covers_span, vec2f(1e-6), covers_span == vec2f(0.0)));
+    (*shares).covers += weight * covers * covers * (3.0 - 2.0 * covers);
+}
+
+// Rules are asked at texels, where slopes are known, and what they answer is mixed: the other way round, slopes that are mixed first
+// would make less rock and more snow of rough ground, the farther away the more.
+fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
+    var out = SlopeShares(vec4f(0.0), vec2f(0.0));
+    let place = steep.place;
+    if place.layer < 0 {
+        add_slope(&out, rules, steep.cosine, 1.0);
+        return out;
+    }
+    for (var part = 0; part < place.parts; part++) {
+        for (var coarser = 0; coarser < 2; coarser++) {
+            let taps = taps_around(part_of(place, part), coarser, steep.reach);
+            if taps.share <= 0.0 { continue; }
+            for (var i = 0; i < taps.across * taps.across; i++) {
+                let tap = tap_of(taps, i);
+                if tap.weight <= 0.0 { continue; }
+                let heights = textureLoad(detail_heights, tap.texel, place.layer, 0);
+                var rise = heights.w;
+                // Where texels show as much as the pixel does, the pixel's own place between them counts.
+                switch select(taps.stride, 0, place.parts > 1) {
+                    case 1: { rise += steep.shown.x; }
+                    case 2: { rise = heights.z + steep.shown.y; }
+                    default: { rise += length(textureLoad(detail_slopes, tap.texel, place.layer, 0).xy); }
+                }
+                add_slope(&out, rules, cosine_of(rise), tap.weight / f32(place.parts));
+            }
+        }
+    }
+    return out;
+}
