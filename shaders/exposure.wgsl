@@ -22,8 +22,8 @@ const FOLLOWED_DIM: f32 = 0.73;
 const FOLLOWED_BRIGHT: f32 = 0.35;
 // Beside dark ground a bright sky keeps its colours, and the darker it is the darker it looks: most stops if its luminance were 1, and
 // more for each stop less.
-const SKY_EV: f32 = 2.3;
-const SKY_FOLLOWED: f32 = 0.575;
+const SKY_EV: f32 = 3.8;
+const SKY_FOLLOWED: f32 = 0.49;
 const LEAST_EV: f32 = -4.0;
 const MOST_EV: f32 = 14.5;
 // What is so much darker than the brightest does not count, such as the night side beside a crescent.

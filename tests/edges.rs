@@ -160,7 +160,7 @@ fn halved_and_enlarged(picture: &Picture) -> Picture {
     };
     let values = (0..width * height).map(|i| {
         // Three quarters of the nearest one, one quarter of the next.
-        let near_and_next = |i: usize| (i / 2, if i % 2 == 0 { (i / 2).saturating_sub(1) } else { i / 2 + 1 });
+        let near_and_next = |i: usize| (i / 2, if i.is_multiple_of(2) { (i / 2).saturating_sub(1) } else { i / 2 + 1 });
         let ((x0, x1), (y0, y1)) = (near_and_next(i % width), near_and_next(i / width));
         let row = |y| 0.75 * half(x0, y) + 0.25 * half(x1, y);
         encoded(0.75 * row(y0) + 0.25 * row(y1))
