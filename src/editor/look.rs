@@ -4,7 +4,6 @@ use eframe::egui;
 
 /// Sets the styles of both themes. What was remembered from the last run wins over the dark default.
 pub fn set_up(ctx: &egui::Context) {
-    ctx.set_fonts(fonts());
     ctx.options_mut(|options| options.fallback_theme = egui::Theme::Dark);
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(6.0, 5.0);
@@ -24,19 +23,4 @@ pub fn set_up(ctx: &egui::Context) {
         visuals.selection.bg_fill = egui::Color32::from_rgb(38, 84, 124);
         visuals.widgets.noninteractive.bg_stroke.color = egui::Color32::from_rgb(46, 50, 57);
     });
-}
-
-/// The fonts that come with egui, but of two signs for the same that of the plainer font: the other's clipboard, in the colour picker, is a
-/// mere outline at this size and reads as a missing sign.
-fn fonts() -> egui::FontDefinitions {
-    let mut fonts = egui::FontDefinitions::default();
-    for names in fonts.families.values_mut() {
-        let place = |wanted: &str| names.iter().position(|name| name == wanted);
-        if let (Some(outlined), Some(plain)) = (place("NotoEmoji-Regular"), place("emoji-icon-font"))
-            && outlined < plain
-        {
-            names.swap(outlined, plain);
-        }
-    }
-    fonts
 }
