@@ -84,8 +84,15 @@ fn clouds_around(pixel: vec2i) -> Clouds {
     return Clouds(light / count, select(NOTHING_KM, distance / seen, seen > 1e-5));
 }
 
+struct Seen {
+    // a: how much the pixel counts for exposure
+    @location(0) light: vec4f,
+    // Stars, as square roots: as bright as an eye sees them that is used to the light there is, so exposure does not follow them.
+    @location(1) stars: vec4f,
+}
+
 @fragment
-fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+fn fragment(@builtin(position) position: vec4f) -> Seen {
     let pixel = vec2i(position.xy);
     let ray = pixel_ray(position.xy);
     let ray_length = length(ray);
@@ -106,22 +113,29 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         air = air_light(globals.eye_up.w, globals.eye_up.xyz, dir, sun, far, globals.air.z, cloud_at, clouds.a);
     }
     var light = air.radiance * globals.sun_irradiance.rgb;
+    var points = vec3f(0.0);
     if far >= NOTHING_KM {
         // Stars drown in a bright sky, and at dusk too, when exposure is long.
         let drowned = 1.0 / (1.0 + 1e6 * luminance(light) + 40.0 * luminance(clouds.rgb));
         // As wide as a pixel of the display, not of this picture: as bright at every quality.
         let shown = globals.eye_low_m.w * max(f32(globals.modes.y), 1.0);
         let spread = select(1.0, 0.5, globals.modes.y == 0u);
-        scene = stars(dir, shown) * (drowned * spread) + sun_disc(dir);
+        points = stars(dir, shown) * (drowned * spread * clouds.a) * air.transmittance;
+        scene = NIGHT_BACKGROUND * NIGHT_SKY + sun_disc(dir);
+    }
+    // Before the sky the air glows, before the ground it scatters what reaches it.
+    if globals.air.x > 0.0 {
+        let glow = select(1.0 - air.transmittance, vec3f(1.0 - smoothstep(0.0, globals.air.x, globals.eye_up.w)), far >= NOTHING_KM);
+        light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
     }
     let air_only = luminance(light);
     light += glare(dir) + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene;
-    // How much the pixel counts for exposure: the sky a little seen from beneath, from outer space not at all, stars never.
+    // The sky counts a little seen from beneath, from outer space not at all.
     var counts = 1.0;
     if far >= NOTHING_KM {
         let inside = 1.0 - smoothstep(0.1, 0.5, globals.eye_up.w / max(globals.air.x, 1e-3));
-        let shown = air_only + luminance(clouds.rgb);
-        counts = 0.3 * inside * saturate1(shown / (shown + luminance(scene) + 1e-9));
+        let shown = air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
+        counts = 0.3 * inside * saturate1(shown / (shown + luminance(scene)));
     }
-    return vec4f(min(light, vec3f(60000.0)), counts);
+    return Seen(vec4f(min(light, vec3f(60000.0)), counts), vec4f(sqrt(points), 1.0));
 }

@@ -16,9 +16,16 @@ struct Exposure {
 // stays darker than by day, and snow stays white.
 const NORMAL_EV: f32 = -2.6;
 const FOLLOWED_DARK: f32 = 0.78;
+// Beyond so many stops less.
+const DIM_EV: f32 = 9.0;
+const FOLLOWED_DIM: f32 = 0.73;
 const FOLLOWED_BRIGHT: f32 = 0.35;
+// Beside dark ground a bright sky keeps its colours, and the darker it is the darker it looks: most stops if its luminance were 1, and
+// more for each stop less.
+const SKY_EV: f32 = 3.8;
+const SKY_FOLLOWED: f32 = 0.49;
 const LEAST_EV: f32 = -4.0;
-const MOST_EV: f32 = 9.0;
+const MOST_EV: f32 = 14.5;
 // What is so much darker than the brightest does not count, such as the night side beside a crescent.
 const SHADOW_EV: f32 = 7.0;
 
@@ -52,10 +59,10 @@ fn compute() {
     var ev = 0.0;
     if weight > 0.0 {
         let mean = sum / weight;
-        // Where there is next to no light the eye gives up, or the end of dusk would be a sudden noon of stars.
-        let most = min(MOST_EV, (mean - DARKEST_EV) * 1.5);
         let off = NORMAL_EV - mean;
-        ev = clamp(off * select(FOLLOWED_DARK, FOLLOWED_BRIGHT, off < 0.0), LEAST_EV, max(most, 0.0));
+        let darker = min(off, DIM_EV) * FOLLOWED_DARK + max(off - DIM_EV, 0.0) * FOLLOWED_DIM;
+        let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
+        ev = clamp(select(darker, off * FOLLOWED_BRIGHT, off < 0.0), LEAST_EV, most);
     }
     exposure.ev = mix(exposure.ev, ev, step.x);
     exposure.factor = exp2(exposure.ev);

@@ -43,18 +43,27 @@ fn multiscatter(h: f32, mu: f32) -> vec3f {
     return textureSampleLevel(multiscatter_table, clamped, texel_from_unit(x, vec2f(32.0)), 0.0).rgb / MULTISCATTER_SCALE;
 }
 
+// Radiance of the sky at night, the mean over stars, dust and the air's own glow. Sunlit white ground has 1: on the Earth the sun that is 7
+// degrees under the horizon leaves as much. Eyes that are used to the dark see by a thousandth of it, 16 bits do not.
+const NIGHT_SKY: vec3f = vec3f(0.85e-5, 1.0e-5, 1.3e-5);
+// Shares of what is not drawn as stars, and of what air adds by itself and by what it scatters (Leinert et al., The 1997 reference of
+// diffuse night sky brightness).
+const NIGHT_BACKGROUND: f32 = 0.2;
+const NIGHT_AIRGLOW: f32 = 0.7;
+
 // Irradiance of the sky on level ground.
 fn sky_irradiance(h: f32, mu: f32) -> vec3f {
-    if globals.air.x <= 0.0 { return vec3f(0.0); }
+    let night = PI * NIGHT_SKY;
+    if globals.air.x <= 0.0 { return night; }
     let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / globals.air.x)));
     let table = textureSampleLevel(irradiance_table, clamped, texel_from_unit(x, vec2f(64.0, 16.0)), 0.0).rgb;
-    return table * globals.sun_irradiance.rgb;
+    return table * globals.sun_irradiance.rgb + night;
 }
 
 // Radiance of the sky seen from the reference sphere, the mean over all azimuths.
 fn sky_radiance(view_mu: f32, sun_mu: f32) -> vec3f {
-    if globals.air.x <= 0.0 { return vec3f(0.0); }
+    if globals.air.x <= 0.0 { return NIGHT_SKY; }
     let x = vec2f(signed_root(sun_mu) * 0.5 + 0.5, sqrt(saturate1(view_mu)));
     let table = textureSampleLevel(sky_table, clamped, texel_from_unit(x, vec2f(64.0, 20.0)), 0.0).rgb;
-    return table * globals.sun_irradiance.rgb;
+    return table * globals.sun_irradiance.rgb + NIGHT_SKY;
 }

@@ -6,11 +6,14 @@
 @group(1) @binding(0) var hdr: texture_2d<f32>;
 // x: factor that was metered, 1 for manual exposure
 @group(1) @binding(1) var<uniform> metered: vec4f;
+// Square roots of what stars show, whatever was metered
+@group(1) @binding(2) var stars: texture_2d<f32>;
 
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let radiance = textureLoad(hdr, vec2i(position.xy), 0).rgb;
     if globals.modes.x != 0u { return vec4f(saturate(radiance), 1.0); }
-    let shown = toned(radiance * (globals.misc.w * metered.x), globals.modes.w);
+    let points = textureLoad(stars, vec2i(position.xy), 0).rgb;
+    let shown = toned((radiance * metered.x + points * points) * globals.misc.w, globals.modes.w);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));
 }

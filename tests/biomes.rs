@@ -188,6 +188,8 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
         biome.detail = tellus::planet::Detail::None;
     }
     let mut gpu = Gpu::new();
+    // Edges are counted as they are.
+    gpu.renderer.smooth_edges = false;
     let mut edges = |blend| {
         ball.biomes.blend = blend;
         let planet = Arc::new(ball.clone());

@@ -160,7 +160,7 @@ fn halved_and_enlarged(picture: &Picture) -> Picture {
     };
     let values = (0..width * height).map(|i| {
         // Three quarters of the nearest one, one quarter of the next.
-        let near_and_next = |i: usize| (i / 2, if i % 2 == 0 { (i / 2).saturating_sub(1) } else { i / 2 + 1 });
+        let near_and_next = |i: usize| (i / 2, if i.is_multiple_of(2) { (i / 2).saturating_sub(1) } else { i / 2 + 1 });
         let ((x0, x1), (y0, y1)) = (near_and_next(i % width), near_and_next(i / width));
         let row = |y| 0.75 * half(x0, y) + 0.25 * half(x1, y);
         encoded(0.75 * row(y0) + 0.25 * row(y1))
@@ -185,8 +185,8 @@ fn bars(name: &str) -> ([f64; 3], f64) {
         "limb from 400 km" => ([0.9, 0.4, 0.6], 12.0),
         "limb from orbit" => ([0.9, 0.55, 0.85], 15.0),
         "ridge" => ([0.95, 0.75, 0.92], 11.0),
-        "shore" => ([1.0, 0.95, 1.5], 6.0),
-        _ => ([1.0, 0.95, 1.2], 7.0),
+        "shore" => ([1.1, 1.1, 1.3], 7.2),
+        _ => ([1.1, 1.1, 1.3], 6.5),
     }
 }
 
@@ -202,7 +202,7 @@ fn standing_edges_are_smooth() {
         let edge = |i: usize| ranges[i] > EDGE;
         let plain = |i: usize| ranges[i] < PLAIN;
         let count = (0..ranges.len()).filter(|i| edge(*i)).count();
-        assert!(count > 40, "{}: {count} edge pixels", scene.name);
+        assert!(count > 25, "{}: {count} edge pixels", scene.name);
         let (shares, most) = bars(scene.name);
         for (quality, share) in [Quality::Low, Quality::Medium, Quality::High].into_iter().zip(shares) {
             let truth = if quality == Quality::Low { &truth_at_low } else { &truth };
@@ -230,8 +230,8 @@ fn standing_edges_are_smooth() {
 fn moving_edges_do_not_crawl() {
     let mut gpu = Gpu::new();
     let mut problems = Vec::new();
-    // Of what stairs jump by, the largest ones (95 in 100) at medium quality.
-    for (name, share) in [("limb from 400 km", 0.55), ("ridge", 0.6), ("glint", 0.95)] {
+    // What jumps are at most (95 in 100) at medium quality, of what stairs jump by and of 255.
+    for (name, share, most) in [("limb from 400 km", 0.55, 40.0), ("ridge", 0.6, 35.0), ("glint", 1.1, 10.0)] {
         let scene = scenes().into_iter().find(|scene| scene.name == name).unwrap();
         let (surface, chosen) = surface(&scene, MOVING_PX);
         let mut last: Option<[Picture; 5]> = None;
@@ -265,7 +265,7 @@ fn moving_edges_do_not_crawl() {
             scene.name
         );
         println!("{told}");
-        if low.1 > low_before.1 || medium.1 > share * before.1 || medium.0 > before.0 {
+        if low.1 > low_before.1 || medium.1 > (share * before.1).min(most) || medium.0 > 1.05 * before.0 {
             problems.push(told);
         }
     }

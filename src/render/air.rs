@@ -1,9 +1,9 @@
-//! The air (`air.wgsl`): reads scene, depth and clouds, writes the finished radiance.
+//! The air (`air.wgsl`): reads scene, depth and clouds, writes the finished radiance, and stars apart.
 
 use super::RenderError;
 use super::gpu::Slot;
 use super::scene_pass::ScenePass;
-use super::targets::{HDR_FORMAT, Targets};
+use super::targets::{HDR_FORMAT, STARS_FORMAT, Targets};
 
 /// See the module.
 pub(crate) struct AirPass(ScenePass);
@@ -15,7 +15,7 @@ impl AirPass {
         tables: &wgpu::BindGroupLayout,
     ) -> Result<Self, RenderError> {
         let inputs = [Slot::Unfiltered2d, Slot::Depth, Slot::Unfiltered2d, Slot::Unfiltered2d];
-        ScenePass::new(device, [globals, tables], "air.wgsl", &inputs, &[HDR_FORMAT]).map(Self)
+        ScenePass::new(device, [globals, tables], "air.wgsl", &inputs, &[HDR_FORMAT, STARS_FORMAT]).map(Self)
     }
 
     /// Binds what it reads. `scene`: which of the two radiance targets holds the scene.
@@ -32,6 +32,6 @@ impl AirPass {
         targets: &Targets,
         scene: usize,
     ) {
-        self.0.draw(encoder, groups, inputs, &[&targets.hdr[1 - scene]]);
+        self.0.draw(encoder, groups, inputs, &[&targets.hdr[1 - scene], &targets.stars]);
     }
 }

@@ -373,7 +373,7 @@ impl Renderer {
         self.scene = scene;
         stats
     }
-    /// The radiance of the newest frame before exposure and curve: size of the picture as it was drawn, and red, green and blue of
+    /// The radiance of the newest frame before exposure and curve, without stars: size of the picture as it was drawn, and red, green and blue of
     /// each pixel (1: white ground at noon). Waits for the device.
     pub fn radiance(
         &self,

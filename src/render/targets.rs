@@ -9,15 +9,18 @@ pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth3
 /// Temperature of the surface, °C (what is frozen follows the climate that a query gives), and the share of the star's light that
 /// the ground around it takes; how far the ground within a pixel goes above and below its height, metres.
 pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Stars, see `air.wgsl`.
+pub(crate) const STARS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Distance of the clouds.
 pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
-/// Two radiance targets (which may be read back) that passes read and write in turn, depth, and what the clouds pass leaves behind.
+/// Two radiance targets (which may be read back) that passes read and write in turn, depth, and what the passes of the clouds and of the air leave behind.
 pub(crate) struct Targets {
     pub(crate) size_px: [u32; 2],
     pub(crate) hdr: [wgpu::TextureView; 2],
     pub(crate) surface: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
+    pub(crate) stars: wgpu::TextureView,
     pub(crate) cloud_light: wgpu::TextureView,
     pub(crate) cloud_distance: wgpu::TextureView,
 }
@@ -32,6 +35,7 @@ impl Targets {
             ],
             surface: gpu::target(device, "surface", size_px, SURFACE_FORMAT),
             depth: gpu::target(device, "depth", size_px, DEPTH_FORMAT),
+            stars: gpu::target(device, "stars", size_px, STARS_FORMAT),
             cloud_light: gpu::target(device, "cloud light", size_px, HDR_FORMAT),
             cloud_distance: gpu::target(device, "cloud distance", size_px, DISTANCE_FORMAT),
         }

@@ -12,7 +12,7 @@ pub(crate) struct TonemapPass {
 
 impl TonemapPass {
     pub(crate) fn new(device: &wgpu::Device, globals: &wgpu::BindGroupLayout) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "tonemap", &[Slot::Float2d, Slot::Uniform]);
+        let layout = gpu::layout(device, "tonemap", &[Slot::Float2d, Slot::Uniform, Slot::Unfiltered2d]);
         let pipeline = gpu::screen_pipeline(device, "tonemap.wgsl", &[globals, &layout], &[HDR_FORMAT])?;
         Ok(Self { pipeline, layout })
     }
@@ -32,6 +32,7 @@ impl TonemapPass {
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&targets.hdr[scene]) },
                 wgpu::BindGroupEntry { binding: 1, resource: exposure.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&targets.stars) },
             ],
         })
     }

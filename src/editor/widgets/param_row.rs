@@ -270,9 +270,13 @@ fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ 
     }
 }
 
+/// What is left for the unit behind the three numbers of a triple.
+const UNIT_WIDTH: f32 = 36.0;
+
 fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], max: f64) {
     let unit = param.unit;
-    let width = ((ui.available_width() - 12.0) / 3.0).max(36.0);
+    let unit_width = if unit.symbol().is_empty() { 0.0 } else { UNIT_WIDTH };
+    let width = ((ui.available_width() - 12.0 - unit_width) / 3.0).max(36.0);
     let height = ui.spacing().interact_size.y;
     ui.spacing_mut().item_spacing.x = 4.0;
     for (component, channel) in value.iter_mut().zip(["R", "G", "B"]) {
@@ -288,6 +292,9 @@ fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], ma
         ui.add_sized([width, height], number)
             .on_hover_text(format!("{channel}, in {}", if unit.symbol().is_empty() { "parts" } else { unit.symbol() }))
             .accessible_name(format!("{channel} of {name}"));
+    }
+    if unit_width > 0.0 {
+        ui.weak(unit.symbol());
     }
 }
 
