@@ -18,6 +18,21 @@ fn body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: v
     return floor * left + globals.water_color.rgb * downwelling / PI * (1.0 - left);
 }
 
+// Deeper water has no foam.
+const FOAM_M: f32 = 1.2;
+
+// Integral of the share of foam (1 - smoothstep) from the shore down to a depth.
+fn foam_down_to(depth_m: f32) -> f32 {
+    let x = saturate1(depth_m / FOAM_M);
+    return FOAM_M * x * (1.0 - x * x * (1.0 - 0.5 * x));
+}
+
+// Foam where waves run up the shore.
+fn foam_between(depths_m: vec2f) -> f32 {
+    return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / max(depths_m.y - depths_m.x, 1e-3);
+}
+
+// `depths_m`: least and greatest depth of what is wet of the pixel; what lines the shore would sparkle if its middle told all.
 fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temperature_c: f32, star: f32) -> vec3f {
     let distance_km = length(rel_km);
     let up = normalize(globals.eye_km.xyz + rel_km);
@@ -49,8 +64,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
         let reflection = sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI;
         water = body(floor, depths_m, view_mu, max(sun_mu, 0.0), downwelling) * (1.0 - fresnel) + reflection * fresnel;
         water += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
-        // Foam where waves run up the shore.
-        let foam = (1.0 - smoothstep(0.0, 1.2, 0.5 * (depths_m.x + depths_m.y))) * smoothstep(0.1, 0.6, mottle + 0.25);
+        let foam = foam_between(depths_m) * smoothstep(0.1, 0.6, mottle + 0.25);
         water = mix(water, vec3f(0.7) * downwelling / PI, foam * 0.6);
     }
     let white = globals.ice_color.rgb * (1.0 + 0.18 * mottle) * downwelling / PI;
@@ -82,7 +96,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // Land is told from sea by its height, never by which of two close surfaces is nearer; only where the ray came out
     // of the sea again before it met land does the sea lie in front.
     var wet = 1.0;
-    var depths_m = vec2f(10000.0);
+    var depths_m = vec2f(1e4, 1.1e4);
     var star = 1.0;
     // Beyond the last terrain the climate of the latitude has to do.
     let sin_lat = normalize(globals.eye_km.xyz + dir * hits.x).z;

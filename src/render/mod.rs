@@ -9,7 +9,9 @@
 //! - `clouds`: their light, transmittance and distance
 //! - `air`: the air in front of everything, stars and the star's disc behind it
 //! - `exposure`: how bright the picture is, and what exposure suits it
-//! - `tonemap` with `tone`: radiance to display
+//! - `tonemap` with `tone`: radiance to what is shown
+//! - `antialias`: smooth edges
+//! - `display`: into the target, in its size
 //!
 //! `sky_probe` asks the shaders of the air about single rays.
 //!
@@ -18,11 +20,13 @@
 
 mod air;
 mod air_tables;
+mod antialias;
 mod biome_table;
 mod border_tile;
 mod cloud_map;
 mod clouds;
 mod detail_pool;
+mod display;
 mod exposure;
 mod globals;
 mod gpu;
@@ -177,6 +181,8 @@ pub(crate) struct Passes {
     air: air::AirPass,
     exposure: exposure::ExposurePass,
     tonemap: tonemap::TonemapPass,
+    antialias: antialias::AntialiasPass,
+    display: display::DisplayPass,
 }
 
 impl Passes {
@@ -195,7 +201,9 @@ impl Passes {
             clouds: clouds::CloudsPass::new(device, globals, tables)?,
             air: air::AirPass::new(device, globals, tables)?,
             exposure: exposure::ExposurePass::new(device)?,
-            tonemap: tonemap::TonemapPass::new(device, globals, target_format)?,
+            tonemap: tonemap::TonemapPass::new(device, globals)?,
+            antialias: antialias::AntialiasPass::new(device, globals, tables)?,
+            display: display::DisplayPass::new(device, globals, tables, target_format)?,
         })
     }
 }
@@ -208,6 +216,9 @@ struct Inputs {
     air: [wgpu::BindGroup; 2],
     exposure: [wgpu::BindGroup; 2],
     tonemap: [wgpu::BindGroup; 2],
+    antialias: [wgpu::BindGroup; 2],
+    /// Of the picture with the edges as they are, and with smooth ones.
+    display: [[wgpu::BindGroup; 2]; 2],
 }
 
 impl Inputs {
@@ -217,7 +228,11 @@ impl Inputs {
             clouds: [0, 1].map(|scene| passes.clouds.bind(device, targets, scene)),
             air: [0, 1].map(|scene| passes.air.bind(device, targets, scene)),
             exposure: [0, 1].map(|scene| passes.exposure.bind(device, &targets.hdr[scene])),
-            tonemap: [0, 1].map(|scene| passes.tonemap.bind(device, &targets.hdr[scene], &passes.exposure.result)),
+            tonemap: [0, 1].map(|scene| passes.tonemap.bind(device, targets, scene, &passes.exposure.result)),
+            antialias: [0, 1].map(|scene| passes.antialias.bind(device, targets, scene)),
+            display: [0, 1].map(|scene| {
+                [targets.toned(scene), targets.smoothed()].map(|shown| passes.display.bind(device, shown))
+            }),
         }
     }
 }
@@ -230,6 +245,8 @@ pub struct Renderer {
     pub marked: Option<Arc<MarkedCells>>,
     /// The curve from radiance to the picture.
     pub tone: Tone,
+    /// Whether edges are made smooth; without, each pixel is what the curve makes of its radiance.
+    pub smooth_edges: bool,
     target_format: wgpu::TextureFormat,
     globals: globals::GlobalsBuffer,
     tables: tables::Tables,
@@ -263,6 +280,7 @@ impl Renderer {
             metering: Metering::Manual,
             marked: None,
             tone: Tone::default(),
+            smooth_edges: true,
             target_format,
             globals,
             tables,
@@ -344,7 +362,12 @@ impl Renderer {
         }
         let metering = if frame.debug_view == DebugView::Shaded { self.metering } else { Metering::Manual };
         self.passes.exposure.draw(queue, &mut encoder, &inputs.exposure[scene], size_px, metering);
-        self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], target);
+        self.passes.tonemap.draw(&mut encoder, globals, &inputs.tonemap[scene], targets.toned(scene));
+        let smooth = self.smooth_edges && frame.debug_view == DebugView::Shaded;
+        if smooth {
+            self.passes.antialias.draw(&mut encoder, groups, &inputs.antialias[scene], &targets);
+        }
+        self.passes.display.draw(&mut encoder, groups, &inputs.display[scene][usize::from(smooth)], target);
         queue.submit([encoder.finish()]);
         self.targets = Some((targets, inputs));
         self.scene = scene;

@@ -19,11 +19,13 @@ macro_rules! embedded {
 const EMBEDDED: &[(&str, &str)] = embedded![
     "air.wgsl",
     "air_model.wgsl",
+    "antialias.wgsl",
     "border.wgsl",
     "cloud_map.wgsl",
     "cloud_model.wgsl",
     "clouds.wgsl",
     "detail.wgsl",
+    "display.wgsl",
     "exposure.wgsl",
     "globals.wgsl",
     "highlight.wgsl",
@@ -57,8 +59,10 @@ const EMBEDDED: &[(&str, &str)] = embedded![
 /// The files that are compiled on their own: one for each pass. All others are included by them.
 pub const ENTRIES: &[&str] = &[
     "air.wgsl",
+    "antialias.wgsl",
     "cloud_map.wgsl",
     "clouds.wgsl",
+    "display.wgsl",
     "exposure.wgsl",
     "histogram.wgsl",
     "irradiance.wgsl",

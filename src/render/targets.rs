@@ -36,4 +36,14 @@ impl Targets {
             cloud_distance: gpu::target(device, "cloud distance", size_px, DISTANCE_FORMAT),
         }
     }
+
+    /// Where the tone mapping puts what is to be shown of the scene in that radiance target: into the other one.
+    pub(crate) fn toned(&self, scene: usize) -> &wgpu::TextureView {
+        &self.hdr[1 - scene]
+    }
+
+    /// Where the same goes with smooth edges: the clouds are in the scene by then.
+    pub(crate) fn smoothed(&self) -> &wgpu::TextureView {
+        &self.cloud_light
+    }
 }

@@ -1,0 +1,41 @@
+// From what is to be shown to the target: shrunk or enlarged to its size, encoded, dithered.
+#include "screen.wgsl"
+#include "math.wgsl"
+
+// rgb, linear
+@group(2) @binding(0) var shown: texture_2d<f32>;
+
+fn encode_srgb(c: vec3f) -> vec3f {
+    let low = c * 12.92;
+    let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
+    return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn decode_srgb(c: vec3f) -> vec3f {
+    let high = pow((max(c, vec3f(0.04045)) + 0.055) / 1.055, vec3f(2.4));
+    return select(high, c / 12.92, c <= vec3f(0.04045));
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    var light = vec3f(0.0);
+    if globals.modes.y == 1u {
+        light = textureLoad(shown, pixel, 0).rgb;
+    } else {
+        // Between four pixels of twice the size that shows their mean, of half the size the shares by nearness.
+        let scale = select(0.5, 2.0, globals.modes.y == 2u);
+        light = textureSampleLevel(shown, clamped, position.xy * scale / vec2f(textureDimensions(shown)), 0.0).rgb;
+    }
+    var encoded = encode_srgb(light);
+    if globals.modes.x == 0u {
+        // Triangular noise of one step hides the 256 steps of the display.
+        let bits = hash3(vec3u(vec2u(pixel), 7u));
+        // None on black, which is exact.
+        let strength = min(encoded, vec3f(1.0 / 255.0));
+        encoded += (unit_from_hash(bits) - unit_from_hash(hash3(bits + 1u))) * strength;
+    }
+    encoded = saturate(encoded);
+    if globals.modes.z == 1u { return vec4f(decode_srgb(encoded), 1.0); }
+    return vec4f(encoded, 1.0);
+}
