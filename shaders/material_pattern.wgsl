@@ -86,6 +86,21 @@ fn taps_along(seen: Seen, texel_m: f32, most: u32) -> u32 {
     return min(most, select(select(4u, 2u, needed < 2.8), 1u, needed < 1.4));
 }
 
+// How hot what glows is, here against elsewhere (mean 1): thin crust here and thick there, without which a glow, the brightest
+// thing by night, shows the lattice on which its pattern repeats.
+fn heat(seen: Seen, period_m: f32, glow: f32) -> f32 {
+    if glow <= 0.0 { return 1.0; }
+    var sum = 0.0;
+    for (var i = 0u; i < 2u; i++) {
+        // A whole number of tiles to what the eye's place is wrapped to.
+        let tiles = max(round(select(0.09, 0.021, i == 1u) * 1024.0 / period_m), 1.0);
+        let at = (globals.eye_wrap_m.xyz + seen.rel_m) * (tiles / 1024.0);
+        sum += textureSampleLevel(noise_tile, repeated, at.yzx, max(log2(seen.footprint_m * tiles / 16.0), 0.0)).g;
+    }
+    // Both are spread evenly over 0 to 1.
+    return 2.0 * smoothstep(0.35, 1.65, sum);
+}
+
 // The pattern of a biome (a column of `biome_params`); -1 has none. One loop over all taps: a program that has each of them spelled
 // out takes a software driver minutes to compile.
 fn pattern_of(id: i32, seen: Seen) -> Pattern {
@@ -152,7 +167,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     out.height = rest.x;
     out.roughness = (rest.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
     // Cooler is redder.
-    out.glow = rest.z * size.w * pow(glow.rgb, vec3f(1.7 - 0.9 * saturate1(rest.z)));
+    out.glow = heat(seen, size.x, size.w) * rest.z * size.w * pow(glow.rgb, vec3f(1.7 - 0.9 * saturate1(rest.z)));
     out.far = smoothstep(1.0, 5.0, lod);
     out.shown = 1.0;
     return out;

@@ -5,19 +5,18 @@
 
 mod support;
 
-use glam::DVec3;
 use image::RgbImage;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
-use support::{Gpu, camera};
-use tellus::build::{Surface, add_detail, build_now};
-use tellus::lod::{Camera, Quality, View};
+use support::{Gpu, camera, frame_of, surface_of};
+use tellus::build::build_now;
+use tellus::lod::{Quality, View};
 use tellus::planet::param::{Domain, ValueMut};
 use tellus::planet::{Atmosphere, Fbm, Layer, Planet, STARTING_AIRS, Shape};
-use tellus::render::{DebugView, Frame, Metering, Tone};
+use tellus::render::{Frame, Metering, Tone};
 use tellus::sphere::LatLon;
 
 const SIZE_PX: [u32; 2] = [160, 100];
@@ -50,26 +49,6 @@ fn planets() -> [(&'static str, Planet); 3] {
         ("mars", under(air("Mars"), 3390.0, [0.35, 0.17, 0.08])),
         ("titan", under(air("Titan"), 2575.0, [0.2, 0.13, 0.07])),
     ]
-}
-
-fn surface(planet: &Arc<Planet>, camera: &Camera, quality: Quality) -> (Surface, View) {
-    let view = View { camera: *camera, size_px: SIZE_PX, quality };
-    let mut surface = build_now(planet, &view);
-    add_detail(&mut surface, &view);
-    (surface, view)
-}
-
-fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
-    Frame {
-        surface,
-        planet,
-        view,
-        frozen: None,
-        sun_dir_planet,
-        time_secs: 0.0,
-        exposure_ev: 0.0,
-        debug_view: DebugView::Shaded,
-    }
 }
 
 /// Altitude and pitch of a camera that looks east, and the pictures it takes: name, degrees from the place eastward to the star.
@@ -113,10 +92,11 @@ fn airs_look_as_they_did_and_sunsets_are_red_on_earth_and_blue_on_mars() {
         let planet = Arc::new(planet);
         for (altitude_m, pitch, pictures) in poses(&planet) {
             let camera = camera(&planet, 5.0, 10.0, altitude_m, 90.0, pitch);
-            let (surface, view) = surface(&planet, &camera, Quality::Medium);
+            let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
+            let surface = surface_of(&planet, &view);
             for (pose, east) in pictures {
                 let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
-                let drawn = gpu.draw(&frame(&planet, &surface, view, sun));
+                let drawn = gpu.draw(&frame_of(&surface, &planet, view, sun));
                 problems.extend(against_golden(&format!("{name}_{pose}"), &drawn));
                 if *pose != "sunset" {
                     continue;
@@ -161,7 +141,7 @@ fn a_climb_to_space_has_no_jump() {
         let camera = camera(&planet, 5.0, 10.0, altitude_m, 200.0, 12.0);
         let view = View { camera, size_px: [96, 60], quality: Quality::Medium };
         let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
-        gpu.draw(&frame(&planet, &surface, view, LatLon::from_degrees(20.0, 50.0).direction()));
+        gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(20.0, 50.0).direction()));
         let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
         if let Some(last) = &last {
             let light = |p: &[f32; 3]| f64::from(p[0] + p[1] + p[2]);
@@ -234,7 +214,7 @@ fn whatever_the_air_every_radiance_is_a_number() {
         let view = View { camera, size_px: [48, 32], quality: Quality::Medium };
         let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
         let mut gpu = gpu.borrow_mut();
-        gpu.draw(&frame(&planet, &surface, view, LatLon::from_degrees(8.0, sun_lon).direction()));
+        gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(8.0, sun_lon).direction()));
         let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
         prop_assert!(!pixels.is_empty());
         for (i, pixel) in pixels.iter().enumerate() {
@@ -251,14 +231,15 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
     let (_, planet) = planets()[1].clone();
     let planet = Arc::new(planet);
     let camera = camera(&planet, 5.0, 10.0, 2.0, 90.0, 5.0);
-    let (surface, view) = surface(&planet, &camera, Quality::Medium);
+    let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
+    let surface = surface_of(&planet, &view);
     let mut compared = 0;
     gpu.renderer.smooth_edges = false;
     for tone in Tone::ALL {
         gpu.renderer.tone = tone;
         for (east, exposure_ev) in [(25.0, 0.0), (70.0, 3.0), (85.0, -1.0)] {
             let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
-            let drawn = gpu.draw(&Frame { exposure_ev, ..frame(&planet, &surface, view, sun) });
+            let drawn = gpu.draw(&Frame { exposure_ev, ..frame_of(&surface, &planet, view, sun) });
             let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
             for (pixel, shown) in pixels.iter().zip(drawn.chunks(4)) {
                 let wanted = tone.shown(pixel.map(|c| f64::from(c) * exposure_ev.exp2()));

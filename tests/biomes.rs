@@ -6,8 +6,8 @@ mod support;
 
 use glam::DVec3;
 use std::sync::Arc;
-use support::Gpu;
-use tellus::build::{add_detail, build_now};
+use support::{Gpu, camera_over, frame_of, surface_of};
+use tellus::build::build_now;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, TableBlend, shipped};
 use tellus::render::{DebugView, Frame};
@@ -81,22 +81,11 @@ fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pose: &Pose, points
     let planet = terrain.planet();
     let fov_rad = Camera::DEFAULT_FOV_Y_RAD;
     let altitude_m = pose.pixel_m * SIDE_PX as f64 / (2.0 * (0.5 * fov_rad).tan());
-    let surface_m = terrain.height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
-    let eye_radius_m = planet.radius_m() + surface_m + altitude_m;
-    let camera = Camera::over(place, eye_radius_m, pose.heading.to_radians(), pose.pitch.to_radians(), fov_rad);
+    let camera = camera_over(terrain, place, altitude_m, [pose.heading, pose.pitch].map(f64::to_radians));
     let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::Medium };
-    let mut surface = build_now(planet, &view);
-    add_detail(&mut surface, &view);
-    let picture = gpu.draw(&Frame {
-        surface: &surface,
-        planet,
-        view,
-        frozen: None,
-        sun_dir_planet: camera.position_planet_m,
-        time_secs: 0.0,
-        exposure_ev: 0.0,
-        debug_view: DebugView::Biome,
-    });
+    let surface = surface_of(planet, &view);
+    let frame = frame_of(&surface, planet, view, camera.position_planet_m);
+    let picture = gpu.draw(&Frame { debug_view: DebugView::Biome, ..frame });
     let palette: Vec<[u8; 3]> = planet.biomes.palette.iter().map(|biome| srgb(biome.color)).collect();
     let pixel = |x: usize, y: usize| biome_of(&palette, &picture[(y * SIDE_PX + x) * 4..][..3]);
     let mut counts = [0; 3];
@@ -196,16 +185,7 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
         let camera = Camera::over(LatLon::from_degrees(30.0, 0.0), 1.6e5, 0.0, -1.5, Camera::DEFAULT_FOV_Y_RAD);
         let view = View { camera, size_px: [160, 120], quality: Quality::Medium };
         let surface = build_now(&planet, &view);
-        let picture = gpu.draw(&Frame {
-            surface: &surface,
-            planet: &planet,
-            view,
-            frozen: None,
-            sun_dir_planet: camera.position_planet_m,
-            time_secs: 0.0,
-            exposure_ev: 0.0,
-            debug_view: DebugView::Shaded,
-        });
+        let picture = gpu.draw(&frame_of(&surface, &planet, view, camera.position_planet_m));
         // Places where the ground changes from one pixel to the next.
         let step = |pair: &[u8]| (0..3).map(|i| u32::from(pair[i].abs_diff(pair[i + 4]))).sum::<u32>();
         picture.chunks(160 * 4).flat_map(|row| row.windows(8).step_by(4)).filter(|pair| step(pair) > 18).count()

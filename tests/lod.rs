@@ -1,6 +1,10 @@
 //! Level of detail on the CPU: one surface whatever the tiles, nothing culled that can be seen, steady to the millimetre.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
+#[path = "support/dice.rs"]
+mod dice;
+
+use dice::Dice;
 use glam::{DVec3, Mat4, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -14,35 +18,15 @@ use tellus::planet::{Fbm, Layer, Planet, Shape, random, shipped};
 use tellus::sphere::{Edge, LatLon};
 use tellus::terrain::Terrain;
 
-/// Numbers from 0 to 1, the same in each run (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn place(&mut self) -> LatLon {
-        LatLon {
-            lat_rad: libm::asin(2.0 * self.roll() - 1.0),
-            lon_rad: (2.0 * self.roll() - 1.0) * std::f64::consts::PI,
-        }
-    }
-
-    /// Anywhere from 2 m to three radii above the ground, looking anywhere.
-    fn view(&mut self, terrain: &Terrain, size_px: [u32; 2]) -> View {
-        let place = self.place();
-        let radius_m = terrain.planet().radius_m();
-        let altitude_m = 2.0 * (1.5 * radius_m).powf(self.roll());
-        let ground_m = radius_m + terrain.height_m(place.direction());
-        let (heading, pitch) = (self.roll() * std::f64::consts::TAU, (self.roll() - 0.75) * 2.0);
-        let camera = Camera::over(place, ground_m + altitude_m, heading, pitch, Camera::DEFAULT_FOV_Y_RAD);
-        View { camera, size_px, quality: Quality::Low }
-    }
+/// Anywhere from 2 m to three radii above the ground, looking anywhere.
+fn any_view(dice: &mut Dice, terrain: &Terrain, size_px: [u32; 2]) -> View {
+    let place = dice.place();
+    let radius_m = terrain.planet().radius_m();
+    let altitude_m = 2.0 * (1.5 * radius_m).powf(dice.roll());
+    let ground_m = radius_m + terrain.height_m(place.direction());
+    let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.75) * 2.0);
+    let camera = Camera::over(place, ground_m + altitude_m, heading, pitch, Camera::DEFAULT_FOV_Y_RAD);
+    View { camera, size_px, quality: Quality::Low }
 }
 
 fn rough() -> Planet {
@@ -187,7 +171,7 @@ fn nothing_is_culled_that_a_ray_hits() {
         let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
         let terrain = &surface.terrain;
         for _ in 0..poses {
-            let view = dice.view(terrain, [96, 64]);
+            let view = any_view(&mut dice, terrain, [96, 64]);
             let culling = Culling::new(&view, lowest_radius_m(terrain));
             for _ in 0..3 {
                 let (x, y) = (dice.roll() * 2.0 - 1.0, dice.roll() * 2.0 - 1.0);

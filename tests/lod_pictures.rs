@@ -6,8 +6,8 @@ mod support;
 
 use glam::DVec3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
-use support::{Gpu, frame, lights};
+use support::dice::Dice;
+use support::{Gpu, camera_over, frame_of, lights, settled};
 use tellus::build::{Builder, Surface, build_now};
 use tellus::lod::morph::shifts_m;
 use tellus::lod::range::SHADED_AT;
@@ -19,19 +19,6 @@ use tellus::terrain::Terrain;
 
 const SIZE_PX: [u32; 2] = [96, 64];
 
-/// Numbers from 0 to 1, the same in each run (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
 /// One renderer for all tests: pipelines take longer to make than most pictures.
 fn gpu() -> MutexGuard<'static, Option<Gpu>> {
     static GPU: Mutex<Option<Gpu>> = Mutex::new(None);
@@ -42,6 +29,10 @@ fn gpu() -> MutexGuard<'static, Option<Gpu>> {
 
 fn draw(frame: &Frame<'_>) -> Vec<u8> {
     gpu().as_mut().unwrap().draw(frame)
+}
+
+fn sun_dir() -> DVec3 {
+    LatLon::from_degrees(30.0, 40.0).direction()
 }
 
 /// Nothing before the ground, and light that lies still on it.
@@ -86,16 +77,14 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
     let planet = bare(planet);
     let terrain = Terrain::new(planet.clone());
     for _ in 0..poses {
-        let lat_rad = libm::asin(2.0 * dice.roll() - 1.0);
-        let place = LatLon { lat_rad, lon_rad: (2.0 * dice.roll() - 1.0) * std::f64::consts::PI };
+        let place = dice.place();
         let altitude_m = 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
-        let radius_m = planet.radius_m() + terrain.height_m(place.direction()) + altitude_m;
         // Mostly down.
         let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.8) * 1.8);
-        let camera = Camera::over(place, radius_m, heading, pitch.max(-1.55), Camera::DEFAULT_FOV_Y_RAD);
+        let camera = camera_over(&terrain, place, altitude_m, [heading, pitch.max(-1.55)]);
         let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
         let surface = build_now(&planet, &view);
-        let coverage = Frame { view, debug_view: DebugView::Coverage, ..frame(&surface, &planet, camera, (0.0, 0.0)) };
+        let coverage = Frame { debug_view: DebugView::Coverage, ..frame_of(&surface, &planet, view, DVec3::X) };
         let picture = draw(&coverage);
         let holes = holes(&view, &terrain, &picture, dice);
         assert_eq!(holes, 0, "{} from {altitude_m} m, {:?}", planet.name, place.to_degrees());
@@ -116,14 +105,6 @@ fn no_pose_shows_the_background_through_the_ground() {
     for seed in 0..10 {
         look_for_holes(random::random(seed), 1, &mut dice);
     }
-}
-
-fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surface> {
-    builder.request(planet, view);
-    while builder.is_busy() {
-        std::thread::sleep(Duration::from_millis(1));
-    }
-    builder.surface().unwrap()
 }
 
 /// The same surface with all vertices out in full, and all shading that of the tiles' own level.
@@ -149,12 +130,11 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
     let terrain = Terrain::new(planet.clone());
     let builder = Builder::new(|| {});
     let place = LatLon::from_degrees(35.0, -5.0);
-    let ground_m = planet.radius_m() + terrain.height_m(place.direction());
     let view = |step: usize| {
         let part = step as f64 / STEPS as f64;
         let altitude_m = 2.0 * (3.0 * planet.radius_m() / 2.0).powf(1.0 - part);
         let pitch = -1.5 + 1.2 * part;
-        let camera = Camera::over(place, ground_m + altitude_m, 0.5, pitch, Camera::DEFAULT_FOV_Y_RAD);
+        let camera = camera_over(&terrain, place, altitude_m, [0.5, pitch]);
         // Large enough for texels and pixels to be as they are in a window.
         View { camera, size_px: [480, 320], quality: Quality::Medium }
     };
@@ -169,10 +149,8 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
             continue;
         }
         for (most, debug_view) in most.iter_mut().zip([DebugView::Shaded, DebugView::Normal]) {
-            let draw = |surface: &Surface| {
-                let view = view(step);
-                draw(&Frame { view, debug_view, ..frame(surface, &planet, view.camera, (30.0, 40.0)) })
-            };
+            let draw =
+                |surface: &Surface| draw(&Frame { debug_view, ..frame_of(surface, &planet, view(step), sun_dir()) });
             most[0] = most[0].max(difference(&draw(&before), &draw(&after)));
             let unclear = !is_gentle(*most);
             if unclear {
@@ -308,8 +286,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     let camera = Camera::looking(eye, forward, up, 6_f64.to_radians());
     let view = View { camera, size_px: [192, 128], quality: Quality::Medium };
     let surface = build_now(&planet, &view);
-    let picture =
-        draw(&Frame { view, debug_view: DebugView::Coverage, ..frame(&surface, &planet, camera, (0.0, 0.0)) });
+    let picture = draw(&Frame { debug_view: DebugView::Coverage, ..frame_of(&surface, &planet, view, DVec3::X) });
     let light = lights(&picture);
     // Column by column: how high what lies behind the sea's horizon stands in the picture.
     let tan_y = (camera.fov_y_rad * 0.5).tan();
@@ -362,8 +339,7 @@ fn normals_change_from_a_level_to_the_next_as_the_vertices_have_them() {
     let view = View { camera, size_px: [480, 320], quality: Quality::Medium };
     // Without detail tiles: what is shown comes from the vertices alone.
     let surface = build_now(&planet, &view);
-    let picture =
-        draw(&Frame { view, debug_view: DebugView::Normal, ..frame(&surface, &planet, camera, (30.0, 40.0)) });
+    let picture = draw(&Frame { debug_view: DebugView::Normal, ..frame_of(&surface, &planet, view, sun_dir()) });
     let (eye, turn) = (camera.position_planet_m, camera.planet_from_view.inverse());
     let tan_y = (camera.fov_y_rad * 0.5).tan();
     // How far a pixel is from the blend, from the tile's own normal and from its parent's; where they differ, on the way.

@@ -5,7 +5,7 @@
 #[path = "support/app.rs"]
 mod app;
 
-use app::{Editor, click, planet, undo_label, undo_len};
+use app::{Editor, click, planet, undo_label, undo_len, until, wait_for_picture};
 use eframe::egui;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
@@ -22,33 +22,8 @@ fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
     harness.state_mut().send(Command::Show(tellus::render::DebugView::Biome));
     harness.run_steps(4);
     click(&mut harness, "Biomes");
-    settle(&mut harness);
+    wait_for_picture(&mut harness);
     harness
-}
-
-/// Steps until the picture is complete.
-fn settle(harness: &mut Editor) {
-    for _ in 0..600 {
-        harness.step();
-        let viewport = harness.state().viewport();
-        if viewport.surface().is_some_and(|surface| surface.complete) && !viewport.is_busy() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    harness.run_steps(3);
-}
-
-/// Steps until something holds.
-fn until(harness: &mut Editor, what: &str, holds: impl Fn(&Editor) -> bool) {
-    for _ in 0..400 {
-        harness.step();
-        if holds(harness) {
-            return;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    panic!("never: {what}");
 }
 
 fn biomes(harness: &Editor) -> Biomes {
@@ -169,7 +144,7 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
     assert!(!has_relief(old), "choose another place");
     choose(&mut harness, index);
     harness.hover_at(cell(&harness, column, row));
-    settle(&mut harness);
+    wait_for_picture(&mut harness);
     let viewport = harness.state().viewport();
     let (surface, runs, pictures) = (viewport.surface().unwrap(), viewport.table_runs().unwrap(), viewport.pictures());
     harness.drag_at(cell(&harness, column, row));
@@ -178,7 +153,7 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
     assert!(viewport.pictures() > pictures, "drawn in the frame of the press");
     assert!(viewport.table_runs().unwrap().biomes > runs.biomes);
     harness.drop_at(cell(&harness, column, row));
-    settle(&mut harness);
+    wait_for_picture(&mut harness);
     let after = harness.state().viewport().surface().unwrap();
     assert!(after.leaves.iter().zip(&surface.leaves).all(|(a, b)| a.tile.serial == b.tile.serial), "the same tiles");
     assert_eq!(after.leaves.len(), surface.leaves.len());
@@ -305,7 +280,7 @@ fn a_ready_made_table_goes_out_as_a_picture_and_comes_back() {
 fn the_painter_looks_as_it_did() {
     let mut harness = editor(vec![]);
     choose(&mut harness, 3);
-    settle(&mut harness);
+    wait_for_picture(&mut harness);
     let picture = harness.render().unwrap();
     // What lies left of the panel is the planet; below, the status bar says how long things took.
     let (left, height) = (picture.width() * 61 / 100, picture.height() * 94 / 100);

@@ -5,15 +5,15 @@
 
 mod support;
 
+use glam::DVec3;
 use image::RgbImage;
 use std::path::PathBuf;
 use std::sync::Arc;
-use support::{Gpu, inside_disc, lights};
-use tellus::build::{Surface, add_detail, build_now};
+use support::{Gpu, camera_over, frame_of, inside_disc, lights, surface_of};
 use tellus::lod::opening::{default_pitch_deg, opening_place, opening_view};
-use tellus::lod::{Camera, Quality, View};
+use tellus::lod::{Quality, View};
 use tellus::planet::{Planet, shipped};
-use tellus::render::{DebugView, Frame};
+use tellus::render::DebugView;
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
@@ -25,25 +25,10 @@ fn planets() -> Vec<(&'static str, Arc<Planet>)> {
 
 /// Over the planet's opening place, at a height over ground or sea.
 fn view(planet: &Arc<Planet>, altitude_m: f64) -> View {
-    let place = opening_place(planet);
-    let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
-    let radius_m = planet.radius_m() + ground_m.max(planet.sea_level_m().unwrap_or(ground_m)) + altitude_m;
+    let (terrain, place) = (Terrain::new(planet.clone()), opening_place(planet));
     let pitch_rad = default_pitch_deg(planet, altitude_m).to_radians();
-    let camera = Camera::over(place, radius_m, 0.8, pitch_rad, Camera::DEFAULT_FOV_Y_RAD);
+    let camera = camera_over(&terrain, place, altitude_m, [0.8, pitch_rad]);
     View { camera, size_px: SIZE_PX, quality: Quality::Low }
-}
-
-fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun: LatLon) -> Frame<'a> {
-    Frame {
-        surface,
-        planet,
-        view,
-        frozen: None,
-        sun_dir_planet: sun.direction(),
-        time_secs: 0.0,
-        exposure_ev: 0.0,
-        debug_view: DebugView::Shaded,
-    }
 }
 
 /// Where the star stands at noon over the opening place, and where it sets there.
@@ -59,11 +44,10 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
     for (file, planet) in planets() {
         for altitude_m in [1.9 * planet.radius_m(), 10_000.0, 100.0] {
             let view = view(&planet, altitude_m);
-            let mut surface = build_now(&planet, &view);
-            add_detail(&mut surface, &view);
+            let surface = surface_of(&planet, &view);
             let lowest_m = surface.leaves.iter().map(|leaf| leaf.tile.min_height_m).fold(f64::MAX, f64::min);
 
-            let mut coverage = frame(&planet, &surface, view, LatLon::from_degrees(0.0, 0.0));
+            let mut coverage = frame_of(&surface, &planet, view, DVec3::X);
             coverage.debug_view = DebugView::Coverage;
             let white = lights(&gpu.draw(&coverage));
             // A coarse tile's chord lies below the sphere by up to spacing^2 / 8 R.
@@ -72,7 +56,7 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
             assert_eq!(holes, 0, "{file} from {altitude_m} m");
 
             for sun in noon_and_sunset(&planet) {
-                let frame = frame(&planet, &surface, view, sun);
+                let frame = frame_of(&surface, &planet, view, sun.direction());
                 let picture = gpu.draw(&frame);
                 assert!(lights(&picture).iter().any(|&light| light > 150), "{file} from {altitude_m} m is dark");
                 // Where there is air no place that the star stands over is black; a value that
@@ -95,10 +79,9 @@ fn every_planet_looks_as_it_did() {
     for (file, planet) in planets() {
         let near = View { quality: Quality::Medium, ..view(&planet, 10_000.0) };
         for (name, view) in [("orbit", opening_view(&planet, SIZE_PX, Quality::Medium)), ("low", near)] {
-            let mut surface = build_now(&planet, &view);
-            add_detail(&mut surface, &view);
+            let surface = surface_of(&planet, &view);
             let star = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg);
-            let drawn = gpu.draw(&frame(&planet, &surface, view, star));
+            let drawn = gpu.draw(&frame_of(&surface, &planet, view, star.direction()));
             let rgb: Vec<u8> = drawn.chunks(4).flat_map(|p| p[..3].to_vec()).collect();
             let path = folder.join(format!("{}_{name}.png", file.trim_end_matches(".ron")));
             if std::env::var_os("TELLUS_BLESS").is_some() {

@@ -6,12 +6,11 @@ mod support;
 
 use glam::DVec3;
 use std::sync::Arc;
-use std::time::Duration;
-use support::{Gpu, lights};
-use tellus::build::{Builder, Leaf, Surface, add_detail, build_now, lowest_radius_m};
-use tellus::lod::{Camera, Culling, Quality, View};
+use support::{Gpu, camera_over, frame_of, lights, settled, surface_of};
+use tellus::build::{Builder, Leaf, Surface, lowest_radius_m};
+use tellus::lod::{Culling, Quality, View};
 use tellus::planet::{Planet, shipped};
-use tellus::render::{DebugView, Frame};
+use tellus::render::Frame;
 use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
 
@@ -28,24 +27,13 @@ fn bare(file: &str) -> Arc<Planet> {
 }
 
 fn view(planet: &Arc<Planet>, lat_deg: f64, lon_deg: f64, altitude_m: f64, pitch_deg: f64) -> View {
-    let place = LatLon::from_degrees(lat_deg, lon_deg);
-    let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
-    let radius_m = planet.radius_m() + ground_m + altitude_m;
-    let camera = Camera::over(place, radius_m, 0.6, pitch_deg.to_radians(), Camera::DEFAULT_FOV_Y_RAD);
+    let (terrain, place) = (Terrain::new(planet.clone()), LatLon::from_degrees(lat_deg, lon_deg));
+    let camera = camera_over(&terrain, place, altitude_m, [0.6, pitch_deg.to_radians()]);
     View { camera, size_px: SIZE_PX, quality: Quality::Medium }
 }
 
 fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
-    Frame {
-        surface,
-        planet,
-        view,
-        frozen: None,
-        sun_dir_planet,
-        time_secs: 0.0,
-        exposure_ev: 2.0,
-        debug_view: DebugView::Shaded,
-    }
+    Frame { exposure_ev: 2.0, ..frame_of(surface, planet, view, sun_dir_planet) }
 }
 
 /// What rays from the ground to the star say of a picture, of the pixels that are not next to a change: how many are in shadow and how
@@ -58,8 +46,7 @@ struct Verdict {
 }
 
 fn verdict(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun_dir: DVec3) -> Verdict {
-    let mut surface = build_now(planet, &view);
-    add_detail(&mut surface, &view);
+    let mut surface = surface_of(planet, &view);
     let [width, height] = SIZE_PX.map(|side| side as usize);
     let truth: Vec<Option<bool>> = (0..width * height)
         .map(|i| {
@@ -128,8 +115,7 @@ fn at_noon_nothing_is_in_shadow() {
     let mut gpu = Gpu::new();
     let planet = bare("pallor.ron");
     let view = view(&planet, 10.0, 20.0, 100e3, -90.0);
-    let mut surface = build_now(&planet, &view);
-    add_detail(&mut surface, &view);
+    let mut surface = surface_of(&planet, &view);
     let noon = LatLon::from_degrees(10.0, 20.0).direction();
     let with = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));
     surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
@@ -174,11 +160,7 @@ fn shadows_stay_where_they_are_while_the_camera_moves() {
     let builder = Builder::new(|| {});
     let (mut pictures, mut levels) = (Vec::new(), Vec::new());
     for view in &views {
-        builder.request(&planet, view);
-        while builder.is_busy() {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        let surface = builder.surface().unwrap();
+        let surface = settled(&builder, &planet, view);
         assert!(builder.has_all_tiles());
         levels.push(surface.leaves.iter().map(|leaf| leaf.tile.id.level).max().unwrap());
         let drawn = lights(&gpu.draw(&frame(&planet, &surface, *view, sun_dir)));
@@ -218,13 +200,7 @@ fn only_another_ground_makes_other_horizons() {
     let planet = bare("pallor.ron");
     let view = view(&planet, 10.0, 20.0, 400e3, -90.0);
     let builder = Builder::new(|| {});
-    let settled = |planet: &Planet| {
-        builder.request(&Arc::new(planet.clone()), &view);
-        while builder.is_busy() {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        builder.surface().unwrap()
-    };
+    let settled = |planet: &Planet| settled(&builder, &Arc::new(planet.clone()), &view);
     let first = settled(&planet);
     let culling = Culling::new(&view, lowest_radius_m(&first.terrain));
     let seen: Vec<&Leaf> = first.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).collect();

@@ -218,15 +218,7 @@ fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
 
 /// Steps until the picture is complete and its time is known.
 fn wait_for_picture(harness: &mut Editor) {
-    for _ in 0..600 {
-        harness.step();
-        let viewport = harness.state().viewport();
-        if viewport.surface().is_some_and(|surface| surface.complete) && !viewport.is_busy() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    harness.run_steps(3);
+    app::wait_for_picture(harness);
     std::thread::sleep(std::time::Duration::from_millis(200));
     harness.run_steps(3);
 }

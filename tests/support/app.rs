@@ -1,10 +1,11 @@
 //! The real editor without a window, and what its tests do with it.
-#![allow(unreachable_pub)]
+#![allow(dead_code, unreachable_pub, clippy::panic)]
 
 use eframe::egui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
 use tellus::editor::dialogs::ScriptedDialogs;
 use tellus::planet::Planet;
@@ -25,6 +26,29 @@ pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_se
         .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
     harness.run_steps(4);
     harness
+}
+
+/// Steps until something holds.
+pub fn until(harness: &mut Editor, what: &str, holds: impl Fn(&Editor) -> bool) {
+    const PATIENCE: Duration = Duration::from_secs(120);
+    let begun = Instant::now();
+    while begun.elapsed() < PATIENCE {
+        harness.step();
+        if holds(harness) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("never: {what}");
+}
+
+/// Steps until the picture is complete.
+pub fn wait_for_picture(harness: &mut Editor) {
+    until(harness, "a complete picture", |harness| {
+        let viewport = harness.state().viewport();
+        viewport.surface().is_some_and(|surface| surface.complete) && !viewport.is_busy()
+    });
+    harness.run_steps(3);
 }
 
 pub fn planet(harness: &Editor) -> Planet {

@@ -1,10 +1,13 @@
 //! A planet to draw in tests, a device to draw it on, and how to read the picture.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod dice;
 pub mod edits;
 
+use glam::DVec3;
 use std::sync::Arc;
-use tellus::build::{Surface, add_detail, build_now};
+use std::time::Duration;
+use tellus::build::{Builder, Surface, add_detail, build_now};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
 use tellus::render::{DebugView, Frame, Renderer};
@@ -15,10 +18,23 @@ pub const SIZE_PX: [u32; 2] = [320, 180];
 
 /// The surface that a camera sees, coarse.
 pub fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
-    let view = View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low };
-    let mut surface = build_now(planet, &view);
-    add_detail(&mut surface, &view);
+    surface_of(planet, &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
+}
+
+/// The surface that a view sees, with all its detail.
+pub fn surface_of(planet: &Arc<Planet>, view: &View) -> Surface {
+    let mut surface = build_now(planet, view);
+    add_detail(&mut surface, view);
     surface
+}
+
+/// The surface of a view once a builder has made everything.
+pub fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surface> {
+    builder.request(planet, view);
+    while builder.is_busy() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    builder.surface().expect("a surface")
 }
 
 /// A planet like the Earth, with everything on.
@@ -132,24 +148,35 @@ impl Gpu {
     }
 }
 
-/// A camera over a place, `altitude_m` above the ground or the sea.
+/// A camera over a place, `altitude_m` above the ground or the sea; angles in degrees.
 pub fn camera(planet: &Planet, lat: f64, lon: f64, altitude_m: f64, heading: f64, pitch: f64) -> Camera {
-    let place = LatLon::from_degrees(lat, lon);
-    let ground = Terrain::new(Arc::new(planet.clone()))
-        .height_m(place.direction())
-        .max(planet.sea_level_m().unwrap_or(f64::MIN));
-    let radius_m = planet.radius_m() + ground + altitude_m;
-    Camera::over(place, radius_m, heading.to_radians(), pitch.to_radians(), Camera::DEFAULT_FOV_Y_RAD)
+    let terrain = Terrain::new(Arc::new(planet.clone()));
+    let (place, angles) = (LatLon::from_degrees(lat, lon), [heading, pitch].map(f64::to_radians));
+    camera_over(&terrain, place, altitude_m, angles)
+}
+
+/// The same of a terrain that is there already; heading and pitch in radians.
+pub fn camera_over(terrain: &Terrain, place: LatLon, altitude_m: f64, [heading, pitch]: [f64; 2]) -> Camera {
+    let planet = terrain.planet();
+    let surface_m = terrain.height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
+    let radius_m = planet.radius_m() + surface_m + altitude_m;
+    Camera::over(place, radius_m, heading, pitch, Camera::DEFAULT_FOV_Y_RAD)
 }
 
 /// A frame with the sun over a place.
 pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: (f64, f64)) -> Frame<'a> {
+    let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
+    frame_of(surface, planet, view, LatLon::from_degrees(sun.0, sun.1).direction())
+}
+
+/// A frame of a view.
+pub fn frame_of<'a>(surface: &'a Surface, planet: &'a Planet, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
     Frame {
         surface,
         planet,
-        view: View { camera, size_px: SIZE_PX, quality: Quality::Medium },
+        view,
         frozen: None,
-        sun_dir_planet: LatLon::from_degrees(sun.0, sun.1).direction(),
+        sun_dir_planet,
         time_secs: 0.0,
         exposure_ev: 0.0,
         debug_view: DebugView::Shaded,
