@@ -127,7 +127,7 @@ fn plane_spread_m(heights: Heights, place: DetailPlace) -> f32 {
 
 // A plane that is fitted to so few texels (about nine, by their weights) takes up a third of what they deviate from the true one.
 // Between texels that are seen apart some of it shows.
-const NEAR: f32 = 0.4;
+const NEAR: f32 = 0.5;
 const SWELL: f32 = 1.25;
 
 // Of the texels around, two to each side.
@@ -175,6 +175,24 @@ fn heights_at(place: DetailPlace, apart: f32) -> Heights {
     if apart >= 1.0 { return around; }
     let patch_m = patch_height(place);
     return Heights(mix(patch_m.x, around.middle_m, apart), mix(patch_m.yz, around.change, apart), rough * mix(NEAR, 1.0, apart) * around.rest_m);
+}
+
+// How steep the detail shows the ground at a pixel, its own (x) and the parent's (y): means of what texels show. Slopes that are averaged
+// before would be gentler.
+fn rises_at(place: DetailPlace) -> vec2f {
+    let apron = f32(DETAIL_APRON);
+    let own = textureSampleLevel(detail_heights, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0).z;
+    if place.parent <= 0.0 { return vec2f(own, 0.0); }
+    let at = 0.5 * place.at;
+    let f = fract(at);
+    var parents = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let corner = vec2i(i & 1, i >> 1u);
+        let share = mix(1.0 - f, f, vec2f(corner));
+        let texel = min(2 * (vec2i(floor(at)) + corner), vec2i(i32(DETAIL_SIDE) - 1)) + DETAIL_APRON;
+        parents += share.x * share.y * length(textureLoad(detail_slopes, texel, place.layer, 0).zw);
+    }
+    return vec2f(own, parents);
 }
 
 // What the ground around a pixel is known to be as steep as, everything counted in: slopes too fine to be shown still decide what

@@ -136,7 +136,7 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
     out.plane_m = plane_spread_m(heights, place);
     // As if what deviates were spread evenly.
     out.spread_m = out.plane_m + 1.732 * heights.rest_m;
-    out.steep.shown = vec2f(length(slopes.xy), length(slopes.zw));
+    if apart < 1.0 { out.steep.shown = rises_at(place); }
     out.steep.heights = heights;
     out.steep.apart = apart;
     return out;
