@@ -6,8 +6,7 @@ mod support;
 
 use glam::DVec3;
 use std::sync::Arc;
-use support::Gpu;
-use tellus::build::{add_detail, build_now};
+use support::{Gpu, frame_of, surface_of};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::shipped;
 use tellus::render::{DebugView, Frame};
@@ -35,18 +34,9 @@ fn albedo(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<
     let eye_radius_m = planet.radius_m() + terrain.height_m(place.direction()) + altitude_m;
     let camera = Camera::over(place, eye_radius_m, 0.0, -std::f64::consts::FRAC_PI_2, fov_rad);
     let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::Medium };
-    let mut surface = build_now(planet, &view);
-    add_detail(&mut surface, &view);
-    let frame = Frame {
-        surface: &surface,
-        planet,
-        view,
-        frozen: None,
-        sun_dir_planet: camera.position_planet_m,
-        time_secs: 0.0,
-        exposure_ev: 0.0,
-        debug_view: DebugView::Albedo,
-    };
+    let surface = surface_of(planet, &view);
+    let plain = frame_of(&surface, planet, view, camera.position_planet_m);
+    let frame = Frame { debug_view: DebugView::Albedo, ..plain };
     gpu.draw_only(&frame, 1);
     let (size_px, colors) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
     assert_eq!(size_px, [SIDE_PX as u32; 2]);
