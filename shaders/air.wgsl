@@ -91,6 +91,65 @@ struct Seen {
     @location(1) stars: vec4f,
 }
 
+// What comes along a ray, but for stars and what the lens does.
+struct Along {
+    light: vec3f,
+    air_only: f32,
+    // Of what lies behind
+    transmittance: vec3f,
+}
+
+fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Along {
+    var air = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
+    if globals.air.x > 0.0 {
+        air = air_light(globals.eye_up.w, globals.eye_up.xyz, dir, globals.sun_dir.xyz, far, globals.air.z, cloud_at, clouds.a);
+    }
+    var light = air.radiance * globals.sun_irradiance.rgb;
+    // Before the sky the air glows, before the ground it scatters what reaches it.
+    if globals.air.x > 0.0 {
+        let glow = select(1.0 - air.transmittance, vec3f(1.0 - smoothstep(0.0, globals.air.x, globals.eye_up.w)), far >= NOTHING_KM);
+        light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
+    }
+    let air_only = luminance(light);
+    return Along(light + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene, air_only, air.transmittance * clouds.a);
+}
+
+// From afar the bright rim of the air is narrower than a pixel: rays across the limb, side by side in the pixel, see what share of it
+// there is. `center`: what the pixel's own ray found; `ground`: whether it met any.
+fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: Along) -> Along {
+    const RAYS: i32 = 8;
+    let radius = globals.eye_km.w;
+    let eye = globals.eye_up.w + radius;
+    let ahead = -eye * dot(dir, globals.eye_up.xyz);
+    let lowest = globals.eye_up.xyz * eye + dir * ahead;
+    let height = length(lowest) - radius;
+    // From a pixel to the next across the limb, km. Where mountains are wider than that, the limb is not the sphere's.
+    let step = globals.eye_low_m.w * ahead;
+    if globals.air.x <= 0.0 || ahead <= 0.0 || step < 1.5 || abs(height) > globals.air.x + 2.0 * step || (height < 0.0) != ground { return center; }
+    let outwards = lowest / length(lowest);
+    // What the limb hides or shows to the next pixel inwards.
+    let towards = vec2f(dot(outwards, globals.ray_right.xyz) / length(globals.ray_right.xyz), -dot(outwards, globals.ray_up.xyz) / length(globals.ray_up.xyz));
+    let size = vec2i(textureDimensions(scene_color));
+    let inner = clamp(vec2i(floor(vec2f(pixel) + 0.5 - 1.5 * normalize(towards))), vec2i(0), size - 1);
+    let surface = select(textureLoad(scene_color, inner, 0).rgb, scene, ground);
+    let space = select(scene, NIGHT_BACKGROUND * NIGHT_SKY, ground);
+    var sum = Along(vec3f(0.0), 0.0, vec3f(0.0));
+    for (var i = 0; i < RAYS; i++) {
+        let aside = (f32(i) + 0.5) / f32(RAYS) - 0.5;
+        let ray = normalize(dir + outwards * (aside * globals.eye_low_m.w));
+        let to_middle = eye * dot(ray, globals.eye_up.xyz);
+        let hits = ray_sphere(to_middle, globals.eye_up.w * (2.0 * radius + globals.eye_up.w));
+        let meets = hits.y >= hits.x;
+        // Over the clouds there are none.
+        let over = height + aside * step > globals.clouds.y;
+        let seen = along(ray, select(NOTHING_KM, hits.x, meets), select(space, surface, meets), select(clouds, vec4f(0.0, 0.0, 0.0, 1.0), over), select(cloud_at, NOTHING_KM, over));
+        sum.light += seen.light / f32(RAYS);
+        sum.air_only += seen.air_only / f32(RAYS);
+        sum.transmittance += select(seen.transmittance, vec3f(0.0), meets) / f32(RAYS);
+    }
+    return sum;
+}
+
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> Seen {
     let pixel = vec2i(position.xy);
@@ -98,7 +157,9 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
     let ray_length = length(ray);
     let dir = ray / ray_length;
     let far = surface_distance(pixel, dir, ray_length);
+    let ground = far < NOTHING_KM;
     var scene = textureLoad(scene_color, pixel, 0).rgb;
+    if !ground { scene = NIGHT_BACKGROUND * NIGHT_SKY + sun_disc(dir); }
     var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
     var cloud_at = NOTHING_KM;
     if globals.clouds.z > 0.0 {
@@ -106,36 +167,20 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
         clouds = around.light;
         cloud_at = around.at_km;
     }
-
-    var air = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
-    if globals.air.x > 0.0 {
-        let sun = globals.sun_dir.xyz;
-        air = air_light(globals.eye_up.w, globals.eye_up.xyz, dir, sun, far, globals.air.z, cloud_at, clouds.a);
-    }
-    var light = air.radiance * globals.sun_irradiance.rgb;
+    let seen = across_limb(pixel, dir, ground, scene, clouds, cloud_at, along(dir, far, scene, clouds, cloud_at));
     var points = vec3f(0.0);
-    if far >= NOTHING_KM {
+    // The sky counts a little seen from beneath, from outer space not at all.
+    var counts = 1.0;
+    if !ground {
         // Stars drown in a bright sky, and at dusk too, when exposure is long.
-        let drowned = 1.0 / (1.0 + 1e6 * luminance(light) + 40.0 * luminance(clouds.rgb));
+        let drowned = 1.0 / (1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb));
         // As wide as a pixel of the display, not of this picture: as bright at every quality.
         let shown = globals.eye_low_m.w * max(f32(globals.modes.y), 1.0);
         let spread = select(1.0, 0.5, globals.modes.y == 0u);
-        points = stars(dir, shown) * (drowned * spread * clouds.a) * air.transmittance;
-        scene = NIGHT_BACKGROUND * NIGHT_SKY + sun_disc(dir);
-    }
-    // Before the sky the air glows, before the ground it scatters what reaches it.
-    if globals.air.x > 0.0 {
-        let glow = select(1.0 - air.transmittance, vec3f(1.0 - smoothstep(0.0, globals.air.x, globals.eye_up.w)), far >= NOTHING_KM);
-        light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
-    }
-    let air_only = luminance(light);
-    light += glare(dir) + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene;
-    // The sky counts a little seen from beneath, from outer space not at all.
-    var counts = 1.0;
-    if far >= NOTHING_KM {
+        points = stars(dir, shown) * (drowned * spread) * seen.transmittance;
         let inside = 1.0 - smoothstep(0.1, 0.5, globals.eye_up.w / max(globals.air.x, 1e-3));
-        let shown = air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
-        counts = 0.3 * inside * saturate1(shown / (shown + luminance(scene)));
+        let sky = seen.air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
+        counts = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));
     }
-    return Seen(vec4f(min(light, vec3f(60000.0)), counts), vec4f(sqrt(points), 1.0));
+    return Seen(vec4f(min(seen.light + glare(dir), vec3f(60000.0)), counts), vec4f(sqrt(points), 1.0));
 }
