@@ -46,8 +46,7 @@ fn multiscatter(h: f32, mu: f32) -> vec3f {
 // Radiance of the sky at night, the mean over stars, dust and the air's own glow. Sunlit white ground has 1: on the Earth the sun that is 7
 // degrees under the horizon leaves as much. Eyes that are used to the dark see by a thousandth of it, 16 bits do not.
 const NIGHT_SKY: vec3f = vec3f(0.85e-5, 1.0e-5, 1.3e-5);
-// Shares of what is not drawn as stars, and of what air adds by itself and by what it scatters (Leinert et al., The 1997 reference of
-// diffuse night sky brightness).
+// Shares of what is not drawn as stars, and of what air adds by itself and by what it scatters: chosen by eye.
 const NIGHT_BACKGROUND: f32 = 0.2;
 const NIGHT_AIRGLOW: f32 = 0.7;
 
