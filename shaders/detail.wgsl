@@ -127,7 +127,7 @@ fn plane_spread_m(heights: Heights, place: DetailPlace) -> f32 {
 
 // A plane that is fitted to so few texels (about nine, by their weights) takes up a third of what they deviate from the true one.
 // Between texels that are seen apart some of it shows.
-const NEAR: f32 = 0.5;
+const NEAR: f32 = 0.58;
 const SWELL: f32 = 1.25;
 
 // Of the texels around, two to each side.
