@@ -125,10 +125,12 @@ fn plane_spread_m(heights: Heights, place: DetailPlace) -> f32 {
     return 0.5 * (abs(dot(heights.change, place.along)) + abs(dot(heights.change, place.across)));
 }
 
-// A plane that is fitted to so few texels (about nine, by their weights) takes up a third of what they deviate from the true one.
-// Between texels that are seen apart some of it shows.
-const NEAR: f32 = 0.58;
+// A plane that is fitted to so few texels (about nine, by their weights) takes up a third of the variance of what they deviate from the
+// true one.
 const SWELL: f32 = 1.25;
+// Where texels are seen apart, heights between them show a part of it already: what keeps colours of tests/colours.rs the same from level
+// to level.
+const NEAR: f32 = 0.58;
 
 // Of the texels around, two to each side.
 fn heights_around(place: DetailPlace) -> Heights {

@@ -373,8 +373,9 @@ impl Renderer {
         self.scene = scene;
         stats
     }
-    /// The radiance of the newest frame before exposure and curve, without stars: size of the picture as it was drawn, and red, green and blue of
-    /// each pixel (1: white ground at noon). Waits for the device.
+
+    /// The radiance of the newest frame before exposure and curve, without stars: size of the picture as it was drawn, and red,
+    /// green and blue of each pixel (1: white ground at noon). Waits for the device.
     pub fn radiance(
         &self,
         device: &wgpu::Device,

@@ -14,7 +14,8 @@ pub(crate) const STARS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8U
 /// Distance of the clouds.
 pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
-/// Two radiance targets (which may be read back) that passes read and write in turn, depth, and what the passes of the clouds and of the air leave behind.
+/// Two radiance targets (which may be read back) that passes read and write in turn, depth, and what the passes of the clouds and
+/// of the air leave behind.
 pub(crate) struct Targets {
     pub(crate) size_px: [u32; 2],
     pub(crate) hdr: [wgpu::TextureView; 2],
