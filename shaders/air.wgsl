@@ -21,12 +21,14 @@ fn sun_disc(dir: vec3f) -> vec3f {
     return globals.sun_irradiance.rgb * (globals.sun_irradiance.w * edge) * limb;
 }
 
-// What the star's light does within the eye or lens: a glow around the disc, as far as the disc is not hidden.
+// Glow around the star's disc: light that the lens scatters, as far as the disc is not hidden. It falls to nothing without an edge.
 fn glare(dir: vec3f) -> vec3f {
+    const REACH: f32 = 1.2;
     let sun = globals.sun_dir.xyz;
     let off = length(dir - sun);
-    let shape = 0.5 * pow(1.0 + off * off * 8000.0, -1.5) + 0.06 * pow(1.0 + off * off * 250.0, -1.5);
-    if shape < 0.0005 { return vec3f(0.0); }
+    let inside = saturate1(1.0 - off / REACH);
+    if inside <= 0.0 { return vec3f(0.0); }
+    let shape = inside * inside * (0.5 * pow(1.0 + off * off * 8000.0, -1.5) + 0.06 * pow(1.0 + off * off * 250.0, -1.5));
     // Where the star stands in the picture; nothing if it is not in it.
     let right = globals.ray_right.xyz;
     let top = globals.ray_up.xyz;
@@ -94,9 +96,20 @@ struct Seen {
 // What comes along a ray, but for stars and what the lens does.
 struct Along {
     light: vec3f,
+    // Luminance of the starlight that the air scatters
     air_only: f32,
     // Of what lies behind
     transmittance: vec3f,
+}
+
+// Brightness of the airglow before the sky, 0.4 overhead and 1.4 near the horizon: a shell near the top of the air that is brighter where the ray
+// crosses it at a slant (van Rhijn, 1921), dimmed by the air below it. Nothing of it is seen from above.
+fn airglow(dir: vec3f) -> f32 {
+    let below = 1.0 - smoothstep(0.0, globals.air.x, globals.eye_up.w);
+    let ratio = globals.eye_km.w / (globals.eye_km.w + 0.9 * globals.air.x);
+    let mu = max(dot(dir, globals.eye_up.xyz), 0.0);
+    let slant = inverseSqrt(max(1.0 - ratio * ratio * (1.0 - mu * mu), 1e-4));
+    return below * 0.45 * min(slant, 5.0) * exp(-0.12 / (mu + 0.06));
 }
 
 fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Along {
@@ -106,11 +119,11 @@ fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Al
     }
     var light = air.radiance * globals.sun_irradiance.rgb;
     // Before the sky the air glows, before the ground it scatters what reaches it.
+    let air_only = luminance(light);
     if globals.air.x > 0.0 {
-        let glow = select(1.0 - air.transmittance, vec3f(1.0 - smoothstep(0.0, globals.air.x, globals.eye_up.w)), far >= NOTHING_KM);
+        let glow = select(1.0 - air.transmittance, vec3f(airglow(dir)), far >= NOTHING_KM);
         light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
     }
-    let air_only = luminance(light);
     return Along(light + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene, air_only, air.transmittance * clouds.a);
 }
 
@@ -126,6 +139,9 @@ fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec
     // From a pixel to the next across the limb, km. Where mountains are wider than that, the limb is not the sphere's.
     let step = globals.eye_low_m.w * ahead;
     if globals.air.x <= 0.0 || ahead <= 0.0 || step < 1.5 || abs(height) > globals.air.x + 2.0 * step || (height < 0.0) != ground { return center; }
+    // Within the air the rim is as wide as the air is deep, and a ray down meets the ground long before the limb.
+    let outside = smoothstep(globals.air.x, 1.2 * globals.air.x, globals.eye_up.w);
+    if outside <= 0.0 || height < -2.0 * step { return center; }
     let outwards = lowest / length(lowest);
     // What the limb hides or shows to the next pixel inwards.
     let towards = vec2f(dot(outwards, globals.ray_right.xyz) / length(globals.ray_right.xyz), -dot(outwards, globals.ray_up.xyz) / length(globals.ray_up.xyz));
@@ -147,7 +163,7 @@ fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec
         sum.air_only += seen.air_only / f32(RAYS);
         sum.transmittance += select(seen.transmittance, vec3f(0.0), meets) / f32(RAYS);
     }
-    return sum;
+    return Along(mix(center.light, sum.light, outside), mix(center.air_only, sum.air_only, outside), mix(center.transmittance, sum.transmittance, outside));
 }
 
 @fragment
@@ -168,12 +184,13 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
         cloud_at = around.at_km;
     }
     let seen = across_limb(pixel, dir, ground, scene, clouds, cloud_at, along(dir, far, scene, clouds, cloud_at));
+    let scattered = glare(dir);
     var points = vec3f(0.0);
     // The sky counts a little seen from beneath, from outer space not at all.
     var counts = 1.0;
     if !ground {
         // Stars drown in a bright sky, and at dusk too, when exposure is long.
-        let drowned = 1.0 / (1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb));
+        let drowned = 1.0 / (1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered));
         // As wide as a pixel of the display, not of this picture: as bright at every quality.
         let shown = globals.eye_low_m.w * max(f32(globals.modes.y), 1.0);
         let spread = select(1.0, 0.5, globals.modes.y == 0u);
@@ -182,5 +199,5 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
         let sky = seen.air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
         counts = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));
     }
-    return Seen(vec4f(min(seen.light + glare(dir), vec3f(60000.0)), counts), vec4f(sqrt(points), 1.0));
+    return Seen(vec4f(min(seen.light + scattered, vec3f(60000.0)), counts), vec4f(sqrt(points), 1.0));
 }

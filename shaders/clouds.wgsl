@@ -9,6 +9,16 @@ fn lobe(cosine: f32, g: f32) -> f32 {
     return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
 }
 
+// Factor on direct light that makes a thick layer under a high star as bright as clouds are: it reflects about 0.8.
+const BRIGHTNESS: f32 = 1.8;
+
+// Way in km after `number` steps of a march that begins in the layer. The steps are the same in all directions and grow by a constant
+// ratio: steps that depend on the way to the far end are longest along the horizon and show as a line there.
+fn grown_km(number: f32) -> f32 {
+    let ratio = globals.cloud_march.z;
+    return globals.cloud_march.y * (pow(ratio, number) - 1.0) / (ratio - 1.0);
+}
+
 struct March {
     light: vec3f,
     transmittance: f32,
@@ -26,12 +36,12 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     let sun = globals.sun_dir.xyz;
     let steps = globals.cloud_march.x;
     let span = to_km - from_km;
-    // Near the eye short steps first; from afar even ones.
+    // Even steps from afar, growing ones within the layer.
     let bend = span / (span + from_km + 1e-6);
     let extinction = globals.cloud_color.w / thickness;
 
     // Light that reaches the layer here; it hardly changes along the way.
-    let middle = dir * (from_km + span * mix(0.5, 0.15, bend));
+    let middle = dir * (from_km + mix(0.5 * span, min(grown_km(0.4 * steps), span), bend));
     let up = normalize(globals.eye_km.xyz + middle);
     let sun_mu = dot(up, sun);
     let sunlight = globals.sun_irradiance.rgb * sun_transmittance(bottom + thickness * 0.7, sun_mu);
@@ -45,15 +55,18 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
     // From above one sees tops that a low star only grazes (Lommel and Seeliger's law); the march looks too coarsely at them to know.
-    let high = max(sun_mu, 0.0) + 0.06;
+    let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
     for (var i = 0.0; i < steps; i += 1.0) {
         let s0 = i / steps;
         let s1 = (i + 1.0) / steps;
         let sm = (i + jitter) / steps;
-        let t = from_km + span * mix(sm, sm * sm, bend);
-        let length_km = span * (s1 - s0) * mix(1.0, s0 + s1, bend);
+        let t0 = mix(s0 * span, min(grown_km(i), span), bend);
+        let t1 = mix(s1 * span, min(grown_km(i + 1.0), span), bend);
+        let t = from_km + mix(sm * span, min(grown_km(i + jitter), span), bend);
+        let length_km = t1 - t0;
+        if length_km <= 0.0 { break; }
         let rel = dir * t;
         let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
         let cover = cover_over(normalize(globals.eye_km.xyz + rel));
@@ -61,7 +74,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let density = cloud_density(rel, cover, height, footprint);
         if density <= 0.002 { continue; }
         // A second look towards the star shapes light and shade; from afar it looks as far as a pixel.
-        let reach = max(thickness * 0.4, footprint * 1.2);
+        let reach = max(thickness * 0.4, t * globals.eye_low_m.w * 1.2);
         let ahead_height = saturate1(height + reach * sun_mu / thickness);
         let ahead = cloud_density(rel + sun * reach, cover, ahead_height, footprint);
         let room = (1.0 - height) * thickness * to_sun;
@@ -69,8 +82,8 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         // Each further scattering sees a thinner cloud and a rounder phase (Wrenninge, Oz: The Great and Volumetric).
         let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
             + 1.5 * phases.z * exp(-0.07 * sun_depth);
-        let ambient = (sky * (0.35 + 0.65 * height) + below * (1.0 - height)) / PI;
-        let shine = globals.cloud_color.rgb * (sunlight * direct * (1.5 * grazed) + ambient * 0.8);
+        let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
+        let shine = globals.cloud_color.rgb * (sunlight * direct * (BRIGHTNESS * grazed) + ambient);
         let passed = exp(-extinction * density * length_km);
         let seen = out.transmittance * (1.0 - passed);
         out.light += seen * shine;

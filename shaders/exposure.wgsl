@@ -12,37 +12,63 @@ struct Exposure {
 // x: share of the way that is gone now
 @group(0) @binding(2) var<uniform> step: vec4f;
 
-// Luminance in stops that suits an exposure of 0, and how far the eye follows what is darker and what is brighter: at night it
-// stays darker than by day, and snow stays white.
-const NORMAL_EV: f32 = -2.6;
-const FOLLOWED_DARK: f32 = 0.78;
-// Beyond so many stops less.
-const DIM_EV: f32 = 9.0;
-const FOLLOWED_DIM: f32 = 0.73;
-const FOLLOWED_BRIGHT: f32 = 0.35;
-// Beside dark ground a bright sky keeps its colours, and the darker it is the darker it looks: most stops if its luminance were 1, and
-// more for each stop less.
+// Mean luminance that needs no correction, in stops: middle grey in sunlight.
+const NORMAL_EV: f32 = -2.5;
+// Share of a difference that exposure corrects, for means darker than normal. The first stops are those of dark and bright ground in
+// the same sunlight: forest stays dark and snow stays white. Further ones are dusk, and the last ones night.
+const DARK_GROUND_EV: f32 = 2.0;
+const FOLLOWED_DARK_GROUND: f32 = 0.4;
+const NIGHT_EV: f32 = 9.0;
+const FOLLOWED_DUSK: f32 = 0.90;
+const FOLLOWED_NIGHT: f32 = 0.73;
+// The same for brighter means.
+const FOLLOWED_BRIGHT: f32 = 0.1;
+// Highlights: share of counted pixels that are brighter, stops that they may reach after the correction, and share of what they exceed
+// it by that exposure takes back. Below it exposure closes a share of the gap: a small one, or nearly all of it where the mean is as
+// bright as snow, which must look white under a low star too.
+const HIGHLIGHTS: f32 = 0.04;
+const HIGHLIGHT_EV: f32 = -0.2;
+const FOLLOWED_HIGHLIGHT: f32 = 0.75;
+// Mean that it does not go below for their sake: the sea around a setting star.
+const DARKEST_MEAN_EV: f32 = -3.4;
+const LIFTED_HIGHLIGHT: f32 = 0.2;
+const LIFTED_SNOW: f32 = 0.9;
+// Means from ground to snow, in stops.
+const SNOW_EV: vec2f = vec2f(-2.5, -1.8);
+const WIDEST_LIFT_EV: f32 = 2.0;
+// Beside dark ground a bright sky keeps its colours: most stops of correction if the sky's luminance were 1, and more for each stop less.
 const SKY_EV: f32 = 3.8;
 const SKY_FOLLOWED: f32 = 0.49;
 const LEAST_EV: f32 = -4.0;
 const MOST_EV: f32 = 14.5;
-// What is so much darker than the brightest does not count, such as the night side beside a crescent.
+// Share of pixels that are glints and the star itself: the brightest others set the range.
+const GLINTS: f32 = 0.003;
+// Stops below them, or below sunlit white if they are brighter, that do not count: the night side beside a crescent.
 const SHADOW_EV: f32 = 7.0;
 
 fn stops(bin: u32) -> f32 { return DARKEST_EV + (f32(bin) + 0.5) / BINS_PER_EV; }
+
+// Stops of correction for a mean luminance, in stops.
+fn corrected(mean_ev: f32) -> f32 {
+    let off = NORMAL_EV - mean_ev;
+    if off < 0.0 { return off * FOLLOWED_BRIGHT; }
+    let ground = min(off, DARK_GROUND_EV);
+    let dusk = clamp(off - DARK_GROUND_EV, 0.0, NIGHT_EV - DARK_GROUND_EV);
+    return ground * FOLLOWED_DARK_GROUND + dusk * FOLLOWED_DUSK + max(off - NIGHT_EV, 0.0) * FOLLOWED_NIGHT;
+}
 
 @compute @workgroup_size(1)
 fn compute() {
     var all = 0.0;
     for (var i = 0u; i < BINS; i++) { all += f32(bins[i]); }
-    // The brightest two hundredths are glints and the star itself.
     var over = 0.0;
     var brightest = BINS - 1u;
-    while brightest > 0u && over + f32(bins[brightest]) < 0.02 * all {
+    while brightest > 0u && over + f32(bins[brightest]) < GLINTS * all {
         over += f32(bins[brightest]);
         brightest--;
     }
-    let first = u32(max(f32(brightest) - SHADOW_EV * BINS_PER_EV, 0.0));
+    let range_top = min(f32(brightest), -DARKEST_EV * BINS_PER_EV);
+    let first = u32(max(range_top - SHADOW_EV * BINS_PER_EV, 0.0));
     var counted = 0.0;
     for (var i = first; i < BINS; i++) { counted += f32(bins[i]); }
     // Mean of the stops between the tenth and the ninetieth percentile.
@@ -56,13 +82,25 @@ fn compute() {
         weight += share;
         passed += here;
     }
+    var over_highlight = 0.0;
+    var highlight = BINS - 1u;
+    while highlight > first && over_highlight + f32(bins[highlight]) < HIGHLIGHTS * counted {
+        over_highlight += f32(bins[highlight]);
+        highlight--;
+    }
     var ev = 0.0;
     if weight > 0.0 {
         let mean = sum / weight;
-        let off = NORMAL_EV - mean;
-        let darker = min(off, DIM_EV) * FOLLOWED_DARK + max(off - DIM_EV, 0.0) * FOLLOWED_DIM;
+        ev = corrected(mean);
+        let above = stops(highlight) + ev - HIGHLIGHT_EV;
+        if above > 0.0 {
+            ev = max(ev - FOLLOWED_HIGHLIGHT * above, min(ev, DARKEST_MEAN_EV - mean));
+        } else {
+            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, smoothstep(SNOW_EV.x, SNOW_EV.y, mean));
+            ev += share * min(-above, WIDEST_LIFT_EV);
+        }
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
-        ev = clamp(select(darker, off * FOLLOWED_BRIGHT, off < 0.0), LEAST_EV, most);
+        ev = clamp(ev, LEAST_EV, most);
     }
     exposure.ev = mix(exposure.ev, ev, step.x);
     exposure.factor = exp2(exposure.ev);

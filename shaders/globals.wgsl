@@ -43,7 +43,7 @@ struct Globals {
     clouds: vec4f,
     // Bands of the noise that shapes clouds, widest first; xyz: place of the eye, in periods; w: period in km
     cloud_bands: array<vec4f, 6>,
-    // x: steps of a march
+    // x: steps of a march; y: first step in km and z: growth from step to step of a march that begins in the layer
     cloud_march: vec4f,
     // x, y: cosine and sine of the drift about the pole; z: weather cells along the radius; w: curl
     cloud_turn: vec4f,
@@ -68,6 +68,8 @@ struct Globals {
     table: vec4f,
     // Row of the biome table (0 to 1): x + y times the temperature in °C + z times the height over the sea; w: moisture by metre
     climate: vec4f,
+    // rgb: white balance of the camera, gains on radiance
+    white: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;

@@ -2,6 +2,16 @@
 #include "cloud_model.wgsl"
 #include "mottle.wgsl"
 
+// Heights of three sets of wave groups, some hundred metres wide; the mean of their squares is 1. `footprint_m`: width of a pixel there.
+fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
+    let octave = globals.mottle[2];
+    let lod = max(log2(footprint_m * 64.0 / octave.w), 0.0);
+    let at = octave.xyz + rel_m / octave.w;
+    let first = textureSampleLevel(noise_tile, repeated, at.zxy * 4.0, lod + 2.0).rg;
+    let second = textureSampleLevel(noise_tile, repeated, at.yzx * 4.0, lod + 2.0).r;
+    return saturate(vec3f(first, second) * 3.0 - 1.0) * 1.5;
+}
+
 struct Waves {
     normal: vec3f,
     // Variance of the slope of all waves too small to be seen
@@ -10,25 +20,33 @@ struct Waves {
 
 // Sum of plane waves in the planet frame. A wave shorter than a few pixels fades into roughness (Bruneton, Neyret,
 // Holzschuch, Real-time Realistic Ocean Lighting, 2010), so that the mean stays and nothing shimmers.
-// `broad`: slow noise that makes crests wander.
-fn waves_at(rel_m: vec3f, up: vec3f, footprint_m: f32, broad: f32) -> Waves {
+// `step_x`, `step_y`: from pixel to pixel along the sea, metres. `broad`: slow noise that makes crests wander. It must change little
+// over a wavelength, or crests follow the contours of the noise like the grain of wood.
+fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -> Waves {
     let total = globals.water_color.w;
     var slope = vec3f(0.0);
     var seen = 0.0;
-    if footprint_m < 20.0 {
+    if min(length(step_x), length(step_y)) < 20.0 {
         // Three quarters of the variance are in waves long enough to be drawn.
         // Each wave bends the next one's crests, or they would cross in a pattern.
         var twist = broad * 16.0;
+        // Its gradient: bent crests lie closer together here and there, and fade where they do.
+        var twist_k = vec3f(0.0);
         let each = 0.75 * total / 16.0;
+        // Waves come in groups: one long wave alone would be a grid of straight lines.
+        let groups = wave_groups(rel_m, min(length(step_x), length(step_y)));
         for (var i = 0u; i < 16u; i++) {
             let wave = globals.waves[i];
             let along = wave.xyz - up * dot(wave.xyz, up);
             let k = length(along);
-            let weight = 1.0 - smoothstep(0.12, 0.4, k * footprint_m / (2.0 * PI));
-            if weight <= 0.0 { continue; }
             let phase = dot(wave.xyz, rel_m) + wave.w + twist;
-            twist = 1.3 * sin(phase) + 0.4 * twist;
-            slope += along / max(k, 1e-6) * (sqrt(2.0 * each) * weight * cos(phase));
+            let bent_k = along + twist_k;
+            let cycles = max(max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y))), max(abs(dot(along, step_x)), abs(dot(along, step_y)))) / (2.0 * PI);
+            twist = 0.9 * sin(phase) + 0.4 * twist;
+            twist_k = 0.9 * cos(phase) * bent_k + 0.4 * twist_k;
+            let weight = 1.0 - smoothstep(0.08, 0.28, cycles);
+            if weight <= 0.0 { continue; }
+            slope += along / max(k, 1e-6) * (sqrt(2.0 * each) * weight * groups[i % 3u] * cos(phase));
             seen += each * weight * weight;
         }
     }

@@ -2,7 +2,8 @@
 // bright when the picture is larger or smaller.
 #include "math.wgsl"
 
-fn star_layer(dir: vec3f, cells: f32, seed: u32, pixel_rad: f32) -> vec3f {
+// `share`: of the cells that have a star.
+fn star_layer(dir: vec3f, cells: f32, seed: u32, share: f32, pixel_rad: f32) -> vec3f {
     let a = abs(dir);
     var axis = 0u;
     var p = vec3f(dir.y, dir.z, dir.x);
@@ -16,16 +17,61 @@ fn star_layer(dir: vec3f, cells: f32, seed: u32, pixel_rad: f32) -> vec3f {
     let more = unit_from_hash(hash3(bits));
     // Few bright, many faint.
     let magnitude = pow(more.x, 7.0);
-    if more.y > 0.3 { return vec3f(0.0); }
+    if more.y > share { return vec3f(0.0); }
     let place = cell + 0.2 + 0.6 * r.xy;
     let away = (x - place) * (2.0 / cells) / max(pixel_rad, 0.0006);
     let spot = exp(-dot(away, away) * 1.6);
     let tint = mix(vec3f(1.0, 0.82, 0.66), vec3f(0.72, 0.83, 1.0), r.z);
     // A pixel that is wider than a star dims it, or a small picture would be full of blots.
     let dim = clamp(0.0009 / pixel_rad, 0.25, 1.0);
-    return tint * (spot * dim * (0.014 + 0.8 * magnitude));
+    return tint * (spot * dim * (0.07 + 2.0 * magnitude));
 }
 
+// Value noise, 0 to 1.
+fn sky_noise(p: vec3f) -> f32 {
+    let cell = vec3i(floor(p));
+    let f = p - floor(p);
+    let u = f * f * (3.0 - 2.0 * f);
+    var sum = 0.0;
+    for (var i = 0; i < 8; i++) {
+        let corner = vec3i(i & 1, (i >> 1u) & 1, i >> 2u);
+        let share = mix(1.0 - u, u, vec3f(corner));
+        sum += share.x * share.y * share.z * unit_from_hash(hash3(bitcast<vec3u>(cell + corner))).x;
+    }
+    return sum;
+}
+
+// Pole of the galaxy, and the direction of its core, at right angles to it.
+const GALAXY_POLE: vec3f = vec3f(0.48, -0.6, 0.64);
+const GALAXY_CORE: vec3f = vec3f(0.8, 0.6, -0.0375);
+
+// How near a direction is to the plane of the galaxy: 1 in it.
+fn galaxy_band(dir: vec3f) -> f32 {
+    let away = dot(dir, GALAXY_POLE) / 0.2;
+    return exp(-away * away);
+}
+
+// Glow of the stars too faint to be told apart, in clouds, with dark dust along the plane.
+fn galaxy_glow(dir: vec3f, band: f32) -> vec3f {
+    if band < 0.02 { return vec3f(0.0); }
+    var clouds = 0.0;
+    var share = 0.5;
+    var p = dir * 5.0 + 31.0;
+    for (var i = 0; i < 4; i++) {
+        clouds += share * sky_noise(p);
+        share *= 0.5;
+        p = p.yzx * 2.3 + 7.0;
+    }
+    let core = saturate1(0.5 + 0.5 * dot(dir, GALAXY_CORE));
+    let lane = dot(dir, GALAXY_POLE) + 0.12 * (clouds - 0.5);
+    let dust = 1.0 - 0.75 * exp(-lane * lane * 900.0) * smoothstep(0.3, 0.6, clouds);
+    let light = band * (0.25 + 0.75 * core * core) * smoothstep(0.25, 0.75, clouds) * dust;
+    return mix(vec3f(0.75, 0.85, 1.0), vec3f(1.0, 0.88, 0.7), core * band) * (0.05 * light);
+}
+
+// Twice as many stars in the plane of the galaxy as away from it.
 fn stars(dir: vec3f, pixel_rad: f32) -> vec3f {
-    return star_layer(dir, 60.0, 1u, pixel_rad) + 0.6 * star_layer(dir.yzx, 130.0, 2u, pixel_rad);
+    let band = galaxy_band(dir);
+    let share = mix(0.2, 0.45, band);
+    return star_layer(dir, 60.0, 1u, share, pixel_rad) + 0.6 * star_layer(dir.yzx, 130.0, 2u, share, pixel_rad) + galaxy_glow(dir, band);
 }

@@ -1,4 +1,5 @@
 // The ground: tiles, coloured by climate, lit by star and sky; and the debug views of it.
+#include "screen.wgsl"
 #include "cloud_model.wgsl"
 #include "material.wgsl"
 #include "highlight.wgsl"
@@ -158,18 +159,6 @@ fn climate_at(in: Ground, height_m: f32) -> Climate {
     return Climate(temperature_c, saturate1(in.level_climate.x + above_m * globals.climate.w), saturate1(row));
 }
 
-// From a pixel to the next one to the right or below along the ground, metres: by the vertices' normals, which bend from triangle to
-// triangle without a step. What follows the triangles themselves shows them as stripes where one looks along them.
-fn pixel_step(in: Ground, half_picture: vec4f) -> vec3f {
-    let away_m = dot(in.rel_m, globals.ray_forward.xyz);
-    let across = half_picture.xyz * (2.0 / half_picture.w);
-    let ray = in.rel_m / away_m;
-    let n = normalize(in.normal);
-    // Seen from behind, or nearly, a normal says no more than that.
-    let towards = max(-dot(ray, n), 0.02 * length(ray));
-    return away_m * (across + ray * (dot(across, n) / towards));
-}
-
 // Tilts a normal by the small bumps of the ground.
 fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
     let tangent = normalize(cross(n, select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), abs(n.z) > 0.7)));
@@ -206,12 +195,21 @@ fn seabed(ground: Material, site: Site) -> Material {
 // Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model).
 // To be multiplied with the cosine to the light: that of a tilt which is part of the roughness, too. Counted twice, patterns would make
 // ground brighter from near than from far away, where they are too fine to be seen.
-fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, roughness: f32) -> f32 {
+// `tilted_l`: that cosine. It bounds the retroreflection: ground that is seen along itself under a low star would shine without limit.
+fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, tilted_l: f32, roughness: f32) -> f32 {
     let sigma = roughness * 0.6;
     let s = l_v - n_l * n_v;
-    let t = select(1.0, max(max(n_l, n_v), 1e-3), s > 0.0);
+    let t = select(1.0, max(max(n_l, n_v), max(tilted_l, 1e-3)), s > 0.0);
     let a = 1.0 / (PI + (PI / 2.0 - 2.0 / 3.0) * sigma);
     return a + sigma * a * s / t;
+}
+
+// Cosine to the light of ground whose bumps are finer than those that are drawn: some facets of a slope that just turns away still
+// see the light, and some of one that just sees it do not. A clamp at zero would leave black blots under a low star.
+fn lit_cosine(n_l: f32) -> f32 {
+    const SOFT: f32 = 0.12;
+    let grazing = max(n_l + SOFT, 0.0);
+    return select(n_l, grazing * grazing / (4.0 * SOFT), n_l < SOFT);
 }
 
 // What a surface mirrors of the star's light (x) and, on the whole, of the sky's (y): GGX with the visibility of Hammon (PBR Diffuse
@@ -325,8 +323,10 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(globals.eye_km.xyz + rel_km);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    let rel_x = pixel_step(on_mesh, globals.ray_right);
-    let rel_y = pixel_step(on_mesh, -globals.ray_up);
+    // The vertices' normals bend from triangle to triangle without a step; the triangles themselves would show as stripes.
+    let mesh_normal = normalize(on_mesh.normal);
+    let rel_x = pixel_step(on_mesh.rel_m, mesh_normal, globals.ray_right);
+    let rel_y = pixel_step(on_mesh.rel_m, mesh_normal, -globals.ray_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let at = vec3f(on_mesh.place.zw * (DETAIL_SIDE - 1.0), on_mesh.height_m);
     // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
@@ -356,8 +356,10 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let tilt = ground.slope - n * dot(n, ground.slope);
     let area = sqrt(1.0 + dot(tilt, tilt));
     let sun = globals.sun_dir.xyz;
-    let rough = rough_diffuse(max(dot(n, sun), 0.0), max(dot(n, v), 0.0), dot(sun, v), ground.roughness);
-    n = (n - tilt) / area;
+    let tilted = (n - tilt) / area;
+    let tilted_l = lit_cosine(dot(tilted, sun));
+    let rough = rough_diffuse(max(dot(n, sun), 0.0), max(dot(n, v), 0.0), dot(sun, v), tilted_l, ground.roughness);
+    n = tilted;
 
     let sun_mu = dot(up, sun);
     let h = max(in.height_m * 0.001, 0.0);
@@ -365,12 +367,14 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     var shadow = 1.0;
     if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
     let sky_share = overcast(shadow);
+    // Slopes that face a shadowed one lie in the sun as often as not.
+    let around = shadow * mix(1.0, from_ground.star, 0.5);
     shadow *= from_ground.star;
-    let diffuse = max(dot(n, sun), 0.0) * rough;
+    let diffuse = tilted_l * rough;
     let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
     let open = saturate1(0.5 + 0.5 * dot(n, up) * area) * from_ground.sky;
     // What the ground around sends back to a slope that does not see the whole sky.
-    let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
+    let bounce = (sky + sunlight * max(sun_mu, 0.0) * around) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
     let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;

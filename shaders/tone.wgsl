@@ -2,7 +2,6 @@
 // each is told of.
 #include "math.wgsl"
 
-const AGX_LIFT: f32 = 1.45;
 const AGX_IN: mat3x3f = mat3x3f(
     vec3f(0.842479062253094, 0.0423282422610123, 0.0423756549057051),
     vec3f(0.0784335999999992, 0.878468636469772, 0.0784336),
@@ -14,16 +13,27 @@ const AGX_OUT: mat3x3f = mat3x3f(
     vec3f(-0.0990297440797205, -0.0989611768448433, 1.15107367264116)
 );
 
-// A look over it, as its makers have several: between their plain one and their punchy one.
-const AGX_CONTRAST: f32 = 1.15;
-const AGX_SATURATION: f32 = 1.3;
+// The curve of each channel over stops about AGX_PIVOT: a line of slope AGX_SLOPE in the middle that bends towards black and white.
+const AGX_PIVOT: f32 = 0.2;
+const AGX_PIVOT_CODE: f32 = 0.5;
+const AGX_SLOPE: f32 = 0.26;
+// Of the toe at 24 stops below the pivot.
+const AGX_BLACK: f32 = 0.007;
+const AGX_TOE: f32 = 1.5;
+const AGX_SHOULDER: f32 = 6.0;
+// Factor on the difference from grey.
+const AGX_SATURATION: f32 = 0.92;
+
+// From 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
+fn bend(x: vec3f, power: f32) -> vec3f { return x / pow(1.0 + pow(x, vec3f(power)), vec3f(1.0 / power)); }
 
 fn agx(radiance: vec3f) -> vec3f {
-    let mixed = AGX_IN * max(radiance * AGX_LIFT, vec3f(0.0));
-    let x = saturate((log2(max(mixed, vec3f(1e-10))) + 12.47393) / 16.5);
-    let curve = (((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191) * x - 0.00232;
-    // The curve ends a little below black.
-    let film = pow(max(curve, vec3f(0.0)), vec3f(AGX_CONTRAST));
+    let mixed = AGX_IN * max(radiance, vec3f(0.0));
+    let rise = AGX_SLOPE * log2(max(mixed, vec3f(1e-10)) / AGX_PIVOT);
+    let dark = AGX_PIVOT_CODE * (1.0 - bend(max(-rise, vec3f(0.0)) / AGX_PIVOT_CODE, AGX_TOE));
+    let light = (1.0 - AGX_PIVOT_CODE) * bend(max(rise, vec3f(0.0)) / (1.0 - AGX_PIVOT_CODE), AGX_SHOULDER);
+    // The toe never ends: black is where 16 bits end.
+    let film = max(dark + light - AGX_BLACK, vec3f(0.0));
     let grey = dot(film, vec3f(0.2126, 0.7152, 0.0722));
     let code = saturate(AGX_OUT * (grey + AGX_SATURATION * (film - grey)));
     return pow(code, vec3f(2.2));

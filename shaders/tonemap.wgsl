@@ -1,4 +1,4 @@
-// From radiance to what a display shows, linear: exposure and a curve (tone.wgsl), pixel by pixel of the scene. Alpha: how bright it
+// From radiance to what a display shows, linear: white balance, exposure and a curve (tone.wgsl), pixel by pixel of the scene. Alpha: how bright it
 // looks, about even steps for the eye, by which edges are found (antialias.wgsl).
 #include "screen.wgsl"
 #include "tone.wgsl"
@@ -14,6 +14,6 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let radiance = textureLoad(hdr, vec2i(position.xy), 0).rgb;
     if globals.modes.x != 0u { return vec4f(saturate(radiance), 1.0); }
     let points = textureLoad(stars, vec2i(position.xy), 0).rgb;
-    let shown = toned((radiance * metered.x + points * points) * globals.misc.w, globals.modes.w);
+    let shown = toned((radiance * globals.white.rgb * metered.x + points * points) * globals.misc.w, globals.modes.w);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));
 }

@@ -16,7 +16,7 @@ use tellus::build::build_now;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::{Domain, ValueMut};
 use tellus::planet::{Atmosphere, Fbm, Layer, Planet, STARTING_AIRS, Shape};
-use tellus::render::{Frame, Metering, Tone};
+use tellus::render::{Frame, Metering, Tone, white_balance};
 use tellus::sphere::LatLon;
 
 const SIZE_PX: [u32; 2] = [160, 100];
@@ -233,7 +233,7 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
     let camera = camera(&planet, 5.0, 10.0, 2.0, 90.0, 5.0);
     let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
     let surface = surface_of(&planet, &view);
-    let mut compared = 0;
+    let (white, mut compared) = (white_balance(&planet), 0);
     gpu.renderer.smooth_edges = false;
     for tone in Tone::ALL {
         gpu.renderer.tone = tone;
@@ -242,7 +242,7 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
             let drawn = gpu.draw(&Frame { exposure_ev, ..frame_of(&surface, &planet, view, sun) });
             let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
             for (pixel, shown) in pixels.iter().zip(drawn.chunks(4)) {
-                let wanted = tone.shown(pixel.map(|c| f64::from(c) * exposure_ev.exp2()));
+                let wanted = tone.shown([0, 1, 2].map(|k| f64::from(pixel[k]) * white[k] * exposure_ev.exp2()));
                 for k in 0..3 {
                     let c = wanted[k];
                     let encoded = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
@@ -255,4 +255,95 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
         }
     }
     assert!(compared > 100_000);
+}
+
+/// Luminance of each row of the newest frame's radiance: the mean over the row's middle third.
+fn row_luminance(gpu: &Gpu) -> Vec<f64> {
+    let ([width, _], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let third = width as usize / 3;
+    let light = |p: &[f32; 3]| 0.2126 * f64::from(p[0]) + 0.7152 * f64::from(p[1]) + 0.0722 * f64::from(p[2]);
+    let rows = pixels.chunks(width as usize);
+    rows.map(|row| row[third..2 * third].iter().map(light).sum::<f64>() / third as f64).collect()
+}
+
+/// Below the horizon the ground of a smooth planet brightens or darkens steadily: no row is the sky's.
+#[test]
+fn no_band_of_sky_lies_across_the_ground() {
+    let mut gpu = gpu();
+    let (_, mut planet) = planets()[0].clone();
+    // A plateau: ground that is not the reference sphere.
+    (planet.layers[0].amplitude_m, planet.layers[0].curve) = (1200.0, vec![[-1.0, 1.0], [1.0, 1.0]]);
+    for biome in &mut planet.biomes.palette {
+        (biome.variation, biome.detail_strength) = (0.0, 0.0);
+    }
+    let planet = Arc::new(planet);
+    for quality in Quality::ALL {
+        for altitude_m in [2.0, 100.0, 900.0, 10e3, 60e3, 110e3, 130e3, 400e3, 3e6] {
+            let radius_m = planet.radius_m();
+            let dip_rad = ((radius_m + 1200.0) / (radius_m + 1200.0 + altitude_m)).acos();
+            // The horizon lies in the upper half of the picture.
+            let camera = camera(&planet, 5.0, 10.0, altitude_m, 45.0, -dip_rad.to_degrees() - 12.0);
+            let view = View { camera, size_px: [90, 240], quality };
+            let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+            gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(10.0, 40.0).direction()));
+            let rows = row_luminance(&gpu);
+            let elevation = |row: usize| {
+                let y = 1.0 - (row as f64 + 0.5) / rows.len() as f64 * 2.0;
+                let dir = camera.ray_dir_planet(0.0, y, view.aspect());
+                dir.dot(camera.position_planet_m.normalize()).asin()
+            };
+            // The limb itself lies between two rows.
+            let first = (0..rows.len()).find(|&row| elevation(row) < -dip_rad).unwrap() + 4;
+            for (i, three) in rows[first..].windows(3).enumerate() {
+                let kink = (three[0] - 2.0 * three[1] + three[2]).abs() / three[1];
+                assert!(kink < 0.25, "{quality:?} from {altitude_m} m: {three:?} at row {}", first + i);
+            }
+        }
+    }
+}
+
+/// From the middle of the star outwards the glare falls steadily, however long the exposure.
+#[test]
+fn the_glare_of_the_star_has_no_edge() {
+    let mut gpu = gpu();
+    let planet = Arc::new(Planet { atmosphere: None, ..under(Atmosphere::default(), 6360.0, [0.2; 3]) });
+    let camera = camera(&planet, 5.0, 10.0, 1e7, 90.0, 30.0);
+    let view = View { camera, size_px: [240, 24], quality: Quality::Medium };
+    let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+    // The star stands at the left edge of the middle row.
+    let sun = camera.ray_dir_planet(-0.97, 0.0, view.aspect());
+    gpu.draw(&frame_of(&surface, &planet, view, sun));
+    let ([width, _], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let row: Vec<f64> = pixels[12 * width as usize..][..width as usize].iter().map(|p| f64::from(p[1])).collect();
+    let first = row.iter().rposition(|light| *light > 0.02).unwrap();
+    let after: Vec<f64> = row[first..].iter().copied().take_while(|light| *light > 1e-4).collect();
+    assert!(after.len() > 50, "{row:?}");
+    for (i, pair) in row[first..=first + after.len().min(row.len() - first - 1)].windows(2).enumerate() {
+        assert!(pair[1] < pair[0] && pair[1] > 0.8 * pair[0], "{pair:?} at {i}");
+    }
+}
+
+/// Under a clear sky at night stars stand out, and the sky is brighter near the horizon than overhead.
+#[test]
+fn the_night_sky_has_stars_and_is_not_flat() {
+    let mut gpu = gpu();
+    gpu.renderer.metering = Metering::Instant;
+    let (_, planet) = planets()[0].clone();
+    let planet = Arc::new(planet);
+    let camera = camera(&planet, 5.0, 10.0, 2.0, 90.0, 30.0);
+    let view = View { camera, size_px: [320, 200], quality: Quality::Medium };
+    let surface = surface_of(&planet, &view);
+    let drawn = gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(5.0, 190.0).direction()));
+    let luma = |p: &[u8]| (u32::from(p[0]) + 2 * u32::from(p[1]) + u32::from(p[2])) / 4;
+    let sky: Vec<u32> = drawn.chunks(4).take(320 * 150).map(luma).collect();
+    let median = |of: &[u32]| {
+        let mut all = of.to_vec();
+        all.sort_unstable();
+        all[all.len() / 2]
+    };
+    let background = median(&sky);
+    let stars = sky.iter().filter(|light| **light > background + 25).count();
+    assert!((80..6000).contains(&stars), "{stars} pixels of stars over a sky of {background}");
+    let rows = row_luminance(&gpu);
+    assert!(rows[130] > 1.3 * rows[10], "near the horizon {}, overhead {}", rows[130], rows[10]);
 }

@@ -46,7 +46,7 @@ fn wrong_usage_is_status_2_and_says_what_would_be_right() {
         (vec!["render", AUREL, "-o", "x.png", "--sun", "5"], "write LAT,LON such as 20,-45"),
         (vec!["render", AUREL, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),
         (vec!["render", AUREL, "-o", "x.png", "--quality", "best"], "possible values: low, medium, high"),
-        (vec!["render", AUREL, "-o", "x.png", "--altitude", "-5"], "-5 is out of range; use 0.1 to"),
+        (vec!["render", AUREL, "-o", "x.png", "--altitude", "0"], "0 is on the surface; use 0.1 or more"),
         (vec!["check"], "<FILE.ron>"),
         (vec!["sample", AUREL, "--lat", "1"], "--lon <DEG>"),
         (vec!["new", "-o", "x.ron", "--seed", "x"], "invalid digit"),

@@ -13,7 +13,7 @@ use support::{Gpu, camera_over, frame_of, inside_disc, lights, surface_of};
 use tellus::lod::opening::{default_pitch_deg, opening_place, opening_view};
 use tellus::lod::{Quality, View};
 use tellus::planet::{Planet, shipped};
-use tellus::render::DebugView;
+use tellus::render::{DebugView, Metering};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
@@ -105,4 +105,95 @@ fn every_planet_looks_as_it_did() {
         }
     }
     assert!(problems.is_empty(), "on {}:\n{}", gpu.adapter, problems.join("\n"));
+}
+
+/// Sunlit clouds and snow are white, and the open sea is dark, as the editor opens these planets.
+#[test]
+fn white_is_white_and_the_open_sea_is_dark() {
+    let mut gpu = Gpu::new();
+    gpu.renderer.metering = Metering::Instant;
+    // Least of the brightest pixels, and most of the sea's.
+    let bars: [(&str, u8, [u8; 3]); 3] =
+        [("aurel.ron", 235, [30, 48, 86]), ("maren.ron", 235, [32, 60, 106]), ("hoarfrost.ron", 222, [30, 50, 90])];
+    for (file, whitest, darkest) in bars {
+        let planet = Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap());
+        let view = opening_view(&planet, [320, 240], Quality::Medium);
+        let surface = surface_of(&planet, &view);
+        let star = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg);
+        let frame = frame_of(&surface, &planet, view, star.direction());
+        let drawn = gpu.draw(&frame);
+        let disc = inside_disc(&frame, -0.1 * planet.radius_m());
+        let mut pixels: Vec<[u8; 3]> =
+            drawn.chunks(4).zip(disc).filter(|(_, inside)| *inside).map(|(p, _)| [p[0], p[1], p[2]]).collect();
+        pixels.sort_by_key(|p| p.iter().map(|c| u32::from(*c)).sum::<u32>());
+        let white = pixels[pixels.len() * 985 / 1000];
+        assert!(white.iter().all(|c| *c >= whitest), "{file}: the brightest pixels are {white:?}");
+        let spread = white.iter().max().unwrap() - white.iter().min().unwrap();
+        assert!(spread <= 10, "{file}: white has a tint: {white:?}");
+        // Blue, and not the twilight at the terminator.
+        let sea: Vec<_> = pixels.iter().filter(|p| u32::from(p[2]) > 2 * u32::from(p[0]) && p[2] > 40).collect();
+        let sea = sea[sea.len() / 2];
+        assert!(sea.iter().zip(darkest).all(|(c, most)| *c <= most), "{file}: the sea is {sea:?}");
+    }
+}
+
+/// Directions spread evenly over the sphere.
+fn spread(count: usize) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |i| {
+        let z = 1.0 - 2.0 * (i as f64 + 0.5) / count as f64;
+        let (y, x) = (i as f64 * 2.399_963).sin_cos();
+        let flat = (1.0 - z * z).sqrt();
+        DVec3::new(x * flat, y * flat, z)
+    })
+}
+
+fn shipped_terrain(file: &str) -> Terrain {
+    Terrain::new(Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap()))
+}
+
+/// What single layers add there, metres.
+fn layer_m(terrain: &Terrain, dir: DVec3, name: &str) -> f64 {
+    let at = terrain.planet().layers.iter().position(|layer| layer.name == name).unwrap();
+    terrain.sample(dir).layers_m[at]
+}
+
+/// Cinnabar's black sand lies in dry basins, not in rings round volcanoes; Pallor's dark basalt fills its maria, not its craters.
+#[test]
+fn dark_ground_lies_where_the_land_says_so() {
+    let terrain = shipped_terrain("cinnabar.ron");
+    let black = terrain.planet().biomes.palette.iter().position(|biome| biome.name == "Black sand").unwrap();
+    let on_volcanoes = spread(6000)
+        .filter(|dir| layer_m(&terrain, *dir, "Shield volcanoes") > 1500.0)
+        .filter(|dir| terrain.sample(*dir).biome == black)
+        .count();
+    assert!(on_volcanoes <= 3, "{on_volcanoes}");
+    let terrain = shipped_terrain("pallor.ron");
+    let basalt = terrain.planet().biomes.palette.iter().position(|biome| biome.name == "Dark basalt").unwrap();
+    let floors: Vec<DVec3> = spread(6000)
+        .filter(|dir| layer_m(&terrain, *dir, "Great craters") < -1200.0 && layer_m(&terrain, *dir, "Maria") > -300.0)
+        .collect();
+    let dark = floors.iter().filter(|dir| terrain.sample(**dir).biome == basalt).count();
+    assert!(floors.len() > 50 && dark * 8 < floors.len(), "{dark} of {}", floors.len());
+}
+
+/// In their own belts dunes are as high as dunes are.
+#[test]
+fn dunes_stand_in_their_belts() {
+    for (file, least_m) in [("aurel.ron", 75.0), ("cinnabar.ron", 110.0)] {
+        let terrain = shipped_terrain(file);
+        // The tallest stretches of 2 km among many.
+        let mut rises: Vec<f64> = spread(1500)
+            .map(|dir| {
+                let east = DVec3::Z.cross(dir).normalize_or(DVec3::X);
+                let step = 100.0 / terrain.planet().radius_m();
+                let heights: Vec<f64> =
+                    (0..20).map(|i| layer_m(&terrain, dir + east * step * f64::from(i), "Dunes")).collect();
+                let most = heights.iter().copied().fold(f64::MIN, f64::max);
+                most - heights.iter().copied().fold(f64::MAX, f64::min)
+            })
+            .collect();
+        rises.sort_by(f64::total_cmp);
+        let tall = rises[rises.len() - 4];
+        assert!(tall > least_m, "{file}: {tall} m");
+    }
 }

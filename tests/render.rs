@@ -261,3 +261,97 @@ fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
     assert_eq!(gpu.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
     assert_eq!(ahead, Gpu::new().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));
 }
+
+/// Red, green and blue of the brightest pixels of a picture but for a share of them.
+fn brightest(picture: &[u8], inside: &[bool], share: f64) -> [u8; 3] {
+    let mut pixels: Vec<[u8; 3]> =
+        picture.chunks(4).zip(inside).filter(|(_, inside)| **inside).map(|(p, _)| [p[0], p[1], p[2]]).collect();
+    pixels.sort_by_key(|p| u32::from(p[0]) + u32::from(p[1]) + u32::from(p[2]));
+    pixels[((1.0 - share) * pixels.len() as f64) as usize - 1]
+}
+
+/// A thin crescent is metered for what is lit: neither blown out nor dim.
+#[test]
+fn a_thin_crescent_keeps_its_colours() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let mut gpu = Gpu::new();
+    gpu.renderer.metering = Metering::Instant;
+    let camera = camera(&planet, 10.0, 30.0, 12e6, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (10.0, 185.0));
+    let picture = gpu.draw(&frame);
+    let disc = inside_disc(&frame, -20_000.0);
+    let [top, lit] = [0.001, 0.01].map(|share| brightest(&picture, &disc, share));
+    assert!(top.iter().all(|c| *c < 250), "blown out: {top:?}");
+    assert!(lit.iter().any(|c| *c > 40), "too dim: {lit:?}");
+}
+
+/// Rough ground under a low star behind the camera: no pixel outshines all others.
+#[test]
+fn no_fireflies_on_rough_ground_under_a_low_star() {
+    let planet = Arc::new(tellus::planet::shipped::ALL[2].load().expect("Cinnabar"));
+    assert_eq!(planet.name, "Cinnabar");
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 13.0, 114.0, 2.0, 60.0, -3.0);
+    let view = View { camera, size_px: [480, 300], quality: Quality::Medium };
+    let surface = support::surface_of(&planet, &view);
+    let sun = tellus::sphere::LatLon::from_degrees(10.0, 37.0).direction();
+    gpu.draw_only(&support::frame_of(&surface, &planet, view, sun), 1);
+    let ([width, height], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+    let ground = &pixels[(width * height * 55 / 100) as usize..];
+    let mut light: Vec<f32> = ground.iter().map(|p| p[0] + p[1] + p[2]).collect();
+    light.sort_by(f32::total_cmp);
+    let [most, usual] = [light[light.len() - 1], light[light.len() * 98 / 100]];
+    assert!(most < 3.0 * usual, "{most} beside {usual}");
+}
+
+/// Inside a closed layer of clouds the light changes steadily from row to row: the horizon is no line.
+#[test]
+fn the_horizon_is_no_line_inside_clouds() {
+    let clouds = Clouds { coverage: 1.0, density: 12.0, altitude_km: 4.5, thickness_km: 3.0, ..Clouds::default() };
+    let planet = Arc::new(Planet { clouds: Some(clouds), layers: Vec::new(), ..earth() });
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 5.0, -5.0, 5000.0, 90.0, -2.0);
+    let surface = surface(&planet, &camera);
+    let view = View { camera, size_px: [64, 360], quality: Quality::Medium };
+    gpu.draw_only(&Frame { view, ..frame(&surface, &planet, camera, (5.0, 50.0)) }, 1);
+    let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+    let rows: Vec<f32> = pixels.chunks(64).map(|row| row.iter().map(|p| p[1]).sum::<f32>() / 64.0).collect();
+    // A line differs from what lies ten rows above and below it.
+    for (i, at) in rows.windows(21).enumerate() {
+        let line = (at[10] - 0.5 * (at[0] + at[20])).abs() / at[10];
+        assert!(line < 0.012, "row {}: {line}", i + 10);
+    }
+}
+
+/// The sea from 1 km: what is drawn is the mean of sixteen samples a pixel, but for little.
+#[test]
+fn waves_make_no_moire() {
+    // Deep water: no foam.
+    let water = tellus::planet::Water { level_m: 2000.0, ..tellus::planet::Water::default() };
+    let planet = Arc::new(Planet { clouds: None, layers: Vec::new(), water: Some(water), ..earth() });
+    let mut gpu = Gpu::new();
+    gpu.renderer.smooth_edges = false;
+    let camera = camera(&planet, 15.0, 38.4, 1000.0, 60.0, -10.0);
+    let surface = surface(&planet, &camera);
+    let mut radiance = |size_px: [u32; 2]| {
+        let view = View { camera, size_px, quality: Quality::Medium };
+        gpu.draw_only(&Frame { view, ..frame(&surface, &planet, camera, (15.0, 85.0)) }, 1);
+        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+        // As bright as the eye has it: glints do not decide.
+        pixels.iter().map(|p| p[1].min(1.0).sqrt()).collect::<Vec<_>>()
+    };
+    let (width, height) = (160, 100);
+    let coarse = radiance([width as u32, height as u32]);
+    let fine = radiance([4 * width as u32, 4 * height as u32]);
+    let (mut error, mut count) = (0.0, 0.0);
+    for y in height / 2..height {
+        for x in 0..width {
+            let mean = (0..16).map(|i| fine[(4 * y + i / 4) * 4 * width + 4 * x + i % 4]).sum::<f32>() / 16.0;
+            error += (coarse[y * width + x] - mean).powi(2);
+            count += 1.0;
+        }
+    }
+    let error = (error / count).sqrt();
+    assert!(error < 0.0105, "{error}");
+}

@@ -32,8 +32,14 @@ pub(super) fn opening_angle(text: &str) -> Result<f64, String> {
     number(text, 1.0, 150.0)
 }
 
+/// Metres above the ground or the sea; below zero it is a depth under the sea.
 pub(super) fn altitude(text: &str) -> Result<f64, String> {
-    number(text, 0.1, 1e12)
+    match number(text, -1e5, 1e12) {
+        Ok(altitude_m) if altitude_m.abs() < 0.1 => {
+            Err(format!("{altitude_m} is on the surface; use 0.1 or more, or -0.1 or less for a depth under the sea"))
+        }
+        other => other,
+    }
 }
 
 /// Above a sphere; zero is on it.
@@ -83,6 +89,7 @@ mod tests {
         assert_eq!(place("91,0"), Err("latitude: 91 is out of range; use -90 to 90".to_owned()));
         assert!(place("10").unwrap_err().contains("LAT,LON"));
         assert_eq!(latitude("NaN"), Err("NaN is out of range; use -90 to 90".to_owned()));
+        assert_eq!(altitude("-20"), Ok(-20.0));
         assert!(latitude("north").is_err() && altitude("0").is_err() && altitude("inf").is_err());
     }
 }

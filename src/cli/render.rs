@@ -32,7 +32,8 @@ pub(super) struct Args {
     /// Longitude of the camera in degrees, east positive [default: 40 east of the star]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: Option<f64>,
-    /// Height of the camera above the terrain or the sea, whichever is higher [default: the whole planet in view]
+    /// Height of the camera above the terrain or the sea, whichever is higher; negative: depth under the sea [default: the whole
+    /// planet in view]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
     altitude: Option<f64>,
     /// Where the camera looks: 0 north, 90 east
@@ -120,7 +121,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
     renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     renderer.tone = args.tone;
-    let view = view(args, &planet);
+    let view = view(args, &planet)?;
     let mut surface = build_now(&planet, &view);
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
@@ -146,13 +147,21 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn view(args: &Args, planet: &Arc<Planet>) -> View {
+fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
     let (opening_lat_deg, opening_lon_deg) = opening::opening_place(planet).to_degrees();
     let place = LatLon::from_degrees(args.lat.unwrap_or(opening_lat_deg), args.lon.unwrap_or(opening_lon_deg));
     let (radius_m, altitude_m) = match args.altitude {
         Some(altitude_m) => {
             let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
             let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
+            let deepest_m = ground_m + 0.1 - floor_m;
+            if altitude_m < deepest_m {
+                let range = match floor_m > ground_m + 0.2 {
+                    true => format!("the sea is {:.1} m deep there; use {deepest_m:.1} or more", floor_m - ground_m),
+                    false => "there is no sea there; use 0.1 or more".to_owned(),
+                };
+                return Err(format!("--altitude: {altitude_m} m is under the ground: {range}").into());
+            }
             (planet.radius_m() + floor_m + altitude_m, altitude_m)
         }
         None => {
@@ -163,5 +172,5 @@ fn view(args: &Args, planet: &Arc<Planet>) -> View {
     let pitch_deg = args.pitch.unwrap_or_else(|| opening::default_pitch_deg(planet, altitude_m));
     let (heading, pitch) = (args.heading.to_radians(), pitch_deg.to_radians());
     let camera = Camera::over(place, radius_m, heading, pitch, args.fov.to_radians());
-    View { camera, size_px: args.size, quality: args.quality }
+    Ok(View { camera, size_px: args.size, quality: args.quality })
 }

@@ -1,7 +1,7 @@
 //! The uniform buffer that every pass reads: the frame in the units of the shaders. Must match `shaders/globals.wgsl`.
 
 use super::biome_table::{WRAP_FAR_M, WRAP_M};
-use super::{DebugView, Frame, Tone, gpu};
+use super::{DebugView, Frame, Tone, gpu, white_balance};
 use crate::lod::Quality;
 use crate::planet::{Planet, TableBlend, TableRows};
 use crate::terrain::border::{self, OCTAVE_TURN};
@@ -54,6 +54,7 @@ struct Globals {
     border: [[f32; 4]; border::OCTAVES],
     table: [f32; 4],
     climate: [f32; 4],
+    white: [f32; 4],
 }
 
 /// What of a frame is not in [`Frame`].
@@ -218,6 +219,7 @@ fn globals(frame: &Frame<'_>, setup: &Setup) -> Globals {
     g.chosen_eye_high_m = vec4(chosen_high, 0.0);
     g.chosen_eye_low_m = vec4(chosen_low, chosen.pixel_rad());
     set_table(&mut g, planet, up * radius_m, setup.marked);
+    g.white = rgbw(white_balance(planet), 0.0);
     g
 }
 
@@ -307,6 +309,19 @@ const CLOUD_BANDS: usize = 6;
 /// The band whose tile holds four puffs along its side.
 const CLOUD_PUFF_BAND: i32 = 3;
 const CLOUD_BAND_RATIO: f64 = 3.3;
+/// First step of a march that begins in the layer, in thicknesses of the layer.
+const CLOUD_FIRST_STEP: f64 = 0.06;
+
+/// Ratio of each of `steps` steps to the one before when their sum is `sum` first steps; above 1.
+fn step_growth(sum: f64, steps: f64) -> f64 {
+    let (mut low, mut high) = (1.001, 1e4);
+    for _ in 0..60 {
+        let middle: f64 = 0.5 * (low + high);
+        let reached = (middle.powf(steps) - 1.0) / (middle - 1.0);
+        (low, high) = if reached < sum { (middle, high) } else { (low, middle) };
+    }
+    high
+}
 
 fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup) {
     let Some(clouds) = planet.clouds.as_ref().filter(|_| !setup.marked) else { return };
@@ -333,7 +348,12 @@ fn set_clouds(g: &mut Globals, planet: &Planet, frame: &Frame<'_>, setup: &Setup
         *octave = vec4(wrapped(place / period_km), period_km);
         place = OCTAVE_TURN * place;
     }
-    g.cloud_march = [if thin { 3.0 } else { steps }, 0.0, 0.0, 0.0];
+    // The longest way within the layer goes from its top down to its bottom and up again.
+    let longest_km = 2.0 * (2.0 * (planet.radius_km + top) * clouds.thickness_km).sqrt();
+    let first_km = CLOUD_FIRST_STEP * clouds.thickness_km;
+    let steps = if thin { 3.0 } else { steps };
+    let growth = step_growth(longest_km / first_km, steps);
+    g.cloud_march = [steps as f32, first_km as f32, growth as f32, 0.0];
     g.cloud_turn = [c as f32, s as f32, (planet.radius_km / clouds.scale_km) as f32, clouds.curl as f32];
     g.cloud_seed = [clouds.seed ^ planet.seed.rotate_left(16), setup.weather_side_px, 0, 0];
 }

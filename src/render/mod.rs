@@ -16,7 +16,7 @@
 //! `sky_probe` asks the shaders of the air about single rays.
 //!
 //! Around them: `shaders` (includes, checks, hot reload), `globals` (the uniform buffer), `targets`, `gpu` (helpers),
-//! `scene_pass` (what the full-screen passes over the scene share).
+//! `scene_pass` (what the full-screen passes over the scene share), `white_balance` (what the camera takes for white).
 
 mod air;
 mod air_tables;
@@ -47,12 +47,14 @@ mod terrain;
 mod tone;
 mod tonemap;
 mod water;
+mod white_balance;
 
 pub use biome_table::MarkedCells;
 pub use exposure::Metering;
 pub use sky_probe::SkyAnswer;
 pub use tables::TableRuns;
 pub use tone::Tone;
+pub use white_balance::white_balance;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};

@@ -3,7 +3,8 @@
 /// How radiance becomes a picture: a setting of the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
-    /// Like film: highlights bleach, colours stay in order (AgX by Troy Sobotka, 2022, with Benjamin Wrensch's polynomial).
+    /// Like film: highlights bleach, colours stay in order (the primaries of AgX by Troy Sobotka, 2022, with a
+    /// steeper curve).
     #[default]
     AgX,
     /// Colours as they are up to the highlights (Khronos PBR Neutral Tone Mapper, 2024).
@@ -12,8 +13,6 @@ pub enum Tone {
     Plain,
 }
 
-/// Stops by which AgX is lifted so that white ground at noon is about as bright as in the other curves, as a factor.
-const AGX_LIFT: f64 = 1.45;
 /// From Rec. 709 to the working space of AgX and back, row by row.
 const AGX_IN: [[f64; 3]; 3] = [
     [0.842479062253094, 0.0784335999999992, 0.0792237451477643],
@@ -25,15 +24,17 @@ const AGX_OUT: [[f64; 3]; 3] = [
     [-0.0528968517574562, 1.15190312990417, -0.0989611768448433],
     [-0.0529716355144438, -0.0980434501171241, 1.15107367264116],
 ];
-/// The stops about 1 that AgX shows.
-const AGX_STOPS: (f64, f64) = (-12.47393, 4.02607);
-/// The curve over them, the highest power first.
-const AGX_CURVE: [f64; 7] = [15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232];
-
-/// A look over it, as its makers have several: between their plain one, under which planets are pale, and their punchy one. A power
-/// and a factor of what is not grey.
-const AGX_CONTRAST: f64 = 1.15;
-const AGX_SATURATION: f64 = 1.3;
+/// The curve of AgX over stops: radiance and display code of its pivot, slope there in codes per stop, powers of the bends towards
+/// black and white, and what the toe leaves at 24 stops below the pivot. Steeper than its makers' curve, with white two stops above
+/// white ground: pictures of planets have few highlights, and their clouds should be white and their seas dark.
+const AGX_PIVOT: f64 = 0.2;
+const AGX_PIVOT_CODE: f64 = 0.5;
+const AGX_SLOPE: f64 = 0.26;
+const AGX_TOE: f64 = 1.5;
+const AGX_SHOULDER: f64 = 6.0;
+const AGX_BLACK: f64 = 0.007;
+/// Factor on the difference from grey.
+const AGX_SATURATION: f64 = 0.92;
 /// What the primaries count in a grey.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
@@ -64,11 +65,17 @@ fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
+/// From 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
+fn bend(x: f64, power: f64) -> f64 {
+    x / libm::pow(1.0 + libm::pow(x, power), 1.0 / power)
+}
+
 fn agx(radiance: [f64; 3]) -> [f64; 3] {
-    let mixed = times(&AGX_IN, radiance.map(|c| (c * AGX_LIFT).max(0.0)));
-    let curved = mixed.map(|c| {
-        let x = ((libm::log2(c.max(1e-10)) - AGX_STOPS.0) / (AGX_STOPS.1 - AGX_STOPS.0)).clamp(0.0, 1.0);
-        libm::pow(AGX_CURVE.iter().fold(0.0, |sum, k| sum * x + k).max(0.0), AGX_CONTRAST)
+    let curved = times(&AGX_IN, radiance.map(|c| c.max(0.0))).map(|c| {
+        let rise = AGX_SLOPE * libm::log2(c.max(1e-10) / AGX_PIVOT);
+        let dark = AGX_PIVOT_CODE * (1.0 - bend((-rise).max(0.0) / AGX_PIVOT_CODE, AGX_TOE));
+        let light = (1.0 - AGX_PIVOT_CODE) * bend(rise.max(0.0) / (1.0 - AGX_PIVOT_CODE), AGX_SHOULDER);
+        (dark + light - AGX_BLACK).max(0.0)
     });
     let grey: f64 = (0..3).map(|k| LUMINANCE[k] * curved[k]).sum();
     times(&AGX_OUT, curved.map(|c| grey + AGX_SATURATION * (c - grey))).map(|c| libm::pow(c.clamp(0.0, 1.0), 2.2))
@@ -109,9 +116,10 @@ mod tests {
         }
         // Published values: Neutral leaves base colours but for the 4% that a surface reflects anyway.
         assert!((Tone::Neutral.shown([0.5, 0.3, 0.2])[0] - 0.46).abs() < 1e-12);
-        // AgX shows middle grey, but for lift and contrast, half way up the display's scale: 0.5 in sRGB.
-        let grey = libm::pow(Tone::AgX.shown([0.18 / AGX_LIFT; 3])[1], 1.0 / AGX_CONTRAST);
-        assert!((grey - 0.2140).abs() < 0.005, "{grey}");
+        // AgX shows its pivot half way up the display's scale, sunlit white nearly white, and the sea's radiance dark.
+        let code = |radiance: f64| libm::pow(Tone::AgX.shown([radiance; 3])[1], 1.0 / 2.2) * 255.0;
+        assert!((code(AGX_PIVOT) - 126.0).abs() < 1.0, "{}", code(AGX_PIVOT));
+        assert!(code(0.75) > 235.0 && code(0.05) < 50.0, "{} {}", code(0.75), code(0.05));
         for (i, row) in AGX_IN.iter().enumerate() {
             let back = times(&AGX_OUT, [0, 1, 2].map(|k| AGX_IN[k][i]));
             for (k, c) in back.iter().enumerate() {
