@@ -147,7 +147,7 @@ fn mean_and_p95(mut all: Vec<f64>) -> (f64, f64) {
 
 fn surface(scene: &Scene, size_px: [u32; 2]) -> (Surface, View) {
     let view = View { camera: scene.camera, size_px, quality: Quality::Medium };
-    let mut surface = build_now(&scene.planet, &view);
+    let mut surface = build_now(&scene.planet, &view).unwrap();
     add_detail(&mut surface, &view);
     (surface, view)
 }

@@ -3,8 +3,8 @@
 use super::{Failure, args, headless, load};
 use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
-use crate::planet::Planet;
 use crate::planet::file::write_atomically;
+use crate::planet::{InvalidPlanet, Planet};
 use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
@@ -120,8 +120,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
     renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     renderer.tone = args.tone;
-    let view = view(args, &planet);
-    let mut surface = build_now(&planet, &view);
+    let invalid = |error: InvalidPlanet| error.to_string();
+    let view = view(args, &planet).map_err(invalid)?;
+    let mut surface = build_now(&planet, &view).map_err(invalid)?;
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
     let frame = Frame {
@@ -135,7 +136,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         debug_view: args.view,
     };
     let pixels = gpu.picture(args.size, |target| {
-        renderer.render(&gpu.device, &gpu.queue, target, &frame);
+        renderer.render(&gpu.device, &gpu.queue, target, &frame).map(drop).map_err(|error| error.to_string())
     })?;
     let [width, height] = args.size;
     let mut png = Vec::new();
@@ -146,12 +147,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn view(args: &Args, planet: &Arc<Planet>) -> View {
+fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, InvalidPlanet> {
     let (opening_lat_deg, opening_lon_deg) = opening::opening_place(planet).to_degrees();
     let place = LatLon::from_degrees(args.lat.unwrap_or(opening_lat_deg), args.lon.unwrap_or(opening_lon_deg));
     let (radius_m, altitude_m) = match args.altitude {
         Some(altitude_m) => {
-            let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
+            let ground_m = Terrain::try_new(planet.clone())?.height_m(place.direction());
             let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
             (planet.radius_m() + floor_m + altitude_m, altitude_m)
         }
@@ -163,5 +164,5 @@ fn view(args: &Args, planet: &Arc<Planet>) -> View {
     let pitch_deg = args.pitch.unwrap_or_else(|| opening::default_pitch_deg(planet, altitude_m));
     let (heading, pitch) = (args.heading.to_radians(), pitch_deg.to_radians());
     let camera = Camera::over(place, radius_m, heading, pitch, args.fov.to_radians());
-    View { camera, size_px: args.size, quality: args.quality }
+    Ok(View { camera, size_px: args.size, quality: args.quality })
 }
