@@ -6,6 +6,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tellus::planet::param::Choice;
+use tellus::planet::picture::{Budget, PictureKey};
 use tellus::planet::{HeightMap, Layer, PictureLayout, Planet, Shape, VERSION};
 use tellus::sphere::LatLon;
 use tellus::sphere::raster::cube_direction;
@@ -148,6 +149,18 @@ fn normals_are_those_of_the_heights_and_bits_are_the_same_everywhere() {
     std::fs::copy(folder.path().join("a.png"), folder.path().join("b.png")).unwrap();
     let again = alone.install(|| loaded(folder.path(), "b.png", PictureLayout::Equirectangular).heights_m(&dirs));
     assert_eq!(again, heights);
+}
+
+/// Rows of an interlaced picture come in seven passes; some of them are empty in one of 10 x 5 pixels.
+#[test]
+fn an_interlaced_picture_is_the_same_picture() {
+    let read = |name: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name);
+        PictureKey { file, layout: PictureLayout::Equirectangular }.load(&mut Budget::default()).unwrap()
+    };
+    let (plain, interlaced) = (read("plain.png"), read("interlaced.png"));
+    assert_ne!(plain.bounds().0, plain.bounds().1);
+    assert_eq!(plain, interlaced);
 }
 
 /// Everything that [`Planet::load`] says, without the folder.
