@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use assert_cmd::Command;
+use exr::math::RoundingMode;
+use exr::meta::BlockDescription;
 use exr::prelude::*;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -101,11 +103,11 @@ fn grey_png(path: &Path, width: usize, depth: png::BitDepth, color: png::ColorTy
 }
 
 /// An OpenEXR without any block: its header promises them.
-fn exr_header(path: &Path, width: usize, names: &[String]) {
+fn exr_header(path: &Path, width: usize, names: &[String], blocks: BlockDescription) {
     let channels = names.iter().map(|name| ChannelDescription::named(name.as_str(), SampleType::F32)).collect();
     let header = exr::meta::header::Header::new("l".into(), (width, width / 2), channels).with_encoding(
         Compression::ZIP16,
-        exr::meta::BlockDescription::ScanLines,
+        blocks,
         LineOrder::Increasing,
     );
     let mut bytes = std::io::Cursor::new(Vec::new());
@@ -130,7 +132,7 @@ fn an_honest_picture_of_the_largest_size_is_read() {
     let height_m = answer["height_m"].as_f64().unwrap();
     assert!((height_m - 3000.0 * 96.0 / 255.0).abs() < 10.0, "{answer}");
 
-    exr_header(&path("more.exr"), 16384, &["Y".to_owned()]);
+    exr_header(&path("more.exr"), 16384, &["Y".to_owned()], BlockDescription::ScanLines);
     preset(folder.path(), &["big.png", "link.png", "more.exr"]);
     let (status, _, err) = run(folder.path(), 1536, &["check", "p.ron"]);
     let message = "more.exr takes 512 MiB of memory, and 256 MiB of 512 MiB are left for it beside the planet's other pictures; \
@@ -156,8 +158,8 @@ fn channels_that_are_not_used_take_no_memory() {
 
     // Too many of them take too much time.
     let names: Vec<String> = (0..64).map(|i| format!("c{i:02}")).collect();
-    exr_header(&path("long.exr"), 8192, &names);
-    exr_header(&path("wide.exr"), 16384, &names);
+    exr_header(&path("long.exr"), 8192, &names, BlockDescription::ScanLines);
+    exr_header(&path("wide.exr"), 16384, &names, BlockDescription::ScanLines);
     preset(folder.path(), &["long.exr", "wide.exr"]);
     let said = refused(folder.path(), 1024);
     assert!(
@@ -165,6 +167,22 @@ fn channels_that_are_not_used_take_no_memory() {
         "{said:?}"
     );
     assert!(said.len() == 2 && said[1].contains("wide.exr "), "{said:?}");
+
+    // And so do too many blocks, and one takes no more memory than a block may.
+    let tiles = |side: usize| {
+        BlockDescription::Tiles(TileDescription {
+            tile_size: Vec2(side, side),
+            level_mode: exr::meta::attribute::LevelMode::Singular,
+            rounding_mode: RoundingMode::Down,
+        })
+    };
+    exr_header(&path("small.exr"), 1024, &["Y".to_owned()], tiles(1));
+    exr_header(&path("large.exr"), 1024, &["Y".to_owned()], tiles(1 << 20));
+    preset(folder.path(), &["small.exr", "large.exr"]);
+    let said = refused(folder.path(), 1024);
+    assert!(said[0].contains("small.exr is cut into 524288 blocks of 1 x 1 pixels; save it in scan lines"), "{said:?}");
+    let message = "large.exr has blocks of 1048576 x 1048576 pixels in 1 channels, which is more than 64 MiB each";
+    assert!(said.len() == 2 && said[1].contains(message), "{said:?}");
 }
 
 #[test]

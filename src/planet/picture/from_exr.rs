@@ -3,7 +3,7 @@
 //! The header is checked before any block is read: sizes of blocks bound what a decoder allocates. Blocks are decoded in groups
 //! on all cores, each with its panics contained: see [`super::contain`].
 
-use super::budget::Budget;
+use super::budget::{Budget, MAX_WORK_BYTES};
 use super::canvas::{Canvas, Size};
 use super::contain::contained;
 use super::{Picture, PictureLayout, Texels};
@@ -28,6 +28,8 @@ const MAX_BLOCK_BYTES: usize = 64 << 20;
 const MAX_GROUP_BYTES: usize = 128 << 20;
 /// A block takes at least as long as one of so many bytes, however small it is.
 const LEAST_BLOCK_WORK: u64 = 32 << 10;
+/// Most blocks of a picture.
+const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
 
 /// Reads a picture; takes what it needs from the budget.
 pub(super) fn read(mut file: BufReader<File>, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
@@ -69,6 +71,13 @@ impl Source {
         let block = block_size(header);
         let pixel_bytes = pixel_bytes(header);
         let blocks = (size.width.div_ceil(block[0]) * size.height.div_ceil(block[1])) as u64;
+        if blocks > MAX_BLOCKS {
+            let [width, height] = block;
+            return Err(format!(
+                "is cut into {blocks} blocks of {width} x {height} pixels; save it in scan lines, or in larger tiles of which \
+                 {MAX_BLOCKS} suffice"
+            ));
+        }
         let work_bytes = (size.pixels() * pixel_bytes as u64).max(blocks * LEAST_BLOCK_WORK);
         if header.channels.list.iter().any(|channel| channel.sampling != exr::math::Vec2(1, 1)) {
             return Err(
