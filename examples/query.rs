@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let planet = Arc::new(planet);
     // Compiled once, then shared: asking takes `&self` and works from any thread.
-    let terrain = Terrain::new(Arc::clone(&planet));
+    let terrain = Terrain::try_new(Arc::clone(&planet))?;
 
     println!("{}, radius {} km", planet.name, planet.radius_km);
     for (name, lat_deg, lon_deg) in

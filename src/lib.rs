@@ -16,10 +16,10 @@
 //!     layers: [(name: "Hills", amplitude_m: 800.0, shape: Fbm(wavelength_km: 12.0, octaves: 8))],
 //!     water: (level_m: -50.0),
 //! )"#)?;
-//! let terrain = Terrain::new(planet.into());
+//! let terrain = Terrain::try_new(planet.into())?;
 //! let place = terrain.sample(LatLon::from_degrees(48.2, 16.4).direction());
 //! println!("{:.1} m, {}", place.height_m, terrain.planet().biomes.palette[place.biome].name);
-//! # Ok::<(), tellus::planet::LoadError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! Data flows one way; a module knows only those above it in this list:

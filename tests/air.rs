@@ -140,7 +140,7 @@ fn a_climb_to_space_has_no_jump() {
         let altitude_m = 1.7 * (400e3_f64 / 1.7).powf(step as f64 / (STEPS - 1) as f64);
         let camera = camera(&planet, 5.0, 10.0, altitude_m, 200.0, 12.0);
         let view = View { camera, size_px: [96, 60], quality: Quality::Medium };
-        let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+        let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
         gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(20.0, 50.0).direction()));
         let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
         if let Some(last) = &last {
@@ -212,7 +212,7 @@ fn whatever_the_air_every_radiance_is_a_number() {
         let altitude_m = 2.0 * 1e7_f64.powf(altitude);
         let camera = camera(&planet, 5.0, 10.0, altitude_m, 90.0, pitch);
         let view = View { camera, size_px: [48, 32], quality: Quality::Medium };
-        let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+        let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
         let mut gpu = gpu.borrow_mut();
         gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(8.0, sun_lon).direction()));
         let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use tellus::atmosphere::{Air, SkyRay, reference};
 use tellus::planet::param::{Domain, ValueMut};
-use tellus::planet::{Atmosphere, Planet};
+use tellus::planet::{Atmosphere, Biomes, Planet};
 
 fn earth() -> Planet {
     Planet::from_text("earth_air.ron", include_str!("fixtures/earth_air.ron")).unwrap()
@@ -27,7 +27,7 @@ fn limb() -> SkyRay {
 
 #[test]
 fn transmittance_from_sea_level() {
-    let air = Air::new(&earth());
+    let air = Air::try_new(&earth()).unwrap();
     for (zenith, expected) in [
         (0.0_f64, [0.94036, 0.86762, 0.76231]),
         (60.0, [0.88478, 0.75386, 0.58228]),
@@ -57,7 +57,7 @@ fn known() -> [(SkyRay, [f64; 3], [f64; 3]); 6] {
 
 #[test]
 fn radiance_is_as_near_to_path_tracing_as_the_method_allows() {
-    let air = Air::new(&earth());
+    let air = Air::try_new(&earth()).unwrap();
     for (ray, expected, percent) in known() {
         let found = air.radiance(&ray);
         for i in 0..3 {
@@ -69,7 +69,7 @@ fn radiance_is_as_near_to_path_tracing_as_the_method_allows() {
 
 #[test]
 fn our_path_tracer_agrees_with_the_figures() {
-    let air = Air::new(&earth());
+    let air = Air::try_new(&earth()).unwrap();
     for (ray, expected, _) in known() {
         let found = reference::radiance(&air, &ray, 60_000);
         for i in 0..3 {
@@ -98,6 +98,8 @@ fn any_air() -> impl Strategy<Value = Planet> {
                 _ => {}
             }
         });
+        // The ends of its ranges contradict each other there, and air knows nothing of it.
+        planet.biomes = Biomes::default();
         planet
     })
 }
@@ -118,7 +120,7 @@ proptest! {
     fn radiance_is_finite_for_all_air(planet in any_air(), rays in proptest::collection::vec(
         (0.0..7.0_f64, 0.0..=180.0_f64, 0.0..=180.0_f64, 0.0..=180.0_f64), 30))
     {
-        let air = Air::new(&planet);
+        let air = Air::try_new(&planet).unwrap();
         for (log_altitude, view, sun, azimuth) in rays {
             let ray = ray(10_f64.powf(log_altitude), view, sun, azimuth);
             let (radiance, through) = (air.radiance(&ray), air.sun_transmittance(ray.altitude_m, ray.sun_zenith_rad));
@@ -130,7 +132,7 @@ proptest! {
 
 #[test]
 fn the_ground_ends_a_ray_that_begins_on_it() {
-    let air = Air::new(&earth());
+    let air = Air::try_new(&earth()).unwrap();
     assert_eq!(air.radiance(&ray(0.0, 120.0, 30.0, 0.0)), [0.0; 3]);
     let [zero, two] = [0.0, 2.0].map(|altitude_m| air.radiance(&ray(altitude_m, 60.0, 30.0, 0.0)));
     assert!(zero.iter().zip(two).all(|(a, b)| (a / b - 1.0).abs() < 1e-3), "{zero:?} {two:?}");
@@ -138,7 +140,7 @@ fn the_ground_ends_a_ray_that_begins_on_it() {
 
 #[test]
 fn a_planet_without_air_has_a_black_sky_and_clear_sunlight() {
-    let air = Air::new(&Planet::default());
+    let air = Air::try_new(&Planet::default()).unwrap();
     assert_eq!(air.radiance(&ray(2.0, 30.0, 40.0, 10.0)), [0.0; 3]);
     assert_eq!(air.sun_transmittance(2.0, 1.0), [1.0; 3]);
     assert_eq!(air.sun_transmittance(2.0, 1.7), [0.0; 3]);

@@ -132,7 +132,7 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
     let mut problems = Vec::new();
     for preset in shipped::ALL {
         let planet = Arc::new(preset.load().unwrap());
-        let terrain = Terrain::new(planet.clone());
+        let terrain = Terrain::try_new(planet.clone()).unwrap();
         let mut dirs = spread(40_000).step_by(13);
         let [mut same, mut near, mut all] = [0; 3];
         for pose in &POSES {
@@ -160,9 +160,9 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
 #[test]
 fn jitter_moves_borders_and_crisp_ones_have_edges() {
     let mut planet = shipped::default_planet();
-    let terrain = Terrain::new(Arc::new(planet.clone()));
+    let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     planet.biomes.border_jitter = 0.0;
-    let plain = Terrain::new(Arc::new(planet.clone()));
+    let plain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let dirs: Vec<_> = spread(3000).collect();
     let moved = dirs.iter().filter(|dir| terrain.sample(**dir).cell != plain.sample(**dir).cell).count();
     assert!((300..2400).contains(&moved), "{moved} of 3000");
@@ -184,7 +184,7 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
         let planet = Arc::new(ball.clone());
         let camera = Camera::over(LatLon::from_degrees(30.0, 0.0), 1.6e5, 0.0, -1.5, Camera::DEFAULT_FOV_Y_RAD);
         let view = View { camera, size_px: [160, 120], quality: Quality::Medium };
-        let surface = build_now(&planet, &view);
+        let surface = build_now(&planet, &view).unwrap();
         let picture = gpu.draw(&frame_of(&surface, &planet, view, camera.position_planet_m));
         // Places where the ground changes from one pixel to the next.
         let step = |pair: &[u8]| (0..3).map(|i| u32::from(pair[i].abs_diff(pair[i + 4]))).sum::<u32>();

@@ -70,7 +70,7 @@ fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
     let mut gpu = Gpu::new();
     let mut problems = Vec::new();
     for preset in shipped::ALL {
-        let terrain = Terrain::new(Arc::new(preset.load().unwrap()));
+        let terrain = Terrain::try_new(Arc::new(preset.load().unwrap())).unwrap();
         let mut places: Vec<(DVec3, f64)> =
             spread(60).filter_map(|dir| Some((dir, widest_m(&terrain, dir)?))).collect();
         places.sort_by(|a, b| b.1.total_cmp(&a.1));

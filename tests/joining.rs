@@ -33,7 +33,7 @@ fn planet(layers: Vec<Layer>) -> Planet {
 }
 
 fn heights(planet: &Planet, dirs: &[DVec3]) -> Vec<f64> {
-    Terrain::new(Arc::new(planet.clone())).heights_m(dirs)
+    Terrain::try_new(Arc::new(planet.clone())).unwrap().heights_m(dirs)
 }
 
 /// The noise of a layer by itself: the height of a planet that has it alone, one metre high.
@@ -196,7 +196,7 @@ fn heights_are_those_of_the_plain_formulas() {
 #[test]
 fn normals_match_central_differences_for_every_way_of_joining() {
     for (name, planet) in cases() {
-        let terrain = Terrain::new(Arc::new(planet));
+        let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
         let radius_m = terrain.planet().radius_m();
         let mut angles: Vec<f64> = Vec::new();
         for dir in directions(400) {
@@ -227,11 +227,11 @@ fn on_slopes(over_m: f64, invert: bool) -> Planet {
 
 #[test]
 fn masks_by_slope_find_the_slope_of_the_ground_below() {
-    let below = Terrain::new(Arc::new(planet(vec![ground("Base", 1, 40.0, 1500.0)])));
+    let below = Terrain::try_new(Arc::new(planet(vec![ground("Base", 1, 40.0, 1500.0)]))).unwrap();
     let dirs = directions(1000);
     for invert in [false, true] {
         // Over a metre, every octave counts: the slope is the one that a sample has, at the reference radius.
-        let terrain = Terrain::new(Arc::new(on_slopes(1.0, invert)));
+        let terrain = Terrain::try_new(Arc::new(on_slopes(1.0, invert))).unwrap();
         let scree = noise(&terrain.planet().layers[1], &dirs);
         for (dir, scree) in dirs.iter().zip(scree) {
             let sample = below.sample(*dir);
@@ -326,7 +326,7 @@ proptest! {
     #[test]
     fn any_layers_make_finite_ground_within_its_bounds_and_the_same_everywhere(planet in any_planet()) {
         prop_assert_eq!(validate::problems(&planet), []);
-        let terrain = Terrain::new(Arc::new(planet));
+        let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
         let dirs = directions(333);
         let heights = terrain.heights_m(&dirs);
         let bits = |heights: &[f64]| -> Vec<u64> { heights.iter().map(|h| h.to_bits()).collect() };

@@ -58,7 +58,7 @@ fn keep_their_bits(precision: Precision, golden: &str) {
     let mut report = String::new();
     for shape in Shape::all() {
         let name = kind(&shape);
-        let terrain = Terrain::new(precise_planet(shape, precision));
+        let terrain = Terrain::try_new(precise_planet(shape, precision)).unwrap();
         let mut hashes = Vec::new();
         for simd in Simd::available() {
             let terrain = terrain.clone().with_simd(simd);
@@ -94,7 +94,7 @@ fn smooth(mut shape: Shape) -> Shape {
 fn normals_match_central_differences() {
     for shape in Shape::all() {
         let name = kind(&shape);
-        let terrain = Terrain::new(planet(smooth(shape)));
+        let terrain = Terrain::try_new(planet(smooth(shape))).unwrap();
         let radius_m = terrain.planet().radius_m();
         let mut angles: Vec<f64> = directions(400, 11)
             .into_iter()
@@ -118,7 +118,7 @@ fn normals_match_central_differences() {
 fn faces_meet_without_a_seam() {
     for shape in Shape::all() {
         let name = kind(&shape);
-        let terrain = Terrain::new(planet(shape));
+        let terrain = Terrain::try_new(planet(shape)).unwrap();
         let step_rad = 1e-9;
         for node in NodeId::roots() {
             for i in 0..=16 {
@@ -183,7 +183,7 @@ proptest! {
                 radius_km,
                 ..Planet::default()
             };
-            let terrain = Terrain::new(Arc::new(planet));
+            let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
             let (lo, hi) = terrain.height_bounds_m();
             for dir in directions(12, state) {
                 let sample = terrain.sample(dir);

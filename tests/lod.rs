@@ -62,12 +62,12 @@ fn key(vertex: &Vertex) -> [u64; 3] {
 
 fn surfaces() -> Vec<Surface> {
     let planet = Arc::new(rough());
-    let terrain = Terrain::new(planet.clone());
+    let terrain = Terrain::try_new(planet.clone()).unwrap();
     let corner = LatLon::from_degrees(35.264_389_682_754_654, 45.0);
     let over = |place: LatLon, altitude_m: f64, pitch: f64, quality| {
         let radius_m = planet.radius_m() + terrain.height_m(place.direction()) + altitude_m;
         let camera = Camera::over(place, radius_m, 0.4, pitch, Camera::DEFAULT_FOV_Y_RAD);
-        build_now(&planet, &View { camera, size_px: [320, 200], quality })
+        build_now(&planet, &View { camera, size_px: [320, 200], quality }).unwrap()
     };
     vec![
         over(corner, 1.7, -0.2, Quality::Low),
@@ -128,14 +128,14 @@ fn assert_meets(surface: &Surface) {
 fn what_a_coarser_choice_leaves_out_has_not_come_out() {
     // Tiles for a nearer eye, looked at from where fewer would do: the finer ones lie on the coarser ones' triangles.
     let planet = Arc::new(rough());
-    let terrain = Terrain::new(planet.clone());
+    let terrain = Terrain::try_new(planet.clone()).unwrap();
     let place = LatLon::from_degrees(20.0, 45.0);
     let view = |altitude_m: f64| {
         let radius_m = planet.radius_m() + terrain.height_m(place.direction()) + altitude_m;
         let camera = Camera::over(place, radius_m, 0.4, -1.2, Camera::DEFAULT_FOV_Y_RAD);
         View { camera, size_px: [320, 200], quality: Quality::Medium }
     };
-    let (coarse, fine) = (build_now(&planet, &view(5000.0)), build_now(&planet, &view(2000.0)));
+    let (coarse, fine) = (build_now(&planet, &view(5000.0)).unwrap(), build_now(&planet, &view(2000.0)).unwrap());
     let eye = coarse.view.camera.position_planet_m;
     let seen = Culling::new(&coarse.view, lowest_radius_m(&terrain));
     let shown: HashMap<_, _> = coarse.leaves.iter().map(|leaf| (leaf.tile.id, leaf)).collect();
@@ -168,7 +168,7 @@ fn nothing_is_culled_that_a_ray_hits() {
     for (planet, poses) in planets {
         let planet = Arc::new(Planet { water: None, ..planet });
         // Tiles of many sizes, wherever they are.
-        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
+        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
         let terrain = &surface.terrain;
         for _ in 0..poses {
             let view = any_view(&mut dice, terrain, [96, 64]);
@@ -214,13 +214,13 @@ fn steps_of_a_millimetre_move_every_vertex_as_they_should() {
     let planet = Arc::new(planet);
     let corner = DVec3::ONE.normalize();
     let place = LatLon::from_degrees(corner.z.asin().to_degrees(), 45.0);
-    let ground_m = planet.radius_m() + Terrain::new(planet.clone()).height_m(place.direction());
+    let ground_m = planet.radius_m() + Terrain::try_new(planet.clone()).unwrap().height_m(place.direction());
     let at = |east_m: f64| {
         let mut camera = Camera::over(place, ground_m + 1.7, 0.3, -0.3, Camera::DEFAULT_FOV_Y_RAD);
         camera.position_planet_m += DVec3::new(-1.0, 1.0, 0.0).normalize() * east_m;
         View { camera, size_px: [1280, 720], quality: Quality::Low }
     };
-    let surface = build_now(&planet, &at(0.0));
+    let surface = build_now(&planet, &at(0.0)).unwrap();
     let tan_y = (at(0.0).camera.fov_y_rad * 0.5).tan();
     let (mut worst_px, mut tested) = (0.0_f64, 0);
     for step in 0..12 {
@@ -263,15 +263,17 @@ fn a_view_never_shows_more_triangles_than_its_quality_allows() {
     let window = [1280, 720];
     for shipped in shipped::ALL.iter().take(2) {
         let planet = Arc::new(shipped.load().unwrap());
-        let ground_m =
-            Terrain::new(planet.clone()).height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
+        let ground_m = Terrain::try_new(planet.clone())
+            .unwrap()
+            .height_m(place.direction())
+            .max(planet.sea_level_m().unwrap_or(f64::MIN));
         for (quality, size_px, altitude_m) in
             [(Quality::High, window, 2.0), (Quality::Low, window, 2.0), (Quality::Medium, [3840, 2160], 2.0)]
         {
             let radius_m = planet.radius_m() + ground_m + altitude_m;
             let camera = Camera::over(place, radius_m, 0.4, -0.1, Camera::DEFAULT_FOV_Y_RAD);
             let view = View { camera, size_px, quality };
-            let surface = build_now(&planet, &view);
+            let surface = build_now(&planet, &view).unwrap();
             let culling = Culling::new(&view, lowest_radius_m(&surface.terrain));
             let seen = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).count();
             let (most, all) = (budget_tiles(quality), surface.leaves.len());

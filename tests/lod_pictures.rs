@@ -75,7 +75,7 @@ fn holes(view: &View, terrain: &Terrain, picture: &[u8], dice: &mut Dice) -> usi
 /// Looks at a planet from so many places of which `dice` decides.
 fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
     let planet = bare(planet);
-    let terrain = Terrain::new(planet.clone());
+    let terrain = Terrain::try_new(planet.clone()).unwrap();
     for _ in 0..poses {
         let place = dice.place();
         let altitude_m = 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
@@ -83,7 +83,7 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
         let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.8) * 1.8);
         let camera = camera_over(&terrain, place, altitude_m, [heading, pitch.max(-1.55)]);
         let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
-        let surface = build_now(&planet, &view);
+        let surface = build_now(&planet, &view).unwrap();
         let coverage = Frame { debug_view: DebugView::Coverage, ..frame_of(&surface, &planet, view, DVec3::X) };
         let picture = draw(&coverage);
         let holes = holes(&view, &terrain, &picture, dice);
@@ -127,7 +127,7 @@ const STEPS: usize = 600;
 /// planet and for its normals. Without morphing only until it is clear that it is more than five times as much.
 fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2] {
     let planet = bare(planet);
-    let terrain = Terrain::new(planet.clone());
+    let terrain = Terrain::try_new(planet.clone()).unwrap();
     let builder = Builder::new(|| {});
     let place = LatLon::from_degrees(35.0, -5.0);
     let view = |step: usize| {
@@ -256,7 +256,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
         ..Planet::default()
     };
     // The highest of many places; the sea is let in to 8 km below it.
-    let terrain = Terrain::new(Arc::new(planet.clone()));
+    let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let mut dice = Dice(3);
     let dirs: Vec<DVec3> = (0..200_000)
         .map(|_| LatLon { lat_rad: (dice.roll() - 0.5) * 2.0, lon_rad: dice.roll() * 6.0 - 3.0 }.direction())
@@ -268,7 +268,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     planet.water = Some(Water { level_m: sea_m, ..Water::default() });
     let planet = Arc::new(planet);
     let radius_m = planet.radius_m() + sea_m;
-    let wet = Terrain::new(planet.clone());
+    let wet = Terrain::try_new(planet.clone()).unwrap();
     let (tangent, other) = peak.any_orthonormal_pair();
     let angle = 250e3 / radius_m;
     // From where the way across is free.
@@ -285,7 +285,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     let forward = (peak - up * peak.dot(up)).normalize();
     let camera = Camera::looking(eye, forward, up, 6_f64.to_radians());
     let view = View { camera, size_px: [192, 128], quality: Quality::Medium };
-    let surface = build_now(&planet, &view);
+    let surface = build_now(&planet, &view).unwrap();
     let picture = draw(&Frame { debug_view: DebugView::Coverage, ..frame_of(&surface, &planet, view, DVec3::X) });
     let light = lights(&picture);
     // Column by column: how high what lies behind the sea's horizon stands in the picture.
@@ -338,7 +338,7 @@ fn normals_change_from_a_level_to_the_next_as_the_vertices_have_them() {
     let camera = support::camera(&planet, 35.0, -5.0, 4000.0, 20.0, -50.0);
     let view = View { camera, size_px: [480, 320], quality: Quality::Medium };
     // Without detail tiles: what is shown comes from the vertices alone.
-    let surface = build_now(&planet, &view);
+    let surface = build_now(&planet, &view).unwrap();
     let picture = draw(&Frame { debug_view: DebugView::Normal, ..frame_of(&surface, &planet, view, sun_dir()) });
     let (eye, turn) = (camera.position_planet_m, camera.planet_from_view.inverse());
     let tan_y = (camera.fov_y_rad * 0.5).tan();

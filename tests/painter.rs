@@ -135,7 +135,7 @@ fn letters_and_the_right_button_choose_biomes_and_a_selection_confines() {
 fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
     let mut harness = editor(vec![]);
     let below = harness.state().viewport().eye(&planet(&harness)).1;
-    let [column, row] = Terrain::new(Arc::new(planet(&harness))).sample(below.direction()).cell;
+    let [column, row] = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(below.direction()).cell;
     // A biome without a relief of its own, and another than lies there.
     let all = biomes(&harness);
     let has_relief = |key: char| all.index_of(key).is_some_and(|index| all.palette[index].relief_m != 0.0);
@@ -177,7 +177,7 @@ fn the_planet_and_the_table_point_at_each_other() {
     harness.hover_at(rect.center());
     until(&mut harness, "the ground is known", |harness| harness.state().viewport().under_pointer().is_some());
     let under = harness.state().viewport().under_pointer().unwrap().clone();
-    let sample = Terrain::new(Arc::new(planet(&harness))).sample(under.place.direction());
+    let sample = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(under.place.direction());
     assert_eq!((under.cell, under.biome_index), (sample.cell, sample.biome));
     harness.run_steps(2);
     assert!(harness.query_by_label_contains("Here: ").is_some(), "the table says which cell that is");

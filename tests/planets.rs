@@ -25,7 +25,7 @@ fn planets() -> Vec<(&'static str, Arc<Planet>)> {
 
 /// Over the planet's opening place, at a height over ground or sea.
 fn view(planet: &Arc<Planet>, altitude_m: f64) -> View {
-    let (terrain, place) = (Terrain::new(planet.clone()), opening_place(planet));
+    let (terrain, place) = (Terrain::try_new(planet.clone()).unwrap(), opening_place(planet));
     let pitch_rad = default_pitch_deg(planet, altitude_m).to_radians();
     let camera = camera_over(&terrain, place, altitude_m, [0.8, pitch_rad]);
     View { camera, size_px: SIZE_PX, quality: Quality::Low }

@@ -53,10 +53,6 @@ fn each_parameter_runs_the_stages_it_declares_and_no_others() {
         assert!(is_idle(&path) || edits.iter().any(|edit| edit.path == path), "{path} has an edit");
     });
     for edit in edits {
-        // Masks refer to the first layer by its name; without it they are gone.
-        if edit.path == "layers[0].name" {
-            continue;
-        }
         let stats = ask(&builder, &edit.planet, &view);
         let mut declared = edit.declared.within(Stages::OF_TILES);
         // Another kind of mask asks for noise only if slopes come in; a height map without its picture has none.
@@ -152,7 +148,7 @@ fn parents_and_children_are_kept_while_the_others_are_shown() {
     let builder = Builder::new(|| {});
     assert!(ask(&builder, &planet, &far).tiles_built > 0);
     let deeper = ask(&builder, &planet, &near);
-    let anew = build_now(&Arc::new(planet.clone()), &near).stats;
+    let anew = build_now(&Arc::new(planet.clone()), &near).unwrap().stats;
     assert!(deeper.tiles_built > 0 && deeper.tiles_built < anew.tiles_built, "{deeper:?}");
     assert_eq!(ask(&builder, &planet, &far).tiles_built, 0);
     assert_eq!(ask(&builder, &planet, &near).tiles_built, 0);
@@ -161,7 +157,7 @@ fn parents_and_children_are_kept_while_the_others_are_shown() {
 #[test]
 fn a_child_takes_the_climates_noise_from_its_parent() {
     let planet = full_planet();
-    let surface = build_now(&Arc::new(Planet { layers: Vec::new(), ..planet.clone() }), &view(30.0, 1.5));
+    let surface = build_now(&Arc::new(Planet { layers: Vec::new(), ..planet.clone() }), &view(30.0, 1.5)).unwrap();
     let all = surface.stats.tiles_built * 33 * 33 * 2 * planet.climate.octaves as usize;
     let children = surface.stats.tiles_built - 6;
     let shared = children * 17 * 17 * 2 * planet.climate.octaves as usize;
@@ -179,7 +175,8 @@ fn memory_keeps_to_its_budget_whatever_it_is() {
             let view = view(f64::from(step) * 30.0, 1.1);
             ask(&builder, &edited, &view);
             let memory = builder.memory();
-            let needed = build_now(&Arc::new(edited.clone()), &view).stats.tiles_built * 33 * 33 * size_of::<Vertex>();
+            let needed =
+                build_now(&Arc::new(edited.clone()), &view).unwrap().stats.tiles_built * 33 * 33 * size_of::<Vertex>();
             assert!(memory.used_bytes <= budget.max(needed), "{memory:?}, {needed} needed");
         }
     }
@@ -255,8 +252,8 @@ proptest! {
                 Event::Edit(which) => {
                     let mut edits = every_edit(&planet);
                     let edit = edits.swap_remove(which % edits.len());
-                    // Radii far from the camera's would only make for other levels.
-                    if edit.path != "radius_km" {
+                    // Radii far from the camera's would only make for other levels; and edits add up, perhaps beyond what is valid.
+                    if edit.path != "radius_km" && edit.planet.check().is_ok() {
                         past.push(std::mem::replace(&mut planet, edit.planet));
                         future.clear();
                     }
@@ -275,6 +272,6 @@ proptest! {
         }
         let planet = Arc::new(planet);
         builder.request(&planet, &view);
-        prop_assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)));
+        prop_assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
     }
 }

@@ -62,7 +62,8 @@ fn without(planet: &Planet) -> Planet {
 #[test]
 fn relief_lies_where_its_biome_does_and_within_the_bounds() {
     let planet = hummocky();
-    let (with, flat) = (Terrain::new(Arc::new(planet.clone())), Terrain::new(Arc::new(without(&planet))));
+    let (with, flat) =
+        (Terrain::try_new(Arc::new(planet.clone())).unwrap(), Terrain::try_new(Arc::new(without(&planet))).unwrap());
     let dirs = directions(4000);
     let (mut bare, mut raised) = (0, 0);
     for ((dir, height_m), below_m) in dirs.iter().zip(with.heights_m(&dirs)).zip(flat.heights_m(&dirs)) {
@@ -84,7 +85,7 @@ fn relief_lies_where_its_biome_does_and_within_the_bounds() {
 #[test]
 fn slopes_are_those_of_the_raised_ground() {
     let planet = hummocky();
-    let terrain = Terrain::new(Arc::new(planet.clone()));
+    let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let radius_m = planet.radius_m();
     for dir in directions(1500) {
         let sample = terrain.sample(dir);
@@ -104,7 +105,8 @@ fn slopes_are_those_of_the_raised_ground() {
 #[test]
 fn no_cliff_stands_where_a_relief_ends() {
     let planet = hummocky();
-    let (with, flat) = (Terrain::new(Arc::new(planet.clone())), Terrain::new(Arc::new(without(&planet))));
+    let (with, flat) =
+        (Terrain::try_new(Arc::new(planet.clone())).unwrap(), Terrain::try_new(Arc::new(without(&planet))).unwrap());
     // Half a metre from step to step, over borders of the table's cells.
     let dirs: Vec<DVec3> =
         (0..60_000).map(|i| LatLon { lat_rad: 0.4, lon_rad: f64::from(i) * 1e-6 }.direction()).collect();
@@ -120,11 +122,11 @@ fn no_cliff_stands_where_a_relief_ends() {
 #[test]
 fn every_instruction_set_batch_and_tile_gives_the_same_bits() {
     let planet = Arc::new(hummocky());
-    let terrain = Terrain::new(planet.clone());
+    let terrain = Terrain::try_new(planet.clone()).unwrap();
     let dirs = directions(700);
     let heights = terrain.heights_m(&dirs);
     for simd in Simd::available().iter().copied() {
-        let other = Terrain::new(planet.clone()).with_simd(simd);
+        let other = Terrain::try_new(planet.clone()).unwrap().with_simd(simd);
         assert_eq!(other.heights_m(&dirs), heights, "{simd:?}");
         assert_eq!(other.sample(dirs[5]), terrain.sample(dirs[5]), "{simd:?}");
     }
@@ -133,7 +135,7 @@ fn every_instruction_set_batch_and_tile_gives_the_same_bits() {
         assert_eq!(terrain.sample(*dir).height_m, *height_m);
     }
     let camera = Camera::over(LatLon::from_degrees(30.0, 40.0), planet.radius_m() * 1.02, 0.0, -1.2, 0.8);
-    let surface = build_now(&planet, &View { camera, size_px: [160, 100], quality: Quality::Low });
+    let surface = build_now(&planet, &View { camera, size_px: [160, 100], quality: Quality::Low }).unwrap();
     for leaf in &surface.leaves {
         for (x, y) in [(0, 0), (32, 16), (5, 31), (1, 1)] {
             let dir = leaf.tile.id.direction(f64::from(x) / 32.0, f64::from(y) / 32.0);

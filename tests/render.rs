@@ -10,7 +10,7 @@ use support::{Gpu, camera, earth, frame, inside_disc, lights, surface};
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Fbm, Layer, Planet, Shape};
-use tellus::render::{DebugView, Frame, Metering};
+use tellus::render::{DebugView, Frame, Metering, RenderError};
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
 const POSES: [(f64, f64, f64); 8] = [
@@ -43,6 +43,26 @@ fn every_pose_is_lit_and_drawn_twice_the_same() {
             assert!(!day || black == 0, "{black} black pixels from {altitude_m} m, {quality:?}");
         }
     }
+}
+
+/// Beyond the picture there is nothing to draw: a target of another size gets no streaks but an error, and stays as it was.
+#[test]
+fn a_target_of_another_size_is_refused() {
+    let planet = Arc::new(earth());
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 10.0, 10.0, 13e6, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (12.0, 0.0));
+    let [width, height] = frame.view.size_px;
+    for target_px in [[width * 2, height * 2], [width + 1, height], [width, height - 1]] {
+        match gpu.draw_into(&frame, target_px) {
+            Err(RenderError::TargetSize { target_px: target, view_px: view }) => {
+                assert_eq!((target, view), (target_px, frame.view.size_px));
+            }
+            other => panic!("{target_px:?}: {other:?}"),
+        }
+    }
+    gpu.draw_into(&frame, [width, height]).expect("the right size");
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn bare(file: &str) -> Arc<Planet> {
 }
 
 fn view(planet: &Arc<Planet>, lat_deg: f64, lon_deg: f64, altitude_m: f64, pitch_deg: f64) -> View {
-    let (terrain, place) = (Terrain::new(planet.clone()), LatLon::from_degrees(lat_deg, lon_deg));
+    let (terrain, place) = (Terrain::try_new(planet.clone()).unwrap(), LatLon::from_degrees(lat_deg, lon_deg));
     let camera = camera_over(&terrain, place, altitude_m, [0.6, pitch_deg.to_radians()]);
     View { camera, size_px: SIZE_PX, quality: Quality::Medium }
 }
@@ -169,7 +169,7 @@ fn shadows_stay_where_they_are_while_the_camera_moves() {
     assert!(levels.last() >= levels.first().map(|level| level + 2).as_ref(), "{levels:?}");
 
     // Places seen in the last picture are in all of them.
-    let (last, terrain) = (views[FRAMES - 1], Terrain::new(planet.clone()));
+    let (last, terrain) = (views[FRAMES - 1], Terrain::try_new(planet.clone()).unwrap());
     let (mut seen, mut dark, mut jumped, mut back) = (0, 0, 0, 0);
     for i in 0..40 * 25 {
         let [x, y] = [(f64::from(i % 40) + 0.5) / 20.0 - 1.0, 1.0 - (f64::from(i / 40) + 0.5) / 12.5];

@@ -90,7 +90,7 @@ fn what_is_as_narrow_as_pixels_moves_as_smoothly_as_in_the_truth() {
     for Flight { file, lat_deg, lon_deg, altitude_m, pitch_deg } in FLIGHTS {
         let planet = shipped::ALL.iter().find(|shipped| shipped.file == file).unwrap().load().unwrap();
         let planet = Arc::new(Planet { clouds: None, ..planet });
-        let terrain = Terrain::new(planet.clone());
+        let terrain = Terrain::try_new(planet.clone()).unwrap();
         let place = LatLon::from_degrees(lat_deg, lon_deg).direction();
         let surface_m = terrain.height_m(place).max(planet.sea_level_m().unwrap_or(f64::MIN));
         let (radius_m, pitch_rad) = (planet.radius_m() + surface_m + altitude_m, pitch_deg.to_radians());

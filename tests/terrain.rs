@@ -81,7 +81,7 @@ fn hash(heights_m: &[f64]) -> u64 {
 
 #[test]
 fn heights_have_the_same_bits_on_every_instruction_set_and_for_ever() {
-    let terrain = Terrain::new(Arc::new(planet()));
+    let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
     let dirs = directions(5000);
     for simd in Simd::available() {
         let heights = terrain.clone().with_simd(simd).heights_m(&dirs);
@@ -96,7 +96,7 @@ fn heights_have_the_same_bits_on_every_instruction_set_and_for_ever() {
 
 #[test]
 fn one_point_and_a_batch_agree_to_the_bit() {
-    let terrain = Terrain::new(Arc::new(planet()));
+    let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
     let dirs = directions(700);
     let batch = terrain.heights_m(&dirs);
     for (dir, height_m) in dirs.iter().zip(&batch) {
@@ -116,7 +116,7 @@ fn normals_match_central_differences() {
             *octaves = (*octaves).min(5);
         }
     }
-    let terrain = Terrain::new(Arc::new(planet));
+    let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
     let radius_m = terrain.planet().radius_m();
     let mut worst = 0.0_f64;
     for dir in directions(500) {
@@ -133,7 +133,7 @@ fn normals_match_central_differences() {
 
 #[test]
 fn what_is_drawn_is_what_is_asked_for() {
-    let surface = build_now(&Arc::new(planet()), &view(200_000.0, -50.0));
+    let surface = build_now(&Arc::new(planet()), &view(200_000.0, -50.0)).unwrap();
     for leaf in surface.leaves.iter().step_by(7) {
         let id = leaf.tile.id;
         for (i, vertex) in leaf.tile.vertices.iter().enumerate().step_by(37) {
@@ -157,7 +157,7 @@ fn position(surface: &Surface, leaf: usize, x: usize, y: usize) -> [u32; 6] {
 #[test]
 fn neighbouring_tiles_share_their_edges_to_the_bit_and_leave_no_gap() {
     for (altitude_m, pitch_deg) in [(20_000_000.0, -90.0), (30_000.0, -30.0), (2.0, 0.0)] {
-        let surface = build_now(&Arc::new(planet()), &view(altitude_m, pitch_deg));
+        let surface = build_now(&Arc::new(planet()), &view(altitude_m, pitch_deg)).unwrap();
         let level_of: HashMap<NodeId, usize> = surface.leaves.iter().enumerate().map(|(i, l)| (l.tile.id, i)).collect();
         // The leaves cover the sphere exactly once.
         let area: f64 = surface.leaves.iter().map(|l| 0.25_f64.powi(i32::from(l.tile.id.level))).sum();
@@ -193,7 +193,7 @@ fn neighbouring_tiles_share_their_edges_to_the_bit_and_leave_no_gap() {
 
 #[test]
 fn the_same_planet_seen_from_many_places_is_one_planet() {
-    let terrain = Terrain::new(Arc::new(planet()));
+    let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
     for face in Face::ALL {
         for level in [0, 3, 9, 17] {
             let id = NodeId { level, face, x: (1 << level) / 3, y: 0 };
@@ -208,7 +208,7 @@ fn the_same_planet_seen_from_many_places_is_one_planet() {
 
 #[test]
 fn a_ray_meets_the_ground_where_the_ground_is() {
-    let terrain = Terrain::new(Arc::new(planet()));
+    let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
     let radius_m = terrain.planet().radius_m();
     for dir in directions(60) {
         let surface_m = radius_m + terrain.height_m(dir).max(0.0);
@@ -274,7 +274,7 @@ proptest! {
         }
         let planet = Arc::new(planet);
         builder.request(&planet, &view);
-        prop_assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)));
+        prop_assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
     }
 }
 
@@ -330,7 +330,7 @@ fn no_valid_planet_is_turned_inside_out() {
         assert!(tellus::planet::validate::problems(&planet).is_empty());
         let planet = Arc::new(planet);
         let camera = Camera { position_planet_m: DVec3::X * planet.radius_m() * 14.0, ..view(1.0, -90.0).camera };
-        let surface = build_now(&planet, &View { camera, ..view(1.0, 0.0) });
+        let surface = build_now(&planet, &View { camera, ..view(1.0, 0.0) }).unwrap();
         for vertex in surface.leaves.iter().flat_map(|leaf| &leaf.tile.vertices) {
             let position = vertex.position_planet_m();
             assert!(position.is_finite() && position.length() > 0.05 * planet.radius_m());
@@ -353,7 +353,7 @@ fn a_mask_follows_its_name_to_another_layer() {
     planet.layers[3].name = name;
     let planet = Arc::new(planet);
     builder.request(&planet, &view);
-    assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)));
+    assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
 }
 
 /// A planet that the sea makes moist.
@@ -366,9 +366,9 @@ fn moist() -> Planet {
 
 #[test]
 fn the_sea_makes_its_shores_moister_than_the_inland() {
-    let with = Terrain::new(Arc::new(moist()));
-    let without = Terrain::new(Arc::new(planet()));
-    let again = Terrain::new(Arc::new(moist()));
+    let with = Terrain::try_new(Arc::new(moist())).unwrap();
+    let without = Terrain::try_new(Arc::new(planet())).unwrap();
+    let again = Terrain::try_new(Arc::new(moist())).unwrap();
     let (mut shore, mut inland) = (Vec::new(), Vec::new());
     for dir in directions(4000) {
         let (a, b) = (with.sample(dir), without.sample(dir));
@@ -407,6 +407,6 @@ fn a_tile_far_from_an_edit_learns_of_a_new_shore() {
         }
         let planet = Arc::new(planet.clone());
         builder.request(&planet, &view);
-        assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view)), "step {step}");
+        assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()), "step {step}");
     }
 }

@@ -4,7 +4,7 @@ use super::depth::{self, DepthTable};
 use super::line::{Line, horizon_mu};
 use super::medium::{Medium, rayleigh_phase};
 use super::multiscatter::{self, MultiscatterTable};
-use crate::planet::Planet;
+use crate::planet::{InvalidPlanet, Planet};
 use glam::DVec3;
 
 /// Steps along a ray: within 1e-3 of many more.
@@ -42,12 +42,16 @@ pub struct Air {
 
 impl Air {
     /// The air of a planet; takes a moment, for the tables.
-    pub fn new(planet: &Planet) -> Self {
+    ///
+    /// # Errors
+    /// A planet that was changed to something that no preset may say.
+    pub fn try_new(planet: &Planet) -> Result<Self, InvalidPlanet> {
+        planet.check()?;
         let lit = Lit::new(planet).map(|lit| {
             let table = MultiscatterTable::new(&lit);
             (lit, table)
         });
-        Self { lit, radius: planet.radius_km }
+        Ok(Self { lit, radius: planet.radius_km })
     }
 
     /// What the air leaves of the light of the star's centre; nothing when the planet stands before it.

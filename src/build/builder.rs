@@ -12,7 +12,7 @@ use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
 use crate::lod::tile::{DetailTile, Tile};
 use crate::planet::param::{Stage, Stages};
-use crate::planet::{Planet, diff};
+use crate::planet::{InvalidPlanet, Planet, diff};
 use crate::terrain::Terrain;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -202,8 +202,8 @@ impl Worker {
             }
             let slice = catch_unwind(AssertUnwindSafe(|| self.slice(shared, &request, is_first, under_way.1)));
             let mut state = shared.lock();
-            match slice {
-                Ok((surface, done)) => {
+            let gone_wrong = match slice {
+                Ok(Ok((surface, done))) => {
                     under_way.1 = surface.stats;
                     if surface.complete {
                         state.tiled = request.number;
@@ -212,17 +212,21 @@ impl Worker {
                         state.finished = request.number;
                     }
                     state.surface = Some(Arc::new(surface));
-                    state.error = None;
+                    None
                 }
+                Ok(Err(invalid)) => Some(invalid.to_string()),
                 Err(panic) => {
                     // What it was in the middle of is not to be trusted.
                     self.cache.clear();
                     self.terrain = None;
                     self.complete = None;
-                    state.finished = request.number;
-                    state.error = Some(format!("This planet could not be built: {}", text_of(panic.as_ref())));
+                    Some(text_of(panic.as_ref()))
                 }
+            };
+            if gone_wrong.is_some() {
+                state.finished = request.number;
             }
+            state.error = gone_wrong.map(|why| format!("This planet could not be built: {why}"));
             state.memory = self.cache.memory();
             drop(state);
             wake();
@@ -230,9 +234,15 @@ impl Worker {
     }
 
     /// A surface, and whether it has all that the request asks for. First come all tiles, then their detail.
-    fn slice(&mut self, shared: &Shared, request: &Request, is_first: bool, mut stats: BuildStats) -> (Surface, bool) {
+    fn slice(
+        &mut self,
+        shared: &Shared,
+        request: &Request,
+        is_first: bool,
+        mut stats: BuildStats,
+    ) -> Result<(Surface, bool), InvalidPlanet> {
         let begun = Instant::now();
-        let (terrain, compiled_samples) = self.compile(&request.planet);
+        let (terrain, compiled_samples) = self.compile(&request.planet)?;
         if is_first {
             self.cache.begin_request();
             stats.compile_secs = begun.elapsed().as_secs_f64();
@@ -249,12 +259,12 @@ impl Worker {
             None => {
                 let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
                 if !surface.complete {
-                    return (surface, false);
+                    return Ok((surface, false));
                 }
                 // They are shown before time is spent on their detail.
                 if is_first || surface.stats.tiles_built > stats.tiles_built {
                     self.complete = Some((request.number, surface.clone(), None));
-                    return (surface, false);
+                    return Ok((surface, false));
                 }
                 (surface, None)
             }
@@ -268,20 +278,20 @@ impl Worker {
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
         let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted) && has_horizons;
         self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
-        (surface, done)
+        Ok((surface, done))
     }
 
     /// The evaluator of a planet, and how many octave samples it took to find; tiles stay valid when nothing that they hold has changed.
-    fn compile(&mut self, planet: &Arc<Planet>) -> (Arc<Terrain>, usize) {
-        let before = self.terrain.take();
+    fn compile(&mut self, planet: &Arc<Planet>) -> Result<(Arc<Terrain>, usize), InvalidPlanet> {
+        let before = self.terrain.clone();
         let (terrain, samples) = match before {
             Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => (terrain, 0),
             before => {
                 profiling::scope!("compile");
                 let mut terrain = match &before {
-                    Some(before) => Terrain::after(planet.clone(), before),
-                    None => Terrain::new(planet.clone()),
-                };
+                    Some(before) => Terrain::try_after(planet.clone(), before),
+                    None => Terrain::try_new(planet.clone()),
+                }?;
                 // Where there is little room, it is for tiles.
                 if terrain.coarse_bytes() > self.cache.budget_bytes() / 8 {
                     terrain.forget_coarse();
@@ -296,7 +306,7 @@ impl Worker {
             }
         };
         self.terrain = Some(terrain.clone());
-        (terrain, samples)
+        Ok((terrain, samples))
     }
 }
 

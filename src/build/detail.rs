@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn borders_are_shared_and_the_rise_is_small() {
         let planet = Arc::new(shipped::default_planet());
-        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
+        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
         let detail = make_detail(&surface.terrain, tile, &|| true).unwrap();
         assert_eq!(detail.slopes.len(), DETAIL_IMAGE * DETAIL_IMAGE);
@@ -146,9 +146,9 @@ mod tests {
     /// A child that has not come in yet shows what its parent shows.
     #[test]
     fn a_child_begins_as_its_parents_quarter() {
-        let terrain = Terrain::new(Arc::new(shipped::default_planet()));
+        let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
         let planet = Arc::new(shipped::default_planet());
-        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low));
+        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
         let parent = texels(&terrain, tile.id, 1, &|| true).unwrap();
         let id = tile.id.children()[3];

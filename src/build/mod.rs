@@ -25,7 +25,7 @@ pub use stats::{BuildStats, Memory, StageWork};
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::DetailTile;
 use crate::lod::{Culling, Ranges, Tile, View};
-use crate::planet::Planet;
+use crate::planet::{InvalidPlanet, Planet};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use glam::DVec3;
@@ -87,12 +87,15 @@ impl Surface {
 }
 
 /// Builds the complete surface for a view and waits for it.
-pub fn build_now(planet: &Arc<Planet>, view: &View) -> Surface {
-    let terrain = Arc::new(Terrain::new(planet.clone()));
+///
+/// # Errors
+/// As [`Terrain::try_new`].
+pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPlanet> {
+    let terrain = Arc::new(Terrain::try_new(planet.clone())?);
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
     let mut stats = BuildStats::default();
     stats.octave_samples = terrain.octave_samples();
-    refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true)
+    Ok(refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true))
 }
 
 /// Finds the horizons and the detail of all tiles that a view shows of a surface, and waits for them.

@@ -57,7 +57,11 @@ impl Gpu {
     }
 
     /// What `draw` puts into a texture, as rows of RGBA bytes from the top.
-    pub(super) fn picture(&self, size_px: [u32; 2], draw: impl FnOnce(&wgpu::TextureView)) -> Result<Vec<u8>, String> {
+    pub(super) fn picture(
+        &self,
+        size_px: [u32; 2],
+        draw: impl FnOnce(&wgpu::TextureView) -> Result<(), String>,
+    ) -> Result<Vec<u8>, String> {
         let [width, height] = size_px;
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = self.device.create_texture(&wgpu::TextureDescriptor {
@@ -70,7 +74,7 @@ impl Gpu {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        draw(&texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        draw(&texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
 
         // Rows in a buffer begin at multiples of 256 bytes.
         let row_bytes = width * 4;

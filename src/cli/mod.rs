@@ -16,6 +16,7 @@ mod sample;
 mod sky;
 
 use crate::planet::Planet;
+use crate::planet::picture::is_contained;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -62,6 +63,13 @@ pub fn run() -> ExitCode {
     let filter = env_logger::Env::default().default_filter_or("error");
     // Whoever embeds this may have a logger already.
     let _ = env_logger::Builder::from_env(filter).try_init();
+    // What a decoder makes of a broken picture is told with its place in the preset; its panic is no news.
+    let print_panic = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !is_contained() {
+            print_panic(panic);
+        }
+    }));
     let cli = match Cli::command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {

@@ -3,8 +3,8 @@
 use super::{Failure, args, headless, load};
 use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
-use crate::planet::Planet;
 use crate::planet::file::write_atomically;
+use crate::planet::{InvalidPlanet, Planet};
 use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
@@ -122,7 +122,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     renderer.tone = args.tone;
     let view = view(args, &planet)?;
-    let mut surface = build_now(&planet, &view);
+    let mut surface = build_now(&planet, &view).map_err(|error| error.to_string())?;
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
     let frame = Frame {
@@ -136,7 +136,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         debug_view: args.view,
     };
     let pixels = gpu.picture(args.size, |target| {
-        renderer.render(&gpu.device, &gpu.queue, target, &frame);
+        renderer.render(&gpu.device, &gpu.queue, target, &frame).map(drop).map_err(|error| error.to_string())
     })?;
     let [width, height] = args.size;
     let mut png = Vec::new();
@@ -152,7 +152,8 @@ fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
     let place = LatLon::from_degrees(args.lat.unwrap_or(opening_lat_deg), args.lon.unwrap_or(opening_lon_deg));
     let (radius_m, altitude_m) = match args.altitude {
         Some(altitude_m) => {
-            let ground_m = Terrain::new(planet.clone()).height_m(place.direction());
+            let terrain = Terrain::try_new(planet.clone()).map_err(|error| error.to_string())?;
+            let ground_m = terrain.height_m(place.direction());
             let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
             let deepest_m = ground_m + 0.1 - floor_m;
             if altitude_m < deepest_m {

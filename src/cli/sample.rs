@@ -26,7 +26,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let terrain = Terrain::new(Arc::new(load(&args.file)?));
+    let terrain = Terrain::try_new(Arc::new(load(&args.file)?)).map_err(|error| error.to_string())?;
     let sample = terrain.sample(LatLon::from_degrees(args.lat, args.lon).direction());
     print(&if args.json { format!("{:#}", as_json(&terrain, &sample)) } else { as_text(&terrain, &sample) })
 }

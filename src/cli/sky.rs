@@ -49,7 +49,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         azimuth_rad: args.azimuth.to_radians(),
     };
     let SkyAnswer { transmittance, radiance } =
-        if args.gpu { shaders(&planet, ray)? } else { physics(&planet, ray, args.reference) };
+        if args.gpu { shaders(&planet, ray)? } else { physics(&planet, ray, args.reference)? };
     let line = |rgb: [f64; 3]| rgb.map(|x| format!("{x:.6}")).join(" ");
     print(&if args.json {
         format!("{:#}", json!({ "transmittance": transmittance, "radiance": radiance }))
@@ -58,12 +58,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     })
 }
 
-fn physics(planet: &Planet, ray: SkyRay, traced: bool) -> SkyAnswer {
-    let air = Air::new(planet);
-    SkyAnswer {
+fn physics(planet: &Planet, ray: SkyRay, traced: bool) -> Result<SkyAnswer, Failure> {
+    let air = Air::try_new(planet).map_err(|error| error.to_string())?;
+    Ok(SkyAnswer {
         transmittance: air.sun_transmittance(ray.altitude_m, ray.sun_zenith_rad),
         radiance: if traced { reference::radiance(&air, &ray, PATHS) } else { air.radiance(&ray) },
-    }
+    })
 }
 
 fn shaders(planet: &Planet, ray: SkyRay) -> Result<SkyAnswer, Failure> {

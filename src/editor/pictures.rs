@@ -3,7 +3,7 @@
 
 use super::app::EditorApp;
 use crate::planet::param::{Domain, ParamPath, ValueMut};
-use crate::planet::picture::{Picture, PictureKey};
+use crate::planet::picture::{Budget, Picture, PictureKey};
 use eframe::egui;
 use std::path::Path;
 use std::sync::Arc;
@@ -71,7 +71,10 @@ impl EditorApp {
             match key {
                 Ok(key) => match failed(&key) {
                     Some(failure) => self.pictures.problems.push((path, failure.problem.clone())),
-                    None if self.pictures.reading.is_none() => self.pictures.reading = Some(read(key, ctx)),
+                    None if self.pictures.reading.is_none() => {
+                        let budget = self.document.planet().picture_budget();
+                        self.pictures.reading = Some(read(key, budget, ctx));
+                    }
                     None => {}
                 },
                 Err(problem) => self.pictures.problems.push((path, problem)),
@@ -96,12 +99,12 @@ impl EditorApp {
     }
 }
 
-fn read(key: PictureKey, ctx: &egui::Context) -> (PictureKey, Receiver<Answer>) {
+fn read(key: PictureKey, mut budget: Budget, ctx: &egui::Context) -> (PictureKey, Receiver<Answer>) {
     let (sender, receiver) = channel();
     let (wanted, ctx) = (key.clone(), ctx.clone());
     std::thread::spawn(move || {
         // The receiver is gone when the editor closed meanwhile.
-        let _ = sender.send(wanted.load());
+        let _ = sender.send(wanted.load(&mut budget));
         ctx.request_repaint();
     });
     (key, receiver)

@@ -148,12 +148,36 @@ fn without_mark(text: &str) -> &str {
 
 /// At most one byte more than is allowed.
 fn read(path: &Path) -> io::Result<Vec<u8>> {
-    if path.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file"));
-    }
+    let file = match open(path)? {
+        Opened::File(file) => file,
+        Opened::Folder => return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file")),
+        Opened::Special => {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "is a device or a pipe, not a file; name a file"));
+        }
+    };
     let mut bytes = Vec::new();
-    std::fs::File::open(path)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// What stands at a path; links are followed.
+pub(crate) enum Opened {
+    /// A file, ready to be read.
+    File(std::fs::File),
+    /// A folder.
+    Folder,
+    /// A pipe, a device or a socket. It was not opened: whoever reads one may wait for ever.
+    Special,
+}
+
+/// Opens a file to be read, if it is one.
+pub(crate) fn open(path: &Path) -> io::Result<Opened> {
+    let metadata = std::fs::metadata(path)?;
+    Ok(match metadata.file_type() {
+        kind if kind.is_file() => Opened::File(std::fs::File::open(path)?),
+        kind if kind.is_dir() => Opened::Folder,
+        _ => Opened::Special,
+    })
 }
 
 /// The version that the text says it has. Found without reading the rest, which a newer version may write differently.

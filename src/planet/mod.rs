@@ -52,6 +52,7 @@ pub use shapes::{
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
 pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
+pub use validate::InvalidPlanet;
 
 use param::{Curve, Domain, ParamPath, Params, Stage, Unit, choice, log, params};
 use serde::{Deserialize, Serialize};

@@ -315,7 +315,7 @@ params! {
     /// everywhere.
     pub struct HeightMap {
         /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or the first;
-        /// numbers as they are). The path counts from the preset's folder.
+        /// numbers as they are), of at most 16384 x 8192 pixels. The path counts from the preset's folder.
         file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Field;
         /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the
         /// middle. CubeCross: 4 x 3 squares; -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X. CubeStrip: the

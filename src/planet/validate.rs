@@ -7,6 +7,33 @@ use super::param::{ParamPath, Segment};
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
 use std::collections::HashSet;
 
+/// A planet that cannot be evaluated: it was changed to something that no preset may say.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("the planet is not valid: {}", first_of(problems))]
+pub struct InvalidPlanet {
+    /// Everything that is wrong with it: where, and what would be right.
+    pub problems: Vec<(ParamPath, String)>,
+}
+
+fn first_of(problems: &[(ParamPath, String)]) -> String {
+    match problems {
+        [] => "nothing is known of why".to_owned(),
+        [(path, message)] => format!("{path}: {message}"),
+        [(path, message), more @ ..] => format!("{path}: {message} (and {} more)", more.len()),
+    }
+}
+
+impl Planet {
+    /// Whether the planet is one that can be saved and evaluated. What [`Planet::load`] gives always is.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn check(&self) -> Result<(), InvalidPlanet> {
+        let problems = problems(self);
+        if problems.is_empty() { Ok(()) } else { Err(InvalidPlanet { problems }) }
+    }
+}
+
 /// Everything that is wrong with a planet: where, and what would be right. In the order of the file, as far as one
 /// problem belongs to one place.
 pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {

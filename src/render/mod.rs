@@ -58,7 +58,7 @@ pub use white_balance::white_balance;
 
 use crate::build::Surface;
 use crate::lod::{Quality, View};
-use crate::planet::Planet;
+use crate::planet::{InvalidPlanet, Planet};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -138,7 +138,7 @@ pub struct Frame<'a> {
     pub surface: &'a Surface,
     /// The planet for everything that is not in the tiles: it may be newer than the surface's.
     pub planet: &'a Planet,
-    /// Camera, size of the target, quality.
+    /// Camera, size of the target (exactly), quality.
     pub view: View,
     /// The view that the tiles were chosen for, if it is another: they are culled and blended as seen from there.
     pub frozen: Option<View>,
@@ -161,6 +161,20 @@ pub enum RenderError {
     /// The device does not answer.
     #[error("the device: {0}")]
     Device(String),
+    /// The target has another size than the picture: what lies beyond the picture would be streaks.
+    #[error(
+        "the target is {} x {} pixels and the frame's view {} x {}; set the view's size_px to the target's size",
+        target_px[0], target_px[1], view_px[0], view_px[1]
+    )]
+    TargetSize {
+        /// Width and height of the target's texture.
+        target_px: [u32; 2],
+        /// [`View::size_px`] of the frame.
+        view_px: [u32; 2],
+    },
+    /// The planet is one that no preset may describe.
+    #[error(transparent)]
+    Planet(#[from] InvalidPlanet),
 }
 
 /// What one frame drew.
@@ -311,15 +325,19 @@ impl Renderer {
     pub fn table_runs(&self) -> TableRuns {
         TableRuns { uniforms: self.globals.writes(), ..self.tables.runs() }
     }
-    /// Draws one frame and submits it.
+    /// Draws one frame and submits it. The target is as large as the frame's view says.
+    ///
+    /// # Errors
+    /// [`RenderError::TargetSize`]: it is not, and nothing is drawn.
     pub fn render(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         target: &wgpu::TextureView,
         frame: &Frame<'_>,
-    ) -> FrameStats {
+    ) -> Result<FrameStats, RenderError> {
         profiling::scope!("render");
+        targets::check_size(target, frame.view.size_px, device.limits().max_texture_dimension_2d)?;
         self.reload_shaders(device);
         let (size_px, scale) = drawn_size(frame, device.limits().max_texture_dimension_2d);
         let (targets, inputs) = match self.targets.take().filter(|(targets, _)| targets.size_px == size_px) {
@@ -373,7 +391,7 @@ impl Renderer {
         queue.submit([encoder.finish()]);
         self.targets = Some((targets, inputs));
         self.scene = scene;
-        stats
+        Ok(stats)
     }
 
     /// The radiance of the newest frame before exposure and curve, without stars: size of the picture as it was drawn, and red,

@@ -201,11 +201,11 @@ mod tests {
         let mut morph = Morph::new(&device);
         let planet = Arc::new(shipped::default_planet());
         let place = LatLon::from_degrees(35.0, -5.0);
-        let ground_m = planet.radius_m() + Terrain::new(planet.clone()).height_m(place.direction());
+        let ground_m = planet.radius_m() + Terrain::try_new(planet.clone()).unwrap().height_m(place.direction());
         for (altitude_m, quality) in [(1.7, Quality::Low), (2000.0, Quality::Medium), (1e6, Quality::High)] {
             let camera = Camera::over(place, ground_m + altitude_m, 0.4, -0.4, Camera::DEFAULT_FOV_Y_RAD);
             let view = View { camera, size_px: [320, 200], quality };
-            let surface = build_now(&planet, &view);
+            let surface = build_now(&planet, &view).unwrap();
             // Away from where the tiles were chosen for, as a frame of a flight is.
             let eye = surface.morphing_eye_m(camera.position_planet_m * (1.0 + 0.02 * altitude_m / ground_m));
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

@@ -39,7 +39,7 @@ impl Renderer {
         if columns == 0 {
             return Ok(Vec::new());
         }
-        self.write_globals(queue, planet, quality);
+        self.write_globals(queue, planet, quality)?;
         let shared = [&self.globals.layout, &self.tables.layout];
         let pass = ScenePass::new(device, shared, "sky_probe.wgsl", &[Slot::Unfiltered2d], &[FORMAT, FORMAT])?;
         let input = ray_texture(device, queue, rays);
@@ -57,8 +57,8 @@ impl Renderer {
         Ok(answers.map(|(radiance, transmittance)| SkyAnswer { transmittance, radiance }).collect())
     }
 
-    fn write_globals(&mut self, queue: &wgpu::Queue, planet: &Planet, quality: Quality) {
-        let terrain = Arc::new(Terrain::new(Arc::new(planet.clone())));
+    fn write_globals(&mut self, queue: &wgpu::Queue, planet: &Planet, quality: Quality) -> Result<(), RenderError> {
+        let terrain = Arc::new(Terrain::try_new(Arc::new(planet.clone()))?);
         let (asked, stats) = (Instant::now(), BuildStats::default());
         let place = LatLon::from_degrees(0.0, 0.0);
         let camera = Camera::over(place, planet.radius_m() * 2.0, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
@@ -85,6 +85,7 @@ impl Renderer {
             tone: super::Tone::Plain,
         };
         self.globals.write(queue, &frame, &setup);
+        Ok(())
     }
 }
 

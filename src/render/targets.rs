@@ -1,6 +1,6 @@
 //! The textures a frame is drawn into; made anew when the size changes.
 
-use super::gpu;
+use super::{RenderError, gpu};
 
 /// Radiance.
 pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -51,4 +51,14 @@ impl Targets {
     pub(crate) fn smoothed(&self) -> &wgpu::TextureView {
         &self.cloud_light
     }
+}
+
+/// Whether a target is as large as a view says (or as the device allows, if that is less).
+pub(crate) fn check_size(target: &wgpu::TextureView, view_px: [u32; 2], limit_px: u32) -> Result<(), RenderError> {
+    let texture = target.texture();
+    let target_px = [texture.width(), texture.height()];
+    let wanted_px = view_px.map(|side| side.clamp(1, limit_px));
+    // A view does not tell which mip level of its texture it shows.
+    let fits = |level: u32| target_px.map(|side| (side >> level).max(1)) == wanted_px;
+    if (0..texture.mip_level_count()).any(fits) { Ok(()) } else { Err(RenderError::TargetSize { target_px, view_px }) }
 }

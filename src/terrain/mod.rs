@@ -18,6 +18,9 @@
 //! - `raycast`: a ray against the ground and the sea
 //!
 //! [`Terrain`] is the only thing outsiders need. Tiles go through the same functions as queries, in batches.
+//!
+//! Every question has a finite answer. A direction may have any length; one that leads nowhere (zero, infinite or NaN)
+//! counts as the one to the north pole.
 
 mod approx;
 pub mod bench;
@@ -38,7 +41,7 @@ pub(crate) mod relief;
 pub mod simd;
 pub mod survey;
 
-use crate::planet::Planet;
+use crate::planet::{InvalidPlanet, Planet};
 pub use height::curve_at;
 
 use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
@@ -52,6 +55,7 @@ use points::Points;
 use rayon::prelude::*;
 use relief::Relief;
 use simd::Simd;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// The compiled evaluator of one planet.
@@ -105,17 +109,26 @@ pub(crate) struct GroundRelief {
 }
 
 impl Terrain {
-    /// Compiles a planet. The planet should be valid (as loaded, or found so by `planet::validate`): what an invalid
-    /// one gives is unspecified, but finite work.
-    pub fn new(planet: Arc<Planet>) -> Self {
-        Self::compile(planet, None)
+    /// Compiles a planet.
+    ///
+    /// # Errors
+    /// A planet that was changed to something that no preset may say: all that is wrong with it. One that was loaded and not
+    /// changed since is valid.
+    pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
+        planet.check()?;
+        Ok(Self::compile(planet, None))
     }
 
-    /// As [`Terrain::new`], but takes over from the terrain of a similar planet what is the same and took time to find.
-    pub fn after(planet: Arc<Planet>, before: &Terrain) -> Self {
-        Self::compile(planet, Some(before))
+    /// As [`Terrain::try_new`], but takes over from the terrain of a similar planet what is the same and took time to find.
+    ///
+    /// # Errors
+    /// As [`Terrain::try_new`].
+    pub fn try_after(planet: Arc<Planet>, before: &Terrain) -> Result<Self, InvalidPlanet> {
+        planet.check()?;
+        Ok(Self::compile(planet, Some(before)))
     }
 
+    /// The planet must be valid: numbers out of their ranges break what the evaluator takes for granted.
     fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
         let stack = LayerStack::new(&planet);
         let climate = CompiledClimate::new(&planet);
@@ -178,7 +191,7 @@ impl Terrain {
         self.simd
     }
 
-    /// The surface under a direction from the planet's centre (of any length but zero).
+    /// The surface under a direction from the planet's centre, of any length. See [`crate::terrain`] for zero and NaN.
     pub fn sample(&self, dir_planet: DVec3) -> Sample {
         let dir = unit(dir_planet);
         let points = Points::new(vec![dir]);
@@ -222,13 +235,13 @@ impl Terrain {
         (cell, ground::biome_by_rules(&self.planet, site))
     }
 
-    /// Height of the ground above the reference sphere under a direction (of any length but zero): the height that a
-    /// tile has at a vertex of that direction, to the bit.
+    /// Height of the ground above the reference sphere under a direction of any length: the height that a tile has at a
+    /// vertex of that direction, to the bit. See [`crate::terrain`] for zero and NaN.
     pub fn height_m(&self, dir_planet: DVec3) -> f64 {
         self.heights_of(vec![unit(dir_planet)])[0]
     }
 
-    /// Heights under many directions, on all cores.
+    /// Heights under many directions, on all cores: of each what [`Terrain::height_m`] says.
     pub fn heights_m(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
         dirs_planet
             .par_chunks(1024)
@@ -241,8 +254,9 @@ impl Terrain {
         self.height_bounds_m
     }
 
-    /// The same for the ground within an angle of a direction: narrower, or equal.
+    /// The same for the ground within an angle of a direction: narrower, or equal. NaN is any angle.
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        let angle_rad = if angle_rad.is_nan() { PI } else { angle_rad.abs().min(PI) };
         let ((lo, hi), (lowest, highest)) =
             (self.with_relief(self.stack.bounds_near_m(unit(dir_planet), angle_rad)), self.height_bounds_m);
         (lo.max(lowest), hi.min(highest))
@@ -302,9 +316,19 @@ impl Terrain {
     }
 }
 
-/// The direction as a unit vector; one that is already of unit length (to rounding) is left as it is, to the bit.
+/// The direction as a unit vector; one that is already of unit length (to rounding) is left as it is, to the bit. One that
+/// leads nowhere counts as the one to the north pole.
 fn unit(dir: DVec3) -> DVec3 {
-    if (dir.length_squared() - 1.0).abs() < 1e-12 { dir } else { dir.normalize() }
+    let length2 = dir.length_squared();
+    if (length2 - 1.0).abs() < 1e-12 {
+        return dir;
+    }
+    // Outside of this squares lose their digits or overflow.
+    if (1e-200..1e200).contains(&length2) {
+        return dir.normalize();
+    }
+    let largest = dir.abs().max_element();
+    if dir.is_finite() && largest > 0.0 { (dir / largest).normalize() } else { DVec3::Z }
 }
 
 /// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a

@@ -1,6 +1,6 @@
 //! A ray against the ground and the sea: for the pointer, for cameras and for games.
 
-use super::Terrain;
+use super::{Terrain, unit};
 use glam::DVec3;
 
 /// Points asked for at a time: as many as the widest registers hold, so that they cost little more than one.
@@ -10,11 +10,16 @@ const MAX_BATCHES: usize = 200;
 
 impl Terrain {
     /// Distance in metres along a ray from `origin_planet_m` to the ground or the sea's surface, whichever comes first;
-    /// `None` when it meets neither. `dir_planet` must be a unit vector.
+    /// `None` when it meets neither, or when it begins nowhere (infinite, NaN) or leads nowhere (zero, infinite, NaN). The
+    /// direction may have any other length.
     ///
     /// Marches in steps in proportion to the height above ground, then narrows the crossing down: ridges thinner
     /// than a step can be missed.
     pub fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64> {
+        if !origin_planet_m.is_finite() || !dir_planet.is_finite() || dir_planet == DVec3::ZERO {
+            return None;
+        }
+        let dir_planet = unit(dir_planet);
         let radius_m = self.planet().radius_m();
         let (_, highest_m) = self.height_bounds_m();
         let sea_m = self.planet().sea_level_m().unwrap_or(f64::MIN);
@@ -22,7 +27,7 @@ impl Terrain {
             sphere_hits(origin_planet_m, dir_planet, radius_m + highest_m.max(sea_m).max(0.0) + 1.0)?;
         let clearances_m = |distances_m: &[f64; BATCH]| {
             let points = distances_m.map(|t| origin_planet_m + dir_planet * t);
-            let heights_m = self.heights_of(points.iter().map(|p| p.normalize_or(DVec3::Z)).collect());
+            let heights_m = self.heights_of(points.iter().map(|p| unit(*p)).collect());
             std::array::from_fn::<f64, BATCH, _>(|i| points[i].length() - radius_m - heights_m[i].max(sea_m))
         };
 

@@ -3,7 +3,7 @@
 use super::climate::{NO_SEA, Rules};
 use super::field::EXACT;
 use super::points::Points;
-use super::{Terrain, height, tangent_slope};
+use super::{Terrain, height, tangent_slope, unit};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -30,18 +30,19 @@ pub fn spread(count: usize) -> impl Iterator<Item = DVec3> {
 }
 
 impl Terrain {
-    /// What [`Terrain::sample`] says about cell, biome and height, for many unit directions, on the calling thread alone.
+    /// What [`Terrain::sample`] says about cell, biome and height, for many directions, on the calling thread alone.
     pub fn grounds(&self, dirs_planet: &[DVec3]) -> Vec<Ground> {
         dirs_planet.chunks(512).flat_map(|dirs| self.grounds_of(dirs)).collect()
     }
 
     fn grounds_of(&self, dirs: &[DVec3]) -> Vec<Ground> {
-        let points = Points::new(dirs.to_vec());
+        let dirs: Vec<DVec3> = dirs.iter().map(|&dir| unit(dir)).collect();
+        let points = Points::new(dirs.clone());
         let fields = self.fields(&points, EXACT);
         let mut heights = height::combine(&self.stack, self.simd, &points, &fields, EXACT, |_, _| {});
         self.raise(&mut heights, &points, EXACT);
         let noise = self.climate.field(self.simd, &points);
-        let inland_rad = self.climate.inland_rad(dirs);
+        let inland_rad = self.climate.inland_rad(&dirs);
         let rules = Rules::new(&self.planet);
         let radius_m = self.planet.radius_m();
         let ground = |(i, &dir): (usize, &DVec3)| {
@@ -65,7 +66,7 @@ mod tests {
 
     #[test]
     fn a_survey_says_what_a_sample_says() {
-        let terrain = Terrain::new(Arc::new(shipped::default_planet()));
+        let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
         let dirs: Vec<DVec3> = spread(700).collect();
         assert!(dirs.iter().sum::<DVec3>().length() < 1.0, "evenly spread");
         for (ground, &dir) in terrain.grounds(&dirs).iter().zip(&dirs) {

@@ -80,12 +80,17 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
         .into_iter()
         .filter_map(|(path, stages)| {
             let mut edited = planet.clone();
+            let mut renamed = None;
             edited.each(&mut |at, param, mut value| {
                 if *at == path {
                     let new = other(planet, param, &value);
+                    renamed = Some((param.name, value.get(), new.clone()));
                     value.set(&new);
                 }
             });
+            if let Some((name, old, new)) = renamed {
+                follow(&mut edited, name, &old, &new);
+            }
             // What stands beside the parameter; but heights follow biomes and climate only where a biome has a relief.
             let reliefs = planet.biomes.palette.iter().any(|biome| biome.relief_m > 0.0);
             let relief = reliefs || path.to_string().contains("relief");
@@ -96,10 +101,39 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
         })
         .collect();
     let mut painted = planet.clone();
-    painted.biomes.table.set_key(0, 0, 'b');
+    painted.biomes.table.set_key(0, 0, planet.biomes.palette[1].key);
     let declared = diff::touched_stages(planet, &painted).with_consequences();
     edits.push(Edit { path: "biomes.table".to_owned(), declared, planet: painted });
     edits
+}
+
+/// Lets everything that refers to a biome by its key or to a layer by its name refer to the new one: without that the planet
+/// would not be valid.
+fn follow(planet: &mut Planet, name: &str, old: &Value, new: &Value) {
+    match (name, old, new) {
+        ("key", Value::Letter(old), Value::Letter(new)) => {
+            let biomes = &mut planet.biomes;
+            for row in 0..biomes.table.rows().len() {
+                for column in 0..biomes.table.columns() {
+                    if biomes.table.key(column, row) == Some(*old) {
+                        biomes.table.set_key(column, row, *new);
+                    }
+                }
+            }
+            let steep = biomes.palette.iter_mut().map(|biome| &mut biome.steep_key);
+            for key in steep.chain([&mut biomes.beach_key, &mut biomes.snow_key]) {
+                *key = if *key == *old { *new } else { *key };
+            }
+        }
+        ("name", Value::Text(old), Value::Text(new)) => {
+            for mask in planet.layers.iter_mut().flat_map(|layer| &mut layer.masks) {
+                if mask.layer() == Some(old) {
+                    mask.set_layer(new);
+                }
+            }
+        }
+        _ => {}
+    }
 }
 
 /// Another valid value.
@@ -120,7 +154,10 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
         (Value::Curve(_), Domain::Curve { most, .. }) => {
             Value::Curve(vec![[-0.25 * most, -0.2 * most], [0.25 * most, 0.3 * most]])
         }
-        (Value::Letter(_), _) if param.name == "key" => Value::Letter('z'),
+        (Value::Letter(key), _) if param.name == "key" => {
+            let is_free = |key: &char| planet.biomes.palette.iter().all(|biome| biome.key != *key);
+            Value::Letter(('a'..='z').rev().find(is_free).unwrap_or(key))
+        }
         // Which biome it is: another one of the palette.
         (Value::Letter(key), _) => {
             let others = planet.biomes.palette.iter().map(|biome| biome.key);

@@ -10,7 +10,7 @@ use std::time::Duration;
 use tellus::build::{Builder, Surface, add_detail, build_now};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
-use tellus::render::{DebugView, Frame, Renderer};
+use tellus::render::{DebugView, Frame, FrameStats, RenderError, Renderer};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
@@ -23,7 +23,7 @@ pub fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
 
 /// The surface that a view sees, with all its detail.
 pub fn surface_of(planet: &Arc<Planet>, view: &View) -> Surface {
-    let mut surface = build_now(planet, view);
+    let mut surface = build_now(planet, view).unwrap();
     add_detail(&mut surface, view);
     surface
 }
@@ -115,9 +115,15 @@ impl Gpu {
         let texture = self.picture(frame.view.size_px);
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         for _ in 0..times {
-            self.renderer.render(&self.device, &self.queue, &view, frame);
+            self.renderer.render(&self.device, &self.queue, &view, frame).unwrap();
             self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
         }
+    }
+
+    /// Draws a frame into a target of any size.
+    pub fn draw_into(&mut self, frame: &Frame<'_>, target_px: [u32; 2]) -> Result<FrameStats, RenderError> {
+        let view = self.picture(target_px).create_view(&wgpu::TextureViewDescriptor::default());
+        self.renderer.render(&self.device, &self.queue, &view, frame)
     }
 
     /// Draws a frame and reads it back, RGBA.
@@ -125,7 +131,7 @@ impl Gpu {
         let [width, height] = frame.view.size_px;
         let texture = self.picture(frame.view.size_px);
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.render(&self.device, &self.queue, &view, frame);
+        self.renderer.render(&self.device, &self.queue, &view, frame).unwrap();
         let row = (width * 4).next_multiple_of(256);
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("read back"),
@@ -150,7 +156,7 @@ impl Gpu {
 
 /// A camera over a place, `altitude_m` above the ground or the sea; angles in degrees.
 pub fn camera(planet: &Planet, lat: f64, lon: f64, altitude_m: f64, heading: f64, pitch: f64) -> Camera {
-    let terrain = Terrain::new(Arc::new(planet.clone()));
+    let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let (place, angles) = (LatLon::from_degrees(lat, lon), [heading, pitch].map(f64::to_radians));
     camera_over(&terrain, place, altitude_m, angles)
 }

@@ -28,7 +28,7 @@ fn view(altitude_m: f64) -> View {
 
 /// The surface of a planet with this ground instead of its own, horizons found.
 fn surface_of(view: &View, height_m: impl Fn(DVec3) -> f64) -> Surface {
-    let mut surface = build_now(&planet(), view);
+    let mut surface = build_now(&planet(), view).unwrap();
     for leaf in &mut surface.leaves {
         let mut vertices = leaf.tile.vertices.clone();
         for (i, vertex) in vertices.iter_mut().enumerate() {

@@ -17,7 +17,7 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
     let gpu = Gpu::open(SIZE_PX).ok()?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).ok()?;
     let view = opening::opening_view(planet, SIZE_PX, Quality::Low);
-    let surface = build_now(planet, &view);
+    let surface = build_now(planet, &view).ok()?;
     let mut planet = Planet::clone(planet);
     planet.atmosphere.as_ref()?;
     let mut times = |change: bool| {
@@ -37,7 +37,7 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
             };
             // What goes wrong here goes wrong for every figure of the GPU.
             let _ = gpu.picture(SIZE_PX, |target| {
-                renderer.render(&gpu.device, &gpu.queue, target, &frame);
+                renderer.render(&gpu.device, &gpu.queue, target, &frame).map(drop).map_err(|error| error.to_string())
             });
         })
     };

@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         })
         .collect::<Result<_, _>>()?;
     let Some((_, default)) = planets.first() else { return Err("no preset is shipped".to_owned().into()) };
-    let rebuilds: Vec<Value> = planets.iter().map(|(file, planet)| rebuild(file, planet)).collect();
+    let rebuilds: Vec<Value> = planets.iter().map(|(file, planet)| rebuild(file, planet)).collect::<Result<_, _>>()?;
     let full_ms = |i: &usize| rebuilds[*i]["full_ms"].as_f64().unwrap_or(0.0);
     let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
     let report = json!({
@@ -67,18 +67,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The whole surface of the opening view, from nothing.
-fn rebuild(file: &str, planet: &Arc<Planet>) -> Value {
+fn rebuild(file: &str, planet: &Arc<Planet>) -> Result<Value, String> {
     let view = opening_view(planet);
-    let mut stats = build_now(planet, &view).stats;
-    let times = repeat(|| stats = build_now(planet, &view).stats);
-    json!({
+    let build = || build_now(planet, &view).map(|surface| surface.stats).map_err(|error| error.to_string());
+    let mut stats = build();
+    let times = repeat(|| stats = build());
+    let stats = stats?;
+    Ok(json!({
         "preset": file,
         "nodes": stats.tiles,
         "vertices": stats.vertices,
         "octave_samples": stats.octave_samples,
         "full_ms": median(&times),
         "full_ms_p95": p95(&times),
-    })
+    }))
 }
 
 /// Milliseconds of several runs, sorted.

@@ -78,9 +78,11 @@ impl Surveyor {
                 // Only the newest matters.
                 let planet = asked.try_iter().last().unwrap_or(planet);
                 let terrain = match &kept {
-                    Some(before) => Terrain::after(planet, before),
-                    None => Terrain::new(planet),
+                    Some(before) => Terrain::try_after(planet, before),
+                    None => Terrain::try_new(planet),
                 };
+                // A planet that is not valid has no ground: the newest answer stays.
+                let Ok(terrain) = terrain else { continue };
                 if answered.send(Survey::of(&terrain)).is_err() {
                     return;
                 }
@@ -124,7 +126,7 @@ mod tests {
     #[test]
     fn shares_add_up_and_the_sea_is_left_out() {
         let mut planet = shipped::default_planet();
-        let survey = Survey::of(&Terrain::new(Arc::new(planet.clone())));
+        let survey = Survey::of(&Terrain::try_new(Arc::new(planet.clone())).unwrap());
         assert!((survey.cells.iter().sum::<f64>() - 1.0).abs() < 1e-9);
         assert!((survey.biomes.iter().sum::<f64>() - 1.0).abs() < 1e-9);
         assert!((0.4..0.9).contains(&survey.sea), "{}", survey.sea);
@@ -133,7 +135,7 @@ mod tests {
         let key = planet.biomes.palette[3].key;
         planet.biomes.table = Table::uniform(key, 8, 8);
         planet.biomes.beach_m = 0.0;
-        let survey = Survey::of(&Terrain::new(Arc::new(planet)));
+        let survey = Survey::of(&Terrain::try_new(Arc::new(planet)).unwrap());
         assert!((survey.biomes[3] - 1.0).abs() < 1e-9);
     }
 }

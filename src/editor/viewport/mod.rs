@@ -451,7 +451,7 @@ impl Viewport {
         renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
         renderer.tone = key.tone;
         let begin = Instant::now();
-        self.stats = renderer.render(
+        let drawn = renderer.render(
             &state.device,
             &state.queue,
             target.view(),
@@ -466,6 +466,13 @@ impl Viewport {
                 debug_view: key.debug_view,
             },
         );
+        match drawn {
+            Ok(stats) => self.stats = stats,
+            Err(error) => {
+                self.drawing = Drawing::Failed(error.to_string());
+                return;
+            }
+        }
         self.pictures += 1;
         self.frame_meter.drawn();
         let draw = Span::since(begin);

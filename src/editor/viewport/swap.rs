@@ -57,7 +57,7 @@ mod tests {
     fn what_is_being_uploaded_is_shown_before_anything_newer() {
         let planet = Arc::new(Planet::default());
         let view = opening::opening_view(&planet, [64, 64], Quality::Low);
-        let [first, second, third] = [(); 3].map(|()| Arc::new(build_now(&planet, &view)));
+        let [first, second, third] = [(); 3].map(|()| Arc::new(build_now(&planet, &view).unwrap()));
         let mut swap = Swap::default();
         let mut step = |newest: &Arc<Surface>, done| {
             swap.advance(Some(newest.clone()), |_| done);

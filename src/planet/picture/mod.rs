@@ -1,13 +1,25 @@
 //! Pictures that a preset refers to: the reference as it stands in the file, and the pixels it leads to.
 //!
-//! - `read`: PNG and OpenEXR files
+//! - `read`: opens the file; `from_png`, `from_exr`: its rows or blocks; `canvas`: where they are put; `contain`: panics of
+//!   decoders
+//! - `budget`: what all pictures of a planet may take
+//! - `known`: pictures in use, so that none is read twice
 //! - `place`: paths as they are written in a preset of a folder
 //!
 //! A planet carries its pixels with it, shared and never saved, so that its evaluator needs no file. [`Planet::load`]
 //! fetches them; a planet whose pixels are missing is flat where they would count.
 
+mod budget;
+mod canvas;
+mod contain;
+mod from_exr;
+mod from_png;
+mod known;
 mod place;
 mod read;
+
+pub use budget::{Budget, MAX_BYTES, MAX_PIXELS, MAX_WORK_BYTES};
+pub use contain::is_contained;
 
 use super::param::{ParamPath, ParamValue, Segment, ValueMut, choice};
 use super::{Planet, Shape};
@@ -16,8 +28,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError, Weak};
-use std::time::SystemTime;
+use std::sync::Arc;
 
 choice! {
     /// How a picture covers the planet.
@@ -36,6 +47,8 @@ pub struct Picture {
     texels: Texels,
     /// Of the pixels and their layout: equal pictures have equal hashes.
     hash: u64,
+    /// Of the pixels alone, without the coarser levels.
+    bytes: u64,
 }
 
 enum Texels {
@@ -113,29 +126,13 @@ pub struct PictureKey {
 }
 
 impl PictureKey {
-    /// Reads the picture, or takes the one that is there from before if its file has not changed.
+    /// Reads the picture, or takes the one that is there from before if its file has not changed; takes what it needs
+    /// from the budget of its planet.
     ///
     /// # Errors
     /// What is wrong with the file, and what would be right.
-    pub fn load(&self) -> Result<Arc<Picture>, String> {
-        struct Known {
-            key: PictureKey,
-            changed: Option<SystemTime>,
-            picture: Weak<Picture>,
-        }
-        /// What is in use somewhere, so that two layers share one picture and undo finds it again.
-        static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
-        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let changed = std::fs::metadata(&self.file).and_then(|metadata| metadata.modified()).ok();
-        let same = |known: &&Known| known.key == *self && known.changed == changed && changed.is_some();
-        if let Some(picture) = known().iter().find(same).and_then(|known| known.picture.upgrade()) {
-            return Ok(picture);
-        }
-        let picture = Arc::new(read::read(&self.file, self.layout)?);
-        let mut known = known();
-        known.retain(|known| known.key != *self && known.picture.strong_count() > 0);
-        known.push(Known { key: self.clone(), changed, picture: Arc::downgrade(&picture) });
-        Ok(picture)
+    pub fn load(&self, budget: &mut Budget) -> Result<Arc<Picture>, String> {
+        known::load(self, budget)
     }
 }
 
@@ -274,12 +271,37 @@ impl Planet {
         });
     }
 
+    /// What the pictures that are there leave for those that are missing.
+    pub fn picture_budget(&self) -> Budget {
+        let mut budget = Budget::default();
+        self.clone().each_picture(|_, file, layout| {
+            if let Some(picture) = file.picture(layout) {
+                // A planet that has more already gets no more.
+                let _ = budget.keep(picture);
+            }
+        });
+        budget
+    }
+
     /// Reads all pictures that are missing; what is wrong with any of them. Their layers stay flat.
     pub fn load_pictures(&mut self) -> Vec<(ParamPath, String)> {
+        let mut budget = self.picture_budget();
+        // What could not be read for one layer is not tried again for the next.
+        let mut failed: Vec<(PictureKey, String)> = Vec::new();
         let mut problems = Vec::new();
         for (path, key) in self.missing_pictures() {
-            match key.and_then(|key| Ok((key.load()?, key))) {
-                Ok((picture, key)) => self.give_picture(&key, &picture),
+            let loaded = key.and_then(|key| match failed.iter().find(|(other, _)| *other == key) {
+                Some((_, problem)) => Err(problem.clone()),
+                None => match key.load(&mut budget) {
+                    Ok(picture) => Ok((key, picture)),
+                    Err(problem) => {
+                        failed.push((key, problem.clone()));
+                        Err(problem)
+                    }
+                },
+            });
+            match loaded {
+                Ok((key, picture)) => self.give_picture(&key, &picture),
                 Err(problem) => problems.push((path, problem)),
             }
         }

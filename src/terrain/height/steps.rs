@@ -103,7 +103,7 @@ mod tests {
         let (count, radius_m) = (3000, planet.radius_m());
         let dirs = (0..count).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
         let spacings = SPACINGS_M.map(|spacing_m| spacing_m / radius_m);
-        let relief = Terrain::new(Arc::new(planet)).relief_at(dirs, &spacings);
+        let relief = Terrain::try_new(Arc::new(planet)).unwrap().relief_at(dirs, &spacings);
         let slopes = |i: usize| std::array::from_fn(|band| relief.slopes[band][i]);
         (0..relief.height_m.len()).map(|i| (relief.height_m[i], slopes(i))).collect()
     }
@@ -155,7 +155,7 @@ mod tests {
         let radius_m = planet.radius_m();
         let dirs: Vec<DVec3> =
             (0..3000).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
-        let heights = Terrain::new(Arc::new(planet)).heights_m(&dirs);
+        let heights = Terrain::try_new(Arc::new(planet)).unwrap().heights_m(&dirs);
         let asked: Vec<f64> = walk(layers).into_iter().map(|(height_m, _)| height_m).collect();
         assert_eq!(heights, asked);
         let without = walk(vec![ground(), terraces()]);

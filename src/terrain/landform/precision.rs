@@ -89,7 +89,7 @@ fn cost() {
     for shipped in shipped::ALL {
         let Ok(planet) = shipped.load() else { continue };
         let [fine, classic] = [Precision::Millimetre, Precision::Classic]
-            .map(|precision| Terrain::new(Arc::new(Planet { precision, ..planet.clone() })));
+            .map(|precision| Terrain::try_new(Arc::new(Planet { precision, ..planet.clone() })).unwrap());
         let ratio = |spacings_rad: &[f64]| {
             let run = |terrain: &Terrain| drop(black_box(terrain.fields(&points, spacings_rad)));
             times_longer(|| run(&fine), || run(&classic))

@@ -36,7 +36,7 @@ fn looseness(terrain: &Terrain, angle_rad: f64) -> f64 {
 
 /// Prints how loose the bounds of a planet are at three levels, and what they cost; the looseness at the finest.
 fn report(name: &str, planet: Planet) -> f64 {
-    let terrain = Terrain::new(Arc::new(planet));
+    let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
     let [coarse, middle, fine] = [6, 10, 14].map(|level| looseness(&terrain, node_rad(level)));
     let start = Instant::now();
     for dir in starts(20) {

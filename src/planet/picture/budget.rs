@@ -1,0 +1,99 @@
+//! What the pictures of one planet may take, so that no preset exhausts memory or patience, whatever its files say.
+//!
+//! - One picture has at most [`MAX_PIXELS`].
+//! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an OpenEXR.
+//!   Coarser levels add a third. While a picture is read and its levels are made, about as much again is used for a moment:
+//!   no planet's pictures ever take more than 1.5 GiB.
+//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers, in all channels, used or not: this bounds the time.
+//!
+//! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures count once,
+//! however many layers use them.
+
+use super::Picture;
+
+/// Most pixels of one picture: 16384 x 8192.
+pub const MAX_PIXELS: u64 = 1 << 27;
+/// Most bytes of pixels that all pictures of a planet may keep.
+pub const MAX_BYTES: u64 = 512 << 20;
+/// Most bytes that the files of all pictures of a planet may hold, unpacked.
+pub const MAX_WORK_BYTES: u64 = 4 << 30;
+
+/// What is left for more pictures of one planet.
+#[derive(Clone, Debug)]
+pub struct Budget {
+    bytes: u64,
+    work_bytes: u64,
+    /// Hashes of the pictures that have been counted.
+    counted: Vec<u64>,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { bytes: MAX_BYTES, work_bytes: MAX_WORK_BYTES, counted: Vec::new() }
+    }
+}
+
+impl Budget {
+    /// Counts a picture that is there; an error if there is no room for it.
+    pub(super) fn keep(&mut self, picture: &Picture) -> Result<(), String> {
+        if !self.counted.contains(&picture.hash) {
+            self.take(picture.bytes, 0)?;
+            self.counted.push(picture.hash);
+        }
+        Ok(())
+    }
+
+    /// Takes room for a picture that is to be decoded: the bytes that it will keep, and those that its file holds unpacked.
+    pub(super) fn take(&mut self, bytes: u64, work_bytes: u64) -> Result<(), String> {
+        if bytes > self.bytes {
+            return Err(format!(
+                "takes {} of memory, and {} of {} are left for it beside the planet's other pictures; use smaller \
+                 pictures, or one file in several layers",
+                mebibytes(bytes),
+                mebibytes(self.bytes),
+                mebibytes(MAX_BYTES)
+            ));
+        }
+        if work_bytes > self.work_bytes {
+            return Err(format!(
+                "holds {} of numbers in all its channels, and {} of {} are left for it beside the planet's other \
+                 pictures; use smaller pictures, or save them with fewer channels",
+                mebibytes(work_bytes),
+                mebibytes(self.work_bytes),
+                mebibytes(MAX_WORK_BYTES)
+            ));
+        }
+        self.bytes -= bytes;
+        self.work_bytes -= work_bytes;
+        Ok(())
+    }
+
+    /// Gives back what [`Self::take`] took to keep: the picture could not be read, or is one that is there already.
+    pub(super) fn give_back(&mut self, bytes: u64) {
+        self.bytes = (self.bytes + bytes).min(MAX_BYTES);
+    }
+}
+
+fn mebibytes(bytes: u64) -> String {
+    format!("{} MiB", bytes.div_ceil(1 << 20))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_taken_is_missing_and_comes_back() {
+        let mut budget = Budget::default();
+        assert_eq!(budget.take(MAX_BYTES, MAX_WORK_BYTES / 2), Ok(()));
+        assert!(budget.take(1, 0).unwrap_err().starts_with("takes 1 MiB of memory, and 0 MiB of 512 MiB are left"));
+        budget.give_back(MAX_BYTES);
+        // Work that was done is done, whatever came of it.
+        let error = budget.take(1, MAX_WORK_BYTES).unwrap_err();
+        assert!(
+            error.starts_with("holds 4096 MiB of numbers in all its channels, and 2048 MiB of 4096 MiB"),
+            "{error}"
+        );
+        assert_eq!(budget.take(MAX_BYTES, MAX_WORK_BYTES / 2), Ok(()));
+    }
+}

@@ -1,0 +1,119 @@
+//! The pixels of a picture while they are decoded, in the order in which its raster keeps them: nothing is held twice.
+
+use super::PictureLayout;
+use super::budget::MAX_PIXELS;
+use crate::sphere::raster::{Raster, Texel};
+
+/// Fewest pixels on the side of a cube's face, and on the height of an equirectangular picture.
+const LEAST_SIDE: usize = 4;
+
+/// Width and height of a picture that fits its layout and is not too large.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Size {
+    pub(super) width: usize,
+    pub(super) height: usize,
+}
+
+impl Size {
+    /// Says what is wrong with the size of a picture for this layout.
+    pub(super) fn checked([width, height]: [usize; 2], layout: PictureLayout) -> Result<Self, String> {
+        let (right, words) = match layout {
+            PictureLayout::Equirectangular => (
+                width / 2 == height && width % 2 == 0 && height >= LEAST_SIDE,
+                "an equirectangular picture is twice as wide as high",
+            ),
+            PictureLayout::CubeCross => (
+                width.saturating_mul(3) == height.saturating_mul(4) && width >= 4 * LEAST_SIDE,
+                "a cube cross is 4 squares wide and 3 high",
+            ),
+            PictureLayout::CubeStrip => (
+                (width == height.saturating_mul(6) || height == width.saturating_mul(6))
+                    && width.min(height) >= LEAST_SIDE,
+                "a cube strip is 6 squares in a row or a column",
+            ),
+        };
+        if (width as u64).saturating_mul(height as u64) > MAX_PIXELS {
+            return Err(format!(
+                "is {width} x {height} pixels; use a smaller picture, of at most {MAX_PIXELS} pixels (16384 x 8192)"
+            ));
+        }
+        if !right {
+            return Err(format!("is {width} x {height} pixels; {words}, with squares of at least {LEAST_SIDE} pixels"));
+        }
+        Ok(Self { width, height })
+    }
+
+    /// Width times height.
+    pub(super) fn pixels(self) -> u64 {
+        self.width as u64 * self.height as u64
+    }
+}
+
+/// What is decoded so far.
+pub(super) struct Canvas<T> {
+    size: Size,
+    layout: PictureLayout,
+    /// Pixels along a square of a cube's picture, and the face (in their order) of each square; None where there is none.
+    side: usize,
+    faces: Vec<Vec<Option<usize>>>,
+    texels: Vec<T>,
+}
+
+impl<T: Texel> Canvas<T> {
+    /// An empty one.
+    pub(super) fn new(size: Size, layout: PictureLayout) -> Result<Self, String> {
+        // The column and row of each face in squares, in the order of the faces.
+        let (side, squares): (usize, [(usize, usize); 6]) = match layout {
+            PictureLayout::Equirectangular => (size.width, [(0, 0); 6]),
+            PictureLayout::CubeCross => (size.height / 3, [(1, 1), (3, 1), (2, 1), (0, 1), (1, 0), (1, 2)]),
+            PictureLayout::CubeStrip if size.width > size.height => {
+                (size.height, std::array::from_fn(|face| (face, 0)))
+            }
+            PictureLayout::CubeStrip => (size.width, std::array::from_fn(|face| (0, face))),
+        };
+        let mut faces = vec![vec![None; size.width / side]; size.height.div_ceil(side)];
+        for (face, (column, row)) in squares.into_iter().enumerate() {
+            faces[row][column] = Some(face);
+        }
+        let count = match layout {
+            PictureLayout::Equirectangular => size.width * size.height,
+            _ => 6 * side * side,
+        };
+        let mut texels = Vec::new();
+        texels.try_reserve_exact(count).map_err(|_| "is too large for the memory that is free".to_owned())?;
+        texels.resize(count, T::default());
+        Ok(Self { size, layout, side, faces, texels })
+    }
+
+    /// Puts values beside each other, from a row and column on. What lies on no face is dropped.
+    pub(super) fn put(&mut self, row: usize, mut column: usize, mut values: &[T]) {
+        while !values.is_empty() && row < self.size.height && column < self.size.width {
+            let (x, y) = (column % self.side, row % self.side);
+            let (now, later) = values.split_at(values.len().min(self.side - x));
+            let first = match (self.layout, self.faces[row / self.side][column / self.side]) {
+                (PictureLayout::Equirectangular, _) => Some(row * self.size.width + column),
+                (_, face) => face.map(|face| (face * self.side + y) * self.side + x),
+            };
+            if let Some(first) = first {
+                self.texels[first..first + now.len()].copy_from_slice(now);
+            }
+            column += now.len();
+            values = later;
+        }
+    }
+
+    /// The raster, and sixty-four bits that differ for different pictures; `bits`: of a value.
+    pub(super) fn finish(self, bits: impl Fn(T) -> u64) -> (Raster<T>, u64) {
+        let start = [self.layout as u64, self.size.width as u64, self.size.height as u64].into_iter();
+        let hash =
+            start.chain(self.texels.iter().map(|texel| bits(*texel))).fold(0xcbf2_9ce4_8422_2325, |hash, number| {
+                let mixed = (hash ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                mixed ^ (mixed >> 29)
+            });
+        let raster = match self.layout {
+            PictureLayout::Equirectangular => Raster::globe(self.size.height, self.texels),
+            _ => Raster::cube(self.side, self.texels),
+        };
+        (raster, hash)
+    }
+}

@@ -1,0 +1,37 @@
+//! Panics of decoders as errors: a broken file must not take the program with it.
+//!
+//! OpenEXR decoders meet numbers that no header vouches for, and some panic on them. The panic is caught where the decoder
+//! was called, on whichever thread. A host that is built with `panic = "abort"` has no such net.
+
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+thread_local! {
+    static CONTAINED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic of this thread will be caught and told as a problem of a picture. A panic hook should keep quiet then, as the
+/// program's does.
+pub fn is_contained() -> bool {
+    CONTAINED.get()
+}
+
+/// What `decode` gives; an error if it panics. Nothing that `decode` was changing may be used after an error.
+pub(super) fn contained<T>(decode: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    let before = CONTAINED.replace(true);
+    let result = catch_unwind(AssertUnwindSafe(decode));
+    CONTAINED.set(before);
+    result.unwrap_or_else(|_| Err("is broken: its numbers contradict each other; save the picture anew".to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_error_and_others_are_not_hidden() {
+        assert_eq!(contained(|| Ok(is_contained())), Ok(true));
+        assert!(contained(|| -> Result<(), String> { panic!("a decoder") }).is_err());
+        assert!(!is_contained());
+    }
+}

@@ -1,0 +1,226 @@
+//! OpenEXR files, block by block: of the channels only the one that heights are taken from is kept.
+//!
+//! The header is checked before any block is read: sizes of blocks bound what a decoder allocates. Blocks are decoded in groups
+//! on all cores, each with its panics contained: see [`super::contain`].
+
+use super::budget::{Budget, MAX_WORK_BYTES};
+use super::canvas::{Canvas, Size};
+use super::contain::contained;
+use super::{Picture, PictureLayout, Texels};
+use exr::block::chunk::{Chunk, CompressedBlock};
+use exr::block::reader::Reader;
+use exr::block::{BlockIndex, UncompressedBlock};
+use exr::compression::Compression;
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header;
+use exr::meta::{BlockDescription, MetaData};
+use rayon::prelude::*;
+use std::fs::File;
+use std::io::{BufReader, Read as _, Seek as _};
+
+/// Greatest number a float picture may hold: metres at an amplitude of 1, and far more than any planet bears.
+const MAX_VALUE: f32 = 1e6;
+/// Most bytes of all headers together.
+const MAX_HEADER_BYTES: u64 = 16 << 20;
+/// Most bytes of a block of all channels, unpacked.
+const MAX_BLOCK_BYTES: usize = 64 << 20;
+/// Most bytes of the blocks that are decoded at the same time, unless it is one alone.
+const MAX_GROUP_BYTES: usize = 128 << 20;
+/// A block takes at least as long as one of so many bytes, however small it is.
+const LEAST_BLOCK_WORK: u64 = 32 << 10;
+/// Most blocks of a picture.
+const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
+
+/// Reads a picture; takes what it needs from the budget.
+pub(super) fn read(mut file: BufReader<File>, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
+    let about = contained(|| {
+        MetaData::read_from_buffered(file.by_ref().take(MAX_HEADER_BYTES), false).map_err(|error| broken(&error))
+    })?;
+    file.rewind().map_err(|error| format!("cannot be read: {error}"))?;
+    let source = Source::find(&about, layout)?;
+    let bytes = source.size.pixels() * size_of::<f32>() as u64;
+    budget.take(bytes, source.work_bytes)?;
+    let canvas = contained(|| blocks(file, &source, layout)).inspect_err(|_| budget.give_back(bytes))?;
+    let (raster, hash) = canvas.finish(|texel| u64::from(texel.to_bits()));
+    Ok(Picture { texels: Texels::Float(raster), hash, bytes })
+}
+
+/// Where in the file the heights are.
+struct Source {
+    layer: usize,
+    size: Size,
+    sample: SampleType,
+    /// Bytes of a pixel in all channels, and in those that stand before the one of the heights.
+    pixel_bytes: usize,
+    bytes_before: usize,
+    /// Width and height of a block.
+    block: [usize; 2],
+    work_bytes: u64,
+}
+
+impl Source {
+    /// Checks all that a decoder relies on.
+    fn find(about: &MetaData, layout: PictureLayout) -> Result<Self, String> {
+        let usable = |header: &Header| !header.deep && !header.channels.list.is_empty();
+        let layer = about.headers.iter().position(usable).ok_or("has no channel of plain pixels")?;
+        let header = &about.headers[layer];
+        let size = Size::checked([header.layer_size.width(), header.layer_size.height()], layout)?;
+        for header in &about.headers {
+            check_blocks(header)?;
+        }
+        let block = block_size(header);
+        let pixel_bytes = pixel_bytes(header);
+        let blocks = (size.width.div_ceil(block[0]) * size.height.div_ceil(block[1])) as u64;
+        if blocks > MAX_BLOCKS {
+            let [width, height] = block;
+            return Err(format!(
+                "is cut into {blocks} blocks of {width} x {height} pixels; save it in scan lines, or in larger tiles of which \
+                 {MAX_BLOCKS} suffice"
+            ));
+        }
+        let work_bytes = (size.pixels() * pixel_bytes as u64).max(blocks * LEAST_BLOCK_WORK);
+        if header.channels.list.iter().any(|channel| channel.sampling != exr::math::Vec2(1, 1)) {
+            return Err(
+                "has a channel with fewer numbers than pixels; save the picture anew, without subsampling".to_owned()
+            );
+        }
+        // Channels stand in the order of the alphabet: the first of RGBA would be A.
+        let channels = &header.channels.list;
+        let named = |name: &str| channels.iter().position(|channel| channel.name.eq_case_insensitive(name));
+        let channel = ["Y", "L", "R"].into_iter().find_map(named).unwrap_or(0);
+        let bytes_before = channels[..channel].iter().map(|channel| channel.sample_type.bytes_per_sample()).sum();
+        let sample = channels[channel].sample_type;
+        Ok(Self { layer, size, sample, pixel_bytes, bytes_before, block, work_bytes })
+    }
+
+    /// Whether a block belongs to the heights, in full resolution.
+    fn wants(&self, chunk: &Chunk) -> bool {
+        let finest = match &chunk.compressed_block {
+            CompressedBlock::Tile(tile) => tile.coordinates.is_largest_resolution_level(),
+            _ => true,
+        };
+        chunk.layer_index == self.layer && finest
+    }
+
+    /// The numbers of a block, row by row.
+    fn numbers(&self, block: &UncompressedBlock) -> Result<Vec<f32>, String> {
+        let width = block.index.pixel_size.width();
+        let row_bytes = width * self.pixel_bytes;
+        let bytes = self.sample.bytes_per_sample();
+        let of_channel = self.bytes_before * width..(self.bytes_before + bytes) * width;
+        let number = |bytes: &[u8]| match (self.sample, bytes) {
+            (SampleType::F16, &[a, b]) => half::f16::from_ne_bytes([a, b]).to_f32(),
+            (SampleType::F32, &[a, b, c, d]) => f32::from_ne_bytes([a, b, c, d]),
+            (SampleType::U32, &[a, b, c, d]) => u32::from_ne_bytes([a, b, c, d]) as f32,
+            _ => f32::NAN,
+        };
+        let rows = block.data.chunks_exact(row_bytes);
+        let numbers: Vec<f32> = rows.flat_map(|row| row[of_channel.clone()].chunks_exact(bytes).map(number)).collect();
+        if let Some(at) = numbers.iter().position(|number| !number.is_finite() || number.abs() > MAX_VALUE) {
+            let (column, row) =
+                (block.index.pixel_position.x() + at % width, block.index.pixel_position.y() + at / width);
+            return Err(format!("holds {} at pixel ({column}, {row}); use numbers from -1e6 to 1e6", numbers[at]));
+        }
+        Ok(numbers)
+    }
+}
+
+fn pixel_bytes(header: &Header) -> usize {
+    header.channels.list.iter().map(|channel| channel.sample_type.bytes_per_sample()).sum()
+}
+
+/// Width and height of the largest block.
+fn block_size(header: &Header) -> [usize; 2] {
+    match header.blocks {
+        BlockDescription::ScanLines => [header.layer_size.width(), header.compression.scan_lines_per_block()],
+        BlockDescription::Tiles(tiles) => [tiles.tile_size.width(), tiles.tile_size.height()],
+    }
+}
+
+/// Blocks must neither be empty nor take more memory than is reasonable: decoders allocate what the header says.
+fn check_blocks(header: &Header) -> Result<(), String> {
+    let [width, height] = block_size(header);
+    let bytes = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(pixel_bytes(header)));
+    match bytes {
+        Some(1..=MAX_BLOCK_BYTES) => Ok(()),
+        Some(0) => Err("is broken: its blocks are empty; save the picture anew".to_owned()),
+        _ => Err(format!(
+            "has blocks of {width} x {height} pixels in {} channels, which is more than {} MiB each; save it in smaller \
+             tiles or in scan lines, with ZIP compression, or with fewer channels",
+            header.channels.list.len(),
+            MAX_BLOCK_BYTES >> 20
+        )),
+    }
+}
+
+fn blocks(file: BufReader<File>, source: &Source, layout: PictureLayout) -> Result<Canvas<f32>, String> {
+    let reader = Reader::read_from_buffered(file, false).map_err(|error| broken(&error))?;
+    let about = reader.meta_data().clone();
+    let mut chunks = reader.all_chunks(false).map_err(|error| broken(&error))?;
+    let [block_width, block_height] = source.block;
+    let columns = source.size.width.div_ceil(block_width);
+    let mut seen = vec![false; columns * source.size.height.div_ceil(block_height)];
+    let at_once = (MAX_GROUP_BYTES / (block_width * block_height * source.pixel_bytes))
+        .clamp(1, 4 * rayon::current_num_threads().max(1));
+    let mut canvas = Canvas::new(source.size, layout)?;
+    let mut missing = seen.len();
+    while missing > 0 {
+        let wanted = chunks.by_ref().filter(|chunk| chunk.as_ref().map_or(true, |chunk| source.wants(chunk)));
+        let group: Vec<Chunk> = wanted.take(at_once).collect::<Result<_, _>>().map_err(|error| broken(&error))?;
+        if group.is_empty() {
+            return Err("is broken: blocks are missing; save the picture anew".to_owned());
+        }
+        let decoded: Vec<(BlockIndex, Vec<f32>)> =
+            group.into_par_iter().map(|chunk| contained(|| decode(chunk, &about, source))).collect::<Result<_, _>>()?;
+        for (index, numbers) in decoded {
+            let (column, row) = (index.pixel_position.x(), index.pixel_position.y());
+            let number = row / block_height * columns + column / block_width;
+            match seen.get_mut(number) {
+                Some(seen) if !*seen => *seen = true,
+                _ => return Err("is broken: a block is there twice; save the picture anew".to_owned()),
+            }
+            missing -= 1;
+            for (line, numbers) in numbers.chunks_exact(index.pixel_size.width()).enumerate() {
+                canvas.put(row + line, column, numbers);
+            }
+        }
+    }
+    Ok(canvas)
+}
+
+fn decode(chunk: Chunk, about: &MetaData, source: &Source) -> Result<(BlockIndex, Vec<f32>), String> {
+    check_dwa(&chunk, &about.headers[source.layer])?;
+    let block = UncompressedBlock::decompress_chunk(chunk, about, false).map_err(|error| broken(&error))?;
+    Ok((block.index, source.numbers(&block)?))
+}
+
+/// Blocks compressed with DWA begin with the sizes of their parts, and the decoder allocates what they say.
+fn check_dwa(chunk: &Chunk, header: &Header) -> Result<(), String> {
+    if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
+        return Ok(());
+    }
+    let bytes = match &chunk.compressed_block {
+        CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+        CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+        _ => return Ok(()),
+    };
+    let number = |i: usize| bytes.get(8 * i..8 * i + 8).and_then(|b| b.try_into().ok()).map_or(0, u64::from_le_bytes);
+    let [width, height] = block_size(header).map(|side| side.next_multiple_of(8) as u64);
+    let samples = width * height * header.channels.list.len() as u64;
+    let bytes = samples * 4;
+    // Bytes of channels kept as they are, run lengths packed and unpacked; coefficients of squares of 8 by 8, and their means.
+    let limits = [(1, bytes), (6, 2 * bytes), (7, bytes), (8, samples), (9, samples)];
+    match limits.into_iter().find(|&(i, most)| number(i) > most) {
+        Some(_) => Err("is broken: a block is larger than it may be; save the picture anew".to_owned()),
+        None => Ok(()),
+    }
+}
+
+fn broken(error: &exr::error::Error) -> String {
+    match error {
+        exr::error::Error::NotSupported(what) => {
+            format!("cannot be read ({what}); save it with ZIP, PIZ or no compression, in plain layers")
+        }
+        error => format!("is broken: {error}; save the picture anew"),
+    }
+}
