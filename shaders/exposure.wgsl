@@ -7,7 +7,7 @@ struct Exposure {
     ev: f32,
 }
 
-@group(0) @binding(0) var<storage, read_write> bins: array<u32, BINS>;
+@group(0) @binding(0) var<storage, read_write> bins: array<u32, BINS + 1u>;
 @group(0) @binding(1) var<storage, read_write> exposure: Exposure;
 // x: share of the way that is gone now
 @group(0) @binding(2) var<uniform> step: vec4f;
@@ -24,8 +24,8 @@ const FOLLOWED_NIGHT: f32 = 0.73;
 // The same for brighter means.
 const FOLLOWED_BRIGHT: f32 = 0.1;
 // Highlights: share of counted pixels that are brighter, stops that they may reach after the correction, and share of what they exceed
-// it by that exposure takes back. Below it exposure closes a share of the gap: a small one, or nearly all of it where the mean is as
-// bright as snow, which must look white under a low star too.
+// it by that exposure takes back. Below it exposure closes a share of the gap: a small one, or nearly all of it where
+// much is white: snow and clouds must look white.
 const HIGHLIGHTS: f32 = 0.04;
 const HIGHLIGHT_EV: f32 = -0.2;
 const FOLLOWED_HIGHLIGHT: f32 = 0.75;
@@ -33,8 +33,8 @@ const FOLLOWED_HIGHLIGHT: f32 = 0.75;
 const DARKEST_MEAN_EV: f32 = -3.4;
 const LIFTED_HIGHLIGHT: f32 = 0.2;
 const LIFTED_SNOW: f32 = 0.9;
-// Means from ground to snow, in stops.
-const SNOW_EV: vec2f = vec2f(-2.5, -1.8);
+// Shares of white pixels from ground to snow.
+const SNOW_SHARE: vec2f = vec2f(0.1, 0.3);
 const WIDEST_LIFT_EV: f32 = 2.0;
 // Beside dark ground a bright sky keeps its colours: most stops of correction if the sky's luminance were 1, and more for each stop less.
 const SKY_EV: f32 = 3.8;
@@ -96,7 +96,7 @@ fn compute() {
         if above > 0.0 {
             ev = max(ev - FOLLOWED_HIGHLIGHT * above, min(ev, DARKEST_MEAN_EV - mean));
         } else {
-            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, smoothstep(SNOW_EV.x, SNOW_EV.y, mean));
+            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, smoothstep(SNOW_SHARE.x, SNOW_SHARE.y, f32(bins[WHITE]) / counted));
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
@@ -104,5 +104,5 @@ fn compute() {
     }
     exposure.ev = mix(exposure.ev, ev, step.x);
     exposure.factor = exp2(exposure.ev);
-    for (var i = 0u; i < BINS; i++) { bins[i] = 0u; }
+    for (var i = 0u; i <= BINS; i++) { bins[i] = 0u; }
 }

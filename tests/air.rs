@@ -284,7 +284,7 @@ fn no_band_of_sky_lies_across_the_ground() {
             // The horizon lies in the upper half of the picture.
             let camera = camera(&planet, 5.0, 10.0, altitude_m, 45.0, -dip_rad.to_degrees() - 12.0);
             let view = View { camera, size_px: [90, 240], quality };
-            let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+            let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
             gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(10.0, 40.0).direction()));
             let rows = row_luminance(&gpu);
             let elevation = |row: usize| {
@@ -309,7 +309,7 @@ fn the_glare_of_the_star_has_no_edge() {
     let planet = Arc::new(Planet { atmosphere: None, ..under(Atmosphere::default(), 6360.0, [0.2; 3]) });
     let camera = camera(&planet, 5.0, 10.0, 1e7, 90.0, 30.0);
     let view = View { camera, size_px: [240, 24], quality: Quality::Medium };
-    let surface = build_now(&planet, &View { quality: Quality::Low, ..view });
+    let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
     // The star stands at the left edge of the middle row.
     let sun = camera.ray_dir_planet(-0.97, 0.0, view.aspect());
     gpu.draw(&frame_of(&surface, &planet, view, sun));

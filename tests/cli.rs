@@ -246,3 +246,21 @@ fn a_reader_that_goes_away_is_no_failure() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
 }
+
+/// The camera dives under the sea, but not under its bed.
+#[test]
+fn altitude_goes_below_the_sea() {
+    let folder = folder();
+    let picture = folder.path().join("deep.png");
+    let shot = |lat: &str, lon: &str, altitude: &str| {
+        let place = ["--lat", lat, "--lon", lon, "--altitude", altitude, "--size", "32x20", "--quality", "low"];
+        run(&[&["render", AUREL, "-o", text_of(&picture)][..], &place].concat())
+    };
+    // In the deep sea, below its bed, and on land.
+    let (status, _, err) = shot("15", "45", "-30");
+    assert!(status == 0 && picture.exists(), "{err}");
+    let (status, _, err) = shot("15", "45", "-9000");
+    assert!(status == 1 && err.contains("m deep there; use -"), "{err}");
+    let (status, _, err) = shot("13", "-6", "-5");
+    assert!(status == 1 && err.contains("there is no sea there; use 0.1 or more"), "{err}");
+}

@@ -148,7 +148,7 @@ fn spread(count: usize) -> impl Iterator<Item = DVec3> {
 }
 
 fn shipped_terrain(file: &str) -> Terrain {
-    Terrain::new(Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap()))
+    Terrain::try_new(Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap())).unwrap()
 }
 
 /// What single layers add there, metres.

@@ -3,8 +3,8 @@
 use super::{Failure, args, headless, load};
 use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
+use crate::planet::Planet;
 use crate::planet::file::write_atomically;
-use crate::planet::{InvalidPlanet, Planet};
 use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;

@@ -31,8 +31,8 @@ impl Metering {
 
 /// Time in which the eye goes two thirds of its way.
 const ADAPTATION_SECS: f64 = 0.35;
-/// Bytes of the histogram; must match `meter.wgsl`.
-const HISTOGRAM_BYTES: u64 = 128 * 4;
+/// Bytes of the histogram and its counter of white pixels; must match `meter.wgsl`.
+const HISTOGRAM_BYTES: u64 = (128 + 1) * 4;
 /// Pixels along a side that one workgroup looks at; must match `meter.wgsl`.
 const GROUP_PX: u32 = 16 * 4;
 
