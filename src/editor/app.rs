@@ -7,11 +7,13 @@
 use super::bookmarks::Renaming;
 use super::command::Command;
 use super::dialogs::{FileDialogs, NativeDialogs};
+use super::disk::DiskState;
 use super::document::Document;
 use super::files::FileFlow;
 use super::handle::Action;
 use super::look;
 use super::menus;
+use super::notices::Notices;
 use super::painter::survey::Surveyor;
 use super::panels::{Draft, PanelState, Tab, biomes};
 use super::performance;
@@ -35,6 +37,8 @@ pub struct EditorApp {
     pub(super) viewport: Viewport,
     pub(super) panels: PanelState,
     pub(super) files: FileFlow,
+    pub(super) disk: DiskState,
+    pub(super) notices: Notices,
     surveyor: Surveyor,
     pub(super) pictures: Pictures,
     pub(super) messages: Vec<Message>,
@@ -55,7 +59,8 @@ pub struct EditorApp {
 }
 
 impl EditorApp {
-    /// The application, with a preset if one is given. One that cannot be loaded is reported in the window.
+    /// The application, with a preset if one is given: one that does not exist yet is a new planet of that name, one
+    /// that cannot be loaded is reported in the window.
     pub fn new(cc: &eframe::CreationContext<'_>, path: Option<PathBuf>) -> Self {
         look::set_up(&cc.egui_ctx);
         let panel_hidden = cc.storage.and_then(|storage| storage.get_string(LAYOUT_KEY)).as_deref() == Some("hidden");
@@ -70,6 +75,8 @@ impl EditorApp {
             viewport,
             panels: PanelState::default(),
             files: FileFlow::new(Box::new(NativeDialogs::default())),
+            disk: DiskState::default(),
+            notices: Notices::default(),
             surveyor: {
                 let ctx = cc.egui_ctx.clone();
                 Surveyor::new(move || ctx.request_repaint())
@@ -89,7 +96,7 @@ impl EditorApp {
             frame_start: Instant::now(),
         };
         if let Some(path) = path {
-            app.load(&path);
+            app.begin_with(&path);
         }
         app
     }
@@ -100,8 +107,10 @@ impl EditorApp {
         self
     }
 
-    /// Keeps unsaved work in `folder` against a crash, and offers what a crash left there.
+    /// Keeps unsaved work in `folder` against a crash, and offers what a crash left there. Notes there which file is
+    /// open, too, so that other windows know.
     pub fn with_recovery(mut self, folder: &Path) -> Self {
+        self.notices.claims = Some(folder.to_owned());
         match Recovery::open(folder) {
             Ok((recovery, orphans)) => {
                 self.recovery = Some(recovery);
@@ -192,10 +201,14 @@ impl EditorApp {
         let problems = self.document.problems();
         let error = self.viewport.error();
         let pictures = self.pictures.problems();
-        if problems.is_empty() && pictures.is_empty() && error.is_none() {
+        let notices = self.standing_notices();
+        if problems.is_empty() && pictures.is_empty() && error.is_none() && notices.is_empty() {
             return;
         }
         egui::Panel::top("problems").resizable(false).show(ui, |ui| {
+            for notice in notices {
+                ui.colored_label(ui.visuals().warn_fg_color, notice);
+            }
             let color = ui.visuals().error_fg_color;
             if let Some(error) = error {
                 ui.colored_label(color, error);
@@ -238,7 +251,9 @@ impl eframe::App for EditorApp {
         self.take_shortcuts(ctx);
         self.take_dropped_files(ctx);
         self.poll_dialogs(ctx);
+        self.poll_disk(ctx);
         self.handle_actions(ctx);
+        self.poll_claims();
         self.poll_pictures(ctx);
         self.handle_close_request(ctx);
         self.update_title(ctx);
@@ -300,6 +315,7 @@ impl eframe::App for EditorApp {
         }
         prompts::show(&ctx, self);
         performance::show(&ctx, self);
+        self.show_said(&ctx);
         self.settle(&ctx);
         if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
             ctx.request_repaint_after(wait);
@@ -315,6 +331,7 @@ impl eframe::App for EditorApp {
     }
 
     fn on_exit(&mut self) {
+        self.drop_claim();
         if let Some(recovery) = &mut self.recovery {
             recovery.close();
         }
