@@ -6,6 +6,7 @@
 
 use super::bookmarks::Renaming;
 use super::command::Command;
+use super::controls;
 use super::dialogs::{FileDialogs, NativeDialogs};
 use super::disk::DiskState;
 use super::document::Document;
@@ -22,6 +23,7 @@ use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
 use super::status;
 use super::viewport::{PainterLink, Viewport};
+use super::widgets::keys_are_taken;
 use crate::planet::{Planet, shipped};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -53,6 +55,8 @@ pub struct EditorApp {
     /// What crashed editors left behind and nobody has decided about.
     pub(super) orphans: Vec<Orphan>,
     pub(super) recovery: Option<Recovery>,
+    /// Whether a field had the keys at the end of the last frame: Escape takes them from it before anybody sees it.
+    was_typing: bool,
     title: String,
     adapter: String,
     frame_start: Instant,
@@ -91,6 +95,7 @@ impl EditorApp {
             deferred: Vec::new(),
             orphans: Vec::new(),
             recovery: None,
+            was_typing: false,
             title: String::new(),
             adapter,
             frame_start: Instant::now(),
@@ -152,15 +157,30 @@ impl EditorApp {
     }
 
     fn take_shortcuts(&mut self, ctx: &egui::Context) {
-        if self.files.is_asking() {
+        if self.files.is_asking() || keys_are_taken(ctx) {
             return;
         }
+        self.take_escape(ctx);
         // Letters and digits choose biomes while the table has the keys.
         let typing = ctx.text_edit_focused() || biomes::has_keys(ctx);
         for (shortcut, command) in Command::all_shortcuts() {
             if !(typing && command.yields_to_text()) && ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
                 self.send(command);
             }
+        }
+    }
+
+    /// Escape closes the window on top; first it ends what is being typed.
+    fn take_escape(&mut self, ctx: &egui::Context) {
+        let open = [(controls::layer(), &mut self.show_controls), (performance::layer(), &mut self.show_performance)];
+        let order: Vec<egui::LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
+        let height = |layer: &egui::LayerId| order.iter().position(|other| other == layer);
+        let top = open.into_iter().filter(|(_, open)| **open).max_by_key(|(layer, _)| height(layer));
+        if let Some((_, open)) = top
+            && !self.was_typing
+            && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+        {
+            *open = false;
         }
     }
 
@@ -274,6 +294,12 @@ impl eframe::App for EditorApp {
             }
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
+                // The panel is as wide as somebody drags it, whatever is in it: what does not fit is cut off, and
+                // the panel goes back when it is gone.
+                let rect = ui.available_rect_before_wrap();
+                ui.advance_cursor_after_rect(rect);
+                let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(rect));
+                ui.shrink_clip_rect(rect.expand(4.0));
                 let under_pointer = self.viewport.under_pointer();
                 let (_, lon_deg) = self.viewport.eye(&planet).1.to_degrees();
                 let mut draft = Draft {
@@ -313,6 +339,7 @@ impl eframe::App for EditorApp {
             self.edit(planet, label);
             ctx.request_repaint();
         }
+        self.was_typing = ctx.text_edit_focused();
         prompts::show(&ctx, self);
         performance::show(&ctx, self);
         self.show_said(&ctx);

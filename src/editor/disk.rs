@@ -180,7 +180,7 @@ impl EditorApp {
                 self.disk.notice = Some(line);
             }
             Ok(planet) if planet == **self.document.planet() => {
-                self.document.note_disk(Some(planet), Some(theirs.text))
+                self.document.note_disk(Some(planet), Some(theirs.text));
             }
             Ok(planet) if !dirty => {
                 self.reload(planet, theirs.text);

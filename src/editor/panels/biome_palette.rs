@@ -2,7 +2,7 @@
 
 use super::{Draft, biome_edit};
 use crate::editor::widgets::param_row::color_button;
-use crate::editor::widgets::{color32, ink_on};
+use crate::editor::widgets::{color32, ink_on, menu_button};
 use crate::planet::MAX_BIOMES;
 use eframe::egui::{self, AtomExt};
 
@@ -16,6 +16,8 @@ pub struct PaletteState {
     pub selected: usize,
     /// The row whose name is being typed.
     renaming: Option<(usize, String)>,
+    /// Why a key that was typed is not the biome's.
+    pub(super) refused: Option<(usize, String)>,
 }
 
 /// Shows the palette; gives the biome under the pointer.
@@ -86,7 +88,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
             let biomes = &mut draft.planet.biomes;
             let mut label = None;
             ui.add_enabled_ui(biomes.palette.len() > 1, |ui| {
-                ui.menu_button("Remove", |ui| {
+                menu_button(ui, "Remove", |ui| {
                     ui.weak("Its cells become");
                     for replacement in 0..biomes.palette.len() {
                         let name = biomes.palette[replacement].name.clone();
