@@ -273,7 +273,7 @@ impl eframe::App for EditorApp {
         self.poll_dialogs(ctx);
         self.poll_disk(ctx);
         self.handle_actions(ctx);
-        self.poll_claims();
+        self.poll_claims(ctx);
         self.poll_pictures(ctx);
         self.handle_close_request(ctx);
         self.update_title(ctx);

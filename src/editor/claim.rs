@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// As many windows on one file are told apart.
 const SLOTS: u32 = 8;
+const PREFIX: &str = "open-";
 
 /// This window's lock for a file.
 pub struct Claim {
@@ -22,7 +23,7 @@ impl Claim {
             let parent = crate::planet::picture::folder_of(file);
             fs::canonicalize(parent).map(|parent| parent.join(file.file_name().unwrap_or_default()))
         });
-        let stem = folder.join(format!("open-{:016x}", fnv1a(whole.ok()?.as_os_str().as_encoded_bytes())));
+        let stem = folder.join(format!("{PREFIX}{:016x}", fnv1a(whole.ok()?.as_os_str().as_encoded_bytes())));
         fs::create_dir_all(folder).ok()?;
         (0..SLOTS).find_map(|slot| {
             let lock = File::options().create(true).truncate(false).write(true).open(place(&stem, slot)).ok()?;
@@ -44,6 +45,11 @@ impl Drop for Claim {
         // One that stays behind is free: its lock goes with this window.
         let _ = fs::remove_file(place(&self.stem, self.slot));
     }
+}
+
+/// Whether a file of that name is a window's claim.
+pub fn is_claim(name: &std::ffi::OsStr) -> bool {
+    name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
 }
 
 fn place(stem: &Path, slot: u32) -> PathBuf {

@@ -9,6 +9,7 @@ use crate::planet::file::MAX_FILE_BYTES;
 use crate::planet::picture::folder_of;
 use eframe::egui;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
+use std::ffi::OsStr;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -74,6 +75,33 @@ impl Theirs {
     }
 }
 
+/// Calls `noted` from another thread when a file in the folder changes whose name is wanted; None where the system cannot
+/// watch.
+pub(super) fn watch(
+    folder: &Path,
+    wanted: impl Fn(&OsStr) -> bool + Send + 'static,
+    noted: impl Fn() + Send + 'static,
+) -> Option<RecommendedWatcher> {
+    let handler = move |event: notify::Result<notify::Event>| {
+        let is_news = event.is_ok_and(|event| {
+            // To look at a file is no change of it.
+            !matches!(event.kind, EventKind::Access(_))
+                && (event.need_rescan() || event.paths.iter().filter_map(|path| path.file_name()).any(&wanted))
+        });
+        if is_news {
+            noted();
+        }
+    };
+    let watcher = notify::recommended_watcher(handler).and_then(|mut watcher| {
+        watcher.watch(folder, RecursiveMode::NonRecursive)?;
+        Ok(watcher)
+    });
+    if let Err(error) = &watcher {
+        log::warn!("{}: changes on disk are not noticed at once: {error}", folder.display());
+    }
+    watcher.ok()
+}
+
 /// A watch over the folder of a file: editors put a new file in the place of the old one.
 struct Watch {
     path: PathBuf,
@@ -88,25 +116,12 @@ impl Watch {
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let (changed, ctx) = (Arc::new(Mutex::new(None)), ctx.clone());
         let (noted, name) = (changed.clone(), target.file_name().map(ToOwned::to_owned));
-        let handler = move |event: notify::Result<notify::Event>| {
-            let ours = event.is_ok_and(|event| {
-                // To look at the file is no change of it.
-                !matches!(event.kind, EventKind::Access(_))
-                    && (event.need_rescan() || event.paths.iter().any(|path| path.file_name() == name.as_deref()))
-            });
-            if ours {
-                *noted.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
-                ctx.request_repaint_after(QUIET);
-            }
-        };
-        let watcher = notify::recommended_watcher(handler).and_then(|mut watcher| {
-            watcher.watch(&folder_of(&target), RecursiveMode::NonRecursive)?;
-            Ok(watcher)
+        let is_ours = move |found: &OsStr| Some(found) == name.as_deref();
+        let watcher = watch(&folder_of(&target), is_ours, move || {
+            *noted.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+            ctx.request_repaint_after(QUIET);
         });
-        if let Err(error) = &watcher {
-            log::warn!("{}: changes on disk are not noticed at once: {error}", path.display());
-        }
-        Self { path: path.to_owned(), changed, _watcher: watcher.ok() }
+        Self { path: path.to_owned(), changed, _watcher: watcher }
     }
 
     /// Whether the file has changed and is quiet again, once.

@@ -179,6 +179,12 @@ fn readable_stem(path: &Path) -> String {
     chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
 }
 
+/// Whether two paths lead to one file, however they are written.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();
+    a == b || whole(a).is_some_and(|a| Some(a) == whole(b))
+}
+
 fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
@@ -324,8 +330,8 @@ impl EditorApp {
 
     /// Saves to a file that was chosen. `asked` is the file that somebody has agreed to replace, should it exist.
     fn save_chosen(&mut self, ctx: &egui::Context, path: PathBuf, asked: Option<&Path>) {
-        if self.document.path() == Some(&path) {
-            self.save_own(ctx, path);
+        if let Some(own) = self.document.path().filter(|own| is_same_file(own, &path)).map(Path::to_owned) {
+            self.save_own(ctx, own);
         } else if path.exists() && asked != Some(&path) {
             self.files.replace = Some(Replace::Planet(path));
         } else {
@@ -391,7 +397,7 @@ impl EditorApp {
             Asking::Open => self.pursue(ctx, Goal::OpenPath(file)),
             Asking::SaveAs => {
                 // The file that the planet was read from may be called as it likes.
-                let own = self.document.path() == Some(&file);
+                let own = self.document.path().is_some_and(|own| is_same_file(own, &file));
                 let path = if own { file } else { with_extension(&file, PRESET) };
                 self.save_chosen(ctx, path, asked);
             }

@@ -1,15 +1,21 @@
 //! What the editor says by itself: what has just been done, for a few seconds; what is wrong, as long as it is so.
 
 use super::app::EditorApp;
-use super::claim::Claim;
+use super::claim::{self, Claim};
+use super::disk;
 use eframe::egui;
+use notify::RecommendedWatcher;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long one has to read what has just been done.
 const SHOWN: Duration = Duration::from_secs(5);
-/// How often other windows are looked for.
+/// How often other windows are looked for, at most.
 const LOOK: Duration = Duration::from_secs(1);
+/// How long after a change one looks.
+const SETTLED: Duration = Duration::from_millis(100);
 
 /// What is said.
 #[derive(Default)]
@@ -20,6 +26,9 @@ pub(super) struct Notices {
     claim: Option<(PathBuf, Claim)>,
     shared: bool,
     looked: Option<Instant>,
+    /// Tells of windows that come and go while this one has nothing to draw, once it was tried to set up.
+    watch: Option<Option<RecommendedWatcher>>,
+    news: Arc<AtomicBool>,
 }
 
 impl EditorApp {
@@ -37,13 +46,24 @@ impl EditorApp {
     }
 
     /// Notes which file this window has open, and looks for others that have it open, too.
-    pub(super) fn poll_claims(&mut self) {
-        let Notices { claims, claim, shared, looked, .. } = &mut self.notices;
+    pub(super) fn poll_claims(&mut self, ctx: &egui::Context) {
+        let Notices { claims, claim, shared, looked, watch, news, .. } = &mut self.notices;
         let Some(folder) = claims else { return };
         let path = self.document.path();
         if claim.as_ref().map(|(path, _)| path.as_path()) != path {
             *claim = path.and_then(|path| Some((path.to_owned(), Claim::take(folder, path)?)));
             *looked = None;
+        }
+        if watch.is_none() && claim.is_some() {
+            let (noted, ctx) = (news.clone(), ctx.clone());
+            *watch = Some(disk::watch(folder, claim::is_claim, move || {
+                noted.store(true, Ordering::Relaxed);
+                // Its lock is taken a moment after the file is made.
+                ctx.request_repaint_after(SETTLED);
+            }));
+        }
+        if news.swap(false, Ordering::Relaxed) {
+            ctx.request_repaint_after(LOOK);
         }
         if looked.is_none_or(|looked| looked.elapsed() > LOOK) {
             *looked = Some(Instant::now());

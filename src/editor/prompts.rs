@@ -100,11 +100,11 @@ fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
 
 fn changed(ctx: &egui::Context, title: &str, change: &Change) -> Option<ChangeAnswer> {
     let mut lines =
-        vec![format!("Somebody else has written {} since it was read here.", title.trim_start_matches("• "))];
+        vec![format!("{} was written by another program since it was read here.", title.trim_start_matches("• "))];
     let mut answers = Vec::new();
     match &change.theirs.planet {
         Ok(_) => {
-            lines.push("To reload is one step, which undo takes back.".to_owned());
+            lines.push("Reload takes theirs over; undo brings yours back.".to_owned());
             answers.push(("Reload", ChangeAnswer::Reload));
         }
         Err(why) => lines.push(format!("It cannot be read now: {why}")),
