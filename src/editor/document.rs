@@ -117,6 +117,8 @@ impl Document {
             return;
         }
         let label = label.unwrap_or_else(|| describe::change(&self.planet, &planet));
+        // A rule that has just been switched on is of something, within the same step.
+        planet.biomes.name_missing(false);
         self.history.record(&self.planet, &label);
         self.show(Arc::new(planet));
     }

@@ -121,10 +121,13 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
     tones.response.on_hover_text("The curve from light to the picture: like film, colours as they are, or none");
     ui.horizontal(|ui| {
         let label = ui.label("Exposure");
-        let slider = egui::Slider::new(&mut app.viewport.settings.exposure_ev, -8.0..=8.0).suffix(" EV");
-        ui.add(slider)
-            .labelled_by(label.id)
-            .on_hover_text("Brightness of the picture in stops; not part of the planet");
+        let told = "Brightness of the picture in stops; not part of the planet";
+        let slider = egui::Slider::new(&mut app.viewport.settings.exposure_ev, -8.0..=8.0).show_value(false);
+        ui.add(slider).labelled_by(label.id).on_hover_text(told);
+        let allowed = Allowed::numbers(Unit::None, -8.0, 8.0).marked(" EV");
+        plain_field(ui, &mut app.viewport.settings.exposure_ev, 0.02, 3, allowed)
+            .on_hover_text(told)
+            .accessible_name("Exposure as a number");
         ui.checkbox(&mut app.viewport.settings.auto_exposure, "Automatic").on_hover_text(
             "Exposure follows what there is to see, and the slider corrects it; off, the slider alone decides",
         );

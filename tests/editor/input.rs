@@ -161,6 +161,22 @@ fn a_rule_names_a_biome_that_there_is() {
     assert_eq!(biomes(&harness).snow_key, dust);
     assert_eq!(undo_len(&harness), steps + 1);
 
+    // To drag a rule on is one step, though a biome is chosen for it.
+    let steps = undo_len(&harness);
+    let slider = "Beach up to of biomes";
+    harness.get_by_role_and_label(Role::Slider, slider).scroll_to_me();
+    harness.run_steps(40);
+    let rect = harness.get_by_role_and_label(Role::Slider, slider).rect();
+    harness.drag_at(rect.left_center() + egui::vec2(4.0, 0.0));
+    for step in 1..6 {
+        harness.hover_at(rect.left_center() + egui::vec2(10.0 * step as f32, 0.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(rect.left_center() + egui::vec2(50.0, 0.0));
+    harness.run_steps(3);
+    assert!(biomes(&harness).beach_m > 0.0 && biomes(&harness).index_of(biomes(&harness).beach_key).is_some());
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Change beach up to of biomes".to_owned()));
+
     // Gone, its rule goes with its cells; undo brings both back.
     click_biome(&mut harness, "Dust");
     let before = biomes(&harness);

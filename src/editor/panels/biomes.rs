@@ -106,8 +106,6 @@ pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     let skip = &["palette", "table"];
     let grid = Grid { base, owner: "biomes", skip, problems: draft.problems, biomes: &names };
     params_grid(ui, &grid, &mut draft.planet.biomes, &mut Biomes::default());
-    // A rule that has just been switched on is of something.
-    draft.planet.biomes.name_missing(false);
 }
 
 /// Key and name of each biome.

@@ -51,7 +51,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                     browse = control(ui, row, &mut value);
                 },
             );
-            if let Some(default) = row.default
+            if let Some(default) = resets_to(row)
                 && value.get() != *default
             {
                 let tooltip = format!("Back to {}", value_text(row.param, default, &value));
@@ -73,6 +73,11 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
         }
     });
     browse
+}
+
+/// What the reset button goes back to. What a biome is called by default is no biome of every palette.
+fn resets_to<'a>(row: &Row<'a>) -> Option<&'a Value> {
+    row.default.filter(|_| row.param.domain != Domain::BiomeKey)
 }
 
 /// Width of the labels where so much is there for a row.
@@ -119,7 +124,7 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
             ui.ctx().copy_text(row.path.to_string());
             ui.close();
         }
-        if let Some(default) = row.default
+        if let Some(default) = resets_to(row)
             && ui.button("Reset").clicked()
         {
             value.set(default);
@@ -135,7 +140,7 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
     if !range.is_empty() {
         ui.weak(format!("Range: {range}"));
     }
-    if let Some(default) = row.default {
+    if let Some(default) = resets_to(row) {
         ui.weak(format!("Default: {}", value_text(row.param, default, value)));
     }
     ui.weak(egui::RichText::new(row.path.to_string()).monospace());
