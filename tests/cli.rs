@@ -107,7 +107,8 @@ fn a_wrong_preset_is_status_1_everywhere() {
 #[test]
 fn a_new_planet_needs_a_folder_and_a_name_that_ends_in_ron() {
     let folder = folder();
-    for (name, part) in [("no/such/folder/new.ron", "there is no folder"), ("new.txt", "ends in .ron, such as new.txt.ron")]
+    for (name, part) in
+        [("no/such/folder/new.ron", "there is no folder"), ("new.txt", "ends in .ron, such as new.txt.ron")]
     {
         let path = folder.path().join(name);
         let (status, _, err) = run(&[text_of(&path)]);
