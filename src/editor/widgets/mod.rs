@@ -47,7 +47,11 @@ pub fn menu_button<'a, R>(
     // Above or below the button, and as much again for the button and the menu's frame.
     let below = window.bottom() - top - ui.spacing().interact_size.y;
     let room = below.max(top - window.top()) - 32.0;
-    ui.menu_button(title, |ui| egui::ScrollArea::vertical().max_height(room.max(80.0)).show(ui, content).inner)
+    ui.menu_button(title, |ui| {
+        // The bar stands beside the entries, not over their keys.
+        let beside = egui::Frame::new().inner_margin(egui::Margin { right: 10, ..egui::Margin::ZERO });
+        egui::ScrollArea::vertical().max_height(room.max(80.0)).show(ui, |ui| beside.show(ui, content).inner).inner
+    })
 }
 
 /// The first thing wrong with the parameter at `path`, if anything is.
