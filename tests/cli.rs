@@ -105,6 +105,23 @@ fn a_wrong_preset_is_status_1_everywhere() {
 }
 
 #[test]
+fn a_new_planet_needs_a_folder_and_a_name_that_ends_in_ron() {
+    let folder = folder();
+    for (name, part) in
+        [("no/such/folder/new.ron", "there is no folder"), ("new.txt", "ends in .ron, such as new.txt.ron")]
+    {
+        let path = folder.path().join(name);
+        let (status, _, err) = run(&[text_of(&path)]);
+        assert!(status == 1 && err.contains(part), "{name}: {err}");
+    }
+    // Without a display the editor cannot open, but the name is no reason to stay out.
+    let path = folder.path().join("new.ron");
+    let output = tellus(&[text_of(&path)]).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(err.contains("the window could not be opened"), "{err}");
+}
+
+#[test]
 fn sample_answers_people_and_machines() {
     let (status, out, err) = run(&["sample", AUREL, "--lat", "-33.5", "--lon", "-70", "--json"]);
     assert_eq!((status, err.as_str()), (0, ""));

@@ -160,6 +160,33 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
 }
 
 #[test]
+fn after_an_undo_no_preview_covers_what_came_back() {
+    let mut harness = editor(vec![]);
+    let marked = |harness: &Editor| harness.state().viewport().painter.marked.clone();
+    choose(&mut harness, 3);
+    for tool in ["Fill", "Brush"] {
+        click(&mut harness, tool);
+        let before = biomes(&harness);
+        harness.hover_at(cell(&harness, 4, 4));
+        harness.run_steps(2);
+        assert!(marked(&harness).is_some(), "{tool}: a preview");
+        stroke(&mut harness, &[(4, 4)]);
+        // Away and back: the preview of the next stroke.
+        harness.hover_at(cell(&harness, 9, 9));
+        harness.run_steps(2);
+        harness.hover_at(cell(&harness, 4, 4));
+        harness.run_steps(2);
+        assert!(marked(&harness).is_some(), "{tool}: the next preview");
+        undo(&mut harness);
+        assert_eq!(biomes(&harness), before);
+        assert!(marked(&harness).is_none(), "{tool}: what came back is seen");
+        harness.hover_at(cell(&harness, 5, 4));
+        harness.run_steps(2);
+        assert!(marked(&harness).is_some(), "{tool}: the pointer went on");
+    }
+}
+
+#[test]
 fn the_planet_and_the_table_point_at_each_other() {
     let mut harness = editor(vec![]);
     let marked = |harness: &Editor| harness.state().viewport().painter.marked.clone();
@@ -184,7 +211,7 @@ fn the_planet_and_the_table_point_at_each_other() {
 }
 
 #[test]
-fn the_eyedropper_picks_on_the_planet_and_alt_paints_its_climate() {
+fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
     let mut harness = editor(vec![]);
     let rect = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect();
     harness.hover_at(rect.center());
@@ -212,7 +239,7 @@ fn the_eyedropper_picks_on_the_planet_and_alt_paints_its_climate() {
 
     let key = choose(&mut harness, other);
     let before = biomes(&harness);
-    press(&mut harness, egui::Modifiers::ALT);
+    press(&mut harness, egui::Modifiers::COMMAND);
     until(&mut harness, "painted", |harness| undo_len(harness) == 1);
     assert_eq!(undo_label(&harness), "Paint a place's climate");
     let mut expected = before.clone();

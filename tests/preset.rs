@@ -465,3 +465,11 @@ fn a_device_is_not_replaced_by_a_file() {
     assert!(error.contains("is a device or a pipe"), "{error}");
     assert!(!std::fs::metadata("/dev/null").unwrap().is_file());
 }
+
+#[test]
+fn a_rule_that_names_no_biome_is_refused_where_it_stands() {
+    let text = "(\n version: 3,\n biomes: (\n  snow_key: 'q',\n ),\n)";
+    let Err(error @ LoadError::Invalid { .. }) = Planet::from_text("f.ron", text) else { panic!("it was accepted") };
+    let expected = "f.ron:4:13: biomes.snow_key: 'q' is no key of the palette; use one of `a`";
+    assert_eq!(error.to_string(), expected);
+}

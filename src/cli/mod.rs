@@ -29,7 +29,7 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// The preset to open in the editor
+    /// The preset to open in the editor; one that does not exist yet is made when it is saved
     #[arg(value_name = "FILE.ron")]
     file: Option<PathBuf>,
 }
@@ -102,7 +102,8 @@ fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
     if let Some(file) = &file {
         // Said here rather than in a window: whoever gave a name on the command line reads the answer there.
         // A missing picture is no reason to stay out: the editor says so and goes on without.
-        Planet::open(file).map_err(|error| Failure::Message(error.to_string()))?;
+        // A name without a file is a new planet's.
+        crate::editor::check_first(file)?;
     }
     Ok(crate::editor::run(file)?)
 }

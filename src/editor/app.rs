@@ -6,12 +6,15 @@
 
 use super::bookmarks::Renaming;
 use super::command::Command;
+use super::controls;
 use super::dialogs::{FileDialogs, NativeDialogs};
+use super::disk::DiskState;
 use super::document::Document;
 use super::files::FileFlow;
 use super::handle::Action;
 use super::look;
 use super::menus;
+use super::notices::Notices;
 use super::painter::survey::Surveyor;
 use super::panels::{Draft, PanelState, Tab, biomes};
 use super::performance;
@@ -20,6 +23,7 @@ use super::prompts::{self, Message};
 use super::recovery::{Orphan, Recovery};
 use super::status;
 use super::viewport::{PainterLink, Viewport};
+use super::widgets::keys_are_taken;
 use crate::planet::{Planet, shipped};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -35,6 +39,8 @@ pub struct EditorApp {
     pub(super) viewport: Viewport,
     pub(super) panels: PanelState,
     pub(super) files: FileFlow,
+    pub(super) disk: DiskState,
+    pub(super) notices: Notices,
     surveyor: Surveyor,
     pub(super) pictures: Pictures,
     pub(super) messages: Vec<Message>,
@@ -49,13 +55,16 @@ pub struct EditorApp {
     /// What crashed editors left behind and nobody has decided about.
     pub(super) orphans: Vec<Orphan>,
     pub(super) recovery: Option<Recovery>,
+    /// Whether a field had the keys at the end of the last frame: Escape takes them from it before anybody sees it.
+    was_typing: bool,
     title: String,
     adapter: String,
     frame_start: Instant,
 }
 
 impl EditorApp {
-    /// The application, with a preset if one is given. One that cannot be loaded is reported in the window.
+    /// The application, with a preset if one is given: one that does not exist yet is a new planet of that name, one
+    /// that cannot be loaded is reported in the window.
     pub fn new(cc: &eframe::CreationContext<'_>, path: Option<PathBuf>) -> Self {
         look::set_up(&cc.egui_ctx);
         let panel_hidden = cc.storage.and_then(|storage| storage.get_string(LAYOUT_KEY)).as_deref() == Some("hidden");
@@ -70,6 +79,8 @@ impl EditorApp {
             viewport,
             panels: PanelState::default(),
             files: FileFlow::new(Box::new(NativeDialogs::default())),
+            disk: DiskState::default(),
+            notices: Notices::default(),
             surveyor: {
                 let ctx = cc.egui_ctx.clone();
                 Surveyor::new(move || ctx.request_repaint())
@@ -84,12 +95,13 @@ impl EditorApp {
             deferred: Vec::new(),
             orphans: Vec::new(),
             recovery: None,
+            was_typing: false,
             title: String::new(),
             adapter,
             frame_start: Instant::now(),
         };
         if let Some(path) = path {
-            app.load(&path);
+            app.begin_with(&path);
         }
         app
     }
@@ -100,8 +112,10 @@ impl EditorApp {
         self
     }
 
-    /// Keeps unsaved work in `folder` against a crash, and offers what a crash left there.
+    /// Keeps unsaved work in `folder` against a crash, and offers what a crash left there. Notes there which file is
+    /// open, too, so that other windows know.
     pub fn with_recovery(mut self, folder: &Path) -> Self {
+        self.notices.claims = Some(folder.to_owned());
         match Recovery::open(folder) {
             Ok((recovery, orphans)) => {
                 self.recovery = Some(recovery);
@@ -143,15 +157,30 @@ impl EditorApp {
     }
 
     fn take_shortcuts(&mut self, ctx: &egui::Context) {
-        if self.files.is_asking() {
+        if self.files.is_asking() || keys_are_taken(ctx) {
             return;
         }
+        self.take_escape(ctx);
         // Letters and digits choose biomes while the table has the keys.
         let typing = ctx.text_edit_focused() || biomes::has_keys(ctx);
         for (shortcut, command) in Command::all_shortcuts() {
             if !(typing && command.yields_to_text()) && ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
                 self.send(command);
             }
+        }
+    }
+
+    /// Escape closes the window on top; first it ends what is being typed.
+    fn take_escape(&mut self, ctx: &egui::Context) {
+        let open = [(controls::layer(), &mut self.show_controls), (performance::layer(), &mut self.show_performance)];
+        let order: Vec<egui::LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
+        let height = |layer: &egui::LayerId| order.iter().position(|other| other == layer);
+        let top = open.into_iter().filter(|(_, open)| **open).max_by_key(|(layer, _)| height(layer));
+        if let Some((_, open)) = top
+            && !self.was_typing
+            && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+        {
+            *open = false;
         }
     }
 
@@ -192,10 +221,14 @@ impl EditorApp {
         let problems = self.document.problems();
         let error = self.viewport.error();
         let pictures = self.pictures.problems();
-        if problems.is_empty() && pictures.is_empty() && error.is_none() {
+        let notices = self.standing_notices();
+        if problems.is_empty() && pictures.is_empty() && error.is_none() && notices.is_empty() {
             return;
         }
         egui::Panel::top("problems").resizable(false).show(ui, |ui| {
+            for notice in notices {
+                ui.colored_label(ui.visuals().warn_fg_color, notice);
+            }
             let color = ui.visuals().error_fg_color;
             if let Some(error) = error {
                 ui.colored_label(color, error);
@@ -238,7 +271,9 @@ impl eframe::App for EditorApp {
         self.take_shortcuts(ctx);
         self.take_dropped_files(ctx);
         self.poll_dialogs(ctx);
+        self.poll_disk(ctx);
         self.handle_actions(ctx);
+        self.poll_claims(ctx);
         self.poll_pictures(ctx);
         self.handle_close_request(ctx);
         self.update_title(ctx);
@@ -259,6 +294,12 @@ impl eframe::App for EditorApp {
             }
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {
+                // The panel is as wide as somebody drags it, whatever is in it: what does not fit is cut off, and
+                // the panel goes back when it is gone.
+                let rect = ui.available_rect_before_wrap();
+                ui.advance_cursor_after_rect(rect);
+                let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(rect));
+                ui.shrink_clip_rect(rect.expand(4.0));
                 let under_pointer = self.viewport.under_pointer();
                 let (_, lon_deg) = self.viewport.eye(&planet).1.to_degrees();
                 let mut draft = Draft {
@@ -298,8 +339,10 @@ impl eframe::App for EditorApp {
             self.edit(planet, label);
             ctx.request_repaint();
         }
+        self.was_typing = ctx.text_edit_focused();
         prompts::show(&ctx, self);
         performance::show(&ctx, self);
+        self.show_said(&ctx);
         self.settle(&ctx);
         if let Some(wait) = self.recovery.as_mut().and_then(|recovery| recovery.tick(&self.document)) {
             ctx.request_repaint_after(wait);
@@ -315,6 +358,7 @@ impl eframe::App for EditorApp {
     }
 
     fn on_exit(&mut self) {
+        self.drop_claim();
         if let Some(recovery) = &mut self.recovery {
             recovery.close();
         }

@@ -161,7 +161,9 @@ impl Command {
             Command::TogglePerformance => "Where the time of the last edit went, what is kept, and the newest frames.",
             Command::ToggleFullscreen => "Use the whole screen, or the window again.",
             Command::ToggleTheme => "Switch between the light and the dark look.",
-            Command::RandomPlanet => "Start with a planet nobody has seen before.",
+            Command::RandomPlanet => {
+                "Put a planet nobody has seen before in the place of this one; undo brings this one back."
+            }
             Command::Controls => "How to move around, and every key.",
             Command::Move(Mode::Orbit) => "Turn the planet and near what you point at.",
             Command::Move(Mode::Fly) => "Fly freely, faster the higher you are.",

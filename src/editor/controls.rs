@@ -37,20 +37,29 @@ const GROUPS: [(&str, &[(&str, &str)]); 5] = [
     (
         "Biome table",
         &[
-            ("A biome's letter, right click, Alt and click", "Choose that biome"),
+            ("A biome's letter, right click, Ctrl and click", "Choose that biome"),
             ("[ ]", "Smaller, larger brush"),
             ("Shift", "Straight lines, outlines of rectangles; fill everywhere; join brush strokes"),
-            ("Alt and click on the planet", "Paint the climate of that place"),
+            ("Ctrl and click on the planet", "Paint the climate of that place"),
             ("Escape", "End the selection"),
         ],
     ),
     ("Walk", &[("W A S D", "Walk; slower uphill"), ("Shift", "Run"), ("Space", "Jump"), ("Arrow keys", "Look around")]),
 ];
 
+/// The window's layer.
+pub fn layer() -> egui::LayerId {
+    egui::LayerId::new(egui::Order::Middle, id())
+}
+
+fn id() -> egui::Id {
+    egui::Id::unique("controls window")
+}
+
 /// Shows the window while it is open.
 pub fn show(ctx: &egui::Context, open: &mut bool) {
     let most_high = ctx.content_rect().height() - 120.0;
-    egui::Window::new("Controls").open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+    egui::Window::new("Controls").id(id()).open(open).resizable(false).collapsible(false).show(ctx, |ui| {
         egui::ScrollArea::vertical().max_height(most_high).show(ui, |ui| {
             egui::Grid::new("controls").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
                 for (title, rows) in GROUPS {

@@ -1,8 +1,13 @@
-//! File dialogs that never block the window, behind a trait so that tests answer them.
+//! File dialogs that never block the window, behind a trait so that tests answer them. Where the desktop has none, the
+//! editor asks for a path in its window.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// Nobody cancels a dialog as fast as this: it never showed.
+const TOO_FAST: Duration = Duration::from_millis(400);
 
 /// What a dialog asks for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,6 +43,57 @@ pub enum DialogRequest {
     },
 }
 
+impl DialogRequest {
+    /// The heading of the dialog.
+    pub fn title(&self) -> &'static str {
+        match self {
+            DialogRequest::Open { .. } => "Open planet",
+            DialogRequest::Picture { .. } => "Choose a height map",
+            DialogRequest::ImportTable { .. } => "Import biome table",
+            DialogRequest::ExportTable { .. } => "Export biome table",
+            DialogRequest::SaveAs { .. } => "Save planet",
+        }
+    }
+
+    /// What the files are, and what their names end in.
+    fn filter(&self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            DialogRequest::Open { .. } | DialogRequest::SaveAs { .. } => ("Planet presets", &["ron"]),
+            DialogRequest::Picture { .. } => ("Pictures", &["png", "exr"]),
+            DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
+        }
+    }
+
+    /// What the files' names end in.
+    pub fn extensions(&self) -> &'static [&'static str] {
+        self.filter().1
+    }
+
+    /// The folder to begin in.
+    pub fn folder(&self) -> Option<&PathBuf> {
+        match self {
+            DialogRequest::Open { folder }
+            | DialogRequest::Picture { folder }
+            | DialogRequest::ImportTable { folder }
+            | DialogRequest::ExportTable { folder, .. }
+            | DialogRequest::SaveAs { folder, .. } => folder.as_ref(),
+        }
+    }
+
+    /// The name that is offered for a file to be written.
+    pub fn file_name(&self) -> Option<&str> {
+        match self {
+            DialogRequest::ExportTable { file_name, .. } | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
+            _ => None,
+        }
+    }
+
+    /// Whether the file is to be written.
+    pub fn saves(&self) -> bool {
+        self.file_name().is_some()
+    }
+}
+
 /// Called from any thread when an answer has come.
 pub type Wake = Box<dyn Fn() + Send + 'static>;
 
@@ -46,20 +102,25 @@ pub trait FileDialogs {
     /// Opens a dialog. Called on the main thread.
     ///
     /// # Errors
-    /// Why this desktop cannot show one, and what to do.
+    /// Why this desktop cannot show one.
     fn start(&mut self, request: DialogRequest, wake: Wake) -> Result<(), String>;
     /// The answer, once: the file, or None when the person cancelled.
     fn poll(&mut self) -> Option<Option<PathBuf>>;
+    /// After an answer: what was asked for and why the dialog never showed, if it did not.
+    fn failed(&mut self) -> Option<(DialogRequest, String)> {
+        None
+    }
 }
 
 /// The dialogs of the desktop.
 #[derive(Default)]
 pub struct NativeDialogs {
     answer: Option<Receiver<Option<PathBuf>>>,
+    asked: Option<(DialogRequest, Instant)>,
+    failed: Option<(DialogRequest, String)>,
 }
 
-const NO_DIALOGS: &str = "This desktop has no file dialogs. Install xdg-desktop-portal or zenity; or start Tellus with \
-    the file's name (`tellus my.ron`), drop files on the window, and save with Ctrl+S.";
+const NO_DIALOGS: &str = "This desktop shows no file dialogs (xdg-desktop-portal or zenity would): type the path.";
 
 /// Whether anything here can show a file dialog: on Linux that is a portal, reached over the session bus, or zenity.
 /// Without either the dialog would be "cancelled" at once, and nobody would know why.
@@ -78,31 +139,18 @@ impl FileDialogs for NativeDialogs {
         if !can_show_dialogs() {
             return Err(NO_DIALOGS.to_owned());
         }
-        let presets = || rfd::AsyncFileDialog::new().add_filter("Planet presets", &["ron"]);
-        let pictures = || rfd::AsyncFileDialog::new().add_filter("Pictures", &["png", "exr"]);
-        let tables = || rfd::AsyncFileDialog::new().add_filter("Pictures", &["png"]);
-        let with_folder = |dialog: rfd::AsyncFileDialog, folder: Option<PathBuf>| match folder {
-            Some(folder) => dialog.set_directory(folder),
-            None => dialog,
-        };
+        let (name, extensions) = request.filter();
+        let mut dialog = rfd::AsyncFileDialog::new().add_filter(name, extensions).set_title(request.title());
+        if let Some(folder) = request.folder() {
+            dialog = dialog.set_directory(folder);
+        }
         // Desktops want dialogs made on the main thread; the waiting is done elsewhere.
-        let future: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match request {
-            DialogRequest::Open { folder } => {
-                Box::pin(with_folder(presets(), folder).set_title("Open planet").pick_file())
-            }
-            DialogRequest::Picture { folder } => {
-                Box::pin(with_folder(pictures(), folder).set_title("Choose a height map").pick_file())
-            }
-            DialogRequest::ImportTable { folder } => {
-                Box::pin(with_folder(tables(), folder).set_title("Import biome table").pick_file())
-            }
-            DialogRequest::ExportTable { folder, file_name } => Box::pin(
-                with_folder(tables(), folder).set_title("Export biome table").set_file_name(file_name).save_file(),
-            ),
-            DialogRequest::SaveAs { folder, file_name } => {
-                Box::pin(with_folder(presets(), folder).set_title("Save planet").set_file_name(file_name).save_file())
-            }
+        let future: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match request.file_name()
+        {
+            Some(file_name) => Box::pin(dialog.set_file_name(file_name).save_file()),
+            None => Box::pin(dialog.pick_file()),
         };
+        self.asked = Some((request, Instant::now()));
         let (sender, receiver) = channel();
         self.answer = Some(receiver);
         std::thread::spawn(move || {
@@ -122,7 +170,26 @@ impl FileDialogs for NativeDialogs {
             Err(std::sync::mpsc::TryRecvError::Disconnected) => None,
         };
         self.answer = None;
+        let asked = self.asked.take().filter(|(_, since)| answer.is_none() && since.elapsed() < TOO_FAST);
+        self.failed = asked.map(|(request, _)| (request, NO_DIALOGS.to_owned()));
         Some(answer)
+    }
+
+    fn failed(&mut self) -> Option<(DialogRequest, String)> {
+        self.failed.take()
+    }
+}
+
+/// No dialogs at all, for tests.
+pub struct NoDialogs;
+
+impl FileDialogs for NoDialogs {
+    fn start(&mut self, _request: DialogRequest, _wake: Wake) -> Result<(), String> {
+        Err(NO_DIALOGS.to_owned())
+    }
+
+    fn poll(&mut self) -> Option<Option<PathBuf>> {
+        None
     }
 }
 

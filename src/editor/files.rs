@@ -1,24 +1,32 @@
-//! Opening and saving, and the promise that no work is lost on the way.
+//! Opening and saving, and the promise that no work is lost on the way: neither what is unsaved here, nor what stands in
+//! a file that somebody else has written.
 
 use super::app::{EditorApp, default_planet};
 use super::command::Command;
 use super::dialogs::{DialogRequest, FileDialogs};
+use super::disk::{self, OnDisk, Theirs};
 use super::document::Document;
 use super::handle::Action;
+use super::path_field::PathField;
 use super::prompts::Message;
 use super::recovery;
 use super::widgets::random_seed;
+use crate::planet::file::read_text;
 use crate::planet::param::ParamPath;
+use crate::planet::picture::folder_of;
 use crate::planet::{LoadError, Planet, random, shipped};
 use eframe::egui;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+
+/// What a planet's file name ends in.
+const PRESET: &str = "ron";
 
 /// What the user wants to do that would lose unsaved work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Goal {
     New,
-    Random,
     Open,
     OpenPath(PathBuf),
     OpenShipped(usize),
@@ -37,12 +45,40 @@ pub(super) enum Asking {
     ExportTable,
 }
 
+/// A file that exists and would be replaced.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Replace {
+    Planet(PathBuf),
+    Table(PathBuf),
+}
+
+impl Replace {
+    pub(super) fn path(&self) -> &Path {
+        match self {
+            Replace::Planet(path) | Replace::Table(path) => path,
+        }
+    }
+}
+
+/// The open file holds another text than was last read from it or written to it.
+pub(super) struct Change {
+    pub(super) theirs: Theirs,
+    /// Whether this was found when the file was about to be written over.
+    pub(super) saving: bool,
+}
+
 /// The state of opening and saving.
 pub struct FileFlow {
     dialogs: Box<dyn FileDialogs>,
     asking: Option<Asking>,
+    /// Asks for a path where the desktop has no dialogs, and what for.
+    pub(super) path_field: Option<(Asking, PathField)>,
     /// Waits for an answer to "save, discard or cancel?".
     pub(super) prompt: Option<Goal>,
+    /// Waits for an answer to "replace that file?".
+    pub(super) replace: Option<Replace>,
+    /// Waits for an answer to "whose planet?".
+    pub(super) change: Option<Change>,
     /// Goes on as soon as the document is saved.
     after_save: Option<Goal>,
     may_close: bool,
@@ -51,12 +87,26 @@ pub struct FileFlow {
 impl FileFlow {
     /// Asks through these dialogs.
     pub fn new(dialogs: Box<dyn FileDialogs>) -> Self {
-        Self { dialogs, asking: None, prompt: None, after_save: None, may_close: false }
+        Self {
+            dialogs,
+            asking: None,
+            path_field: None,
+            prompt: None,
+            replace: None,
+            change: None,
+            after_save: None,
+            may_close: false,
+        }
     }
 
-    /// Whether the prompt about unsaved work is open: nothing else goes on meanwhile.
+    /// Whether a question about files is open: nothing else goes on meanwhile.
     pub fn is_asking(&self) -> bool {
-        self.prompt.is_some()
+        self.prompt.is_some() || self.replace.is_some() || self.change.is_some() || self.path_field.is_some()
+    }
+
+    /// Asks whose planet is to stand in the file.
+    pub(super) fn ask_about_change(&mut self, theirs: Theirs, saving: bool) {
+        self.change = Some(Change { theirs, saving });
     }
 }
 
@@ -69,22 +119,107 @@ pub enum PromptAnswer {
     Cancel,
 }
 
+/// An answer to the question whether a file is to be replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum ReplaceAnswer {
+    Replace,
+    OtherName,
+    Cancel,
+}
+
+/// An answer to the question whose planet is to stand in the open file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum ChangeAnswer {
+    Reload,
+    KeepMine,
+    SaveAs,
+    Cancel,
+}
+
+/// Reads the file to begin with; one that does not exist yet is the name of a new planet.
+///
+/// # Errors
+/// What is wrong with the file, or why no planet can be saved under that name.
+pub(crate) fn first_document(path: &Path) -> Result<Document, LoadError> {
+    match read(path) {
+        Err(LoadError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
+            let refused = |why: String| LoadError::Read { path: path.to_owned(), source: std::io::Error::other(why) };
+            let folder = folder_of(path);
+            if !folder.is_dir() {
+                return Err(refused(format!("there is no folder {}; make it first or name another", folder.display())));
+            }
+            if !has_extension(path, PRESET) {
+                let name = with_extension(path, PRESET);
+                let name = name.file_name().unwrap_or_default().to_string_lossy();
+                return Err(refused(format!(
+                    "there is no such file; a new planet's name ends in .ron, such as {name}"
+                )));
+            }
+            let planet = Planet { name: readable_stem(path), ..default_planet() };
+            Ok(Document::new(planet, Some(path.to_owned())))
+        }
+        read => read,
+    }
+}
+
+/// Reads a document without its pictures.
+fn read(path: &Path) -> Result<Document, LoadError> {
+    let text = read_text(path)?;
+    let mut planet = Planet::from_text(&path.display().to_string(), &text)?;
+    planet.set_folder(&folder_of(path));
+    Ok(Document::opened(planet, path.to_owned(), text))
+}
+
+/// A planet's name by that of its file: "ice-moon.ron" is "Ice moon".
+fn readable_stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(['-', '_'], " ");
+    let mut chars = stem.trim().chars().filter(|c| !c.is_control()).take(64);
+    chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
+}
+
+/// Whether two paths lead to one file, however they are written.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();
+    a == b || whole(a).is_some_and(|a| Some(a) == whole(b))
+}
+
+fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
+}
+
+/// The path with the extension behind its whole name, if it does not end in it.
+fn with_extension(path: &Path, extension: &str) -> PathBuf {
+    if has_extension(path, extension) {
+        return path.to_owned();
+    }
+    let mut whole = OsString::from(path);
+    whole.push(".");
+    whole.push(extension);
+    whole.into()
+}
+
 impl EditorApp {
     /// Does it, after asking if unsaved work would be lost.
     pub(super) fn pursue(&mut self, ctx: &egui::Context, goal: Goal) {
         self.files.after_save = None;
-        if self.document.is_dirty() {
+        if self.loses_work() {
             self.files.prompt = Some(goal);
         } else {
             self.reach(ctx, goal);
         }
     }
 
+    /// Whether another document in the place of this one would lose something.
+    fn loses_work(&self) -> bool {
+        self.document.is_dirty() || self.document.rolled_over().is_some()
+    }
+
     /// Does it, whatever is lost.
     fn reach(&mut self, ctx: &egui::Context, goal: Goal) {
         match goal {
             Goal::New => self.replace(Document::new(default_planet(), None)),
-            Goal::Random => self.replace(Document::unsaved(random::random(random_seed()))),
             Goal::Open => {
                 let folder = self.document.folder();
                 self.ask(ctx, Asking::Open, DialogRequest::Open { folder });
@@ -107,10 +242,37 @@ impl EditorApp {
 
     /// Opens a file; what is wrong with it is shown in a window, and the document stays.
     pub(super) fn load(&mut self, path: &Path) {
-        match Planet::open(path) {
-            Ok(planet) => self.replace(Document::new(planet, Some(path.to_owned()))),
+        self.show_read(path, read(path));
+    }
+
+    /// The same for the file to begin with, which need not exist yet.
+    pub(super) fn begin_with(&mut self, path: &Path) {
+        self.show_read(path, first_document(path));
+    }
+
+    fn show_read(&mut self, path: &Path, read: Result<Document, LoadError>) {
+        match read {
+            Ok(document) => self.replace(document),
             Err(error) => self.messages.push(load_failed(path, &error)),
         }
+    }
+
+    /// Puts a planet nobody has seen before in the place of this one: a step that can be undone.
+    pub(super) fn roll(&mut self) {
+        self.document.roll(random::random(random_seed()), "Random planet");
+        self.files.asking = None;
+        self.renaming = None;
+        self.panels.new_document();
+        let planet = self.document.valid_planet().clone();
+        self.viewport.reset_view(&planet);
+        self.viewport.edit_clock.edited(&planet, std::time::Instant::now());
+    }
+
+    /// Takes over what the open file holds: a step that can be undone.
+    pub(super) fn reload(&mut self, planet: Planet, text: String) {
+        self.document.reload(planet, text);
+        let planet = self.document.valid_planet().clone();
+        self.viewport.edit_clock.edited(&planet, std::time::Instant::now());
     }
 
     /// Takes over the first thing a crash left behind, or throws it away.
@@ -136,7 +298,7 @@ impl EditorApp {
 
     pub(super) fn save(&mut self, ctx: &egui::Context) {
         match self.document.path().map(Path::to_owned) {
-            Some(path) => self.save_to(ctx, path),
+            Some(path) => self.save_own(ctx, path),
             None => self.save_as(ctx),
         }
     }
@@ -147,18 +309,37 @@ impl EditorApp {
         self.ask(ctx, Asking::SaveAs, request);
     }
 
-    /// Opens a dialog, or says why there is none.
+    /// Opens a dialog, or asks for a path in the window.
     pub(super) fn ask(&mut self, ctx: &egui::Context, asking: Asking, request: DialogRequest) {
-        match self.files.dialogs.start(request, waker(ctx)) {
+        match self.files.dialogs.start(request.clone(), waker(ctx)) {
             Ok(()) => self.files.asking = Some(asking),
-            Err(why) => {
-                self.files.after_save = None;
-                self.messages.push(Message { title: "No file dialog".to_owned(), lines: vec![why] });
-            }
+            Err(why) => self.files.path_field = Some((asking, PathField::new(request, why))),
         }
     }
 
-    fn save_to(&mut self, ctx: &egui::Context, path: PathBuf) {
+    /// Saves to the document's own file, unless somebody else has written there: then that is asked about.
+    fn save_own(&mut self, ctx: &egui::Context, path: PathBuf) {
+        match disk::look(&path, self.document.disk_text()) {
+            OnDisk::Changed(bytes) => {
+                let theirs = Theirs::read(&path, bytes, self.document.planet());
+                self.files.ask_about_change(theirs, true);
+            }
+            OnDisk::Same | OnDisk::Gone => self.write(ctx, path),
+        }
+    }
+
+    /// Saves to a file that was chosen. `asked` is the file that somebody has agreed to replace, should it exist.
+    fn save_chosen(&mut self, ctx: &egui::Context, path: PathBuf, asked: Option<&Path>) {
+        if let Some(own) = self.document.path().filter(|own| is_same_file(own, &path)).map(Path::to_owned) {
+            self.save_own(ctx, own);
+        } else if path.exists() && asked != Some(&path) {
+            self.files.replace = Some(Replace::Planet(path));
+        } else {
+            self.write(ctx, path);
+        }
+    }
+
+    fn write(&mut self, ctx: &egui::Context, path: PathBuf) {
         let planet = self.document.planet().clone();
         let problems = self.document.problems();
         if !problems.is_empty() {
@@ -170,9 +351,11 @@ impl EditorApp {
         }
         match planet.save(&path) {
             Ok(()) => {
+                self.say(format!("Saved to {}", path.display()));
                 self.document.mark_saved(&planet, path);
+                (self.disk.notice, self.disk.put_off) = (None, None);
                 if let Some(goal) = self.files.after_save.take() {
-                    self.reach(ctx, goal);
+                    self.pursue(ctx, goal);
                 }
             }
             Err(error) => {
@@ -186,16 +369,86 @@ impl EditorApp {
     /// Takes the answer of an open dialog.
     pub(super) fn poll_dialogs(&mut self, ctx: &egui::Context) {
         let Some(answer) = self.files.dialogs.poll() else { return };
-        match (self.files.asking.take(), answer) {
-            (Some(Asking::Open), Some(path)) => self.pursue(ctx, Goal::OpenPath(path)),
-            (Some(Asking::SaveAs), Some(path)) => {
-                self.save_to(ctx, if path.extension().is_none() { path.with_extension("ron") } else { path });
+        let asking = self.files.asking.take();
+        if let Some((request, why)) = self.files.dialogs.failed() {
+            self.files.path_field = asking.map(|asking| (asking, PathField::new(request, why)));
+            return;
+        }
+        match (asking, answer) {
+            (Some(asking), Some(file)) => {
+                let asked = file.clone();
+                self.chosen(ctx, asking, file, Some(&asked));
             }
-            (Some(Asking::Picture(place)), Some(file)) => self.choose_file(&place, &file),
-            (Some(Asking::ImportTable), Some(file)) => self.import_table(&file),
-            (Some(Asking::ExportTable), Some(file)) => self.export_table(&file),
             (_, None) => self.files.after_save = None,
             (None, Some(_)) => {}
+        }
+    }
+
+    /// Takes the answer of the field in the window: the path, or None when the person cancelled.
+    pub(super) fn take_path(&mut self, ctx: &egui::Context, path: Option<PathBuf>) {
+        match (self.files.path_field.take(), path) {
+            (Some((asking, _)), Some(path)) => self.chosen(ctx, asking, path, None),
+            _ => self.files.after_save = None,
+        }
+    }
+
+    fn chosen(&mut self, ctx: &egui::Context, asking: Asking, file: PathBuf, asked: Option<&Path>) {
+        match asking {
+            Asking::Open => self.pursue(ctx, Goal::OpenPath(file)),
+            Asking::SaveAs => {
+                // The file that the planet was read from may be called as it likes.
+                let own = self.document.path().is_some_and(|own| is_same_file(own, &file));
+                let path = if own { file } else { with_extension(&file, PRESET) };
+                self.save_chosen(ctx, path, asked);
+            }
+            Asking::Picture(place) => self.choose_file(&place, &file),
+            Asking::ImportTable => self.import_table(&file),
+            Asking::ExportTable => {
+                let path = with_extension(&file, "png");
+                if path.exists() && asked != Some(&path) {
+                    self.files.replace = Some(Replace::Table(path));
+                } else {
+                    self.export_table(&path);
+                }
+            }
+        }
+    }
+
+    /// Goes on after the question whether a file is to be replaced.
+    pub(super) fn answer_replace(&mut self, ctx: &egui::Context, answer: ReplaceAnswer) {
+        let Some(replace) = self.files.replace.take() else { return };
+        match (answer, replace) {
+            (ReplaceAnswer::Replace, Replace::Planet(path)) => self.write(ctx, path),
+            (ReplaceAnswer::Replace, Replace::Table(path)) => self.export_table(&path),
+            (ReplaceAnswer::OtherName, Replace::Planet(_)) => self.save_as(ctx),
+            (ReplaceAnswer::OtherName, Replace::Table(_)) => self.ask_for_table(ctx, false),
+            (ReplaceAnswer::Cancel, _) => self.files.after_save = None,
+        }
+    }
+
+    /// Goes on after the question whose planet is to stand in the open file.
+    pub(super) fn answer_change(&mut self, ctx: &egui::Context, answer: ChangeAnswer) {
+        let Some(Change { theirs: Theirs { text, planet }, saving }) = self.files.change.take() else { return };
+        match (answer, planet) {
+            (ChangeAnswer::Reload, Ok(planet)) => {
+                self.files.after_save = None;
+                self.reload(planet, text);
+            }
+            (ChangeAnswer::KeepMine, planet) => {
+                // Theirs has been seen: the next save is one over it.
+                self.document.note_disk(planet.ok(), Some(text));
+                if saving {
+                    self.save(ctx);
+                }
+            }
+            (ChangeAnswer::SaveAs, planet) => {
+                self.document.note_disk(planet.ok(), Some(text));
+                self.save_as(ctx);
+            }
+            (ChangeAnswer::Cancel, _) | (ChangeAnswer::Reload, Err(_)) => {
+                self.files.after_save = None;
+                self.disk.put_off = Some(text);
+            }
         }
     }
 
@@ -208,7 +461,7 @@ impl EditorApp {
         if ctx.text_edit_focused() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.actions.push(Action::Command(Command::Quit));
-        } else if self.document.is_dirty() {
+        } else if self.loses_work() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.files.prompt = Some(Goal::Quit);
         }
@@ -231,6 +484,7 @@ impl EditorApp {
         self.document = document;
         // A dialog that is still open asked about the document before: its answer must not touch this one.
         self.files.asking = None;
+        self.files.path_field = None;
         self.files.after_save = None;
         self.renaming = None;
         let planet = self.document.valid_planet().clone();
@@ -257,4 +511,18 @@ fn load_failed(path: &Path, error: &LoadError) -> Message {
             .collect(),
     };
     Message { title: "The planet could not be opened".to_owned(), lines }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_extension_is_put_behind_the_whole_name() {
+        let named = |name: &str| with_extension(Path::new(name), PRESET);
+        assert_eq!(named("a/foo"), Path::new("a/foo.ron"));
+        assert_eq!(named("earth 2.0"), Path::new("earth 2.0.ron"));
+        assert_eq!(named("foo.RON"), Path::new("foo.RON"));
+        assert_eq!(readable_stem(Path::new("x/ice-moon_2.ron")), "Ice moon 2");
+    }
 }

@@ -3,7 +3,7 @@
 use super::app::EditorApp;
 use super::bookmarks::BookmarkAction;
 use super::command::Command;
-use super::files::{Goal, PromptAnswer};
+use super::files::{ChangeAnswer, Goal, PromptAnswer, ReplaceAnswer};
 use super::viewport::camera::{Cameras, Ground};
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
@@ -21,6 +21,12 @@ pub enum Action {
     OpenShipped(usize),
     /// Answer the prompt about unsaved work.
     Answer(PromptAnswer),
+    /// Answer the question whether a file is to be replaced.
+    Replace(ReplaceAnswer),
+    /// Answer the question whose planet is to stand in the open file.
+    Change(ChangeAnswer),
+    /// Answer the field that asks for a path; None cancels.
+    Path(Option<PathBuf>),
     /// Take work over that a crash left behind, or throw it away.
     Recover(bool),
     /// Choose a file for the parameter there.
@@ -40,7 +46,8 @@ impl Action {
             Action::Command(command) => matches!(command, New | Open | Save | SaveAs | Quit | RandomPlanet),
             Action::OpenPath(_) | Action::OpenShipped(_) => true,
             Action::Browse(_) => true,
-            Action::Answer(_) | Action::Recover(_) | Action::Bookmark(_) | Action::Quality(_) => false,
+            Action::Answer(_) | Action::Replace(_) | Action::Change(_) | Action::Path(_) => false,
+            Action::Recover(_) | Action::Bookmark(_) | Action::Quality(_) => false,
         }
     }
 }
@@ -68,6 +75,9 @@ impl EditorApp {
             Action::OpenPath(path) => self.pursue(ctx, Goal::OpenPath(path)),
             Action::OpenShipped(index) => self.pursue(ctx, Goal::OpenShipped(index)),
             Action::Answer(answer) => self.answer_prompt(ctx, answer),
+            Action::Replace(answer) => self.answer_replace(ctx, answer),
+            Action::Change(answer) => self.answer_change(ctx, answer),
+            Action::Path(path) => self.take_path(ctx, path),
             Action::Recover(keep) => self.recover(keep),
             Action::Browse(path) => self.browse(ctx, path),
             Action::Bookmark(action) => self.handle_bookmark(action),
@@ -82,7 +92,7 @@ impl EditorApp {
             Command::Save => self.save(ctx),
             Command::SaveAs => self.save_as(ctx),
             Command::Quit => self.pursue(ctx, Goal::Quit),
-            Command::RandomPlanet => self.pursue(ctx, Goal::Random),
+            Command::RandomPlanet => self.roll(),
             Command::Undo => {
                 self.document.undo();
                 self.after_jump(ctx);

@@ -6,16 +6,38 @@
 
 use crate::planet::Planet;
 use std::collections::VecDeque;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Most steps that can be undone; the oldest are forgotten.
 pub const MAX_STEPS: usize = 500;
+
+/// Where a planet is kept.
+#[derive(Clone, Debug, Default)]
+pub struct Home {
+    /// Its file, if it has a name.
+    pub path: Option<PathBuf>,
+    /// What the file holds, or what a new document began with; None if nothing holds any of it.
+    pub saved: Option<Arc<Planet>>,
+    /// The text of the file when it was last read or written; None where there is no file yet.
+    pub text: Option<String>,
+}
 
 /// One change: what to call it, and the planet on its other side.
 #[derive(Clone, Debug)]
 struct Step {
     label: String,
     planet: Arc<Planet>,
+    /// Where the planet on the other side is kept, if that is elsewhere.
+    home: Option<Home>,
+}
+
+impl Step {
+    /// Goes through the step: gives the planet on its other side, and the step that leads back.
+    fn turned(self, current: &Arc<Planet>, home: &mut Home) -> (Arc<Planet>, Self) {
+        let back = self.home.map(|other| std::mem::replace(home, other));
+        (self.planet, Self { label: self.label, planet: current.clone(), home: back })
+    }
 }
 
 /// The steps that can be undone and redone.
@@ -34,11 +56,26 @@ impl History {
         if self.open && self.undo.back().is_some_and(|step| step.label == label) {
             return;
         }
-        self.undo.push_back(Step { label: label.to_owned(), planet: before.clone() });
+        self.push(before, None, label);
+    }
+
+    /// The same for a change after which the planet is kept elsewhere; `home` is where it was before.
+    pub fn record_move(&mut self, before: &Arc<Planet>, home: Home, label: &str) {
+        self.redo.clear();
+        self.push(before, Some(home), label);
+    }
+
+    fn push(&mut self, before: &Arc<Planet>, home: Option<Home>, label: &str) {
+        self.undo.push_back(Step { label: label.to_owned(), planet: before.clone(), home });
         if self.undo.len() > MAX_STEPS {
             self.undo.pop_front();
         }
         self.open = true;
+    }
+
+    /// The planets that are kept elsewhere, with where that is.
+    pub fn homes(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
+        self.undo.iter().chain(&self.redo).filter_map(|step| Some((&step.planet, step.home.as_ref()?)))
     }
 
     /// Ends the gesture under way; one that came back to where it began leaves no step.
@@ -49,20 +86,22 @@ impl History {
         self.open = false;
     }
 
-    /// Goes one step back: gives the planet of then.
-    pub fn undo(&mut self, current: &Arc<Planet>) -> Option<Arc<Planet>> {
+    /// Goes one step back: gives the planet of then, and makes `home` where that is kept.
+    pub fn undo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
         self.settle(current);
         let step = self.undo.pop_back()?;
-        self.redo.push(Step { label: step.label, planet: current.clone() });
-        Some(step.planet)
+        let (planet, step) = step.turned(current, home);
+        self.redo.push(step);
+        Some(planet)
     }
 
     /// Takes the last undo back.
-    pub fn redo(&mut self, current: &Arc<Planet>) -> Option<Arc<Planet>> {
+    pub fn redo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
         self.open = false;
         let step = self.redo.pop()?;
-        self.undo.push_back(Step { label: step.label, planet: current.clone() });
-        Some(step.planet)
+        let (planet, step) = step.turned(current, home);
+        self.undo.push_back(step);
+        Some(planet)
     }
 
     /// What an undo would undo.
@@ -97,9 +136,9 @@ mod tests {
         history.record(&planet(2), "Change seed");
         history.settle(&planet(3));
         assert_eq!(history.undo_len(), 1);
-        assert_eq!(history.undo(&planet(3)), Some(planet(0)));
+        assert_eq!(history.undo(&planet(3), &mut Home::default()), Some(planet(0)));
         assert_eq!(history.redo_label(), Some("Change seed"));
-        assert_eq!(history.redo(&planet(0)), Some(planet(3)));
+        assert_eq!(history.redo(&planet(0), &mut Home::default()), Some(planet(3)));
         assert_eq!(history.undo_label(), Some("Change seed"));
     }
 
@@ -130,7 +169,7 @@ mod tests {
             history.settle(&planet(seed + 1));
         }
         assert_eq!(history.undo_len(), MAX_STEPS);
-        assert!(history.undo(&planet(9999)).is_some());
+        assert!(history.undo(&planet(9999), &mut Home::default()).is_some());
         history.record(&planet(1), "Change radius");
         assert_eq!(history.redo_label(), None);
     }

@@ -7,7 +7,10 @@ use super::handle::Action;
 use super::viewport::ViewSettings;
 use super::viewport::camera::Mode;
 use super::widgets::icon::{Icon, icon_button};
+use super::widgets::menu_button;
+use super::widgets::typed::{Allowed, plain_field};
 use crate::lod::Quality;
+use crate::planet::param::Unit;
 use crate::planet::shipped;
 use crate::render::{DebugView, Tone};
 use eframe::egui;
@@ -15,28 +18,28 @@ use eframe::egui;
 /// Shows the bar: menus to the left, time and the document's name to the right.
 pub fn show(ui: &mut egui::Ui, app: &mut EditorApp) {
     egui::MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| {
+        menu_button(ui, "File", |ui| {
             for command in [Command::New, Command::Open] {
                 entry(ui, app, command, true, None);
             }
             ui.separator();
-            let savable = app.document.is_dirty() || app.document.path().is_none();
+            let savable = app.document.is_dirty() || app.document.disk_text().is_none();
             entry(ui, app, Command::Save, savable, None);
             entry(ui, app, Command::SaveAs, true, None);
             ui.separator();
             entry(ui, app, Command::Quit, true, None);
         });
-        ui.menu_button("Edit", |ui| {
+        menu_button(ui, "Edit", |ui| {
             let (undo, redo) = (app.document.history().undo_label(), app.document.history().redo_label());
             let undo = undo.map(|label| format!("Undo: {}", lower_first(label)));
             let redo = redo.map(|label| format!("Redo: {}", lower_first(label)));
             entry(ui, app, Command::Undo, undo.is_some(), undo);
             entry(ui, app, Command::Redo, redo.is_some(), redo);
         });
-        ui.menu_button("View", |ui| view(ui, app));
-        ui.menu_button("Camera", |ui| camera(ui, app));
-        ui.menu_button("Bookmarks", |ui| bookmarks::menu(ui, app));
-        ui.menu_button("Planets", |ui| {
+        menu_button(ui, "View", |ui| view(ui, app));
+        menu_button(ui, "Camera", |ui| camera(ui, app));
+        menu_button(ui, "Bookmarks", |ui| bookmarks::menu(ui, app));
+        menu_button(ui, "Planets", |ui| {
             for (index, preset) in shipped::ALL.iter().enumerate() {
                 if ui.button(readable(preset.file)).clicked() {
                     app.actions.push(Action::OpenShipped(index));
@@ -46,7 +49,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut EditorApp) {
             ui.separator();
             entry(ui, app, Command::RandomPlanet, true, None);
         });
-        ui.menu_button("Help", |ui| entry(ui, app, Command::Controls, true, None));
+        menu_button(ui, "Help", |ui| entry(ui, app, Command::Controls, true, None));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             time(ui, app);
             ui.separator();
@@ -118,10 +121,13 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
     tones.response.on_hover_text("The curve from light to the picture: like film, colours as they are, or none");
     ui.horizontal(|ui| {
         let label = ui.label("Exposure");
-        let slider = egui::Slider::new(&mut app.viewport.settings.exposure_ev, -8.0..=8.0).suffix(" EV");
-        ui.add(slider)
-            .labelled_by(label.id)
-            .on_hover_text("Brightness of the picture in stops; not part of the planet");
+        let told = "Brightness of the picture in stops; not part of the planet";
+        let slider = egui::Slider::new(&mut app.viewport.settings.exposure_ev, -8.0..=8.0).show_value(false);
+        ui.add(slider).labelled_by(label.id).on_hover_text(told);
+        let allowed = Allowed::numbers(Unit::None, -8.0, 8.0).marked(" EV");
+        plain_field(ui, &mut app.viewport.settings.exposure_ev, 0.02, 3, allowed)
+            .on_hover_text(told)
+            .accessible_name("Exposure as a number");
         ui.checkbox(&mut app.viewport.settings.auto_exposure, "Automatic").on_hover_text(
             "Exposure follows what there is to see, and the slider corrects it; off, the slider alone decides",
         );
@@ -135,8 +141,8 @@ fn view(ui: &mut egui::Ui, app: &mut EditorApp) {
 /// Right to left: speed, then the button.
 fn time(ui: &mut egui::Ui, app: &mut EditorApp) {
     let settings = &mut app.viewport.settings;
-    let speed = egui::DragValue::new(&mut settings.time_speed).range(-86_400.0..=86_400.0).speed(20.0).suffix("×");
-    ui.add(speed)
+    let allowed = Allowed::numbers(Unit::None, -86_400.0, 86_400.0).marked("×");
+    plain_field(ui, &mut settings.time_speed, 20.0, 6, allowed)
         .on_hover_text("Speed of time: 3600 is an hour of the planet for each second")
         .accessible_name("Speed of time");
     let (icon, name) = if settings.playing { (Icon::Pause, "Pause time") } else { (Icon::Play, "Play time") };

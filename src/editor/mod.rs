@@ -3,7 +3,10 @@
 //! - [`app`]: the eframe application: what happens in a frame, in which order
 //! - [`command`], [`handle`]: everything a person can tell the editor to do, and the one place that does it
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
-//! - [`files`], [`dialogs`], [`prompts`], [`recovery`]: opening and saving without losing work, even in a crash
+//! - [`files`], [`dialogs`], `path_field`, [`prompts`], [`recovery`]: opening and saving without losing work, even in a
+//!   crash
+//! - [`disk`], [`claim`]: others who write the open file, or have it open
+//! - `notices`: what the editor says by itself
 //! - [`viewport`]: the picture, the camera, the measurements
 //! - [`pictures`]: pictures of height maps, read in the background
 //! - [`bookmarks`]: views kept in the preset
@@ -13,18 +16,22 @@
 
 pub mod app;
 pub mod bookmarks;
+pub mod claim;
 pub mod command;
 pub mod controls;
 pub mod describe;
 pub mod dialogs;
+pub mod disk;
 pub mod document;
 pub mod files;
 pub mod handle;
 pub mod history;
 pub mod look;
 pub mod menus;
+mod notices;
 pub mod painter;
 pub mod panels;
+mod path_field;
 pub mod performance;
 pub mod pictures;
 pub mod prompts;
@@ -38,7 +45,7 @@ pub use app::EditorApp;
 
 use crate::render::Renderer;
 use eframe::{egui, egui_wgpu};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What the desktop and the layout's folder know the editor by.
@@ -66,6 +73,14 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
         }))
     };
     eframe::run_native(APP_ID, options, Box::new(create)).map_err(|error| explain(&error))
+}
+
+/// Whether the editor can begin with this file: it can be read, or a new planet can be saved under its name.
+///
+/// # Errors
+/// What is wrong with it, and what would be right.
+pub fn check_first(path: &Path) -> Result<(), String> {
+    files::first_document(path).map(drop).map_err(|error| error.to_string())
 }
 
 /// eframe's device, with the limits the renderer asks for.

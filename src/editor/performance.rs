@@ -13,10 +13,20 @@ const GRAPH_FRAMES: usize = 200;
 /// What a frame should take at most; the graph's line.
 const FRAME_BAR: Duration = Duration::from_millis(33);
 
+/// The window's layer.
+pub fn layer() -> egui::LayerId {
+    egui::LayerId::new(egui::Order::Middle, id())
+}
+
+fn id() -> egui::Id {
+    egui::Id::unique("performance window")
+}
+
 /// Shows the panel if it is open.
 pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
     let mut open = app.show_performance;
-    egui::Window::new("Performance").open(&mut open).resizable(false).default_pos([12.0, 40.0]).show(ctx, |ui| {
+    let window = egui::Window::new("Performance").id(id()).open(&mut open);
+    window.resizable(false).default_pos([12.0, 40.0]).show(ctx, |ui| {
         match app.viewport().edit_clock.timeline() {
             Some(timeline) => last_edit(ui, timeline),
             None => {

@@ -47,10 +47,9 @@ impl EditorApp {
 
     /// Writes the table as a picture; says so if the picture cannot tell biomes apart.
     pub(super) fn export_table(&mut self, file: &Path) {
-        let file = if file.extension().is_none() { file.with_extension("png") } else { file.to_owned() };
         let biomes = &self.document.planet().biomes;
         let written =
-            table_png::encode(biomes).and_then(|bytes| std::fs::write(&file, bytes).map_err(|error| error.to_string()));
+            table_png::encode(biomes).and_then(|bytes| std::fs::write(file, bytes).map_err(|error| error.to_string()));
         if let Err(why) = written {
             self.messages.push(Message {
                 title: "The biome table could not be exported".to_owned(),
@@ -58,7 +57,8 @@ impl EditorApp {
             });
             return;
         }
-        let lines: Vec<String> = table_png::look_alikes(biomes)
+        self.say(format!("Exported to {}", file.display()));
+        let lines: Vec<String> = table_png::look_alikes(&self.document.planet().biomes)
             .into_iter()
             .map(|(first, other)| format!("{other} has the colour of {first}: an import makes both {first}."))
             .collect();

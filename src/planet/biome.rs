@@ -7,6 +7,10 @@ use super::param::{Domain, Stage, Unit, choice, linear, log, params};
 /// Sizes of a pattern; must stay below what the shaders wrap positions at.
 pub(super) const DETAIL_SIZE: Domain = log(0.2, 200.0);
 
+/// The key that a rule holds until a biome is chosen for it. Where no biome has that key, it stands for none, and the rule
+/// must be off.
+pub const UNSET_KEY: char = 'a';
+
 choice! {
     /// What ground looks like from near.
     pub enum Detail {
@@ -75,7 +79,7 @@ params! {
         /// What becomes of it where it is steep.
         steep: Steep = Steep::Rock, "On steep ground", Unit::None, Domain::Choice, Stage::Material;
         /// Key of the biome that it gives way to on steep ground, if it is to be another one of the palette.
-        steep_key: char = 'a', "Gives way to", Unit::None, Domain::Letter, Stage::Material;
+        steep_key: char = UNSET_KEY, "Gives way to", Unit::None, Domain::BiomeKey, Stage::Material;
         /// Slope at which it begins to give way to that biome.
         steep_from_deg: f64 = 25.0, "From", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Slope from which there is only that biome.
@@ -139,6 +143,28 @@ impl Biomes {
             if *key == old {
                 *key = new;
             }
+        }
+    }
+}
+
+impl Biomes {
+    /// Lets rules that name no biome name one of the palette: snow the brightest, others the first. `idle`: those that are
+    /// off, too.
+    pub fn name_missing(&mut self, idle: bool) {
+        let light = |biome: &Biome| biome.color.iter().sum::<f64>();
+        let brightest = self.palette.iter().max_by(|a, b| light(a).total_cmp(&light(b)));
+        let (Some(first), Some(brightest)) = (self.palette.first(), brightest) else { return };
+        let (first, brightest) = (first.key, brightest.key);
+        let keys: Vec<char> = self.palette.iter().map(|biome| biome.key).collect();
+        let name = |key: &mut char, is_on: bool, with: char| {
+            if (is_on || idle) && !keys.contains(key) {
+                *key = with;
+            }
+        };
+        name(&mut self.beach_key, self.beach_m > 0.0, first);
+        name(&mut self.snow_key, self.snow, brightest);
+        for biome in &mut self.palette {
+            name(&mut biome.steep_key, biome.steep == Steep::Biome, first);
         }
     }
 }

@@ -126,7 +126,7 @@ impl Planet {
 }
 
 /// The text of a file that may be a preset.
-fn read_text(path: &Path) -> Result<String, LoadError> {
+pub(crate) fn read_text(path: &Path) -> Result<String, LoadError> {
     let file = path.display().to_string();
     let invalid = |problem: Problem| LoadError::Invalid { file, problems: vec![problem] };
     let bytes = read(path).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;

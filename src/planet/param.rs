@@ -205,6 +205,8 @@ pub enum Domain {
     },
     /// One letter or digit.
     Letter,
+    /// The key of a biome of the palette.
+    BiomeKey,
     /// A line of text of at most this many characters.
     Text {
         /// Most characters allowed.
@@ -271,7 +273,7 @@ impl Param {
             Domain::Triple { max } => format!("0 to {max}{gap}{unit} each"),
             Domain::Color => "0 to 1 each".to_owned(),
             Domain::Text { max_chars } | Domain::File { max_chars } => format!("at most {max_chars} characters"),
-            Domain::Letter => "one letter, digit or punctuation mark".to_owned(),
+            Domain::Letter | Domain::BiomeKey => "one letter, digit or punctuation mark".to_owned(),
             Domain::Curve { most, .. } => {
                 format!("2 to {MAX_CURVE_POINTS} points, each from {} to {most}{gap}{unit}", -most)
             }
@@ -302,7 +304,7 @@ pub enum ValueMut<'a> {
     Triple(&'a mut [f64; 3]),
     /// See [`Domain::Text`] and [`Domain::File`].
     Text(&'a mut String),
-    /// See [`Domain::Letter`].
+    /// See [`Domain::Letter`] and [`Domain::BiomeKey`].
     Letter(&'a mut char),
     /// See [`Domain::Curve`].
     Curve(&'a mut Curve),
@@ -386,7 +388,9 @@ impl Value {
             (Value::Curve(points), Domain::Curve { most, least_step }) => {
                 curve_problem(points, most, least_step, param)
             }
-            (Value::Letter(v), Domain::Letter) if !v.is_ascii_graphic() || matches!(v, '"' | '\\') => {
+            (Value::Letter(v), Domain::Letter | Domain::BiomeKey)
+                if !v.is_ascii_graphic() || matches!(v, '"' | '\\') =>
+            {
                 Some(format!("{v:?} cannot be a key; use {}", param.range_text()))
             }
             _ => None,

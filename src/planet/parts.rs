@@ -3,7 +3,7 @@
 //! Colours are linear sRGB. Lengths, angles and rates are in the unit their name says; the parts that use them convert
 //! to SI and radians.
 
-use super::biome::{Biome, DETAIL_SIZE, Detail};
+use super::biome::{Biome, DETAIL_SIZE, Detail, UNSET_KEY};
 use super::param::{Domain, Stage, Unit, choice, count, linear, log, params, triple};
 
 params! {
@@ -92,13 +92,13 @@ params! {
         /// Beach lies where the ground is at most this far above or below the level of the sea; 0 is no beach.
         beach_m: f64 = 0.0, "Beach up to", Unit::Metres, log(0.0, 1000.0), Stage::Material;
         /// Key of the biome that beaches are of; the bed of shallow water beside them has its colour.
-        beach_key: char = 'a', "Beach", Unit::None, Domain::Letter, Stage::Material;
+        beach_key: char = UNSET_KEY, "Beach", Unit::None, Domain::BiomeKey, Stage::Material;
         /// No beach is steeper than this.
         beach_steepest_deg: f64 = 15.0, "Steepest beach", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Whether snow lies over the biomes where it is cold.
         snow: bool = false, "Snow", Unit::None, Domain::Flag, Stage::Material;
         /// Key of the biome that snow is of.
-        snow_key: char = 'a', "Snow is", Unit::None, Domain::Letter, Stage::Material;
+        snow_key: char = UNSET_KEY, "Snow is", Unit::None, Domain::BiomeKey, Stage::Material;
         /// Temperature at which snow covers half of the ground.
         snow_below_c: f64 = -6.0, "Snow below", Unit::Celsius, linear(-270.0, 1000.0), Stage::Material;
         /// From bare ground to full cover.

@@ -182,6 +182,9 @@ mod tests {
             assert_valid(&planet)?;
             prop_assert!((4..=12).contains(&planet.layers.len()));
             prop_assert!(planet.biomes.palette.len() >= 2, "{:?}", planet.biomes.table);
+            let biomes = &planet.biomes;
+            let named = biomes.palette.iter().map(|biome| biome.steep_key).chain([biomes.beach_key, biomes.snow_key]);
+            named.for_each(|key| assert!(biomes.index_of(key).is_some(), "{key:?} is no biome"));
             prop_assert_eq!(planet, random(seed));
         }
 

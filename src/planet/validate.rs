@@ -2,6 +2,7 @@
 //!
 //! Ranges come from the description of each parameter; what concerns several of them at once stands here.
 
+use super::biome::UNSET_KEY;
 use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
@@ -199,28 +200,26 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
     table(biomes, &keys, found);
 }
 
-/// Rules that are on must name a biome.
+/// Rules name biomes. One that is off may hold what it began with.
 fn references(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
     let known: String = biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
-    let refer = |found: &mut Found, path: ParamPath, key: char| {
-        if !keys.contains(&key) {
+    let refer = |found: &mut Found, path: ParamPath, key: char, is_on: bool| {
+        if !keys.contains(&key) && (is_on || key != UNSET_KEY) {
             found.add(path, format!("{key:?} is no key of the palette; use one of `{known}`"));
         }
     };
-    if biomes.beach_m > 0.0 {
-        refer(found, biomes_path("beach_key"), biomes.beach_key);
-    }
-    if biomes.snow {
-        refer(found, biomes_path("snow_key"), biomes.snow_key);
-    }
-    for (index, biome) in biomes.palette.iter().enumerate().filter(|(_, biome)| biome.steep == Steep::Biome) {
-        refer(found, item(&biomes_path("palette"), index, Some("steep_key")), biome.steep_key);
-        if biome.steep_from_deg > biome.steep_to_deg {
+    refer(found, biomes_path("beach_key"), biomes.beach_key, biomes.beach_m > 0.0);
+    refer(found, biomes_path("snow_key"), biomes.snow_key, biomes.snow);
+    for (index, biome) in biomes.palette.iter().enumerate() {
+        let path = |field| item(&biomes_path("palette"), index, Some(field));
+        let is_on = biome.steep == Steep::Biome;
+        refer(found, path("steep_key"), biome.steep_key, is_on);
+        if is_on && biome.steep_from_deg > biome.steep_to_deg {
             let message = format!(
                 "{} is out of order; use at least `steep_from_deg` ({})",
                 biome.steep_to_deg, biome.steep_from_deg
             );
-            found.add(item(&biomes_path("palette"), index, Some("steep_to_deg")), message);
+            found.add(path("steep_to_deg"), message);
         }
     }
 }
@@ -290,6 +289,29 @@ mod tests {
     fn a_list_that_is_too_long_is_one_problem() {
         let planet = Planet { layers: vec![layer("", &[]); 65], ..Planet::default() };
         assert_eq!(found(&planet), ["layers: 65 layers are too many; use at most 64"]);
+    }
+
+    #[test]
+    fn rules_name_biomes_of_the_palette() {
+        let mut planet = Planet::default();
+        planet.biomes.palette[0] = Biome { key: 'g', ..Biome::default() };
+        planet.biomes.table.replace_key('a', 'g');
+        assert_eq!(found(&planet), Vec::<String>::new(), "rules that are off hold what they began with");
+        planet.biomes.beach_key = 'q';
+        planet.biomes.snow = true;
+        planet.biomes.palette[0].steep_key = 'z';
+        assert_eq!(
+            found(&planet),
+            [
+                "biomes.beach_key: 'q' is no key of the palette; use one of `g`",
+                "biomes.snow_key: 'a' is no key of the palette; use one of `g`",
+                "biomes.palette[0].steep_key: 'z' is no key of the palette; use one of `g`",
+            ]
+        );
+        planet.biomes.name_missing(false);
+        assert_eq!((planet.biomes.snow_key, planet.biomes.beach_key), ('g', 'q'));
+        planet.biomes.name_missing(true);
+        assert_eq!(found(&planet), Vec::<String>::new());
     }
 
     #[test]

@@ -161,3 +161,85 @@ fn a_height_map_is_chosen_undone_saved_and_missed() {
     settled(&mut harness);
     assert_eq!(height_m(&harness), chosen_m, "the file is back");
 }
+
+#[test]
+fn a_name_that_got_its_extension_here_replaces_nothing_without_asking() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let other = "somebody else's planet";
+    std::fs::write(path("foo.ron"), other).unwrap();
+    // The dialog has asked about `foo`, of which there is none.
+    let answers = [path("foo"), path("foo"), path("bar"), path("foo")].map(Some);
+    let mut harness = editor(answers.to_vec());
+    let read = || std::fs::read_to_string(path("foo.ron")).unwrap();
+    send(&mut harness, Command::SaveAs);
+    assert!(harness.query_by_label("Replace the file?").is_some());
+    click(&mut harness, "Cancel");
+    assert_eq!((read().as_str(), harness.state().document().path()), (other, None));
+
+    send(&mut harness, Command::SaveAs);
+    click(&mut harness, "Other name…");
+    harness.run_steps(3);
+    assert_eq!(harness.state().document().path(), Some(path("bar.ron").as_path()));
+    assert_eq!(read(), other);
+
+    send(&mut harness, Command::SaveAs);
+    click(&mut harness, "Replace");
+    assert_eq!(Planet::load(path("foo.ron")).unwrap(), planet(&harness));
+    assert!(harness.query_by_label_contains("Saved to").is_some(), "saving says so");
+}
+
+#[test]
+fn a_table_that_got_its_extension_here_replaces_no_picture_without_asking() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("foo.png"), "a photograph").unwrap();
+    let mut harness = editor(vec![Some(path("foo"))]);
+    send(&mut harness, Command::ExportTable);
+    click(&mut harness, "Cancel");
+    assert_eq!(std::fs::read_to_string(path("foo.png")).unwrap(), "a photograph");
+}
+
+#[test]
+fn a_random_planet_is_a_step_and_never_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let mut harness = editor(vec![Some(path.clone())]);
+    send(&mut harness, Command::SaveAs);
+    let first = planet(&harness);
+    let mut rolled = Vec::new();
+    for _ in 0..2 {
+        send(&mut harness, Command::RandomPlanet);
+        assert!(harness.query_by_label("Save your changes?").is_none());
+        rolled.push(planet(&harness));
+    }
+    assert!(rolled[0] != first && rolled[1] != rolled[0]);
+    assert_eq!(harness.state().document().path(), None, "a roll never goes over the file of another planet");
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (2, "Random planet".to_owned()));
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness), rolled[0]);
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness), first);
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+    assert!(!harness.state().document().is_dirty());
+    send(&mut harness, Command::Redo);
+    assert_eq!(planet(&harness), rolled[0]);
+}
+
+#[test]
+fn changes_under_a_random_planet_are_asked_about_before_they_are_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["mine.ron", "rolled.ron"].map(|name| folder.path().join(name));
+    let mut harness = editor(paths.clone().map(Some).to_vec());
+    send(&mut harness, Command::SaveAs);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    send(&mut harness, Command::RandomPlanet);
+    send(&mut harness, Command::Save);
+    assert!(!harness.state().document().is_dirty());
+    send(&mut harness, Command::New);
+    assert!(harness.query_by_label_contains("undo brings them back").is_some());
+    click(&mut harness, "Cancel");
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness).radius_km, 2500.0);
+}

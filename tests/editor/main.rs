@@ -1,13 +1,17 @@
 //! Drives the real editor without a window: here its panels.
 //!
 //! - `files`: opening, saving, what is never lost
+//! - `disk`: others who write the open file or have it open; names that do not exist yet; no file dialogs
+//! - `input`: typed numbers, keys, menus, windows
 //! - `viewport`: the camera and what is seen through it
 #![cfg(feature = "editor")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 #[path = "../support/app.rs"]
 mod app;
+mod disk;
 mod files;
+mod input;
 mod viewport;
 
 use app::{Editor, click, planet, undo_label, undo_len};

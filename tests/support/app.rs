@@ -4,10 +4,10 @@
 use eframe::egui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
-use tellus::editor::dialogs::ScriptedDialogs;
+use tellus::editor::dialogs::{FileDialogs, ScriptedDialogs};
 use tellus::planet::Planet;
 
 pub type Editor = Harness<'static, EditorApp>;
@@ -24,6 +24,18 @@ pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_se
         .with_step_dt(1.0 / frames_per_sec)
         .wgpu()
         .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
+    harness.run_steps(4);
+    harness
+}
+
+/// An editor that begins with a file, asks for others through these dialogs, and keeps what it must in a folder.
+pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recovery: &Path) -> Editor {
+    let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
+    let mut harness = Harness::builder()
+        .with_size([1024.0, 640.0])
+        .with_step_dt(1.0 / 60.0)
+        .wgpu()
+        .build_eframe(move |cc| EditorApp::new(cc, file).with_dialogs(Box::new(dialogs)).with_recovery(&recovery));
     harness.run_steps(4);
     harness
 }

@@ -26,15 +26,21 @@ pub fn remove(biomes: &mut Biomes, index: usize, replacement: usize) -> bool {
     true
 }
 
-/// Gives a biome another key, in the table too. A key that is taken or no printable character changes nothing.
-pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> bool {
-    if !key.is_ascii_graphic() || matches!(key, '"' | '\\') || !is_free(biomes, key) {
-        return false;
+/// Gives a biome another key, in the table and in the rules, too.
+///
+/// # Errors
+/// Why it cannot have that key; then nothing changes.
+pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> Result<(), String> {
+    if !key.is_ascii_graphic() || matches!(key, '"' | '\\') {
+        return Err(format!("{key:?} cannot be a key; use a letter, a digit or a punctuation mark"));
     }
-    let Some(biome) = biomes.palette.get_mut(index) else { return false };
+    if let Some(other) = biomes.palette.iter().find(|biome| biome.key == key) {
+        return Err(format!("{key:?} is the key of {}; use another", other.name));
+    }
+    let Some(biome) = biomes.palette.get_mut(index) else { return Ok(()) };
     let old = std::mem::replace(&mut biome.key, key);
     biomes.replace_key(old, key);
-    true
+    Ok(())
 }
 
 /// The table in another size: each cell takes the biome that was at its climate.
@@ -102,12 +108,15 @@ mod tests {
     #[test]
     fn removing_replaces_and_rekeying_follows() {
         let mut biomes = biomes();
-        assert!(!rekey(&mut biomes, 1, 'a') && !rekey(&mut biomes, 1, '"'));
-        assert!(rekey(&mut biomes, 1, 'z'));
+        biomes.snow_key = 'b';
+        assert!(rekey(&mut biomes, 1, 'a').unwrap_err().contains("is the key of Ground"));
+        assert!(rekey(&mut biomes, 1, '"').unwrap_err().contains("cannot be a key"));
+        assert_eq!(rekey(&mut biomes, 1, 'z'), Ok(()));
+        assert_eq!(biomes.snow_key, 'z');
         assert_eq!(biomes.table.key(3, 0), Some('z'));
         assert!(!remove(&mut biomes, 1, 1));
         assert!(remove(&mut biomes, 1, 0));
-        assert_eq!(biomes.table.key(3, 0), Some('a'));
+        assert_eq!((biomes.table.key(3, 0), biomes.snow_key), (Some('a'), 'a'));
         assert_eq!(biomes.palette.len(), 1);
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Draft, biome_edit};
 use crate::editor::widgets::param_row::color_button;
-use crate::editor::widgets::{color32, ink_on};
+use crate::editor::widgets::{color32, ink_on, menu_button};
 use crate::planet::MAX_BIOMES;
 use eframe::egui::{self, AtomExt};
 
@@ -16,6 +16,8 @@ pub struct PaletteState {
     pub selected: usize,
     /// The row whose name is being typed.
     renaming: Option<(usize, String)>,
+    /// Why a key that was typed is not the biome's.
+    pub(super) refused: Option<(usize, String)>,
 }
 
 /// Shows the palette; gives the biome under the pointer.
@@ -79,14 +81,14 @@ fn percent(share: f64) -> String {
 fn toolbar(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
     ui.horizontal(|ui| {
         ui.strong("Palette");
-        if let Some(survey) = draft.survey.filter(|survey| survey.sea > 0.0005) {
-            ui.weak(format!("of the land; {} is sea", percent(survey.sea)));
-        }
+        // Always there: were it to come when the survey is done, the buttons behind it would be others to a click under way.
+        let sea = draft.survey.filter(|survey| survey.sea > 0.0005);
+        ui.weak(sea.map_or_else(String::new, |survey| format!("of the land; {} is sea", percent(survey.sea))));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let biomes = &mut draft.planet.biomes;
             let mut label = None;
             ui.add_enabled_ui(biomes.palette.len() > 1, |ui| {
-                ui.menu_button("Remove", |ui| {
+                menu_button(ui, "Remove", |ui| {
                     ui.weak("Its cells become");
                     for replacement in 0..biomes.palette.len() {
                         let name = biomes.palette[replacement].name.clone();

@@ -1,10 +1,11 @@
 //! The biome table under the pointer and the keys: gestures become strokes, letters choose biomes.
 
 use super::biome_canvas::{Canvas, Overlay};
+use crate::editor::painter::is_chord;
 use crate::editor::painter::survey::Survey;
 use crate::editor::painter::tools::{Block, Brush, Cell, Gesture, Place, Tool, cell_at};
-use crate::editor::widgets::color32;
-use crate::planet::{Biomes, TableRows};
+use crate::editor::widgets::{color32, keys_are_taken};
+use crate::planet::{Biomes, Table, TableRows};
 use crate::render::MarkedCells;
 use eframe::egui;
 
@@ -28,8 +29,11 @@ pub struct PainterState {
     strokes: u32,
     /// Where the last stroke ended: Shift draws a line from there.
     last_end: Option<Place>,
-    /// Just painted: its new ground is not covered with light until the pointer goes on.
+    /// The cell under the pointer when the table was painted, or changed by an undo: what is new is not covered by light
+    /// and previews until the pointer goes on.
     quiet: Option<Cell>,
+    /// The table as it was left.
+    left: Option<Table>,
 }
 
 /// What happened to the table in this frame.
@@ -76,14 +80,21 @@ impl PainterState {
         let response = ui.interact(rect, id(), egui::Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Biome table"));
         let canvas = Canvas::new(rect, biomes);
+        let changed_elsewhere = self.left.as_ref().is_some_and(|left| *left != biomes.table);
         self.keys(ui, &response, biomes, &mut output);
         self.pointer(ui, &response, &canvas, biomes, selected, &mut output);
         let hovered = response.hover_pos().filter(|pos| rect.contains(*pos)).map(|pos| canvas.place(pos));
         output.hovered = hovered.map(|at| cell_at(&biomes.table, at));
 
-        let preview = hovered.filter(|_| self.gesture.is_none()).map(|at| self.preview(ui, biomes, selected, at));
-        let preview = preview.unwrap_or_default();
+        if changed_elsewhere {
+            self.quiet = output.hovered;
+        }
         self.quiet = self.quiet.filter(|quiet| output.hovered == Some(*quiet));
+        let previewed = hovered.filter(|_| self.gesture.is_none() && self.quiet.is_none());
+        let preview = previewed.map(|at| self.preview(ui, biomes, selected, at)).unwrap_or_default();
+        if self.left.as_ref() != Some(&biomes.table) {
+            self.left = Some(biomes.table.clone());
+        }
         output.marked = self.marked(biomes, output.hovered, &preview);
         let color = biomes.palette.get(selected).map_or(egui::Color32::WHITE, |biome| color32(biome.color));
         let selecting = self.gesture.as_ref().filter(|gesture| gesture.tool() == Tool::Select).map(Gesture::block);
@@ -110,7 +121,7 @@ impl PainterState {
     fn preview(&self, ui: &egui::Ui, biomes: &Biomes, selected: usize, at: Place) -> Vec<Cell> {
         let Some(biome) = biomes.palette.get(selected) else { return Vec::new() };
         let modifiers = ui.input(|i| i.modifiers);
-        if matches!(self.tool, Tool::Pick | Tool::Select) || modifiers.alt {
+        if matches!(self.tool, Tool::Pick | Tool::Select) || is_chord(modifiers) {
             return vec![cell_at(&biomes.table, at)];
         }
         let new =
@@ -139,7 +150,8 @@ impl PainterState {
         if response.contains_pointer() && !ui.ctx().text_edit_focused() && !ui.input(|i| i.pointer.any_down()) {
             response.request_focus();
         }
-        if !response.has_focus() {
+        // Keys are for the menu that is open.
+        if !response.has_focus() || keys_are_taken(ui.ctx()) {
             return;
         }
         if ui.input(|i| i.key_pressed(egui::Key::Escape)) {
@@ -182,7 +194,7 @@ impl PainterState {
         let at = canvas.place(pos);
         let held = response.is_pointer_button_down_on();
         let primary = (held && down) || response.clicked() || (self.gesture.is_some() && !secondary);
-        let picks = self.tool == Tool::Pick || modifiers.alt;
+        let picks = self.tool == Tool::Pick || is_chord(modifiers);
         if self.gesture.is_none() && ((held && secondary) || response.secondary_clicked() || (primary && picks)) {
             let [column, row] = cell_at(&biomes.table, at);
             output.picked = biomes.table.key(column, row).and_then(|key| biomes.index_of(key));

@@ -7,9 +7,11 @@ use crate::editor::command::Command;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, PainterLink};
+use crate::editor::widgets::menu_button;
 use crate::editor::widgets::param_row::{Row, param_row};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
-use crate::planet::param::{ParamPath, ParamValue, Segment, Value};
+use crate::editor::widgets::typed::{Allowed, typed_field};
+use crate::planet::param::{ParamPath, ParamValue, Segment, Unit, Value};
 use crate::planet::{Biome, Biomes, Planet, STARTING_TABLES, Table};
 use crate::render::MarkedCells;
 use eframe::egui;
@@ -95,13 +97,20 @@ pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     });
     state.light_up(of_biome.or(output.marked));
     ui.separator();
-    selected(ui, state.palette.selected, draft);
+    selected(ui, &mut state.palette, draft);
     ui.separator();
     ui.strong("Table");
     sides(ui, draft);
     let base = ParamPath::from(vec![Segment::Field("biomes")]);
-    let grid = Grid { base, owner: "biomes", skip: &["palette", "table"], problems: draft.problems };
+    let names = names(&draft.planet.biomes);
+    let skip = &["palette", "table"];
+    let grid = Grid { base, owner: "biomes", skip, problems: draft.problems, biomes: &names };
     params_grid(ui, &grid, &mut draft.planet.biomes, &mut Biomes::default());
+}
+
+/// Key and name of each biome.
+fn names(biomes: &Biomes) -> Vec<(char, String)> {
+    biomes.palette.iter().map(|biome| (biome.key, biome.name.clone())).collect()
 }
 
 fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
@@ -117,15 +126,19 @@ fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     ui.horizontal(|ui| {
         if matches!(state.painter.tool, Tool::Brush | Tool::Line) {
             let brush = &mut state.painter.brush;
-            let size = egui::DragValue::new(&mut brush.size).range(1..=Brush::LARGEST).speed(0.1).prefix("Size ");
-            ui.add(size)
+            let (now, shown) = (brush.size as f64, brush.size.to_string());
+            let size = egui::DragValue::new(&mut brush.size).speed(0.1).prefix("Size ");
+            typed_field(ui, None, size, Allowed::whole(1, Brush::LARGEST as u32), &shown, now)
                 .on_hover_text("Cells across; [ and ] make it smaller and larger")
                 .accessible_name("Brush size");
             let mut percent = f64::from(brush.softness) * 100.0;
-            let softness = egui::DragValue::new(&mut percent).range(0.0..=100.0).fixed_decimals(0).speed(1.0);
+            let (now, shown) = (percent, format!("{percent:.0}"));
+            let softness = egui::DragValue::new(&mut percent).fixed_decimals(0).speed(1.0);
             let softness = softness.prefix("Soft ").suffix(" %");
+            let allowed = Allowed::numbers(Unit::None, 0.0, 100.0).marked(" %");
             let tooltip = "How much of the brush is a soft edge: there it paints single cells, fewer outwards";
-            if ui.add(softness).on_hover_text(tooltip).accessible_name("Brush softness").changed() {
+            let field = typed_field(ui, None, softness, allowed, &shown, now);
+            if field.on_hover_text(tooltip).accessible_name("Brush softness").changed() {
                 brush.softness = (percent / 100.0) as f32;
             }
         }
@@ -133,7 +146,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
         let tooltip = "What the pointer is on, or the selection, lights up on the planet, without its clouds";
         ui.toggle_value(&mut state.lights_up, "Light up").on_hover_text(tooltip);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.menu_button("Tables", |ui| tables(ui, state, draft));
+            menu_button(ui, "Tables", |ui| tables(ui, state, draft));
         });
     });
 }
@@ -183,7 +196,7 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> T
             format!("{}; {land:.1} % of the land", described(cell))
         }
         (None, Some(cell)) => format!("Here: {}", described(cell)),
-        (None, None) => "Right click or a biome's letter picks. Alt and click on the planet paints there.".to_owned(),
+        (None, None) => "Right click or a biome's letter picks. Ctrl and click on the planet paints there.".to_owned(),
     };
     ui.add(egui::Label::new(egui::RichText::new(text).small().weak()).truncate());
     for (path, problem) in draft.problems {
@@ -194,7 +207,10 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> T
     output
 }
 
-fn selected(ui: &mut egui::Ui, index: usize, draft: &mut Draft<'_>) {
+fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
+    let index = state.selected;
+    let names = names(&draft.planet.biomes);
+    state.refused = state.refused.take().filter(|(refused, _)| *refused == index);
     let base = ParamPath::from(vec![Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index)]);
     let Some(biome) = draft.planet.biomes.palette.get_mut(index) else { return };
     let name = biome.name.clone();
@@ -203,14 +219,19 @@ fn selected(ui: &mut egui::Ui, index: usize, draft: &mut Draft<'_>) {
     if let Some(param) = Biome::PARAMS.iter().find(|param| param.name == "key") {
         let path = base.join("key");
         let default = Value::Letter(biome.key);
-        let row = Row { param, path: &path, owner: &name, default: Some(&default), problem: None };
+        let problem = state.refused.as_ref().map(|(_, why)| why.as_str());
+        let row = Row { param, path: &path, owner: &name, default: Some(&default), problem, biomes: &[] };
         param_row(ui, &row, key.value_mut());
     }
-    let grid = Grid { base, owner: &name, skip: &["key"], problems: draft.problems };
+    let grid = Grid { base, owner: &name, skip: &["key"], problems: draft.problems, biomes: &names };
     let mut default = Biome { name: name.clone(), ..Biome::default() };
     params_grid(ui, &grid, biome, &mut default);
-    if key != biome.key && biome_edit::rekey(&mut draft.planet.biomes, index, key) {
-        draft.name_edit("Change key of biome");
+    if key != biome.key {
+        let refused = biome_edit::rekey(&mut draft.planet.biomes, index, key).err();
+        if refused.is_none() {
+            draft.name_edit("Change key of biome");
+        }
+        state.refused = refused.map(|why| (index, why));
     }
 }
 
@@ -222,10 +243,12 @@ fn sides(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
         for (side, name, tooltip) in
             [(&mut columns, "Columns", "Steps from dry to wet"), (&mut rows, "Rows", "Steps from first to last row")]
         {
-            let range = LEAST_CELLS.min(*side)..=Table::MAX_SIDE;
-            // Taken over when done, so that typing "16" does not squeeze everything into one column first.
-            let number = egui::DragValue::new(side).range(range).speed(0.1).update_while_editing(false);
-            ui.add(number).on_hover_text(tooltip).accessible_name(format!("{name} of biome table"));
+            let allowed = Allowed::whole(LEAST_CELLS.min(*side) as u32, Table::MAX_SIDE as u32);
+            let (now, shown) = (*side as f64, side.to_string());
+            let number = egui::DragValue::new(side).speed(0.1);
+            typed_field(ui, None, number, allowed, &shown, now)
+                .on_hover_text(tooltip)
+                .accessible_name(format!("{name} of biome table"));
             ui.weak(name.to_lowercase());
         }
     });

@@ -4,7 +4,7 @@ use super::{Draft, layer_edit, masks};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
-use crate::editor::widgets::random_seed;
+use crate::editor::widgets::{menu_button, random_seed};
 use crate::planet::layers::layer_path;
 use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Shape};
@@ -36,7 +36,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     ui.horizontal(|ui| {
         let (index, count) = (state.selected, draft.planet.layers.len());
         ui.add_enabled_ui(count < MAX_LAYERS, |ui| {
-            ui.menu_button("Add layer", |ui| {
+            menu_button(ui, "Add layer", |ui| {
                 for (kind, (name, doc)) in Shape::NAMES.iter().zip(Shape::DOCS).enumerate() {
                     if ui.button(*name).on_hover_text(*doc).clicked() {
                         let after = (count > 0).then_some(index);
@@ -139,7 +139,8 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let names: Vec<String> = draft.planet.layers.iter().map(|layer| layer.name.clone()).collect();
     let Some(layer) = draft.planet.layers.get_mut(index) else { return };
     let name = layer.name.clone();
-    let grid = Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems };
+    let grid =
+        Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems, biomes: &[] };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
     let mut default = Layer { shape, ..Layer::default() };
     draft.browse = params_grid(ui, &grid, layer, &mut default);

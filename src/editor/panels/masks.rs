@@ -55,7 +55,7 @@ pub fn show(
             });
             let mut path = layer_path(index).segments().to_vec();
             path.extend([Segment::Field("masks"), Segment::Index(number)]);
-            let grid = Grid { base: ParamPath::from(path), owner: &owner, skip: &["layer"], problems };
+            let grid = Grid { base: ParamPath::from(path), owner: &owner, skip: &["layer"], problems, biomes: &[] };
             let mut default = Mask::default();
             default.set_index(mask.index());
             params_grid(ui, &grid, mask, &mut default);

@@ -1,9 +1,11 @@
 //! The parts that are nothing but parameters: planet, star, climate, and those a planet may lack.
 
 use super::Draft;
+use crate::editor::widgets::menu_button;
 use crate::editor::widgets::param_row::labelled_row;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
-use crate::planet::param::{ParamPath, Params, Segment};
+use crate::editor::widgets::typed::{Allowed, plain_field};
+use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
     Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, Star, Water, star_color, star_kelvin,
 };
@@ -20,7 +22,7 @@ pub struct Remembered {
 /// Name, seed, radius.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     let skip = ["star", "layers", "climate", "biomes", "water", "atmosphere", "clouds"];
-    let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems };
+    let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());
 }
 
@@ -28,8 +30,8 @@ pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     labelled_row(ui, "Temperature", |ui, label| {
         let mut kelvin = star_kelvin(draft.planet.star.color).round();
-        let value = egui::DragValue::new(&mut kelvin).range(STAR_KELVIN).speed(20.0).suffix(" K");
-        let response = ui.add(value).labelled_by(label);
+        let allowed = Allowed::numbers(Unit::None, *STAR_KELVIN.start(), *STAR_KELVIN.end()).marked(" K");
+        let response = plain_field(ui, &mut kelvin, 20.0, 5, allowed).labelled_by(label);
         let told = "Sets the colour to that of a star of this temperature; the Sun has 5772 K";
         if response.on_hover_text(told).changed() {
             draft.planet.star.color = star_color(kelvin);
@@ -48,16 +50,15 @@ fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     let star = &mut draft.planet.star;
     labelled_row(ui, "Hour here", |ui, label| {
         let mut hour = (star.hour(lon_deg, time_secs) * 100.0).round() / 100.0;
-        let value = egui::DragValue::new(&mut hour).range(0.0..=24.0).speed(0.02).suffix(" h");
-        let response = ui.add(value).labelled_by(label);
+        let response = plain_field(ui, &mut hour, 0.02, 4, Allowed::numbers(Unit::Hours, 0.0, 24.0)).labelled_by(label);
         if response.on_hover_text("Of a day of 24 where the camera is; sets the star's longitude").changed() {
             star.set_hour(hour, lon_deg, time_secs);
         }
     });
     labelled_row(ui, "Season", |ui, label| {
         let mut season_deg = star.season_deg().round();
-        let value = egui::DragValue::new(&mut season_deg).range(-90.0..=90.0).speed(0.5).suffix("°");
-        let response = ui.add(value).labelled_by(label);
+        let allowed = Allowed::numbers(Unit::Degrees, -90.0, 90.0);
+        let response = plain_field(ui, &mut season_deg, 0.5, 3, allowed).labelled_by(label);
         let told =
             "From -90, midwinter in the north, to 90, midsummer; sets the star's latitude by the tilt of the axis";
         if response.on_hover_text(told).changed() {
@@ -74,9 +75,8 @@ fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
     let mut changed = strength;
     labelled_row(ui, &format!("{name} colour"), |ui, label| {
         let button = ui.color_edit_button_rgb(&mut color).labelled_by(label);
-        let value =
-            egui::DragValue::new(&mut changed).range(0.0..=2.0).speed(strength.max(1e-4) * 0.01).suffix(" 1/km");
-        let drag = ui.add(value.max_decimals(6)).labelled_by(label);
+        let allowed = Allowed::numbers(Unit::PerKilometre, 0.0, 2.0);
+        let drag = plain_field(ui, &mut changed, strength.max(1e-4) * 0.01, 4, allowed).labelled_by(label);
         let told = "The same as the three coefficients: what the strongest colour scatters, and how strong the others are to it";
         if button.on_hover_text(told).changed() || drag.on_hover_text(told).changed() {
             let most = color.iter().copied().fold(1e-6, f32::max);
@@ -100,7 +100,7 @@ pub fn water(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'
 
 /// The air, if there is any.
 pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
-    ui.menu_button("Start from …", |ui| {
+    menu_button(ui, "Start from …", |ui| {
         for air in STARTING_AIRS {
             if ui.button(air.name).on_hover_text(air.note).clicked() {
                 draft.planet.atmosphere = Some(air.atmosphere());
@@ -133,7 +133,7 @@ fn whole(
     problems: &[(ParamPath, String)],
 ) {
     let base = ParamPath::from(vec![Segment::Field(field)]);
-    params_grid(ui, &Grid { base, owner: field, skip: &[], problems }, part, default);
+    params_grid(ui, &Grid { base, owner: field, skip: &[], problems, biomes: &[] }, part, default);
 }
 
 /// A part with a switch. Turned off and on again, it has the values it had. Gives the label of a switching.

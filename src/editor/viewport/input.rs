@@ -2,6 +2,8 @@
 
 use super::camera::orbit::turn_sun;
 use super::camera::{Cameras, Controls, Ground, Mode};
+use crate::editor::painter::is_chord;
+use crate::editor::widgets::keys_are_taken;
 use crate::planet::Planet;
 use eframe::egui;
 
@@ -83,7 +85,7 @@ pub fn handle(
     }
 
     if response.double_clicked()
-        && !ui.input(|i| i.modifiers.alt)
+        && !ui.input(|i| is_chord(i.modifiers))
         && let Some(pos) = response.interact_pointer_pos()
     {
         let (x, y) = to_view(pos);
@@ -97,8 +99,8 @@ pub fn handle(
         }
     }
     let focused = ui.memory(egui::Memory::focused);
-    // Keys are for the picture unless somebody types or moves through the panels with them.
-    let controls = if focused.is_none_or(|id| id == response.id) {
+    // Keys are for the picture unless somebody types, moves through the panels with them, or has a menu open.
+    let controls = if focused.is_none_or(|id| id == response.id) && !keys_are_taken(ui.ctx()) {
         keys(ui, response.id, cameras, ground)
     } else {
         Controls::default()

@@ -22,6 +22,7 @@ pub mod swap;
 pub mod target;
 pub mod timeline;
 
+use super::painter::is_chord;
 use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
@@ -127,7 +128,7 @@ pub enum Click {
 pub struct PainterLink {
     /// Cells whose places light up.
     pub marked: Option<Arc<MarkedCells>>,
-    /// Whether a click with Alt paints.
+    /// Whether a click with Ctrl paints.
     pub paints: bool,
     /// Whether a plain click picks.
     pub picks: bool,
@@ -492,8 +493,8 @@ impl Viewport {
         view: &View,
         surface: Option<&Arc<Surface>>,
     ) {
-        let alt = ui.input(|i| i.modifiers.alt);
-        let purpose = match (alt, &self.painter) {
+        let chord = ui.input(|i| is_chord(i.modifiers));
+        let purpose = match (chord, &self.painter) {
             (true, PainterLink { paints: true, .. }) => Click::Paint,
             (false, PainterLink { picks: true, .. }) => Click::Pick,
             _ => return,

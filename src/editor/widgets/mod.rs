@@ -4,13 +4,14 @@
 //! - [`params_grid`]: all parameters of a part
 //! - [`curve_edit`]: a curve through points
 //! - [`icon`]: drawn icons and their buttons
-//! - [`number`]: numbers as text, with units
+//! - [`number`]: numbers as text, with units; [`typed`]: fields that say why they refuse a number
 
 pub mod curve_edit;
 pub mod icon;
 pub mod number;
 pub mod param_row;
 pub mod params_grid;
+pub mod typed;
 
 use crate::planet::param::ParamPath;
 use eframe::egui;
@@ -29,6 +30,28 @@ pub fn ink_on(color: egui::Color32) -> egui::Color32 {
 /// A seed nobody chose. The standard library keys its hash maps at random; that is random enough for a landscape.
 pub fn random_seed() -> u64 {
     RandomState::new().hash_one(std::time::SystemTime::now().elapsed().ok())
+}
+
+/// Whether keys belong to a menu, a list or a question that is open, rather than to what lies below.
+pub fn keys_are_taken(ctx: &egui::Context) -> bool {
+    egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
+}
+
+/// A button that opens a menu, which scrolls where the window has no room for all of it.
+pub fn menu_button<'a, R>(
+    ui: &mut egui::Ui,
+    title: impl egui::IntoAtoms<'a>,
+    content: impl FnOnce(&mut egui::Ui) -> R,
+) -> egui::InnerResponse<Option<R>> {
+    let (window, top) = (ui.ctx().content_rect(), ui.cursor().top());
+    // Above or below the button, and as much again for the button and the menu's frame.
+    let below = window.bottom() - top - ui.spacing().interact_size.y;
+    let room = below.max(top - window.top()) - 32.0;
+    ui.menu_button(title, |ui| {
+        // The bar stands beside the entries, not over their keys.
+        let beside = egui::Frame::new().inner_margin(egui::Margin { right: 10, ..egui::Margin::ZERO });
+        egui::ScrollArea::vertical().max_height(room.max(80.0)).show(ui, |ui| beside.show(ui, content).inner).inner
+    })
 }
 
 /// The first thing wrong with the parameter at `path`, if anything is.

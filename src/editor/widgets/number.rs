@@ -21,14 +21,22 @@ pub fn format_digits(value: f64, digits: i32) -> String {
 }
 
 /// Reads a number, with or without a unit that can be turned into `unit`: `"1.5 km"` is 1500 for metres.
-pub fn parse_number(text: &str, unit: Unit) -> Option<f64> {
-    let text: String = text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
+///
+/// # Errors
+/// Why it is none.
+pub fn read_number(typed: &str, unit: Unit) -> Result<f64, String> {
+    let typed = typed.trim();
+    let text: String = typed.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
+    if text.is_empty() {
+        return Err("nothing was typed".to_owned());
+    }
     // The number is the longest start of the text that is one: "1e3m" is 1000 m.
     let (number, rest) = text
         .char_indices()
         .map(|(i, c)| i + c.len_utf8())
         .rev()
-        .find_map(|end| Some((text[..end].parse::<f64>().ok()?, &text[end..])))?;
+        .find_map(|end| Some((text[..end].parse::<f64>().ok()?, &text[end..])))
+        .ok_or_else(|| format!("{typed:?} is not a number"))?;
     let factor = match (unit, rest) {
         (_, "") => 1.0,
         (_, rest) if rest == unit.symbol() => 1.0,
@@ -42,9 +50,11 @@ pub fn parse_number(text: &str, unit: Unit) -> Option<f64> {
         (Unit::KilometresPerHour, "m/s") => 3.6,
         (Unit::PerKilometre, "1/m") => 1000.0,
         (Unit::PerMetre, "1/km") => 0.001,
-        _ => return None,
+        (Unit::None, _) => return Err(format!("{typed:?} has a unit, but this is a plain number")),
+        _ => return Err(format!("{typed:?} is not in {}", unit.symbol())),
     };
-    Some(number * factor).filter(|value| value.is_finite())
+    let value = number * factor;
+    if value.is_finite() { Ok(value) } else { Err(format!("{typed:?} is not a finite number")) }
 }
 
 /// The unit as it follows a number.
@@ -88,13 +98,13 @@ mod tests {
 
     #[test]
     fn units_are_understood() {
-        assert_eq!(parse_number("1.5 km", Unit::Metres), Some(1500.0));
-        assert_eq!(parse_number("1e3m", Unit::Metres), Some(1000.0));
-        assert_eq!(parse_number("500 m", Unit::Kilometres), Some(0.5));
-        assert_eq!(parse_number("−12 °C", Unit::Celsius), Some(-12.0));
-        assert_eq!(parse_number("3", Unit::None), Some(3.0));
+        assert_eq!(read_number("1.5 km", Unit::Metres), Ok(1500.0));
+        assert_eq!(read_number("1e3m", Unit::Metres), Ok(1000.0));
+        assert_eq!(read_number("500 m", Unit::Kilometres), Ok(0.5));
+        assert_eq!(read_number("−12 °C", Unit::Celsius), Ok(-12.0));
+        assert_eq!(read_number("3", Unit::None), Ok(3.0));
         for bad in ["", "km", "3 parsecs", "NaN", "inf"] {
-            assert_eq!(parse_number(bad, Unit::Kilometres), None, "{bad:?}");
+            assert!(read_number(bad, Unit::Kilometres).is_err(), "{bad:?}");
         }
     }
 

@@ -5,9 +5,10 @@
 
 use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
-use super::number::{format_digits, parse_number, suffix};
+use super::number::{format_digits, suffix};
 use super::random_seed;
-use crate::planet::param::{Choice, Domain, Param, ParamPath, Value, ValueMut};
+use super::typed::{Allowed, typed_field};
+use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
 /// What a row has to know beside the parameter.
@@ -22,6 +23,8 @@ pub struct Row<'a> {
     pub default: Option<&'a Value>,
     /// What is wrong with its value.
     pub problem: Option<&'a str>,
+    /// Key and name of each biome of the palette, to choose from.
+    pub biomes: &'a [(char, String)],
 }
 
 const RESET_WIDTH: f32 = 20.0;
@@ -48,7 +51,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                     browse = control(ui, row, &mut value);
                 },
             );
-            if let Some(default) = row.default
+            if let Some(default) = resets_to(row)
                 && value.get() != *default
             {
                 let tooltip = format!("Back to {}", value_text(row.param, default, &value));
@@ -57,6 +60,9 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
                 }
             }
         });
+        if let (Domain::Triple { max }, ValueMut::Triple(v)) = (row.param.domain, &mut value) {
+            triple(ui, &name(row), row.param, v, max);
+        }
         if let ValueMut::Curve(curve) = &mut value
             && let Some(edit) = curve_edit(row.param, &name(row)).filter(|_| !curve.is_empty())
         {
@@ -67,6 +73,11 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
         }
     });
     browse
+}
+
+/// What the reset button goes back to. What a biome is called by default is no biome of every palette.
+fn resets_to<'a>(row: &Row<'a>) -> Option<&'a Value> {
+    row.default.filter(|_| row.param.domain != Domain::BiomeKey)
 }
 
 /// Width of the labels where so much is there for a row.
@@ -113,7 +124,7 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
             ui.ctx().copy_text(row.path.to_string());
             ui.close();
         }
-        if let Some(default) = row.default
+        if let Some(default) = resets_to(row)
             && ui.button("Reset").clicked()
         {
             value.set(default);
@@ -129,7 +140,7 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
     if !range.is_empty() {
         ui.weak(format!("Range: {range}"));
     }
-    if let Some(default) = row.default {
+    if let Some(default) = resets_to(row) {
         ui.weak(format!("Default: {}", value_text(row.param, default, value)));
     }
     ui.weak(egui::RichText::new(row.path.to_string()).monospace());
@@ -166,22 +177,21 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
         }
         (Domain::Count { min, max }, ValueMut::Count(v)) => {
             add_slider(ui, &name, egui::Slider::new(&mut **v, min..=max));
-            let number = egui::DragValue::new(&mut **v)
-                .range(min..=max)
-                .clamp_existing_to_range(false)
-                .speed(0.1)
-                .update_while_editing(false);
-            ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number)
-                .accessible_name(format!("{name} as a number"));
+            count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number"));
         }
         (Domain::Seed, ValueMut::Count(v)) => {
-            ui.add(egui::DragValue::new(&mut **v).speed(1.0).update_while_editing(false)).accessible_name(&name);
+            // As wide as the longest number, so that the dice stay under the pointer.
+            count_field(ui, v, 1.0, Allowed::whole(0, u32::MAX)).accessible_name(&name);
             if icon_button(ui, Icon::Dice, &format!("Random {name}"), "A random seed").clicked() {
                 **v = random_seed() as u32;
             }
         }
         (Domain::Color, ValueMut::Triple(v)) => color_button(ui, &name, v),
-        (Domain::Triple { max }, ValueMut::Triple(v)) => triple(ui, &name, row.param, v, max),
+        (Domain::Triple { .. }, ValueMut::Triple(_)) => {
+            // Three numbers have a line of their own below.
+            ui.weak(row.param.unit.symbol());
+        }
+        (Domain::BiomeKey, ValueMut::Letter(key)) => biome_box(ui, &name, key, row.biomes),
         (_, ValueMut::Flag(v)) => {
             ui.add(egui::Checkbox::without_text(v)).accessible_name(&name);
         }
@@ -243,17 +253,22 @@ fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) {
 
 fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, min: f64, max: f64, logarithmic: bool) {
     let speed = if logarithmic { (value.abs() * 0.01).max(max.abs() * 1e-7) } else { (max - min) * 0.002 };
-    let unit = param.unit;
+    let (now, shown) = (*value, format_digits(*value, NUMBER_DIGITS));
     let number = egui::DragValue::from_get_set(get_set(value, NUMBER_DIGITS))
-        .range(min..=max)
-        .clamp_existing_to_range(false)
         .speed(speed)
         .max_decimals(9)
-        .suffix(suffix(unit))
-        .custom_formatter(|v, _| format_digits(v, NUMBER_DIGITS))
-        .custom_parser(move |text| parse_number(text, unit))
-        .update_while_editing(false);
-    ui.add_sized([NUMBER_WIDTH, ui.spacing().interact_size.y], number).accessible_name(format!("{name} as a number"));
+        .suffix(suffix(param.unit))
+        .custom_formatter(|v, _| format_digits(v, NUMBER_DIGITS));
+    let size = egui::vec2(NUMBER_WIDTH, ui.spacing().interact_size.y);
+    typed_field(ui, Some(size), number, Allowed::numbers(param.unit, min, max), &shown, now)
+        .accessible_name(format!("{name} as a number"));
+}
+
+fn count_field(ui: &mut egui::Ui, value: &mut u32, speed: f64, allowed: Allowed<'_>) -> egui::Response {
+    let (now, shown) = (f64::from(*value), value.to_string());
+    let size = egui::vec2(NUMBER_WIDTH, ui.spacing().interact_size.y);
+    let number = egui::DragValue::new(value).speed(speed).custom_formatter(|v, _| format!("{v:.0}"));
+    typed_field(ui, Some(size), number, allowed, &shown, now)
 }
 
 /// Reads and writes a number. Writing what would look the same is no edit: a field that was only visited must not round
@@ -270,32 +285,25 @@ fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ 
     }
 }
 
-/// What is left for the unit behind the three numbers of a triple.
-const UNIT_WIDTH: f32 = 36.0;
-
+/// Three numbers side by side over the whole width: shared with the label they would be too narrow to be read.
 fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], max: f64) {
-    let unit = param.unit;
-    let unit_width = if unit.symbol().is_empty() { 0.0 } else { UNIT_WIDTH };
-    let width = ((ui.available_width() - 12.0 - unit_width) / 3.0).max(36.0);
-    let height = ui.spacing().interact_size.y;
-    ui.spacing_mut().item_spacing.x = 4.0;
-    for (component, channel) in value.iter_mut().zip(["R", "G", "B"]) {
-        let speed = (component.abs() * 0.01).max(max * 1e-6);
-        let number = egui::DragValue::from_get_set(get_set(component, TRIPLE_DIGITS))
-            .range(0.0..=max)
-            .clamp_existing_to_range(false)
-            .speed(speed)
-            .max_decimals(9)
-            .custom_formatter(|v, _| format_digits(v, TRIPLE_DIGITS))
-            .custom_parser(move |text| parse_number(text, unit))
-            .update_while_editing(false);
-        ui.add_sized([width, height], number)
-            .on_hover_text(format!("{channel}, in {}", if unit.symbol().is_empty() { "parts" } else { unit.symbol() }))
-            .accessible_name(format!("{channel} of {name}"));
-    }
-    if unit_width > 0.0 {
-        ui.weak(unit.symbol());
-    }
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let size = egui::vec2((ui.available_width() - 8.0) / 3.0, ui.spacing().interact_size.y);
+        let unit = param.unit;
+        for (component, channel) in value.iter_mut().zip(["R", "G", "B"]) {
+            let speed = (component.abs() * 0.01).max(max * 1e-6);
+            let (now, shown) = (*component, format_digits(*component, TRIPLE_DIGITS));
+            let number = egui::DragValue::from_get_set(get_set(component, TRIPLE_DIGITS))
+                .speed(speed)
+                .max_decimals(9)
+                .custom_formatter(|v, _| format_digits(v, TRIPLE_DIGITS));
+            let told = format!("{channel}, in {}", if unit == Unit::None { "parts" } else { unit.symbol() });
+            typed_field(ui, Some(size), number, Allowed::numbers(unit, 0.0, max), &shown, now)
+                .on_hover_text(told)
+                .accessible_name(format!("{channel} of {name}"));
+        }
+    });
 }
 
 /// A button that shows a linear colour and opens a picker.
@@ -325,4 +333,20 @@ fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
     if chosen != current {
         choice.set_index(chosen);
     }
+}
+
+/// The biomes of the palette, by name. A key that no biome has is none of them.
+fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[(char, String)]) {
+    let chosen = biomes.iter().find(|(other, _)| other == key);
+    egui::ComboBox::from_id_salt("biome")
+        .selected_text(chosen.map_or("None", |(_, name)| name.as_str()))
+        .width(ui.available_width().min(160.0))
+        .truncate()
+        .show_ui(ui, |ui| {
+            for (other, name) in biomes {
+                ui.selectable_value(key, *other, name);
+            }
+        })
+        .response
+        .accessible_name(name);
 }

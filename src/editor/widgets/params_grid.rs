@@ -15,6 +15,8 @@ pub struct Grid<'a> {
     pub skip: &'a [&'a str],
     /// Everything wrong with the planet.
     pub problems: &'a [(ParamPath, String)],
+    /// Key and name of each biome of the palette, where parameters name one.
+    pub biomes: &'a [(char, String)],
 }
 
 /// Shows the parameters of `part`; `default` is what their reset buttons go back to. Gives the one for
@@ -36,7 +38,8 @@ pub fn params_grid(
         }
         // Some parameters stand at the path of the part itself, such as the kind of a shape.
         let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
-        let row = Row { param, path, owner: grid.owner, default, problem: problem_at(grid.problems, path) };
+        let problem = problem_at(grid.problems, path);
+        let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes };
         if param_row(ui, &row, value) {
             browse = Some(path.clone());
         }

@@ -66,11 +66,17 @@ const MOONS: &[Shades] = &[
 
 /// A palette and a table that follow from the climate.
 pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
+    let mut biomes =
+        if matches!(kind, Kind::Temperate | Kind::Cold) { living(climate, dice) } else { strata(kind, dice) };
+    // Switched on by hand, beaches and snow are of something.
+    biomes.name_missing(true);
+    biomes
+}
+
+/// Ground that plants grow on, by temperature and moisture.
+fn living(climate: &Climate, dice: &mut Dice) -> Biomes {
     const COLUMNS: usize = 16;
     const ROWS: usize = 12;
-    if !matches!(kind, Kind::Temperate | Kind::Cold) {
-        return strata(kind, dice);
-    }
     let (coldest_c, hottest_c) = ((climate.pole_c - 12.0).round(), (climate.equator_c + 4.0).round());
     let shift = dice.between(-3.0, 3.0);
     let mut table = Table::uniform('?', COLUMNS, ROWS);

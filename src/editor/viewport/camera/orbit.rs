@@ -142,7 +142,8 @@ impl Orbit {
         });
         let far_m = FAR_ALTITUDES * altitude_m;
         // Towards something far off the eye goes straight; its height above the ground is no measure there.
-        if let Some((_, _, dir, _)) = hit.filter(|(_, _, _, distance_m)| *distance_m > far_m) {
+        // Going back that way it would hardly rise, and leave the place behind.
+        if let Some((_, _, dir, _)) = hit.filter(|(_, _, _, distance_m)| *distance_m > far_m && steps > 0.0) {
             let eye = camera.position_planet_m + dir * far_m * (1.0 - libm::exp(-steps));
             self.place = LatLon::from_direction(eye);
             self.radius_m = eye.length();
@@ -373,6 +374,30 @@ mod tests {
         }
         let miss = (under(&controller, 0.2, 0.15) - held).length() * EARTH.0;
         assert!(miss < 1e-3 * controller.altitude_m(&EARTH), "{miss} m off");
+    }
+
+    #[test]
+    fn zooming_out_keeps_what_is_under_the_pointer() {
+        for lat in [10.0, 55.0, -85.0] {
+            for (x, y) in [(0.0, 0.0), (0.2, 0.15), (0.5, -0.7)] {
+                for steps in [4.0, 8.0, 11.0] {
+                    let mut controller = Orbit::new(EARTH.0, LatLon::from_degrees(lat, 20.0));
+                    controller.zoom(steps, None, 1.5, &EARTH);
+                    let held = under(&controller, x, y);
+                    let before_m = controller.altitude_m(&EARTH);
+                    // As long as the place is in front of the horizon.
+                    while controller.altitude_m(&EARTH) < 1e6 {
+                        let altitude_m = controller.altitude_m(&EARTH);
+                        controller.zoom(-0.2, Some((x, y)), 1.5, &EARTH);
+                        assert!(controller.altitude_m(&EARTH) > 1.1 * altitude_m, "it rises");
+                        let away_m = (controller.pose(&EARTH).position_planet_m - held * EARTH.0).length();
+                        let miss_m = (under(&controller, x, y) - held).length() * EARTH.0;
+                        let at = format!("latitude {lat}, pointer {x} {y}, from {before_m} m to {altitude_m} m");
+                        assert!(miss_m < 1e-2 * away_m, "{at}: {miss_m} m off, {away_m} m away");
+                    }
+                }
+            }
+        }
     }
 
     #[test]

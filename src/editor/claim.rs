@@ -1,0 +1,85 @@
+//! Whether another window has the same file open: each window holds a lock in the folder of the recovery files, in a file
+//! named after the document's path. The system lets go of the lock when a window ends, however it ends. Nothing is blocked.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+/// As many windows on one file are told apart.
+const SLOTS: u32 = 8;
+const PREFIX: &str = "open-";
+
+/// This window's lock for a file.
+pub struct Claim {
+    stem: PathBuf,
+    slot: u32,
+    _lock: File,
+}
+
+impl Claim {
+    /// Notes in `folder` that this window has a file open.
+    pub fn take(folder: &Path, file: &Path) -> Option<Self> {
+        // A file that does not exist yet is known by its folder.
+        let whole = fs::canonicalize(file).or_else(|_| {
+            let parent = crate::planet::picture::folder_of(file);
+            fs::canonicalize(parent).map(|parent| parent.join(file.file_name().unwrap_or_default()))
+        });
+        let stem = folder.join(format!("{PREFIX}{:016x}", fnv1a(whole.ok()?.as_os_str().as_encoded_bytes())));
+        fs::create_dir_all(folder).ok()?;
+        (0..SLOTS).find_map(|slot| {
+            let lock = File::options().create(true).truncate(false).write(true).open(place(&stem, slot)).ok()?;
+            lock.try_lock().ok()?;
+            Some(Self { stem: stem.clone(), slot, _lock: lock })
+        })
+    }
+
+    /// Whether another window has the file open, too.
+    pub fn is_shared(&self) -> bool {
+        (0..SLOTS).filter(|slot| *slot != self.slot).any(|slot| {
+            File::options().write(true).open(place(&self.stem, slot)).is_ok_and(|other| other.try_lock().is_err())
+        })
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        // One that stays behind is free: its lock goes with this window.
+        let _ = fs::remove_file(place(&self.stem, self.slot));
+    }
+}
+
+/// Whether a file of that name is a window's claim.
+pub fn is_claim(name: &std::ffi::OsStr) -> bool {
+    name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
+}
+
+fn place(stem: &Path, slot: u32) -> PathBuf {
+    stem.with_extension(format!("{slot}.lock"))
+}
+
+/// FNV-1a (Fowler, Noll, Vo 1991): the same in every build.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_on_one_file_know_of_each_other_and_what_a_crash_leaves_counts_for_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let (locks, file) = (folder.path().join("locks"), folder.path().join("a.ron"));
+        let first = Claim::take(&locks, &file).unwrap();
+        assert!(!first.is_shared());
+        fs::write(&file, "").unwrap();
+        let second = Claim::take(&locks, &folder.path().join(".").join("a.ron")).unwrap();
+        assert!(first.is_shared() && second.is_shared());
+        let other = Claim::take(&locks, &folder.path().join("b.ron")).unwrap();
+        assert!(!other.is_shared());
+        drop(second);
+        assert!(!first.is_shared());
+        // A lock file that nobody holds.
+        fs::write(place(&first.stem, 3), "").unwrap();
+        assert!(!first.is_shared());
+    }
+}

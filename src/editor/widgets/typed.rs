@@ -1,0 +1,173 @@
+//! Number fields that say why they refuse what was typed.
+//!
+//! egui's own take what they can read, move it into the range, and go back to the old number where they can read nothing.
+//! Here what is out of range is refused, too, and the reason stands below the field until somebody goes on.
+
+use super::number::{format_digits, read_number, suffix};
+use crate::planet::param::Unit;
+use eframe::egui;
+use std::cell::RefCell;
+
+/// Seconds that one has to read the reason.
+const SHOWN_SECS: f64 = 10.0;
+
+/// The numbers that a field takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowed<'a> {
+    /// Unit of the number.
+    pub unit: Unit,
+    /// What stands behind the number where it has no unit: " %".
+    pub mark: &'a str,
+    /// Smallest.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+    /// Whether it must be a whole number.
+    pub whole: bool,
+}
+
+impl Allowed<'static> {
+    /// Numbers in a unit.
+    pub const fn numbers(unit: Unit, min: f64, max: f64) -> Self {
+        Self { unit, mark: "", min, max, whole: false }
+    }
+
+    /// Whole numbers.
+    pub fn whole(min: impl Into<f64>, max: impl Into<f64>) -> Self {
+        Self { unit: Unit::None, mark: "", min: min.into(), max: max.into(), whole: true }
+    }
+}
+
+impl<'a> Allowed<'a> {
+    /// The same with a mark behind the number.
+    pub const fn marked(self, mark: &'a str) -> Self {
+        Self { mark, ..self }
+    }
+
+    /// What stands behind the number.
+    fn end(&self) -> String {
+        if self.mark.is_empty() { suffix(self.unit) } else { self.mark.to_owned() }
+    }
+
+    fn range(&self) -> String {
+        format!("{} to {}{}", self.min, self.max, self.end())
+    }
+
+    /// The number, or why it is none of these.
+    pub fn read(&self, text: &str) -> Result<f64, String> {
+        let text = text.trim();
+        let bare = text.strip_suffix(self.mark.trim()).unwrap_or(text);
+        let value = read_number(bare, self.unit).map_err(|why| format!("{why}; use {}", self.range()))?;
+        if value < self.min || value > self.max {
+            return Err(format!("{value} is out of range; use {}", self.range()));
+        }
+        if self.whole && value.fract() != 0.0 {
+            return Err(format!("{value} is not a whole number; use {}", self.range()));
+        }
+        Ok(value)
+    }
+}
+
+/// What was refused last, and where.
+#[derive(Clone)]
+struct Refusal {
+    field: egui::Id,
+    why: String,
+    since_secs: f64,
+}
+
+fn place() -> egui::Id {
+    egui::Id::unique("refused number")
+}
+
+/// Shows a field of this size, or as large as it needs. `shown` is the text that the field shows for its value: to leave it as
+/// it is changes nothing.
+pub fn typed_field(
+    ui: &mut egui::Ui,
+    size: Option<egui::Vec2>,
+    number: egui::DragValue<'_>,
+    allowed: Allowed<'_>,
+    shown: &str,
+    value: f64,
+) -> egui::Response {
+    let refused: RefCell<Option<String>> = RefCell::default();
+    let parse = |text: &str| {
+        if text.trim() == shown {
+            return Some(value);
+        }
+        let read = allowed.read(text);
+        *refused.borrow_mut() = read.as_ref().err().cloned();
+        read.ok()
+    };
+    // The range is that of dragging; a value that was loaded is not moved into it by looking at it.
+    let number = number
+        .range(allowed.min..=allowed.max)
+        .clamp_existing_to_range(false)
+        .custom_parser(parse)
+        .update_while_editing(false);
+    let response = match size {
+        Some(size) => ui.add_sized(size, number),
+        None => ui.add(number),
+    };
+    if let Some(why) = refused.take() {
+        let since_secs = ui.input(|input| input.time);
+        ui.data_mut(|data| data.insert_temp(place(), Refusal { field: response.id, why, since_secs }));
+    }
+    tell(ui, &response);
+    response
+}
+
+/// A field for a plain number that shows this many digits.
+pub fn plain_field(
+    ui: &mut egui::Ui,
+    value: &mut f64,
+    speed: f64,
+    digits: i32,
+    allowed: Allowed<'_>,
+) -> egui::Response {
+    let (now, shown) = (*value, format_digits(*value, digits));
+    let number = egui::DragValue::new(value)
+        .speed(speed)
+        .suffix(allowed.end())
+        .max_decimals(9)
+        .custom_formatter(move |v, _| format_digits(v, digits));
+    typed_field(ui, None, number, allowed, &shown, now)
+}
+
+/// Says below a field why it has refused what was typed there.
+fn tell(ui: &egui::Ui, field: &egui::Response) {
+    let Some(refusal) = ui.data(|data| data.get_temp::<Refusal>(place())).filter(|refusal| refusal.field == field.id)
+    else {
+        return;
+    };
+    let left_secs = SHOWN_SECS - (ui.input(|input| input.time) - refusal.since_secs);
+    // Another try, or a drag: it has been read.
+    if left_secs <= 0.0 || field.gained_focus() || field.changed() || field.dragged() {
+        ui.data_mut(|data| data.remove::<Refusal>(place()));
+        return;
+    }
+    let ctx = ui.ctx().clone();
+    ctx.request_repaint_after_secs(left_secs as f32);
+    egui::Tooltip::always_open(ctx, ui.layer_id(), field.id.with("refused"), field.rect).show(|ui| {
+        ui.colored_label(ui.visuals().error_fg_color, &refusal.why);
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_refused_is_refused_for_a_reason() {
+        let angle = Allowed::numbers(Unit::Degrees, -90.0, 90.0);
+        assert_eq!(angle.read(" 12.5° "), Ok(12.5));
+        assert_eq!(angle.read("abc"), Err("\"abc\" is not a number; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read("5 km"), Err("\"5 km\" is not in °; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read("95"), Err("95 is out of range; use -90 to 90°".to_owned()));
+        assert_eq!(angle.read(""), Err("nothing was typed; use -90 to 90°".to_owned()));
+        let octaves = Allowed::whole(1, 24);
+        assert_eq!(octaves.read("3.5"), Err("3.5 is not a whole number; use 1 to 24".to_owned()));
+        assert_eq!(octaves.read("3 m"), Err("\"3 m\" has a unit, but this is a plain number; use 1 to 24".to_owned()));
+        assert_eq!(Allowed::numbers(Unit::None, 0.0, 100.0).marked(" %").read("50 %"), Ok(50.0));
+    }
+}

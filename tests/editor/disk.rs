@@ -1,0 +1,210 @@
+//! Others who write the open file or have it open; names that do not exist yet; desktops without file dialogs.
+
+use super::app::{open_file, until};
+use super::*;
+use std::path::Path;
+use tellus::editor::dialogs::{NoDialogs, ScriptedDialogs};
+
+fn seeded(seed: u32) -> Planet {
+    Planet { seed, ..Planet::default() }
+}
+
+/// A folder with a saved planet of seed 1.
+fn saved() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    seeded(1).save(&path).unwrap();
+    (folder, path)
+}
+
+fn opened(folder: &Path, path: &Path, answers: Vec<Option<PathBuf>>) -> Editor {
+    open_file(Some(path), ScriptedDialogs::new(answers), &folder.join("recovery"))
+}
+
+fn is_asked(harness: &Editor) -> bool {
+    harness.query_by_label("The file has changed on disk").is_some()
+}
+
+/// Makes a change of this editor's own.
+fn edit(harness: &mut Editor) {
+    click(harness, "Planet");
+    slide(harness, "Radius of planet", 2500.0);
+}
+
+#[test]
+fn a_clean_document_follows_its_file() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    seeded(2).save(&path).unwrap();
+    until(&mut harness, "read again", |harness| planet(harness).seed == 2);
+    assert!(!is_asked(&harness) && !harness.state().document().is_dirty());
+    assert_eq!(undo_label(&harness), "Reload from disk");
+    // In place, as some text editors write.
+    std::fs::write(&path, seeded(3).to_text()).unwrap();
+    until(&mut harness, "read again", |harness| planet(harness).seed == 3);
+
+    std::fs::write(&path, "(version: 3, sed: 4)").unwrap();
+    until(&mut harness, "told", |harness| harness.query_by_label_contains("cannot be read").is_some());
+    assert_eq!(planet(&harness).seed, 3);
+    send(&mut harness, Command::Save);
+    assert!(is_asked(&harness), "half-written work of somebody else is not written over");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "(version: 3, sed: 4)");
+}
+
+#[test]
+fn own_saves_are_no_news() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    edit(&mut harness);
+    let steps = undo_len(&harness);
+    send(&mut harness, Command::Save);
+    assert!(harness.query_by_label_contains("Saved to").is_some());
+    for _ in 0..40 {
+        harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert_eq!(undo_len(&harness), steps);
+    assert!(!is_asked(&harness) && !harness.state().document().is_dirty());
+}
+
+#[test]
+fn a_document_with_changes_asks_whose_planet_it_is() {
+    let (folder, path) = saved();
+    let elsewhere = folder.path().join("elsewhere.ron");
+    let mut harness = opened(folder.path(), &path, vec![Some(elsewhere.clone())]);
+    edit(&mut harness);
+    let mine = planet(&harness);
+    let changes = |harness: &mut Editor, seed| {
+        seeded(seed).save(&path).unwrap();
+        until(harness, "asked", is_asked);
+        assert_eq!(planet(harness), mine);
+    };
+    changes(&mut harness, 2);
+    click(&mut harness, "Reload");
+    assert_eq!((planet(&harness).seed, harness.state().document().is_dirty()), (2, false));
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness), mine, "what was reloaded over can be had back");
+
+    changes(&mut harness, 3);
+    click(&mut harness, "Keep mine");
+    assert!(harness.state().document().is_dirty());
+    send(&mut harness, Command::Save);
+    assert!(!is_asked(&harness), "it was asked once");
+    assert_eq!(Planet::load(&path).unwrap(), mine);
+
+    slide(&mut harness, "Radius of planet", 2600.0);
+    seeded(4).save(&path).unwrap();
+    until(&mut harness, "asked", is_asked);
+    click(&mut harness, "Save mine as…");
+    harness.run_steps(3);
+    assert_eq!(Planet::load(&elsewhere).unwrap(), planet(&harness));
+    assert_eq!(Planet::load(&path).unwrap().seed, 4);
+}
+
+/// Saved before the watch could say a word.
+#[test]
+fn a_file_that_changed_is_never_written_over_in_silence() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    edit(&mut harness);
+    let mine = planet(&harness);
+    seeded(2).save(&path).unwrap();
+    send(&mut harness, Command::Save);
+    assert!(is_asked(&harness));
+    assert_eq!(Planet::load(&path).unwrap().seed, 2);
+    click(&mut harness, "Cancel");
+    assert_eq!(Planet::load(&path).unwrap().seed, 2);
+    send(&mut harness, Command::Save);
+    click(&mut harness, "Save mine over it");
+    assert_eq!(Planet::load(&path).unwrap(), mine);
+    assert!(!harness.state().document().is_dirty());
+}
+
+#[test]
+fn a_file_that_is_gone_leaves_unsaved_work() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    std::fs::remove_file(&path).unwrap();
+    until(&mut harness, "told", |harness| harness.query_by_label_contains("is gone from the disk").is_some());
+    assert!(harness.state().document().is_dirty());
+    send(&mut harness, Command::Save);
+    assert_eq!(Planet::load(&path).unwrap().seed, 1);
+    assert!(harness.query_by_label_contains("is gone from the disk").is_none());
+}
+
+#[test]
+fn two_windows_on_one_file_know_of_each_other() {
+    let (folder, path) = saved();
+    let told = |harness: &Editor| harness.query_by_label_contains("open in another window").is_some();
+    let mut first = opened(folder.path(), &path, vec![]);
+    assert!(!told(&first));
+    let mut second = opened(folder.path(), &path, vec![]);
+    assert!(told(&second));
+    until(&mut first, "told", told);
+    // Nothing is blocked.
+    edit(&mut second);
+    send(&mut second, Command::Save);
+    assert!(!second.state().document().is_dirty());
+    // Without an orderly end, as in a crash.
+    drop(second);
+    until(&mut first, "alone again", |harness| !told(harness));
+}
+
+#[test]
+fn a_name_that_does_not_exist_yet_is_a_new_planet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ice-moon.ron");
+    let mut harness = opened(folder.path(), &path, vec![]);
+    assert_eq!(planet(&harness).name, "Ice moon");
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+    assert!(!path.exists() && !harness.state().document().is_dirty());
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::S);
+    assert_eq!(Planet::load(&path).unwrap(), planet(&harness));
+
+    let mut harness = opened(folder.path(), &folder.path().join("no/such.ron"), vec![]);
+    assert!(harness.query_by_label_contains("there is no folder").is_some());
+    click(&mut harness, "Dismiss");
+    assert_eq!(harness.state().document().path(), None);
+}
+
+#[test]
+fn without_file_dialogs_a_path_is_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("typed");
+    let mut harness = open_file(None, NoDialogs, &folder.path().join("recovery"));
+    let kind = |harness: &mut Editor, text: &str| {
+        press(harness, egui::Modifiers::COMMAND, egui::Key::A);
+        harness.get_by_role_and_label(Role::TextInput, "Path of the file").type_text(text);
+        harness.run_steps(2);
+        press(harness, egui::Modifiers::NONE, egui::Key::Enter);
+        harness.run_steps(2);
+    };
+    edit(&mut harness);
+    let mine = planet(&harness);
+    send(&mut harness, Command::Save);
+    assert!(harness.query_by_label_contains("no file dialogs").is_some());
+    kind(&mut harness, folder.path().join("no/such").to_str().unwrap());
+    assert!(harness.query_by_label_contains("There is no folder").is_some());
+    kind(&mut harness, path.to_str().unwrap());
+    let written = path.with_extension("ron");
+    assert_eq!(Planet::load(&written).unwrap(), mine);
+    assert_eq!(harness.state().document().path(), Some(written.as_path()));
+
+    // What is there already is not replaced without asking.
+    seeded(7).save(folder.path().join("other.ron")).unwrap();
+    send(&mut harness, Command::SaveAs);
+    kind(&mut harness, folder.path().join("other.ron").to_str().unwrap());
+    assert!(harness.query_by_label("Replace the file?").is_some());
+    click(&mut harness, "Cancel");
+
+    send(&mut harness, Command::Open);
+    kind(&mut harness, folder.path().join("other.ron").to_str().unwrap());
+    assert_eq!(planet(&harness).seed, 7);
+
+    send(&mut harness, Command::ExportTable);
+    kind(&mut harness, folder.path().join("table").to_str().unwrap());
+    assert!(folder.path().join("table.png").exists());
+    send(&mut harness, Command::ImportTable);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    assert!(harness.query_by_label("Path of the file").is_none(), "Escape is enough to leave");
+}

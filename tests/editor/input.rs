@@ -1,0 +1,208 @@
+//! Typed numbers, keys, menus, windows.
+
+use super::*;
+
+/// Types into a field that shows a number.
+fn enter(harness: &mut Editor, label: &str, text: &str) {
+    harness.get_by_role_and_label(Role::SpinButton, label).focus();
+    harness.run_steps(2);
+    press(harness, egui::Modifiers::COMMAND, egui::Key::A);
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(1);
+    press(harness, egui::Modifiers::NONE, egui::Key::Enter);
+}
+
+#[test]
+fn a_number_that_is_refused_says_why() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Star");
+    let before = planet(&harness).star.latitude_deg;
+    for (typed, why) in [
+        ("abc", "\"abc\" is not a number; use -90 to 90°"),
+        ("5 km", "\"5 km\" is not in °; use -90 to 90°"),
+        ("95", "95 is out of range; use -90 to 90°"),
+    ] {
+        enter(&mut harness, "Latitude of star as a number", typed);
+        assert!(harness.query_by_label(why).is_some(), "{typed}");
+        assert_eq!(planet(&harness).star.latitude_deg, before, "{typed}");
+    }
+    enter(&mut harness, "Latitude of star as a number", "45°");
+    assert_eq!(planet(&harness).star.latitude_deg, 45.0);
+    assert!(harness.query_by_label_contains("out of range").is_none());
+    enter(&mut harness, "Season", "100");
+    assert!(harness.query_by_label("100 is out of range; use -90 to 90°").is_some());
+
+    click(&mut harness, "Planet");
+    enter(&mut harness, "Seed of planet", "1.5");
+    assert!(harness.query_by_label_contains("1.5 is not a whole number; use 0 to 4294967295").is_some());
+}
+
+#[test]
+fn the_dice_stay_where_they_are() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    let dice = |harness: &Editor| harness.get_by_label("Random Seed of planet").rect();
+    enter(&mut harness, "Seed of planet", "7");
+    let before = dice(&harness);
+    enter(&mut harness, "Seed of planet", "4294967295");
+    assert_eq!(planet(&harness).seed, u32::MAX);
+    assert_eq!(dice(&harness), before);
+}
+
+#[test]
+fn escape_closes_the_window_on_top() {
+    let mut harness = editor(vec![]);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F1);
+    let help = |harness: &Editor| harness.query_by_label("Walk; slower uphill").is_some();
+    let performance = |harness: &Editor| harness.query_by_label_contains("times of the next edit").is_some();
+    assert!(help(&harness) && performance(&harness));
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    harness.run_steps(20);
+    assert!(!help(&harness) && performance(&harness));
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    harness.run_steps(20);
+    assert!(!performance(&harness));
+}
+
+#[test]
+fn escape_ends_typing_before_it_closes_a_window() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Planet");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F1);
+    harness.get_by_role_and_label(Role::TextInput, "Name of planet").focus();
+    harness.run_steps(2);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    assert!(harness.query_by_label("Walk; slower uphill").is_some());
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+    harness.run_steps(20);
+    assert!(harness.query_by_label("Walk; slower uphill").is_none());
+}
+
+#[test]
+fn keys_stay_in_the_list_that_is_open() {
+    let mut harness = editor(vec![]);
+    let pose = |harness: &Editor| harness.state().viewport().pose(harness.state().document().valid_planet());
+    let before = pose(&harness);
+    click(&mut harness, "Planet");
+    for list in ["Precision of planet", "View"] {
+        click(&mut harness, list);
+        harness.key_down(egui::Key::D);
+        harness.run_steps(5);
+        harness.key_up(egui::Key::D);
+        press(&mut harness, egui::Modifiers::NONE, egui::Key::Num2);
+        press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+        harness.run_steps(3);
+        assert_eq!(pose(&harness), before, "{list}");
+        assert_eq!(harness.state().viewport().settings.debug_view, DebugView::Shaded, "{list}");
+    }
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Num2);
+    assert_eq!(harness.state().viewport().settings.debug_view, DebugView::Height, "closed again");
+}
+
+#[test]
+fn menus_that_do_not_fit_scroll() {
+    let mut harness = app::open([800.0, 400.0], vec![]);
+    click(&mut harness, "View");
+    harness.run_steps(5);
+    let reach = |harness: &Editor| harness.get_by_label_contains("Light or dark").rect().bottom();
+    assert!(reach(&harness) > 400.0, "the menu is longer than the window");
+    harness.get_by_label_contains("Light or dark").scroll_to_me();
+    harness.run_steps(40);
+    assert!(reach(&harness) <= 400.0, "{}", reach(&harness));
+}
+
+#[test]
+fn the_panel_is_as_wide_as_it_was_after_every_tab() {
+    let mut harness = editor(vec![]);
+    let picture = |harness: &Editor| harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect().right();
+    click(&mut harness, "Planet");
+    harness.run_steps(5);
+    let before = picture(&harness);
+    for tab in ["Air", "Water", "Clouds", "Biomes", "Terrain", "Star", "Climate", "Planet"] {
+        harness.get_by_role_and_label(Role::Button, tab).click();
+        harness.run_steps(10);
+        assert_eq!(picture(&harness), before, "{tab}");
+        for node in harness.query_all_by_role(Role::SpinButton) {
+            assert!(node.rect().right() <= 1024.0, "{tab}: {:?}", node.rect());
+        }
+    }
+}
+
+#[test]
+fn a_rule_names_a_biome_that_there_is() {
+    let mut harness = editor(vec![]);
+    harness.state_mut().send(Command::New);
+    harness.run_steps(4);
+    click(&mut harness, "Biomes");
+    click(&mut harness, "Tables");
+    click(&mut harness, "Mars");
+    let biomes = |harness: &Editor| planet(harness).biomes;
+    assert!(biomes(&harness).index_of(biomes(&harness).snow_key).is_none(), "no biome was chosen yet");
+    let scroll = |harness: &mut Editor, label: &str| {
+        harness.get_by_label(label).scroll_to_me();
+        harness.run_steps(40);
+    };
+    scroll(&mut harness, "Snow of biomes");
+    click(&mut harness, "Snow of biomes");
+    assert!(harness.state().document().problems().is_empty(), "{:?}", harness.state().document().problems());
+    assert!(biomes(&harness).index_of(biomes(&harness).snow_key).is_some());
+    let steps = undo_len(&harness);
+    scroll(&mut harness, "Snow is of biomes");
+    click(&mut harness, "Snow is of biomes");
+    let (dust, index) = {
+        let biomes = biomes(&harness);
+        let index = biomes.palette.iter().position(|biome| biome.name == "Dust").unwrap();
+        (biomes.palette[index].key, index)
+    };
+    let entries: Vec<_> = harness.query_all_by_role_and_label(Role::Button, "Dust").collect();
+    entries.last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(biomes(&harness).snow_key, dust);
+    assert_eq!(undo_len(&harness), steps + 1);
+
+    // To drag a rule on is one step, though a biome is chosen for it.
+    let steps = undo_len(&harness);
+    let slider = "Beach up to of biomes";
+    harness.get_by_role_and_label(Role::Slider, slider).scroll_to_me();
+    harness.run_steps(40);
+    let rect = harness.get_by_role_and_label(Role::Slider, slider).rect();
+    harness.drag_at(rect.left_center() + egui::vec2(4.0, 0.0));
+    for step in 1..6 {
+        harness.hover_at(rect.left_center() + egui::vec2(10.0 * step as f32, 0.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(rect.left_center() + egui::vec2(50.0, 0.0));
+    harness.run_steps(3);
+    assert!(biomes(&harness).beach_m > 0.0 && biomes(&harness).index_of(biomes(&harness).beach_key).is_some());
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Change beach up to of biomes".to_owned()));
+
+    // Gone, its rule goes with its cells; undo brings both back.
+    click_biome(&mut harness, "Dust");
+    let before = biomes(&harness);
+    let heir = before.palette[usize::from(index == 0)].clone();
+    harness.get_by_label("Remove").scroll_to_me();
+    harness.run_steps(40);
+    click(&mut harness, "Remove");
+    let entries: Vec<_> = harness.query_all_by_role_and_label(Role::Button, &heir.name).collect();
+    entries.last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(biomes(&harness).snow_key, heir.key);
+    assert!(harness.state().document().problems().is_empty());
+    send(&mut harness, Command::Undo);
+    assert_eq!(biomes(&harness), before);
+}
+
+fn click_biome(harness: &mut Editor, name: &str) {
+    let label = format!("Biome {name}");
+    harness.get_by_label(&label).scroll_to_me();
+    harness.run_steps(40);
+    click(harness, &label);
+}
+
+#[test]
+fn every_sign_of_the_colour_picker_is_in_the_fonts() {
+    let harness = editor(vec![]);
+    let font = egui::FontId::default();
+    assert!(harness.ctx.fonts_mut(|fonts| fonts.has_glyphs(&font, "📋…×•°−–")));
+}
