@@ -31,8 +31,11 @@ const HIGHLIGHT_EV: f32 = -0.2;
 const FOLLOWED_HIGHLIGHT: f32 = 0.75;
 // Mean that it does not go below for their sake: the sea around a setting star.
 const DARKEST_MEAN_EV: f32 = -3.4;
+// Wider highlights, such as the sky around a low star, never exceed this luminance.
+const BROAD_HIGHLIGHTS: f32 = 0.12;
+const BROAD_HIGHLIGHT_EV: f32 = -0.5;
 const LIFTED_HIGHLIGHT: f32 = 0.2;
-const LIFTED_SNOW: f32 = 0.9;
+const LIFTED_SNOW: f32 = 1.0;
 // Shares of white pixels from ground to snow.
 const SNOW_SHARE: vec2f = vec2f(0.1, 0.3);
 const WIDEST_LIFT_EV: f32 = 2.0;
@@ -47,6 +50,17 @@ const GLINTS: f32 = 0.003;
 const SHADOW_EV: f32 = 7.0;
 
 fn stops(bin: u32) -> f32 { return DARKEST_EV + (f32(bin) + 0.5) / BINS_PER_EV; }
+
+// Luminance in stops that `count` of the counted pixels exceed, no lower than the bin `first`.
+fn brighter_than(count: f32, first: u32) -> f32 {
+    var over = 0.0;
+    var bin = BINS - 1u;
+    while bin > first && over + f32(bins[bin]) < count {
+        over += f32(bins[bin]);
+        bin--;
+    }
+    return stops(bin);
+}
 
 // Stops of correction for a mean luminance, in stops.
 fn corrected(mean_ev: f32) -> f32 {
@@ -82,23 +96,20 @@ fn compute() {
         weight += share;
         passed += here;
     }
-    var over_highlight = 0.0;
-    var highlight = BINS - 1u;
-    while highlight > first && over_highlight + f32(bins[highlight]) < HIGHLIGHTS * counted {
-        over_highlight += f32(bins[highlight]);
-        highlight--;
-    }
+    let highlight = brighter_than(HIGHLIGHTS * counted, first);
+    let broad = brighter_than(BROAD_HIGHLIGHTS * counted, first);
     var ev = 0.0;
     if weight > 0.0 {
         let mean = sum / weight;
         ev = corrected(mean);
-        let above = stops(highlight) + ev - HIGHLIGHT_EV;
+        let above = highlight + ev - HIGHLIGHT_EV;
         if above > 0.0 {
             ev = max(ev - FOLLOWED_HIGHLIGHT * above, min(ev, DARKEST_MEAN_EV - mean));
         } else {
             let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, smoothstep(SNOW_SHARE.x, SNOW_SHARE.y, f32(bins[WHITE]) / counted));
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
+        ev = min(ev, BROAD_HIGHLIGHT_EV - broad);
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);
     }

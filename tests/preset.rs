@@ -468,8 +468,11 @@ fn a_device_is_not_replaced_by_a_file() {
 
 #[test]
 fn a_rule_that_names_no_biome_is_refused_where_it_stands() {
-    let text = "(\n version: 3,\n biomes: (\n  snow_key: 'q',\n ),\n)";
+    let text = "(\n version: 3,\n biomes: (\n  snow_key: 'q', snow: true,\n ),\n)";
     let Err(error @ LoadError::Invalid { .. }) = Planet::from_text("f.ron", text) else { panic!("it was accepted") };
     let expected = "f.ron:4:13: biomes.snow_key: 'q' is no key of the palette; use one of `a`";
     assert_eq!(error.to_string(), expected);
+    // A rule that is off forgets such a key.
+    let planet = Planet::from_text("f.ron", &text.replace("snow: true", "snow: false")).unwrap();
+    assert_eq!(planet.biomes.snow_key, Planet::default().biomes.snow_key);
 }

@@ -32,8 +32,8 @@ pub(super) struct Args {
     /// Longitude of the camera in degrees, east positive [default: 40 east of the star]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: Option<f64>,
-    /// Height of the camera above the terrain or the sea, whichever is higher; negative: depth under the sea [default: the whole
-    /// planet in view]
+    /// Height of the camera above the terrain or the sea, whichever is higher; negative: depth under the sea
+    /// [default: the whole planet in view]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
     altitude: Option<f64>,
     /// Where the camera looks: 0 north, 90 east
@@ -155,10 +155,14 @@ fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
             let terrain = Terrain::try_new(planet.clone()).map_err(|error| error.to_string())?;
             let ground_m = terrain.height_m(place.direction());
             let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
-            let deepest_m = ground_m + 0.1 - floor_m;
+            let depth_m = floor_m - ground_m;
+            // Exactly 0.1 on land.
+            let deepest_m = 0.1 - depth_m;
             if altitude_m < deepest_m {
-                let range = match floor_m > ground_m + 0.2 {
-                    true => format!("the sea is {:.1} m deep there; use {deepest_m:.1} or more", floor_m - ground_m),
+                // Rounded up: what is offered is allowed.
+                let least_m = (deepest_m * 10.0).ceil() / 10.0;
+                let range = match depth_m > 0.2 {
+                    true => format!("the sea is {depth_m:.1} m deep there; use {least_m:.1} or more"),
                     false => "there is no sea there; use 0.1 or more".to_owned(),
                 };
                 return Err(format!("--altitude: {altitude_m} m is under the ground: {range}").into());

@@ -148,6 +148,21 @@ impl Biomes {
 }
 
 impl Biomes {
+    /// Rules that are off and hold a key that no biome has lose it. Presets could hold such keys before they were chosen from a list.
+    pub(crate) fn forget_idle_keys(&mut self) {
+        let keys: Vec<char> = self.palette.iter().map(|biome| biome.key).collect();
+        let forget = |key: &mut char, is_on: bool| {
+            if !is_on && !keys.contains(key) {
+                *key = UNSET_KEY;
+            }
+        };
+        forget(&mut self.beach_key, self.beach_m > 0.0);
+        forget(&mut self.snow_key, self.snow);
+        for biome in &mut self.palette {
+            forget(&mut biome.steep_key, biome.steep == Steep::Biome);
+        }
+    }
+
     /// Lets rules that name no biome name one of the palette: snow the brightest, others the first. `idle`: those that are
     /// off, too.
     pub fn name_missing(&mut self, idle: bool) {

@@ -102,7 +102,8 @@ impl Planet {
             return Err(invalid(vec![Problem { line: 0, column: 0, path: String::new(), message }]));
         }
         let version = version(text).map_err(|problem| invalid(vec![problem]))?;
-        let planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
+        let mut planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
+        planet.biomes.forget_idle_keys();
         let problems = validate::problems(&planet);
         if problems.is_empty() { Ok(planet) } else { Err(all_placed(file, text, problems)) }
     }

@@ -2,7 +2,6 @@
 //!
 //! Ranges come from the description of each parameter; what concerns several of them at once stands here.
 
-use super::biome::UNSET_KEY;
 use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
@@ -200,11 +199,12 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
     table(biomes, &keys, found);
 }
 
-/// Rules name biomes. One that is off may hold what it began with.
+/// Rules that are on name biomes. What a rule that is off holds does not matter; loading forgets it
+/// ([`parts::Biomes::forget_idle_keys`]).
 fn references(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
     let known: String = biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
     let refer = |found: &mut Found, path: ParamPath, key: char, is_on: bool| {
-        if !keys.contains(&key) && (is_on || key != UNSET_KEY) {
+        if is_on && !keys.contains(&key) {
             found.add(path, format!("{key:?} is no key of the palette; use one of `{known}`"));
         }
     };
@@ -256,6 +256,7 @@ fn table(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::biome::UNSET_KEY;
     use super::*;
     use crate::planet::{Biome, LayerMask};
 
@@ -297,9 +298,9 @@ mod tests {
         planet.biomes.palette[0] = Biome { key: 'g', ..Biome::default() };
         planet.biomes.table.replace_key('a', 'g');
         assert_eq!(found(&planet), Vec::<String>::new(), "rules that are off hold what they began with");
-        planet.biomes.beach_key = 'q';
+        (planet.biomes.beach_key, planet.biomes.beach_m) = ('q', 2.0);
         planet.biomes.snow = true;
-        planet.biomes.palette[0].steep_key = 'z';
+        (planet.biomes.palette[0].steep_key, planet.biomes.palette[0].steep) = ('z', Steep::Biome);
         assert_eq!(
             found(&planet),
             [
@@ -308,8 +309,11 @@ mod tests {
                 "biomes.palette[0].steep_key: 'z' is no key of the palette; use one of `g`",
             ]
         );
+        planet.biomes.beach_m = 0.0;
+        planet.biomes.forget_idle_keys();
+        assert_eq!((planet.biomes.snow_key, planet.biomes.beach_key), ('a', UNSET_KEY));
         planet.biomes.name_missing(false);
-        assert_eq!((planet.biomes.snow_key, planet.biomes.beach_key), ('g', 'q'));
+        assert_eq!((planet.biomes.snow_key, planet.biomes.beach_key), ('g', UNSET_KEY));
         planet.biomes.name_missing(true);
         assert_eq!(found(&planet), Vec::<String>::new());
     }
