@@ -37,7 +37,7 @@ const BROAD_HIGHLIGHT_EV: f32 = -0.5;
 const LIFTED_HIGHLIGHT: f32 = 0.2;
 const LIFTED_SNOW: f32 = 1.0;
 // Shares of white pixels from ground to snow.
-const SNOW_SHARE: vec2f = vec2f(0.1, 0.3);
+const SNOW_SHARE: vec2f = vec2f(0.2, 0.45);
 const WIDEST_LIFT_EV: f32 = 2.0;
 // Beside dark ground a bright sky keeps its colours: most stops of correction if the sky's luminance were 1, and more for each stop less.
 const SKY_EV: f32 = 3.8;

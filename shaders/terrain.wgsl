@@ -367,14 +367,12 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     var shadow = 1.0;
     if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
     let sky_share = overcast(shadow);
-    // Slopes that face a shadowed one lie in the sun as often as not.
-    let around = shadow * mix(1.0, from_ground.star, 0.5);
     shadow *= from_ground.star;
     let diffuse = tilted_l * rough;
     let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
     let open = saturate1(0.5 + 0.5 * dot(n, up) * area) * from_ground.sky;
     // What the ground around sends back to a slope that does not see the whole sky.
-    let bounce = (sky + sunlight * max(sun_mu, 0.0) * around) * ground.albedo * (1.0 - open);
+    let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
     let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;

@@ -101,7 +101,7 @@ fn patterns_show_from_near_and_fade_away() {
         (pixels.iter().map(|p| (f64::from(p[1]) - mean).powi(2)).sum::<f64>() / pixels.len() as f64).sqrt()
     };
     let (near, far) = (spread(3.0), spread(2e4));
-    assert!(near > 8.0 && far < 3.5, "{near} {far}");
+    assert!(near > 12.0 && far < 5.5, "{near} {far}");
 }
 
 /// Lava glows at night, and what glows moves with the time where it flows.

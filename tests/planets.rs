@@ -58,7 +58,7 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
             for sun in noon_and_sunset(&planet) {
                 let frame = frame_of(&surface, &planet, view, sun.direction());
                 let picture = gpu.draw(&frame);
-                assert!(lights(&picture).iter().any(|&light| light > 150), "{file} from {altitude_m} m is dark");
+                assert!(lights(&picture).iter().any(|&light| light > 100), "{file} from {altitude_m} m is dark");
                 // Where there is air no place that the star stands over is black; a value that
                 // is not a number would be.
                 let noon = sun == noon_and_sunset(&planet)[0] && planet.atmosphere.is_some();
@@ -114,7 +114,7 @@ fn white_is_white_and_the_open_sea_is_dark() {
     gpu.renderer.metering = Metering::Instant;
     // Least of the brightest pixels, and most of the sea's.
     let bars: [(&str, u8, [u8; 3]); 3] =
-        [("aurel.ron", 235, [30, 48, 86]), ("maren.ron", 235, [32, 60, 106]), ("hoarfrost.ron", 222, [30, 50, 90])];
+        [("aurel.ron", 235, [28, 48, 84]), ("maren.ron", 235, [32, 60, 106]), ("hoarfrost.ron", 225, [30, 50, 90])];
     for (file, whitest, darkest) in bars {
         let planet = Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap());
         let view = opening_view(&planet, [320, 240], Quality::Medium);

@@ -218,8 +218,10 @@ fn at_night_the_ground_is_lit_by_the_sky() {
         };
         let (ground, sky) = (median(true), median(false));
         assert!((6..60).contains(&ground) && sky > ground + ground / 4 && sky < 90, "ground {ground}, sky {sky}");
-        gpu.renderer.metering = Metering::Manual;
+        // A star beside a ridge would be part of it.
+        (gpu.renderer.metering, gpu.renderer.smooth_edges) = (Metering::Manual, false);
         let by_day = lights(&gpu.draw(&night));
+        gpu.renderer.smooth_edges = true;
         let most = by_day.iter().zip(&is_ground).filter(|(_, ground)| **ground).map(|(l, _)| *l).max().unwrap_or(0);
         assert!(most < 12, "exposed for the day the night is black, not {most}");
     }
@@ -250,6 +252,10 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     for edit in every_edit(&planet) {
         let stages = [Stage::Uniform, Stage::Material, Stage::CloudMap, Stage::AirTables];
         let mut declared = stages.map(|stage| u64::from(edit.declared.contains(stage)));
+        // A biome's key that changes in the table and in all rules as well changes nothing that is drawn.
+        if edit.path.ends_with("].key") {
+            declared[1] = 0;
+        }
         let drawn = draw(&edit.planet);
         // With new tiles anything may come that the uniforms take from them.
         if edit.declared.touches_tiles() && declared[0] == 0 {
