@@ -148,7 +148,8 @@ impl Biomes {
 }
 
 impl Biomes {
-    /// Rules that are off and hold a key that no biome has lose it. Presets could hold such keys before they were chosen from a list.
+    /// Rules that are off and hold a key that no biome has lose it. Presets could hold such keys before they were
+    /// chosen from a list.
     pub(crate) fn forget_idle_keys(&mut self) {
         let keys: Vec<char> = self.palette.iter().map(|biome| biome.key).collect();
         let forget = |key: &mut char, is_on: bool| {

@@ -24,9 +24,10 @@ const AGX_OUT: [[f64; 3]; 3] = [
     [-0.0528968517574562, 1.15190312990417, -0.0989611768448433],
     [-0.0529716355144438, -0.0980434501171241, 1.15107367264116],
 ];
-/// The curve of AgX over stops: radiance and display code of its pivot, slope there in codes per stop, powers of the bends towards
-/// black and white, and what the toe leaves at 24 stops below the pivot. Steeper than its makers' curve, with white two stops above
-/// white ground: pictures of planets have few highlights, and their clouds should be white and their seas dark.
+/// The curve of AgX over stops: radiance and display code of its pivot, slope there in codes per stop, powers of the bends
+/// towards black and white, and what the toe leaves at 24 stops below the pivot. Steeper than its makers' curve, with
+/// white two stops above white ground: pictures of planets have few highlights, and their clouds should be white and
+/// their seas dark.
 const AGX_PIVOT: f64 = 0.2;
 const AGX_PIVOT_CODE: f64 = 0.5;
 const AGX_SLOPE: f64 = 0.26;

@@ -1,7 +1,7 @@
 //! White balance: gains that make white ground in daylight white on the display.
 //!
-//! A camera set to daylight corrects the light of its star as it arrives through the air. The correction is bounded: under the orange
-//! haze of a Titan the picture stays orange.
+//! A camera set to daylight corrects the light of its star as it arrives through the air. The correction is bounded:
+//! under the orange haze of a Titan the picture stays orange.
 
 use crate::planet::{Atmosphere, Planet};
 
@@ -14,8 +14,8 @@ const ABSORBER_CROSSINGS: f64 = 2.0;
 /// Largest and smallest gain of a channel, relative to the luminance of white.
 const GAIN_RANGE: (f64, f64) = (0.9, 1.1);
 
-/// Gains on red, green and blue radiance that make white ground in a planet's daylight white. Each is 0.9 to 1.1; white keeps its
-/// luminance unless a gain meets one of those bounds.
+/// Gains on red, green and blue radiance that make white ground in a planet's daylight white. Each is 0.9 to 1.1;
+/// white keeps its luminance unless a gain meets one of those bounds.
 pub fn white_balance(planet: &Planet) -> [f64; 3] {
     let air = planet.atmosphere.as_ref();
     let white: [f64; 3] =
