@@ -1,5 +1,6 @@
-//! Whether another window has the same file open: each window holds a lock in the folder of the recovery files, in a file
-//! named after the document's path. The system lets go of the lock when a window ends, however it ends. Nothing is blocked.
+//! Whether another window has the same file open: each window holds a lock in the folder of the recovery files, in a
+//! file named after the document's path. The system lets go of the lock when a window ends, however it ends. Nothing
+//! is blocked.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};

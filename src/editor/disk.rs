@@ -75,8 +75,8 @@ impl Theirs {
     }
 }
 
-/// Calls `noted` from another thread when a file in the folder changes whose name is wanted; None where the system cannot
-/// watch.
+/// Calls `noted` from another thread when a file in the folder changes whose name is wanted; None where the system
+/// cannot watch.
 pub(super) fn watch(
     folder: &Path,
     wanted: impl Fn(&OsStr) -> bool + Send + 'static,

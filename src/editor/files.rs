@@ -1,5 +1,5 @@
-//! Opening and saving, and the promise that no work is lost on the way: neither what is unsaved here, nor what stands in
-//! a file that somebody else has written.
+//! Opening and saving, and the promise that no work is lost on the way: neither what is unsaved here, nor what stands
+//! in a file that somebody else has written.
 
 use super::app::{EditorApp, default_planet};
 use super::command::Command;
