@@ -1,5 +1,5 @@
-//! Files that are broken, far too large or no files at all: each is told, none takes the program with it. The command line runs
-//! as a process with little memory, since what would abort it would abort the test.
+//! Files that are broken, far too large or no files at all: each is told, none takes the program with it. The command
+//! line runs as a process with little memory, since what would abort it would abort the test.
 
 #![cfg(all(feature = "editor", unix))]
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -79,8 +79,8 @@ fn a_small_file_of_too_many_pixels_is_refused_however_often_it_is_named() {
     assert_eq!(said.len(), files.len());
     for (i, (said, file)) in said.iter().zip(files).enumerate() {
         let message = format!(
-            "layers[{i}].shape.file: {file} is 32768 x 16384 pixels; use a smaller picture, of at most 134217728 pixels \
-             (16384 x 8192)"
+            "layers[{i}].shape.file: {file} is 32768 x 16384 pixels; use a smaller picture, of at most 134217728 \
+             pixels (16384 x 8192)"
         );
         assert!(said.ends_with(&message), "{said}");
     }
@@ -118,8 +118,8 @@ fn exr_header(path: &Path, width: usize, names: &[String], blocks: BlockDescript
     std::fs::write(path, bytes.into_inner()).unwrap();
 }
 
-/// The largest height map there may be fits into the memory that is promised, is read once for all its layers, and leaves as
-/// much room for others as is said.
+/// The largest height map there may be fits into the memory that is promised, is read once for all its layers, and
+/// leaves as much room for others as is said.
 #[test]
 fn an_honest_picture_of_the_largest_size_is_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -137,8 +137,8 @@ fn an_honest_picture_of_the_largest_size_is_read() {
     exr_header(&path("more.exr"), 16384, &["Y".to_owned()], BlockDescription::ScanLines);
     preset(folder.path(), &["big.png", "link.png", "more.exr"]);
     let (status, _, err) = run(folder.path(), 1536, &["check", "p.ron"]);
-    let message = "more.exr takes 512 MiB of memory, and 256 MiB of 512 MiB are left for it beside the planet's other pictures; \
-                   use smaller pictures, or one file in several layers\n";
+    let message = "more.exr takes 512 MiB of memory, and 256 MiB of 512 MiB are left for it beside the planet's other \
+                   pictures; use smaller pictures, or one file in several layers\n";
     assert!(status == 1 && err.lines().count() == 1 && err.ends_with(message), "{err}");
 }
 

@@ -185,6 +185,10 @@ impl EditorApp {
     }
 
     fn take_dropped_files(&mut self, ctx: &egui::Context) {
+        // The question comes first: what was dropped would put another document below it.
+        if self.files.is_asking() {
+            return;
+        }
         let dropped = ctx.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
         if let Some(path) = dropped {
             self.actions.push(Action::OpenPath(path));

@@ -1,7 +1,9 @@
-//! Whether another window has the same file open: each window holds a lock in the folder of the recovery files, in a file
-//! named after the document's path. The system lets go of the lock when a window ends, however it ends. Nothing is blocked.
+//! Whether another window has the same file open: each window holds a lock in the folder of the recovery files, in a
+//! file named after the document's path. The system lets go of the lock when a window ends, however it ends. Nothing
+//! is blocked.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
+use std::io::{Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 
 /// As many windows on one file are told apart.
@@ -12,7 +14,7 @@ const PREFIX: &str = "open-";
 pub struct Claim {
     stem: PathBuf,
     slot: u32,
-    _lock: File,
+    lock: File,
 }
 
 impl Claim {
@@ -28,22 +30,33 @@ impl Claim {
         (0..SLOTS).find_map(|slot| {
             let lock = File::options().create(true).truncate(false).write(true).open(place(&stem, slot)).ok()?;
             lock.try_lock().ok()?;
-            Some(Self { stem: stem.clone(), slot, _lock: lock })
+            let claim = Self { stem: stem.clone(), slot, lock };
+            claim.tell();
+            Some(claim)
         })
     }
 
     /// Whether another window has the file open, too.
     pub fn is_shared(&self) -> bool {
         (0..SLOTS).filter(|slot| *slot != self.slot).any(|slot| {
-            File::options().write(true).open(place(&self.stem, slot)).is_ok_and(|other| other.try_lock().is_err())
+            // A shared lock: windows that look at the same time do not take each other for owners.
+            let other = File::open(place(&self.stem, slot));
+            other.is_ok_and(|other| matches!(other.try_lock_shared(), Err(TryLockError::WouldBlock)))
         })
+    }
+
+    /// Writes into the file, which those who watch its folder notice; a lock that comes or goes they do not.
+    fn tell(&self) {
+        let mut file = &self.lock;
+        // Without it others notice when they next look.
+        let _ = file.rewind().and_then(|()| file.write_all(b"\n"));
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        // One that stays behind is free: its lock goes with this window.
-        let _ = fs::remove_file(place(&self.stem, self.slot));
+        // The file stays. Others may have it open, and a new one in its place would be locked beside theirs.
+        self.tell();
     }
 }
 
@@ -77,6 +90,13 @@ mod tests {
         let other = Claim::take(&locks, &folder.path().join("b.ron")).unwrap();
         assert!(!other.is_shared());
         drop(second);
+        assert!(!first.is_shared());
+        let third = Claim::take(&locks, &file).unwrap();
+        assert!(first.is_shared() && third.is_shared(), "a slot is used again");
+        drop(third);
+        // Two who look at the same time.
+        let looking = File::open(place(&first.stem, 1)).unwrap();
+        looking.try_lock_shared().unwrap();
         assert!(!first.is_shared());
         // A lock file that nobody holds.
         fs::write(place(&first.stem, 3), "").unwrap();

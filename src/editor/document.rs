@@ -28,7 +28,7 @@ impl Document {
         let problems = validate::problems(&planet);
         Self {
             valid: if problems.is_empty() { planet.clone() } else { Arc::new(Planet::default()) },
-            home: Home { path, saved: Some(planet.clone()), text: None },
+            home: Home { path, saved: Some(planet.clone()), ..Home::default() },
             planet,
             problems,
             history: History::default(),
@@ -38,7 +38,7 @@ impl Document {
     /// A document that has just been read from `path`, which holds `text`.
     pub fn opened(planet: Planet, path: PathBuf, text: String) -> Self {
         let mut document = Self::new(planet, Some(path));
-        document.home.text = Some(text);
+        document.home.bytes = Some(text.into_bytes());
         document
     }
 
@@ -69,9 +69,9 @@ impl Document {
         self.home.path.as_deref()
     }
 
-    /// The text of the file when it was last read or written; None where there is no file yet.
-    pub fn disk_text(&self) -> Option<&str> {
-        self.home.text.as_deref()
+    /// What stood in the file when it was last read or written; None where there is no file yet.
+    pub fn disk_bytes(&self) -> Option<&[u8]> {
+        self.home.bytes.as_deref()
     }
 
     /// The undo steps.
@@ -84,12 +84,28 @@ impl Document {
         self.home.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.planet, saved) && self.planet != *saved)
     }
 
-    /// The file of a planet that was rolled over before its changes were saved, if there is one: undo brings it back.
-    pub fn rolled_over(&self) -> Option<&Path> {
-        self.history.homes().find_map(|(planet, home)| {
-            let changed = home.saved.as_ref().is_some_and(|saved| saved != planet);
-            home.path.as_deref().filter(|_| changed)
-        })
+    /// The files of planets that were rolled over before their changes were saved, oldest first; where there is no file,
+    /// the planet's name. Undo brings them back.
+    pub fn rolled_over(&self) -> Vec<String> {
+        let name = |(planet, home): (&Arc<Planet>, &Home)| match &home.path {
+            Some(path) => path.display().to_string(),
+            None => planet.name.clone(),
+        };
+        self.work_rolled_over().map(name).collect()
+    }
+
+    fn work_rolled_over(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
+        self.history.homes().filter(|(planet, home)| home.lacks(planet))
+    }
+
+    /// What a crash must not take: unsaved work here, or else the last that was rolled over. A random planet that nobody
+    /// has touched comes after both.
+    pub fn to_recover(&self) -> Option<&Arc<Planet>> {
+        if self.home.lacks(&self.planet) {
+            return Some(&self.valid);
+        }
+        let rolled_over = self.work_rolled_over().last().map(|(planet, _)| planet);
+        rolled_over.or_else(|| self.is_dirty().then_some(&self.valid))
     }
 
     /// The folder of its file.
@@ -126,14 +142,15 @@ impl Document {
     /// Puts another planet, which no file holds, in the place of this one: one step.
     pub fn roll(&mut self, planet: Planet, label: &str) {
         self.settle();
-        let home = std::mem::take(&mut self.home);
+        let planet = Arc::new(planet);
+        let home = std::mem::replace(&mut self.home, Home { rolled: Some(planet.clone()), ..Home::default() });
         self.history.record_move(&self.planet, home, label);
-        self.show(Arc::new(planet));
+        self.show(planet);
         self.settle();
     }
 
     /// Takes over what the file holds now: one step.
-    pub fn reload(&mut self, planet: Planet, text: String) {
+    pub fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
         let planet = Arc::new(planet);
         if planet != self.planet {
             self.settle();
@@ -141,12 +158,18 @@ impl Document {
             self.show(planet.clone());
             self.settle();
         }
-        (self.home.saved, self.home.text) = (Some(planet), Some(text));
+        self.note_saved(Some(planet), Some(bytes));
     }
 
     /// Notes what the file holds now, and leaves the planet as it is.
-    pub fn note_disk(&mut self, planet: Option<Planet>, text: Option<String>) {
-        (self.home.saved, self.home.text) = (planet.map(Arc::new), text);
+    pub fn note_disk(&mut self, planet: Option<Planet>, bytes: Option<Vec<u8>>) {
+        self.note_saved(planet.map(Arc::new), bytes);
+    }
+
+    /// What the file holds now, here and in the steps of the history that lead back to the same file.
+    fn note_saved(&mut self, saved: Option<Arc<Planet>>, bytes: Option<Vec<u8>>) {
+        (self.home.saved, self.home.bytes) = (saved, bytes);
+        self.history.note_file(&self.home);
     }
 
     /// Ends the gesture under way; call it while nobody drags or types.
@@ -175,8 +198,9 @@ impl Document {
         for kept in [&mut self.planet, &mut self.valid] {
             *kept = if **kept == *saved { saved.clone() } else { Arc::new(kept.moved_to(&folder)) };
         }
-        let text = saved.to_text();
-        self.home = Home { path: Some(path), saved: Some(saved), text: Some(text) };
+        let bytes = saved.to_text().into_bytes();
+        self.home = Home { path: Some(path), ..Home::default() };
+        self.note_saved(Some(saved), Some(bytes));
     }
 
     /// The name of the file or of the planet, with a mark when there is unsaved work.
@@ -250,28 +274,72 @@ mod tests {
         assert_eq!((document.path(), document.planet().seed), (None, 5));
     }
 
+    fn seeded(seed: u32) -> Planet {
+        Planet { seed, ..Planet::default() }
+    }
+
     #[test]
     fn changes_that_were_rolled_over_are_known() {
         let mut document = Document::new(Planet::default(), None);
         document.mark_saved(&Planet::default(), PathBuf::from("a.ron"));
-        document.roll(Planet { seed: 5, ..Planet::default() }, "Random planet");
-        assert_eq!(document.rolled_over(), None);
+        document.roll(seeded(5), "Random planet");
+        document.roll(seeded(6), "Random planet");
+        assert!(document.rolled_over().is_empty(), "a roll is nobody's work");
         document.undo();
-        document.edit(Planet { seed: 7, ..Planet::default() }, None);
-        document.roll(Planet { seed: 5, ..Planet::default() }, "Random planet");
-        assert_eq!(document.rolled_over(), Some(Path::new("a.ron")));
+        document.undo();
+        document.edit(seeded(7), None);
+        document.roll(seeded(5), "Random planet");
+        assert_eq!(document.rolled_over(), ["a.ron"]);
+    }
+
+    #[test]
+    fn work_without_a_file_is_known_when_it_is_rolled_over() {
+        let name = "My Moon".to_owned();
+        let mut document = Document::new(Planet { name: name.clone(), ..Planet::default() }, None);
+        document.roll(seeded(5), "Random planet");
+        assert!(document.rolled_over().is_empty(), "nobody had touched it");
+        document.undo();
+        document.edit(Planet { name: name.clone(), ..seeded(7) }, None);
+        document.roll(seeded(5), "Random planet");
+        assert_eq!(document.rolled_over(), [name]);
+
+        let mut document = Document::unsaved(seeded(3));
+        document.roll(seeded(5), "Random planet");
+        assert_eq!(document.rolled_over().len(), 1, "what a crash had left");
+        assert_eq!(document.to_recover().map(|planet| planet.seed), Some(3), "and would leave again");
+        document.edit(seeded(6), None);
+        assert_eq!(document.to_recover().map(|planet| planet.seed), Some(6), "newer work goes first");
+        document.roll(seeded(8), "Random planet");
+        assert_eq!(document.rolled_over().len(), 2, "so is a random planet that was edited");
+
+        let mut document = Document::opened(seeded(1), PathBuf::from("a.ron"), String::new());
+        document.note_disk(None, None);
+        document.roll(seeded(5), "Random planet");
+        assert_eq!(document.rolled_over(), ["a.ron"], "its file was gone");
+    }
+
+    #[test]
+    fn a_file_that_was_saved_over_is_known_to_the_steps_before() {
+        let path = PathBuf::from("a.ron");
+        let mut document = Document::opened(seeded(1), path.clone(), seeded(1).to_text());
+        document.roll(seeded(5), "Random planet");
+        document.mark_saved(&seeded(5), std::path::absolute(&path).unwrap());
+        document.undo();
+        assert_eq!((document.path(), document.planet().seed), (Some(path.as_path()), 1));
+        assert!(document.is_dirty(), "the file holds the random planet");
+        assert_eq!(document.disk_bytes(), Some(seeded(5).to_text().as_bytes()));
     }
 
     #[test]
     fn what_the_file_holds_is_taken_over_as_a_step_or_noted() {
         let theirs = Planet { seed: 8, ..Planet::default() };
         let mut document = Document::opened(Planet::default(), PathBuf::from("a.ron"), "old".to_owned());
-        document.reload(theirs.clone(), "new".to_owned());
-        assert_eq!((document.planet().seed, document.is_dirty(), document.disk_text()), (8, false, Some("new")));
+        document.reload(theirs.clone(), b"new".to_vec());
+        assert_eq!((document.planet().seed, document.is_dirty(), document.disk_bytes()), (8, false, Some(&b"new"[..])));
         document.undo();
         assert!(document.is_dirty(), "the file holds theirs");
         document.note_disk(None, None);
-        assert!(document.is_dirty() && document.disk_text().is_none(), "the file is gone");
+        assert!(document.is_dirty() && document.disk_bytes().is_none(), "the file is gone");
     }
 
     #[test]

@@ -1,12 +1,11 @@
-//! Opening and saving, and the promise that no work is lost on the way: neither what is unsaved here, nor what stands in
-//! a file that somebody else has written.
+//! Opening and saving, and the promise that no work is lost on the way: neither what is unsaved here, nor what stands
+//! in a file that somebody else has written.
 
 use super::app::{EditorApp, default_planet};
-use super::command::Command;
 use super::dialogs::{DialogRequest, FileDialogs};
 use super::disk::{self, OnDisk, Theirs};
 use super::document::Document;
-use super::handle::Action;
+use super::file_names::{has_extension, is_same_file, readable_stem, with_extension};
 use super::path_field::PathField;
 use super::prompts::Message;
 use super::recovery;
@@ -16,7 +15,6 @@ use crate::planet::param::ParamPath;
 use crate::planet::picture::folder_of;
 use crate::planet::{LoadError, Planet, random, shipped};
 use eframe::egui;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// What a planet's file name ends in.
@@ -62,6 +60,8 @@ impl Replace {
 
 /// The open file holds another text than was last read from it or written to it.
 pub(super) struct Change {
+    /// The file.
+    pub(super) path: PathBuf,
     pub(super) theirs: Theirs,
     /// Whether this was found when the file was about to be written over.
     pub(super) saving: bool,
@@ -80,8 +80,8 @@ pub struct FileFlow {
     /// Waits for an answer to "whose planet?".
     pub(super) change: Option<Change>,
     /// Goes on as soon as the document is saved.
-    after_save: Option<Goal>,
-    may_close: bool,
+    pub(super) after_save: Option<Goal>,
+    pub(super) may_close: bool,
 }
 
 impl FileFlow {
@@ -99,43 +99,35 @@ impl FileFlow {
         }
     }
 
-    /// Whether a question about files is open: nothing else goes on meanwhile.
-    pub fn is_asking(&self) -> bool {
+    /// Whether the window shows a question about files.
+    pub(super) fn has_question(&self) -> bool {
         self.prompt.is_some() || self.replace.is_some() || self.change.is_some() || self.path_field.is_some()
     }
 
-    /// Asks whose planet is to stand in the file.
-    pub(super) fn ask_about_change(&mut self, theirs: Theirs, saving: bool) {
-        self.change = Some(Change { theirs, saving });
+    /// Whether a question about files is open, here or in a dialog of the desktop: nothing else goes on meanwhile.
+    pub fn is_asking(&self) -> bool {
+        self.has_question() || self.asking.is_some()
     }
-}
 
-/// An answer to the prompt.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum PromptAnswer {
-    Save,
-    Discard,
-    Cancel,
-}
+    /// Asks whose planet is to stand in the file.
+    pub(super) fn ask_about_change(&mut self, path: PathBuf, theirs: Theirs, saving: bool) {
+        self.change = Some(Change { path, theirs, saving });
+    }
 
-/// An answer to the question whether a file is to be replaced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum ReplaceAnswer {
-    Replace,
-    OtherName,
-    Cancel,
-}
+    /// Takes back the question about a file that is no longer the open one.
+    pub(super) fn keep_to(&mut self, path: Option<&Path>) {
+        if self.change.as_ref().is_some_and(|change| Some(change.path.as_path()) != path) {
+            self.change = None;
+            self.after_save = None;
+        }
+    }
 
-/// An answer to the question whose planet is to stand in the open file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum ChangeAnswer {
-    Reload,
-    KeepMine,
-    SaveAs,
-    Cancel,
+    /// Takes back every question, and what was to follow: they were about a document that is gone. The answer of a
+    /// dialog that is still open must not touch the next one.
+    fn forget_questions(&mut self) {
+        (self.asking, self.path_field, self.prompt) = (None, None, None);
+        (self.replace, self.change, self.after_save) = (None, None, None);
+    }
 }
 
 /// Reads the file to begin with; one that does not exist yet is the name of a new planet.
@@ -172,34 +164,6 @@ fn read(path: &Path) -> Result<Document, LoadError> {
     Ok(Document::opened(planet, path.to_owned(), text))
 }
 
-/// A planet's name by that of its file: "ice-moon.ron" is "Ice moon".
-fn readable_stem(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(['-', '_'], " ");
-    let mut chars = stem.trim().chars().filter(|c| !c.is_control()).take(64);
-    chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
-}
-
-/// Whether two paths lead to one file, however they are written.
-fn is_same_file(a: &Path, b: &Path) -> bool {
-    let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();
-    a == b || whole(a).is_some_and(|a| Some(a) == whole(b))
-}
-
-fn has_extension(path: &Path, extension: &str) -> bool {
-    path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
-}
-
-/// The path with the extension behind its whole name, if it does not end in it.
-fn with_extension(path: &Path, extension: &str) -> PathBuf {
-    if has_extension(path, extension) {
-        return path.to_owned();
-    }
-    let mut whole = OsString::from(path);
-    whole.push(".");
-    whole.push(extension);
-    whole.into()
-}
-
 impl EditorApp {
     /// Does it, after asking if unsaved work would be lost.
     pub(super) fn pursue(&mut self, ctx: &egui::Context, goal: Goal) {
@@ -212,12 +176,12 @@ impl EditorApp {
     }
 
     /// Whether another document in the place of this one would lose something.
-    fn loses_work(&self) -> bool {
-        self.document.is_dirty() || self.document.rolled_over().is_some()
+    pub(super) fn loses_work(&self) -> bool {
+        self.document.is_dirty() || !self.document.rolled_over().is_empty()
     }
 
     /// Does it, whatever is lost.
-    fn reach(&mut self, ctx: &egui::Context, goal: Goal) {
+    pub(super) fn reach(&mut self, ctx: &egui::Context, goal: Goal) {
         match goal {
             Goal::New => self.replace(Document::new(default_planet(), None)),
             Goal::Open => {
@@ -260,7 +224,7 @@ impl EditorApp {
     /// Puts a planet nobody has seen before in the place of this one: a step that can be undone.
     pub(super) fn roll(&mut self) {
         self.document.roll(random::random(random_seed()), "Random planet");
-        self.files.asking = None;
+        self.files.forget_questions();
         self.renaming = None;
         self.panels.new_document();
         let planet = self.document.valid_planet().clone();
@@ -269,8 +233,8 @@ impl EditorApp {
     }
 
     /// Takes over what the open file holds: a step that can be undone.
-    pub(super) fn reload(&mut self, planet: Planet, text: String) {
-        self.document.reload(planet, text);
+    pub(super) fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
+        self.document.reload(planet, bytes);
         let planet = self.document.valid_planet().clone();
         self.viewport.edit_clock.edited(&planet, std::time::Instant::now());
     }
@@ -319,12 +283,14 @@ impl EditorApp {
 
     /// Saves to the document's own file, unless somebody else has written there: then that is asked about.
     fn save_own(&mut self, ctx: &egui::Context, path: PathBuf) {
-        match disk::look(&path, self.document.disk_text()) {
+        match disk::look(&path, self.document.disk_bytes()) {
             OnDisk::Changed(bytes) => {
                 let theirs = Theirs::read(&path, bytes, self.document.planet());
-                self.files.ask_about_change(theirs, true);
+                self.files.ask_about_change(path, theirs, true);
             }
-            OnDisk::Same | OnDisk::Gone => self.write(ctx, path),
+            // A file that cannot be read may be somebody else's. Where there is none, writing tells what is wrong.
+            OnDisk::Unknown if path.is_file() => self.files.replace = Some(Replace::Planet(path)),
+            OnDisk::Same | OnDisk::Gone | OnDisk::Unknown => self.write(ctx, path),
         }
     }
 
@@ -339,7 +305,7 @@ impl EditorApp {
         }
     }
 
-    fn write(&mut self, ctx: &egui::Context, path: PathBuf) {
+    pub(super) fn write(&mut self, ctx: &egui::Context, path: PathBuf) {
         let planet = self.document.planet().clone();
         let problems = self.document.problems();
         if !problems.is_empty() {
@@ -370,17 +336,17 @@ impl EditorApp {
     pub(super) fn poll_dialogs(&mut self, ctx: &egui::Context) {
         let Some(answer) = self.files.dialogs.poll() else { return };
         let asking = self.files.asking.take();
-        if let Some((request, why)) = self.files.dialogs.failed() {
-            self.files.path_field = asking.map(|asking| (asking, PathField::new(request, why)));
-            return;
-        }
-        match (asking, answer) {
-            (Some(asking), Some(file)) => {
+        let failed = self.files.dialogs.failed();
+        match (asking, answer, failed) {
+            (Some(asking), _, Some((request, why))) => {
+                self.files.path_field = Some((asking, PathField::new(request, why)));
+            }
+            (Some(asking), Some(file), None) => {
                 let asked = file.clone();
                 self.chosen(ctx, asking, file, Some(&asked));
             }
-            (_, None) => self.files.after_save = None,
-            (None, Some(_)) => {}
+            // Cancelled, or asked about a document that is gone: nothing is to follow.
+            (None, ..) | (_, None, _) => self.files.after_save = None,
         }
     }
 
@@ -414,78 +380,9 @@ impl EditorApp {
         }
     }
 
-    /// Goes on after the question whether a file is to be replaced.
-    pub(super) fn answer_replace(&mut self, ctx: &egui::Context, answer: ReplaceAnswer) {
-        let Some(replace) = self.files.replace.take() else { return };
-        match (answer, replace) {
-            (ReplaceAnswer::Replace, Replace::Planet(path)) => self.write(ctx, path),
-            (ReplaceAnswer::Replace, Replace::Table(path)) => self.export_table(&path),
-            (ReplaceAnswer::OtherName, Replace::Planet(_)) => self.save_as(ctx),
-            (ReplaceAnswer::OtherName, Replace::Table(_)) => self.ask_for_table(ctx, false),
-            (ReplaceAnswer::Cancel, _) => self.files.after_save = None,
-        }
-    }
-
-    /// Goes on after the question whose planet is to stand in the open file.
-    pub(super) fn answer_change(&mut self, ctx: &egui::Context, answer: ChangeAnswer) {
-        let Some(Change { theirs: Theirs { text, planet }, saving }) = self.files.change.take() else { return };
-        match (answer, planet) {
-            (ChangeAnswer::Reload, Ok(planet)) => {
-                self.files.after_save = None;
-                self.reload(planet, text);
-            }
-            (ChangeAnswer::KeepMine, planet) => {
-                // Theirs has been seen: the next save is one over it.
-                self.document.note_disk(planet.ok(), Some(text));
-                if saving {
-                    self.save(ctx);
-                }
-            }
-            (ChangeAnswer::SaveAs, planet) => {
-                self.document.note_disk(planet.ok(), Some(text));
-                self.save_as(ctx);
-            }
-            (ChangeAnswer::Cancel, _) | (ChangeAnswer::Reload, Err(_)) => {
-                self.files.after_save = None;
-                self.disk.put_off = Some(text);
-            }
-        }
-    }
-
-    /// The window's close button: holds it back while there is unsaved work.
-    pub(super) fn handle_close_request(&mut self, ctx: &egui::Context) {
-        if !ctx.input(|input| input.viewport().close_requested()) || self.files.may_close {
-            return;
-        }
-        // A value that is still being typed makes the document unsaved too, once it is taken over.
-        if ctx.text_edit_focused() {
-            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.actions.push(Action::Command(Command::Quit));
-        } else if self.loses_work() {
-            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.files.prompt = Some(Goal::Quit);
-        }
-    }
-
-    /// Goes on after the prompt about unsaved work.
-    pub(super) fn answer_prompt(&mut self, ctx: &egui::Context, answer: PromptAnswer) {
-        let Some(goal) = self.files.prompt.take() else { return };
-        match answer {
-            PromptAnswer::Save => {
-                self.files.after_save = Some(goal);
-                self.save(ctx);
-            }
-            PromptAnswer::Discard => self.reach(ctx, goal),
-            PromptAnswer::Cancel => {}
-        }
-    }
-
     fn replace(&mut self, document: Document) {
         self.document = document;
-        // A dialog that is still open asked about the document before: its answer must not touch this one.
-        self.files.asking = None;
-        self.files.path_field = None;
-        self.files.after_save = None;
+        self.files.forget_questions();
         self.renaming = None;
         let planet = self.document.valid_planet().clone();
         self.viewport.reset_view(&planet);
@@ -511,18 +408,4 @@ fn load_failed(path: &Path, error: &LoadError) -> Message {
             .collect(),
     };
     Message { title: "The planet could not be opened".to_owned(), lines }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_extension_is_put_behind_the_whole_name() {
-        let named = |name: &str| with_extension(Path::new(name), PRESET);
-        assert_eq!(named("a/foo"), Path::new("a/foo.ron"));
-        assert_eq!(named("earth 2.0"), Path::new("earth 2.0.ron"));
-        assert_eq!(named("foo.RON"), Path::new("foo.RON"));
-        assert_eq!(readable_stem(Path::new("x/ice-moon_2.ron")), "Ice moon 2");
-    }
 }

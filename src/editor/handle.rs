@@ -1,9 +1,10 @@
 //! The one place that carries out what the user asked for.
 
+use super::answers::{ChangeAnswer, PromptAnswer, ReplaceAnswer};
 use super::app::EditorApp;
 use super::bookmarks::BookmarkAction;
 use super::command::Command;
-use super::files::{ChangeAnswer, Goal, PromptAnswer, ReplaceAnswer};
+use super::files::Goal;
 use super::viewport::camera::{Cameras, Ground};
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
@@ -60,6 +61,7 @@ impl EditorApp {
             if let Some(id) = focused
                 && action.needs_typed_value()
                 && ctx.text_edit_focused()
+                && !self.files.has_question()
             {
                 ctx.memory_mut(|memory| memory.surrender_focus(id));
                 self.deferred.push(action);

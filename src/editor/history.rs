@@ -4,6 +4,7 @@
 //! its first change and [`History::settle`], called while nobody drags or types, closes it. Planets are kept as `Arc`,
 //! so a step costs the planet's data once.
 
+use super::file_names::is_same_file;
 use crate::planet::Planet;
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -19,8 +20,18 @@ pub struct Home {
     pub path: Option<PathBuf>,
     /// What the file holds, or what a new document began with; None if nothing holds any of it.
     pub saved: Option<Arc<Planet>>,
-    /// The text of the file when it was last read or written; None where there is no file yet.
-    pub text: Option<String>,
+    /// What stood in the file when it was last read or written, UTF-8 or not; None where there is no file yet.
+    pub bytes: Option<Vec<u8>>,
+    /// The random planet that it began with, which is nobody's work.
+    pub rolled: Option<Arc<Planet>>,
+}
+
+impl Home {
+    /// Whether a planet that is kept here is somebody's work, and no file holds it.
+    pub fn lacks(&self, planet: &Arc<Planet>) -> bool {
+        let begun = self.saved.as_ref().or(self.rolled.as_ref());
+        begun.is_none_or(|begun| !Arc::ptr_eq(begun, planet) && begun != planet)
+    }
 }
 
 /// One change: what to call it, and the planet on its other side.
@@ -76,6 +87,16 @@ impl History {
     /// The planets that are kept elsewhere, with where that is.
     pub fn homes(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
         self.undo.iter().chain(&self.redo).filter_map(|step| Some((&step.planet, step.home.as_ref()?)))
+    }
+
+    /// Notes in every home in the same file what that file holds now.
+    pub fn note_file(&mut self, now: &Home) {
+        let Some(path) = &now.path else { return };
+        for home in self.undo.iter_mut().chain(&mut self.redo).filter_map(|step| step.home.as_mut()) {
+            if home.path.as_ref().is_some_and(|other| is_same_file(other, path)) {
+                (home.saved, home.bytes) = (now.saved.clone(), now.bytes.clone());
+            }
+        }
     }
 
     /// Ends the gesture under way; one that came back to where it began leaves no step.

@@ -23,7 +23,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut EditorApp) {
                 entry(ui, app, command, true, None);
             }
             ui.separator();
-            let savable = app.document.is_dirty() || app.document.disk_text().is_none();
+            let savable = app.document.is_dirty() || app.document.disk_bytes().is_none();
             entry(ui, app, Command::Save, savable, None);
             entry(ui, app, Command::SaveAs, true, None);
             ui.separator();

@@ -3,8 +3,8 @@
 //! - [`app`]: the eframe application: what happens in a frame, in which order
 //! - [`command`], [`handle`]: everything a person can tell the editor to do, and the one place that does it
 //! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
-//! - [`files`], [`dialogs`], `path_field`, [`prompts`], [`recovery`]: opening and saving without losing work, even in a
-//!   crash
+//! - [`files`], [`answers`], [`dialogs`], `path_field`, `file_names`, [`prompts`], [`recovery`]: opening and saving
+//!   without losing work, even in a crash
 //! - [`disk`], [`claim`]: others who write the open file, or have it open
 //! - `notices`: what the editor says by itself
 //! - [`viewport`]: the picture, the camera, the measurements
@@ -14,6 +14,7 @@
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
 //! - [`menus`], [`status`], [`controls`], [`performance`], [`look`]: the rest of the window
 
+pub mod answers;
 pub mod app;
 pub mod bookmarks;
 pub mod claim;
@@ -23,6 +24,7 @@ pub mod describe;
 pub mod dialogs;
 pub mod disk;
 pub mod document;
+mod file_names;
 pub mod files;
 pub mod handle;
 pub mod history;

@@ -2,19 +2,17 @@
 
 use super::app::EditorApp;
 use super::claim::{self, Claim};
-use super::disk;
+use super::disk::{self, News};
 use eframe::egui;
 use notify::RecommendedWatcher;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// How long one has to read what has just been done.
 const SHOWN: Duration = Duration::from_secs(5);
-/// How often other windows are looked for, at most.
+/// How often other windows are looked for without news of any, at most.
 const LOOK: Duration = Duration::from_secs(1);
-/// How long after a change one looks.
+/// How long after news one looks: a lock is taken a moment after its file is made.
 const SETTLED: Duration = Duration::from_millis(100);
 
 /// What is said.
@@ -23,12 +21,13 @@ pub(super) struct Notices {
     said: Option<(String, Instant)>,
     /// Where windows note which files they have open.
     pub(super) claims: Option<PathBuf>,
-    claim: Option<(PathBuf, Claim)>,
+    /// The file that was claimed; no claim where that failed, so that it is not tried anew in every frame.
+    claim: Option<(PathBuf, Option<Claim>)>,
     shared: bool,
     looked: Option<Instant>,
     /// Tells of windows that come and go while this one has nothing to draw, once it was tried to set up.
     watch: Option<Option<RecommendedWatcher>>,
-    news: Arc<AtomicBool>,
+    news: News,
 }
 
 impl EditorApp {
@@ -51,23 +50,21 @@ impl EditorApp {
         let Some(folder) = claims else { return };
         let path = self.document.path();
         if claim.as_ref().map(|(path, _)| path.as_path()) != path {
-            *claim = path.and_then(|path| Some((path.to_owned(), Claim::take(folder, path)?)));
+            *claim = path.map(|path| (path.to_owned(), Claim::take(folder, path)));
             *looked = None;
         }
+        let claim = claim.as_ref().and_then(|(_, claim)| claim.as_ref());
         if watch.is_none() && claim.is_some() {
             let (noted, ctx) = (news.clone(), ctx.clone());
             *watch = Some(disk::watch(folder, claim::is_claim, move || {
-                noted.store(true, Ordering::Relaxed);
-                // Its lock is taken a moment after the file is made.
+                noted.note();
                 ctx.request_repaint_after(SETTLED);
             }));
         }
-        if news.swap(false, Ordering::Relaxed) {
-            ctx.request_repaint_after(LOOK);
-        }
-        if looked.is_none_or(|looked| looked.elapsed() > LOOK) {
+        let due = news.is_due(SETTLED, ctx);
+        if due || looked.is_none_or(|looked| looked.elapsed() > LOOK) {
             *looked = Some(Instant::now());
-            *shared = claim.as_ref().is_some_and(|(_, claim)| claim.is_shared());
+            *shared = claim.is_some_and(Claim::is_shared);
         }
     }
 

@@ -1,4 +1,5 @@
-//! Asks for a file in the window itself, where the desktop has no file dialogs: a path to type, and what lies in its folder.
+//! Asks for a file in the window itself, where the desktop has no file dialogs: a path to type, and what lies in its
+//! folder.
 
 use super::dialogs::DialogRequest;
 use eframe::egui;

@@ -1,7 +1,8 @@
 //! Windows over the window: questions about files, messages, the name of a bookmark, the controls.
 
+use super::answers::{ChangeAnswer, PromptAnswer, ReplaceAnswer};
 use super::app::EditorApp;
-use super::files::{Change, ChangeAnswer, PromptAnswer, ReplaceAnswer};
+use super::files::Change;
 use super::handle::Action;
 use super::{bookmarks, controls};
 use eframe::egui;
@@ -79,7 +80,8 @@ fn unsaved(ctx: &egui::Context, app: &EditorApp) -> Option<PromptAnswer> {
     let before = app
         .document
         .rolled_over()
-        .map(|path| format!("{} had such changes before the random planet; undo brings them back.", path.display()));
+        .into_iter()
+        .map(|name| format!("{name} had such changes before the random planet; undo brings them back."));
     let lines: Vec<String> = here.into_iter().chain(before).collect();
     let save = ("Save changes", PromptAnswer::Save);
     let rest = [("Discard changes", PromptAnswer::Discard), ("Cancel", PromptAnswer::Cancel)];

@@ -74,11 +74,10 @@ impl Recovery {
             return Some(INTERVAL / 10);
         }
         self.writing = None;
-        if !document.is_dirty() {
+        let Some(planet) = document.to_recover() else {
             self.forget();
             return None;
-        }
-        let planet = document.valid_planet();
+        };
         if self.written.as_ref().is_some_and(|written| Arc::ptr_eq(written, planet)) {
             return None;
         }

@@ -5,8 +5,12 @@ use super::dialogs::DialogRequest;
 use super::files::Asking;
 use super::painter::table_png;
 use super::prompts::Message;
+use crate::planet::file;
 use eframe::egui;
 use std::path::Path;
+
+/// No picture of a table takes more: what is longer is cut off, and refused as broken.
+const MAX_TABLE_BYTES: u64 = 1 << 24;
 
 impl EditorApp {
     /// Asks for the picture to read, or for the file to write.
@@ -23,7 +27,7 @@ impl EditorApp {
     /// Takes the table of a picture over; says so if colours were not those of the palette.
     pub(super) fn import_table(&mut self, file: &Path) {
         let mut planet = (**self.document.planet()).clone();
-        let read = std::fs::read(file).map_err(|error| error.to_string());
+        let read = file::read(file, MAX_TABLE_BYTES).map_err(|error| error.to_string());
         match read.and_then(|bytes| table_png::decode(&bytes, &planet.biomes)) {
             Ok(imported) => {
                 planet.biomes.table = imported.table;

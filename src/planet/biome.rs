@@ -7,8 +7,8 @@ use super::param::{Domain, Stage, Unit, choice, linear, log, params};
 /// Sizes of a pattern; must stay below what the shaders wrap positions at.
 pub(super) const DETAIL_SIZE: Domain = log(0.2, 200.0);
 
-/// The key that a rule holds until a biome is chosen for it. Where no biome has that key, it stands for none, and the rule
-/// must be off.
+/// The key that a rule holds until a biome is chosen for it. Where no biome has that key, it stands for none, and the
+/// rule must be off.
 pub const UNSET_KEY: char = 'a';
 
 choice! {
@@ -164,8 +164,8 @@ impl Biomes {
         }
     }
 
-    /// Lets rules that name no biome name one of the palette: snow the brightest, others the first. `idle`: those that are
-    /// off, too.
+    /// Lets rules that name no biome name one of the palette: snow the brightest, others the first. `idle`: those that
+    /// are off, too.
     pub fn name_missing(&mut self, idle: bool) {
         let light = |biome: &Biome| biome.color.iter().sum::<f64>();
         let brightest = self.palette.iter().max_by(|a, b| light(a).total_cmp(&light(b)));

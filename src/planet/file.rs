@@ -130,7 +130,7 @@ impl Planet {
 pub(crate) fn read_text(path: &Path) -> Result<String, LoadError> {
     let file = path.display().to_string();
     let invalid = |problem: Problem| LoadError::Invalid { file, problems: vec![problem] };
-    let bytes = read(path).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
+    let bytes = read(path, MAX_FILE_BYTES).map_err(|source| LoadError::Read { path: path.to_owned(), source })?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
         let message = format!("the file is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
         return Err(invalid(Problem { line: 0, column: 0, path: String::new(), message }));
@@ -147,8 +147,8 @@ fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
-/// At most one byte more than is allowed.
-fn read(path: &Path) -> io::Result<Vec<u8>> {
+/// The file's bytes: all of them, or one more than `most` of a longer file.
+pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let file = match open(path)? {
         Opened::File(file) => file,
         Opened::Folder => return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder; name a file")),
@@ -157,7 +157,7 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
         }
     };
     let mut bytes = Vec::new();
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+    file.take(most + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

@@ -112,14 +112,15 @@ impl Terrain {
     /// Compiles a planet.
     ///
     /// # Errors
-    /// A planet that was changed to something that no preset may say: all that is wrong with it. One that was loaded and not
-    /// changed since is valid.
+    /// A planet that was changed to something that no preset may say: all that is wrong with it. One that was loaded
+    /// and not changed since is valid.
     pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
         planet.check()?;
         Ok(Self::compile(planet, None))
     }
 
-    /// As [`Terrain::try_new`], but takes over from the terrain of a similar planet what is the same and took time to find.
+    /// As [`Terrain::try_new`], but takes over from the terrain of a similar planet what is the same and took time to
+    /// find.
     ///
     /// # Errors
     /// As [`Terrain::try_new`].
@@ -316,8 +317,8 @@ impl Terrain {
     }
 }
 
-/// The direction as a unit vector; one that is already of unit length (to rounding) is left as it is, to the bit. One that
-/// leads nowhere counts as the one to the north pole.
+/// The direction as a unit vector; one that is already of unit length (to rounding) is left as it is, to the bit. One
+/// that leads nowhere counts as the one to the north pole.
 fn unit(dir: DVec3) -> DVec3 {
     let length2 = dir.length_squared();
     if (length2 - 1.0).abs() < 1e-12 {

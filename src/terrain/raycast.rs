@@ -10,8 +10,8 @@ const MAX_BATCHES: usize = 200;
 
 impl Terrain {
     /// Distance in metres along a ray from `origin_planet_m` to the ground or the sea's surface, whichever comes first;
-    /// `None` when it meets neither, or when it begins nowhere (infinite, NaN) or leads nowhere (zero, infinite, NaN). The
-    /// direction may have any other length.
+    /// `None` when it meets neither, or when it begins nowhere (infinite, NaN) or leads nowhere (zero, infinite, NaN).
+    /// The direction may have any other length.
     ///
     /// Marches in steps in proportion to the height above ground, then narrows the crossing down: ridges thinner
     /// than a step can be missed.

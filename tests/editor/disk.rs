@@ -108,7 +108,7 @@ fn a_file_that_changed_is_never_written_over_in_silence() {
     let mut harness = opened(folder.path(), &path, vec![]);
     edit(&mut harness);
     let mine = planet(&harness);
-    seeded(2).save(&path).unwrap();
+    std::fs::write(&path, seeded(2).to_text()).unwrap();
     send(&mut harness, Command::Save);
     assert!(is_asked(&harness));
     assert_eq!(Planet::load(&path).unwrap().seed, 2);
@@ -120,6 +120,110 @@ fn a_file_that_changed_is_never_written_over_in_silence() {
     assert!(!harness.state().document().is_dirty());
 }
 
+/// A file that somebody lets fall into the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn what_is_dropped_while_a_question_is_open_is_left_alone() {
+    let (folder, path) = saved();
+    let other = folder.path().join("other.ron");
+    seeded(9).save(&other).unwrap();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    let drop_other = |harness: &mut Editor| {
+        harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(other.clone())));
+        harness.run_steps(4);
+    };
+    edit(&mut harness);
+    let mine = planet(&harness);
+    seeded(2).save(&path).unwrap();
+    until(&mut harness, "asked", is_asked);
+    drop_other(&mut harness);
+    assert!(is_asked(&harness) && harness.query_by_label("Save your changes?").is_none());
+    click(&mut harness, "Keep mine");
+    assert_eq!(planet(&harness), mine);
+    send(&mut harness, Command::Save);
+    drop_other(&mut harness);
+    assert_eq!(planet(&harness).seed, 9);
+}
+
+#[test]
+fn mine_that_was_to_be_saved_elsewhere_and_was_not_is_asked_about_again() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![None]);
+    edit(&mut harness);
+    seeded(2).save(&path).unwrap();
+    until(&mut harness, "asked", is_asked);
+    click(&mut harness, "Save mine as…");
+    harness.run_steps(3);
+    assert!(!is_asked(&harness), "the dialog was cancelled");
+    send(&mut harness, Command::Save);
+    assert!(is_asked(&harness));
+    assert_eq!(Planet::load(&path).unwrap().seed, 2);
+}
+
+#[test]
+fn a_file_that_is_no_text_is_saved_over_once_that_is_wanted() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    edit(&mut harness);
+    std::fs::write(&path, b"(name: \"\xff\")").unwrap();
+    send(&mut harness, Command::Save);
+    assert!(is_asked(&harness) && harness.query_by_label_contains("not UTF-8").is_some());
+    click(&mut harness, "Save mine over it");
+    assert!(!is_asked(&harness), "it was asked once");
+    assert_eq!(Planet::load(&path).unwrap(), planet(&harness));
+}
+
+/// The step before the random planet leads back to the same file, which holds something else now.
+#[test]
+fn a_file_that_a_random_planet_was_saved_over_no_longer_holds_the_planet_before() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![Some(path.clone())]);
+    send(&mut harness, Command::RandomPlanet);
+    send(&mut harness, Command::SaveAs);
+    assert_eq!(Planet::load(&path).unwrap(), planet(&harness));
+    send(&mut harness, Command::Undo);
+    assert_eq!((planet(&harness).seed, harness.state().document().path()), (1, Some(path.as_path())));
+    assert!(harness.state().document().is_dirty(), "no file holds it");
+    send(&mut harness, Command::Save);
+    assert!(!is_asked(&harness) && !harness.state().document().is_dirty());
+    assert_eq!(Planet::load(&path).unwrap().seed, 1);
+}
+
+#[test]
+fn the_window_closes_while_a_path_is_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = open_file(None, NoDialogs, &folder.path().join("recovery"));
+    let root = harness.ctx.viewport_id();
+    let close = |harness: &mut Editor| {
+        harness.input_mut().viewports.entry(root).or_default().events.push(egui::ViewportEvent::Close);
+        harness.step();
+        harness.output().viewport_output[&root].commands.contains(&egui::ViewportCommand::CancelClose)
+    };
+    send(&mut harness, Command::Open);
+    assert!(harness.ctx.text_edit_focused());
+    assert!(!close(&mut harness), "nothing is unsaved");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
+
+    edit(&mut harness);
+    send(&mut harness, Command::Save);
+    assert!(harness.ctx.text_edit_focused());
+    assert!(close(&mut harness));
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Save your changes?").is_some());
+}
+
 #[test]
 fn a_file_that_is_gone_leaves_unsaved_work() {
     let (folder, path) = saved();
@@ -127,6 +231,14 @@ fn a_file_that_is_gone_leaves_unsaved_work() {
     std::fs::remove_file(&path).unwrap();
     until(&mut harness, "told", |harness| harness.query_by_label_contains("is gone from the disk").is_some());
     assert!(harness.state().document().is_dirty());
+    // It comes and goes: the next look finds nothing once more.
+    std::fs::write(&path, "").unwrap();
+    std::fs::remove_file(&path).unwrap();
+    for _ in 0..40 {
+        harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(harness.query_by_label_contains("is gone from the disk").is_some(), "still gone");
     send(&mut harness, Command::Save);
     assert_eq!(Planet::load(&path).unwrap().seed, 1);
     assert!(harness.query_by_label_contains("is gone from the disk").is_none());

@@ -243,3 +243,34 @@ fn changes_under_a_random_planet_are_asked_about_before_they_are_lost() {
     send(&mut harness, Command::Undo);
     assert_eq!(planet(&harness).radius_km, 2500.0);
 }
+
+/// Work that never had a file is as dear as work that has one.
+#[test]
+fn a_planet_without_a_file_is_asked_about_before_it_is_lost_under_a_random_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = editor(vec![Some(folder.path().join("rolled.ron"))]);
+    let name = planet(&harness).name;
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    send(&mut harness, Command::RandomPlanet);
+    send(&mut harness, Command::Save);
+    assert!(!harness.state().document().is_dirty());
+    send(&mut harness, Command::New);
+    assert!(harness.query_by_label("Lose your changes?").is_some());
+    assert!(harness.query_by_label_contains(&format!("{name} had such changes")).is_some());
+    click(&mut harness, "Cancel");
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness).radius_km, 2500.0);
+}
+
+#[test]
+fn a_planet_that_nobody_touched_is_rolled_over_without_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = editor(vec![Some(folder.path().join("rolled.ron"))]);
+    send(&mut harness, Command::RandomPlanet);
+    send(&mut harness, Command::RandomPlanet);
+    send(&mut harness, Command::Save);
+    send(&mut harness, Command::New);
+    assert!(harness.query_by_label("Lose your changes?").is_none());
+    assert_eq!(harness.state().document().path(), None);
+}

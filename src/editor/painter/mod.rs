@@ -4,8 +4,8 @@
 //! - [`survey`]: where the planet lies in its table, found on a thread of its own
 //! - [`table_png`]: the table as a picture, one pixel for each cell
 
-/// Whether these keys make a click pick a biome in the table, and paint the climate of a place on the planet. Not Alt, with which
-/// many desktops move windows.
+/// Whether these keys make a click pick a biome in the table, and paint the climate of a place on the planet. Not Alt,
+/// with which many desktops move windows.
 pub fn is_chord(modifiers: eframe::egui::Modifiers) -> bool {
     modifiers.command
 }

@@ -44,7 +44,8 @@ impl Tool {
             Tool::Rectangle => "Drag a filled rectangle. Shift draws its outline alone.",
             Tool::Fill => "Fill all neighbouring cells of one biome. Shift fills every cell of that biome.",
             Tool::Pick => {
-                "Choose the biome under the pointer, in the table or on the planet. In the table Ctrl does so with any tool."
+                "Choose the biome under the pointer, in the table or on the planet. In the table Ctrl does so \
+                 with any tool."
             }
             Tool::Select => "Drag a selection: it lights up on the planet, and tools paint within it. A click ends it.",
         }

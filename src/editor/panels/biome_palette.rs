@@ -81,7 +81,8 @@ fn percent(share: f64) -> String {
 fn toolbar(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
     ui.horizontal(|ui| {
         ui.strong("Palette");
-        // Always there: were it to come when the survey is done, the buttons behind it would be others to a click under way.
+        // Always there: were it to come when the survey is done, the buttons behind it would be others to a click
+        // under way.
         let sea = draft.survey.filter(|survey| survey.sea > 0.0005);
         ui.weak(sea.map_or_else(String::new, |survey| format!("of the land; {} is sea", percent(survey.sea))));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -29,8 +29,8 @@ pub struct PainterState {
     strokes: u32,
     /// Where the last stroke ended: Shift draws a line from there.
     last_end: Option<Place>,
-    /// The cell under the pointer when the table was painted, or changed by an undo: what is new is not covered by light
-    /// and previews until the pointer goes on.
+    /// The cell under the pointer when the table was painted, or changed by an undo: what is new is not covered by
+    /// light and previews until the pointer goes on.
     quiet: Option<Cell>,
     /// The table as it was left.
     left: Option<Table>,

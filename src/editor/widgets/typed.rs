@@ -1,7 +1,7 @@
 //! Number fields that say why they refuse what was typed.
 //!
-//! egui's own take what they can read, move it into the range, and go back to the old number where they can read nothing.
-//! Here what is out of range is refused, too, and the reason stands below the field until somebody goes on.
+//! egui's own take what they can read, move it into the range, and go back to the old number where they can read
+//! nothing. Here what is out of range is refused, too, and the reason stands below the field until somebody goes on.
 
 use super::number::{format_digits, read_number, suffix};
 use crate::planet::param::Unit;
@@ -80,8 +80,8 @@ fn place() -> egui::Id {
     egui::Id::unique("refused number")
 }
 
-/// Shows a field of this size, or as large as it needs. `shown` is the text that the field shows for its value: to leave it as
-/// it is changes nothing.
+/// Shows a field of this size, or as large as it needs. `shown` is the text that the field shows for its value: to
+/// leave it as it is changes nothing.
 pub fn typed_field(
     ui: &mut egui::Ui,
     size: Option<egui::Vec2>,

@@ -1,13 +1,14 @@
 //! What the pictures of one planet may take, so that no preset exhausts memory or patience, whatever its files say.
 //!
 //! - One picture has at most [`MAX_PIXELS`].
-//! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an OpenEXR.
-//!   Coarser levels add a third. While a picture is read and its levels are made, about as much again is used for a moment:
-//!   no planet's pictures ever take more than 1.5 GiB.
-//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers, in all channels, used or not: this bounds the time.
+//! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an
+//!   OpenEXR. Coarser levels add a third. While a picture is read and its levels are made, about as much again is used
+//!   for a moment: no planet's pictures ever take more than 1.5 GiB.
+//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers, in all channels, used or not: this
+//!   bounds the time.
 //!
-//! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures count once,
-//! however many layers use them.
+//! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures count
+//! once, however many layers use them.
 
 use super::Picture;
 
@@ -43,7 +44,8 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes room for a picture that is to be decoded: the bytes that it will keep, and those that its file holds unpacked.
+    /// Takes room for a picture that is to be decoded: the bytes that it will keep, and those that its file holds
+    /// unpacked.
     pub(super) fn take(&mut self, bytes: u64, work_bytes: u64) -> Result<(), String> {
         if bytes > self.bytes {
             return Err(format!(

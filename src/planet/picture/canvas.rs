@@ -53,7 +53,8 @@ impl Size {
 pub(super) struct Canvas<T> {
     size: Size,
     layout: PictureLayout,
-    /// Pixels along a square of a cube's picture, and the face (in their order) of each square; None where there is none.
+    /// Pixels along a square of a cube's picture, and the face (in their order) of each square; None where there is
+    /// none.
     side: usize,
     faces: Vec<Vec<Option<usize>>>,
     texels: Vec<T>,

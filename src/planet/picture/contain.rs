@@ -1,7 +1,7 @@
 //! Panics of decoders as errors: a broken file must not take the program with it.
 //!
-//! OpenEXR decoders meet numbers that no header vouches for, and some panic on them. The panic is caught where the decoder
-//! was called, on whichever thread. A host that is built with `panic = "abort"` has no such net.
+//! OpenEXR decoders meet numbers that no header vouches for, and some panic on them. The panic is caught where the
+//! decoder was called, on whichever thread. A host that is built with `panic = "abort"` has no such net.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,8 +10,8 @@ thread_local! {
     static CONTAINED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether a panic of this thread will be caught and told as a problem of a picture. A panic hook should keep quiet then, as the
-/// program's does.
+/// Whether a panic of this thread will be caught and told as a problem of a picture. A panic hook should keep quiet
+/// then, as the program's does.
 pub fn is_contained() -> bool {
     CONTAINED.get()
 }

@@ -1,7 +1,7 @@
 //! OpenEXR files, block by block: of the channels only the one that heights are taken from is kept.
 //!
-//! The header is checked before any block is read: sizes of blocks bound what a decoder allocates. Blocks are decoded in groups
-//! on all cores, each with its panics contained: see [`super::contain`].
+//! The header is checked before any block is read: sizes of blocks bound what a decoder allocates. Blocks are decoded
+//! in groups on all cores, each with its panics contained: see [`super::contain`].
 
 use super::budget::{Budget, MAX_WORK_BYTES};
 use super::canvas::{Canvas, Size};
@@ -74,8 +74,8 @@ impl Source {
         if blocks > MAX_BLOCKS {
             let [width, height] = block;
             return Err(format!(
-                "is cut into {blocks} blocks of {width} x {height} pixels; save it in scan lines, or in larger tiles of which \
-                 {MAX_BLOCKS} suffice"
+                "is cut into {blocks} blocks of {width} x {height} pixels; save it in scan lines, or in larger tiles \
+                 of which {MAX_BLOCKS} suffice"
             ));
         }
         let work_bytes = (size.pixels() * pixel_bytes as u64).max(blocks * LEAST_BLOCK_WORK);
@@ -145,8 +145,8 @@ fn check_blocks(header: &Header) -> Result<(), String> {
         Some(1..=MAX_BLOCK_BYTES) => Ok(()),
         Some(0) => Err("is broken: its blocks are empty; save the picture anew".to_owned()),
         _ => Err(format!(
-            "has blocks of {width} x {height} pixels in {} channels, which is more than {} MiB each; save it in smaller \
-             tiles or in scan lines, with ZIP compression, or with fewer channels",
+            "has blocks of {width} x {height} pixels in {} channels, which is more than {} MiB each; save it in \
+             smaller tiles or in scan lines, with ZIP compression, or with fewer channels",
             header.channels.list.len(),
             MAX_BLOCK_BYTES >> 20
         )),
@@ -208,7 +208,8 @@ fn check_dwa(chunk: &Chunk, header: &Header) -> Result<(), String> {
     let [width, height] = block_size(header).map(|side| side.next_multiple_of(8) as u64);
     let samples = width * height * header.channels.list.len() as u64;
     let bytes = samples * 4;
-    // Bytes of channels kept as they are, run lengths packed and unpacked; coefficients of squares of 8 by 8, and their means.
+    // Bytes of channels kept as they are, run lengths packed and unpacked; coefficients of squares of 8 by 8, and
+    // their means.
     let limits = [(1, bytes), (6, 2 * bytes), (7, bytes), (8, samples), (9, samples)];
     match limits.into_iter().find(|&(i, most)| number(i) > most) {
         Some(_) => Err("is broken: a block is larger than it may be; save the picture anew".to_owned()),

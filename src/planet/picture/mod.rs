@@ -1,7 +1,7 @@
 //! Pictures that a preset refers to: the reference as it stands in the file, and the pixels it leads to.
 //!
-//! - `read`: opens the file; `from_png`, `from_exr`: its rows or blocks; `canvas`: where they are put; `contain`: panics of
-//!   decoders
+//! - `read`: opens the file; `from_png`, `from_exr`: its rows or blocks; `canvas`: where they are put; `contain`:
+//!   panics of decoders
 //! - `budget`: what all pictures of a planet may take
 //! - `known`: pictures in use, so that none is read twice
 //! - `place`: paths as they are written in a preset of a folder
