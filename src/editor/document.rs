@@ -84,8 +84,8 @@ impl Document {
         self.home.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.planet, saved) && self.planet != *saved)
     }
 
-    /// The files of planets that were rolled over before their changes were saved, oldest first; where there is no file,
-    /// the planet's name. Undo brings them back.
+    /// The files of planets that were rolled over before their changes were saved, oldest first. Where there is no
+    /// file, it is the planet's name. Undo brings them back.
     pub fn rolled_over(&self) -> Vec<String> {
         let name = |(planet, home): (&Arc<Planet>, &Home)| match &home.path {
             Some(path) => path.display().to_string(),
@@ -98,8 +98,8 @@ impl Document {
         self.history.homes().filter(|(planet, home)| home.lacks(planet))
     }
 
-    /// What a crash must not take: unsaved work here, or else the last that was rolled over. A random planet that nobody
-    /// has touched comes after both.
+    /// What a crash must not take: unsaved work here, or else the last that was rolled over. A random planet that
+    /// nobody has touched comes after both.
     pub fn to_recover(&self) -> Option<&Arc<Planet>> {
         if self.home.lacks(&self.planet) {
             return Some(&self.valid);
