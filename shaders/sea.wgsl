@@ -42,8 +42,8 @@ fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -
             let phase = dot(wave.xyz, rel_m) + wave.w + twist;
             let bent_k = along + twist_k;
             let cycles = max(max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y))), max(abs(dot(along, step_x)), abs(dot(along, step_y)))) / (2.0 * PI);
-            twist = 0.9 * sin(phase) + 0.4 * twist;
-            twist_k = 0.9 * cos(phase) * bent_k + 0.4 * twist_k;
+            twist = 1.3 * sin(phase) + 0.4 * twist;
+            twist_k = 1.3 * cos(phase) * bent_k + 0.4 * twist_k;
             let weight = 1.0 - smoothstep(0.08, 0.28, cycles);
             if weight <= 0.0 { continue; }
             slope += along / max(k, 1e-6) * (sqrt(2.0 * each) * weight * groups[i % 3u] * cos(phase));

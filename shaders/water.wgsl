@@ -56,7 +56,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
     let ice = frozen(temperature_c, mottle, broad);
     var water = vec3f(0.0);
     if ice < 1.0 {
-        let waves = waves_at(rel_m, up, pixel_step(rel_m, up, globals.ray_right), pixel_step(rel_m, up, -globals.ray_up), border_jitter(rel_m, max(footprint_m, 30.0)).x);
+        let waves = waves_at(rel_m, up, pixel_step(rel_m, up, globals.ray_right), pixel_step(rel_m, up, -globals.ray_up), border_jitter(rel_m, max(footprint_m, 15.0)).x);
         let fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
         // Rough water mirrors a patch of sky above the exact direction.
