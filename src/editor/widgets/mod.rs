@@ -46,11 +46,13 @@ pub fn menu_button<'a, R>(
     let (window, top) = (ui.ctx().content_rect(), ui.cursor().top());
     // Above or below the button, and as much again for the button and the menu's frame.
     let below = window.bottom() - top - ui.spacing().interact_size.y;
-    let room = below.max(top - window.top()) - 32.0;
+    let room = (below.max(top - window.top()) - 32.0).max(80.0);
     ui.menu_button(title, |ui| {
         // The bar stands beside the entries, not over their keys.
         let beside = egui::Frame::new().inner_margin(egui::Margin { right: 10, ..egui::Margin::ZERO });
-        egui::ScrollArea::vertical().max_height(room.max(80.0)).show(ui, |ui| beside.show(ui, content).inner).inner
+        // As high as the window allows: by itself a menu scrolls from 400 points on.
+        let area = egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room);
+        area.show(ui, |ui| beside.show(ui, content).inner).inner
     })
 }
 
