@@ -113,7 +113,8 @@ fn what_is_as_narrow_as_pixels_moves_as_smoothly_as_in_the_truth() {
         );
         println!("{told}");
         // Something moves; and pixels do not jump: those that do change by nothing in one step and by all of it in the next.
-        if true_first < 0.2 || second > first.max(1.1 * true_second) {
+        // A little more than they change is what rounding to whole codes does under a steep curve.
+        if true_first < 0.2 || second > (1.15 * first).max(1.1 * true_second) {
             problems.push(told);
         }
     }
