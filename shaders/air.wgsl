@@ -102,8 +102,8 @@ struct Along {
     transmittance: vec3f,
 }
 
-// Brightness of the airglow before the sky, 0.4 overhead and 1.4 near the horizon: a shell near the top of the air that is brighter where the ray
-// crosses it at a slant (van Rhijn, 1921), dimmed by the air below it. Nothing of it is seen from above.
+// Brightness of the airglow before the sky, 0.4 overhead and 1.4 near the horizon. It is a shell near the top of the air: brighter
+// where the ray crosses it at a slant (van Rhijn, 1921), dimmed by the air below it, and not seen from above.
 fn airglow(dir: vec3f) -> f32 {
     let below = 1.0 - smoothstep(0.0, globals.air.x, globals.eye_up.w);
     let ratio = globals.eye_km.w / (globals.eye_km.w + 0.9 * globals.air.x);
@@ -118,8 +118,8 @@ fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Al
         air = air_light(globals.eye_up.w, globals.eye_up.xyz, dir, globals.sun_dir.xyz, far, globals.air.z, cloud_at, clouds.a);
     }
     var light = air.radiance * globals.sun_irradiance.rgb;
-    // Before the sky the air glows, before the ground it scatters what reaches it.
     let air_only = luminance(light);
+    // Before the sky the air glows, before the ground it scatters what reaches it.
     if globals.air.x > 0.0 {
         let glow = select(1.0 - air.transmittance, vec3f(airglow(dir)), far >= NOTHING_KM);
         light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);

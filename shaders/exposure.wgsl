@@ -24,8 +24,8 @@ const FOLLOWED_NIGHT: f32 = 0.73;
 // The same for brighter means.
 const FOLLOWED_BRIGHT: f32 = 0.1;
 // Highlights: share of counted pixels that are brighter, stops that they may reach after the correction, and share of what they exceed
-// it by that exposure takes back. Below it exposure closes a share of the gap: a small one, or nearly all of it where
-// much is white: snow and clouds must look white.
+// it by that exposure takes back. Below it exposure closes a share of the gap: a small one, or all of it where much is white, since
+// snow and clouds must look white.
 const HIGHLIGHTS: f32 = 0.04;
 const HIGHLIGHT_EV: f32 = -0.2;
 const FOLLOWED_HIGHLIGHT: f32 = 0.75;
@@ -51,15 +51,15 @@ const SHADOW_EV: f32 = 7.0;
 
 fn stops(bin: u32) -> f32 { return DARKEST_EV + (f32(bin) + 0.5) / BINS_PER_EV; }
 
-// Luminance in stops that `count` of the counted pixels exceed, no lower than the bin `first`.
-fn brighter_than(count: f32, first: u32) -> f32 {
+// Bin that `count` of the counted pixels exceed, no lower than the bin `first`.
+fn bin_below(count: f32, first: u32) -> u32 {
     var over = 0.0;
     var bin = BINS - 1u;
     while bin > first && over + f32(bins[bin]) < count {
         over += f32(bins[bin]);
         bin--;
     }
-    return stops(bin);
+    return bin;
 }
 
 // Stops of correction for a mean luminance, in stops.
@@ -75,12 +75,7 @@ fn corrected(mean_ev: f32) -> f32 {
 fn compute() {
     var all = 0.0;
     for (var i = 0u; i < BINS; i++) { all += f32(bins[i]); }
-    var over = 0.0;
-    var brightest = BINS - 1u;
-    while brightest > 0u && over + f32(bins[brightest]) < GLINTS * all {
-        over += f32(bins[brightest]);
-        brightest--;
-    }
+    let brightest = bin_below(GLINTS * all, 0u);
     let range_top = min(f32(brightest), -DARKEST_EV * BINS_PER_EV);
     let first = u32(max(range_top - SHADOW_EV * BINS_PER_EV, 0.0));
     var counted = 0.0;
@@ -96,8 +91,8 @@ fn compute() {
         weight += share;
         passed += here;
     }
-    let highlight = brighter_than(HIGHLIGHTS * counted, first);
-    let broad = brighter_than(BROAD_HIGHLIGHTS * counted, first);
+    let highlight = stops(bin_below(HIGHLIGHTS * counted, first));
+    let broad = stops(bin_below(BROAD_HIGHLIGHTS * counted, first));
     var ev = 0.0;
     if weight > 0.0 {
         let mean = sum / weight;

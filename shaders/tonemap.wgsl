@@ -1,5 +1,5 @@
-// From radiance to what a display shows, linear: white balance, exposure and a curve (tone.wgsl), pixel by pixel of the scene. Alpha: how bright it
-// looks, about even steps for the eye, by which edges are found (antialias.wgsl).
+// From radiance to what a display shows, linear: white balance, exposure and a curve (tone.wgsl), pixel by pixel of the scene.
+// Alpha: how bright it looks, about even steps for the eye, by which edges are found (antialias.wgsl).
 #include "screen.wgsl"
 #include "tone.wgsl"
 

@@ -168,7 +168,7 @@ fn a_name_that_got_its_extension_here_replaces_nothing_without_asking() {
     let path = |name: &str| folder.path().join(name);
     let other = "somebody else's planet";
     std::fs::write(path("foo.ron"), other).unwrap();
-    // The dialog has asked about `foo`, of which there is none.
+    // The dialog asked about the file `foo`, which does not exist.
     let answers = [path("foo"), path("foo"), path("bar"), path("foo")].map(Some);
     let mut harness = editor(answers.to_vec());
     let read = || std::fs::read_to_string(path("foo.ron")).unwrap();

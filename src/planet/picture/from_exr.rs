@@ -26,7 +26,7 @@ const MAX_HEADER_BYTES: u64 = 16 << 20;
 const MAX_BLOCK_BYTES: usize = 64 << 20;
 /// Most bytes of the blocks that are decoded at the same time, unless it is one alone.
 const MAX_GROUP_BYTES: usize = 128 << 20;
-/// A block takes at least as long as one of so many bytes, however small it is.
+/// Bytes that a block counts for at least: a small block takes as long as one of this size.
 const LEAST_BLOCK_WORK: u64 = 32 << 10;
 /// Most blocks of a picture.
 const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
