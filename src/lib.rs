@@ -29,7 +29,7 @@
 //! - [`terrain`]: what the surface is: [`terrain::Terrain`], the evaluator that everything asks
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`lod`]: which nodes are shown from where
-//! - [`build`]: tiles from nodes, on all cores, in the background, stage by stage
+//! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
 //! - `editor`, `cli` (feature `editor`): the application and the command line
 //!
@@ -37,11 +37,11 @@
 //! planet frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
 pub mod atmosphere;
-pub mod build;
 pub mod lod;
 pub mod planet;
 pub mod sphere;
 pub mod terrain;
+pub mod tiles;
 
 #[cfg(feature = "render")]
 pub mod render;

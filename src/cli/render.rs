@@ -1,13 +1,13 @@
 //! `tellus render`: a picture of a planet, without a window.
 
 use super::{Failure, args, headless, load};
-use crate::build::{add_detail, build_now};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
 use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
+use crate::tiles::{add_detail, build_now};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use image::ImageEncoder as _;

@@ -56,9 +56,9 @@ pub use tables::TableRuns;
 pub use tone::Tone;
 pub use white_balance::white_balance;
 
-use crate::build::Surface;
 use crate::lod::{Quality, View};
 use crate::planet::{InvalidPlanet, Planet};
+use crate::tiles::Surface;
 use glam::DVec3;
 use std::sync::Arc;
 

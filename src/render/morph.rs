@@ -162,13 +162,13 @@ fn buffer(device: &wgpu::Device, size: u64, usage: wgpu::BufferUsages) -> wgpu::
 #[cfg(all(test, feature = "editor"))]
 mod tests {
     use super::*;
-    use crate::build::build_now;
     use crate::lod::morph::shifts_m;
     use crate::lod::{Camera, Quality, View};
     use crate::planet::shipped;
     use crate::render::pool::TilePool;
     use crate::sphere::LatLon;
     use crate::terrain::Terrain;
+    use crate::tiles::build_now;
     use std::sync::Arc;
 
     /// What was written to a buffer.

@@ -3,8 +3,8 @@
 //! - `files`: opening, saving, what is never lost
 //! - `disk`: others who write the open file or have it open; names that do not exist yet; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
+//! - `painter`: the painter of the biome table
 //! - `viewport`: the camera and what is seen through it
-#![cfg(feature = "editor")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 #[path = "../support/app.rs"]
@@ -12,6 +12,7 @@ mod app;
 mod disk;
 mod files;
 mod input;
+mod painter;
 mod viewport;
 
 use app::{Editor, click, planet, undo_label, undo_len};

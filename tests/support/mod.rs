@@ -7,12 +7,12 @@ pub mod edits;
 use glam::DVec3;
 use std::sync::Arc;
 use std::time::Duration;
-use tellus::build::{Builder, Surface, add_detail, build_now};
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
 use tellus::render::{DebugView, Frame, FrameStats, RenderError, Renderer};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
+use tellus::tiles::{Builder, Surface, add_detail, build_now};
 
 pub const SIZE_PX: [u32; 2] = [320, 180];
 

@@ -2,10 +2,10 @@
 
 use super::super::headless::{self, Gpu};
 use super::{median, repeat};
-use crate::build::build_now;
 use crate::lod::{Quality, opening};
 use crate::planet::Planet;
 use crate::render::{DebugView, Frame, Renderer};
+use crate::tiles::build_now;
 use serde_json::{Value, json};
 use std::sync::Arc;
 

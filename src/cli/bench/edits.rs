@@ -1,11 +1,11 @@
 //! From an edit to the finished tiles, for one parameter of every kind, through the builder that the editor uses.
 
 use super::{median, opening_view, p95};
-use crate::build::{BuildStats, Builder, DEFAULT_BUDGET_BYTES};
 use crate::lod::View;
 use crate::lod::tile::TILE_VERTICES;
 use crate::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
 use crate::planet::{Planet, diff, validate};
+use crate::tiles::{BuildStats, Builder, DEFAULT_BUDGET_BYTES};
 use serde_json::json;
 use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};

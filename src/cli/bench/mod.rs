@@ -9,10 +9,10 @@ mod edits;
 mod noise;
 
 use super::{Failure, headless, print};
-use crate::build::build_now;
 use crate::lod::{Quality, View, opening};
 use crate::planet::{Planet, shipped};
 use crate::terrain::simd::Simd;
+use crate::tiles::build_now;
 use serde_json::{Value, json};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

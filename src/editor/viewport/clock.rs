@@ -1,8 +1,8 @@
 //! How long things take, measured truthfully: from an edit to its picture, and from frame to frame.
 
 use super::timeline::{Drawing, Timeline};
-use crate::build::Surface;
 use crate::planet::{Planet, diff};
+use crate::tiles::Surface;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};

@@ -23,12 +23,12 @@ pub mod target;
 pub mod timeline;
 
 use super::painter::is_chord;
-use crate::build::{Builder, Leaf, Memory, Surface};
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use crate::render::{DebugView, Frame, FrameStats, MarkedCells, Renderer, TableRuns, Tone};
 use crate::sphere::LatLon;
+use crate::tiles::{Builder, Leaf, Memory, Surface};
 use adaptation::Adaptation;
 use camera::pose::Pose;
 use camera::{Cameras, Ground};

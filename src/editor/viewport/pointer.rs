@@ -1,9 +1,9 @@
 //! What lies under the pointer, found on a thread of its own: a ray that grazes a heavy planet takes
 //! longer than a picture may.
 
-use crate::build::Surface;
 use crate::lod::View;
 use crate::sphere::LatLon;
+use crate::tiles::Surface;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 

@@ -3,7 +3,7 @@
 //! An upload that has begun is brought to its end even when newer surfaces are there: otherwise a slider that is held
 //! could put off every swap for ever.
 
-use crate::build::Surface;
+use crate::tiles::Surface;
 use std::sync::Arc;
 
 /// Most bytes of tiles that one frame uploads: some milliseconds' worth.
@@ -49,9 +49,9 @@ impl Swap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::build_now;
     use crate::lod::{Quality, opening};
     use crate::planet::Planet;
+    use crate::tiles::build_now;
 
     #[test]
     fn what_is_being_uploaded_is_shown_before_anything_newer() {

@@ -1,7 +1,7 @@
 //! Where the time of an edit went, from the frame in which it was made to the picture on the screen.
 
-use crate::build::{BuildStats, Surface};
 use crate::planet::param::Stage;
+use crate::tiles::{BuildStats, Surface};
 use std::time::{Duration, Instant};
 
 /// One thing that was done; times in seconds from the edit.

@@ -1,0 +1,168 @@
+//! The detail tile of one node: slopes and heights finer than its mesh, from the evaluator.
+
+use crate::lod::range::spacing_rad;
+use crate::lod::tile::{DETAIL_APRON, DETAIL_IMAGE, DETAIL_SIDE, DetailTile, TILE_QUADS, Tile, slope_basis};
+use crate::sphere::NodeId;
+use crate::terrain::Terrain;
+use glam::DVec3;
+use half::f16;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Points evaluated at a time: few enough for the fields of all layers to stay in the second-level cache.
+const BATCH: usize = 1024;
+/// Slopes beyond this are as good as vertical.
+const STEEPEST: f64 = 1000.0;
+/// The greatest number a half float holds.
+const MOST: f64 = 65504.0;
+
+/// What is known of one texel.
+#[derive(Clone, Copy, Default)]
+struct Texel {
+    height_m: f64,
+    /// Along the two tangents.
+    slope: [f64; 2],
+    /// How steep the ground is there, all told.
+    steepest: f64,
+}
+
+/// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
+pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> bool) -> Option<DetailTile> {
+    profiling::scope!("detail");
+    static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
+    let own_texels = texels(terrain, tile.id, 1, wanted)?;
+    // The parent has every second texel of every second row, and lines between them.
+    let parents = texels(terrain, tile.id, 2, wanted)?;
+    let base_m = (0.5 * (tile.min_height_m + tile.max_height_m)) as f32;
+    let (mut slopes, mut heights) = (Vec::with_capacity(own_texels.len()), Vec::with_capacity(own_texels.len()));
+    let half = |value: f64, most: f64| f16::from_f64(value.clamp(-most, most));
+    for (i, own) in own_texels.iter().enumerate() {
+        let parent = between(&parents, i % DETAIL_IMAGE, i / DETAIL_IMAGE);
+        let ([along, across], [parent_along, parent_across]) = (own.slope, parent.slope);
+        slopes.push([along, across, parent_along, parent_across].map(|slope| half(slope, STEEPEST)));
+        let height_m = own.height_m - f64::from(base_m);
+        let greater = half(height_m, MOST);
+        let rest = half(height_m - f64::from(greater), MOST);
+        heights.push([greater, rest, half(own.slope[0].hypot(own.slope[1]), STEEPEST), half(own.steepest, STEEPEST)]);
+    }
+    let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
+    Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
+}
+
+/// Every so many texels of a node and around it, row by row, without the slopes that they are too far apart to show.
+fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> bool) -> Option<Vec<Texel>> {
+    let quads = (DETAIL_SIDE - 1) / stride;
+    let apron = DETAIL_APRON / stride;
+    let side = quads + 1 + 2 * apron;
+    let spacing_rad = spacing_rad(id.level) * TILE_QUADS as f64 / quads as f64;
+    let mut texels = Vec::with_capacity(side * side);
+    for start in (0..side * side).step_by(BATCH) {
+        if !wanted() {
+            return None;
+        }
+        let range = start..(start + BATCH).min(side * side);
+        let along = |texel: usize| (texel as f64 - apron as f64) / quads as f64;
+        let place = |i: usize| id.direction(along(i % side), along(i / side));
+        let dirs: Vec<DVec3> = range.map(place).collect();
+        let relief = terrain.relief_at(dirs.clone(), &[spacing_rad, 0.0]);
+        texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
+            let [seen, all] = [0, 1].map(|band| relief.slopes[band][i]);
+            let slope = slope_basis(id.face, *dir).map(|tangent| seen.dot(tangent));
+            Texel { height_m: relief.height_m[i], slope, steepest: all.length() }
+        }));
+    }
+    Some(texels)
+}
+
+/// What is shown at a texel of the image by texels twice as far apart.
+fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
+    const WIDE_SIDE: usize = DETAIL_IMAGE.div_ceil(2);
+    let mut mean = Texel::default();
+    for (x, y) in [(x / 2, y / 2), (x.div_ceil(2), y / 2), (x / 2, y.div_ceil(2)), (x.div_ceil(2), y.div_ceil(2))] {
+        let texel = wide[y * WIDE_SIDE + x];
+        mean.height_m += 0.25 * texel.height_m;
+        mean.slope[0] += 0.25 * texel.slope[0];
+        mean.slope[1] += 0.25 * texel.slope[1];
+    }
+    mean
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::{Quality, opening};
+    use crate::planet::shipped;
+    use crate::tiles::build_now;
+    use std::sync::Arc;
+
+    /// Index of a texel of the node itself.
+    fn texel(x: usize, y: usize) -> usize {
+        (DETAIL_APRON + y) * DETAIL_IMAGE + DETAIL_APRON + x
+    }
+
+    /// Neighbours share their borders: the same slopes from either side, whatever face they lie on.
+    #[test]
+    fn borders_are_shared_and_the_rise_is_small() {
+        let planet = Arc::new(shipped::default_planet());
+        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
+        let tile = &surface.leaves[surface.leaves.len() / 2].tile;
+        let detail = make_detail(&surface.terrain, tile, &|| true).unwrap();
+        assert_eq!(detail.slopes.len(), DETAIL_IMAGE * DETAIL_IMAGE);
+        let mut neighbours = 0;
+        for edge in crate::sphere::Edge::ALL {
+            let id = tile.id.neighbour(edge);
+            let Some(other) = surface.leaves.iter().find(|leaf| leaf.tile.id == id) else { continue };
+            let other_detail = make_detail(&surface.terrain, &other.tile, &|| true).unwrap();
+            let border = |detail: &DetailTile, id: crate::sphere::NodeId| -> Vec<(DVec3, DVec3)> {
+                let last = DETAIL_SIDE - 1;
+                let texels = (0..DETAIL_SIDE).flat_map(|i| [(i, 0), (i, last), (0, i), (last, i)]);
+                texels
+                    .map(|(x, y)| {
+                        let dir = id.direction(x as f64 / last as f64, y as f64 / last as f64);
+                        let [east, north] = slope_basis(id.face, dir);
+                        let [u, v, ..] = detail.slopes[texel(x, y)].map(f64::from);
+                        (dir, east * u + north * v)
+                    })
+                    .collect()
+            };
+            let theirs = border(&other_detail, other.tile.id);
+            let mut shared = 0;
+            for (dir, slope) in border(&detail, tile.id) {
+                for (_, other) in theirs.iter().filter(|(other, _)| other.distance(dir) < 1e-9) {
+                    assert!(slope.distance(*other) < 1e-3 * slope.length().max(0.01), "{slope} {other}");
+                    shared += 1;
+                }
+            }
+            assert!(shared >= DETAIL_SIDE, "{shared}");
+            neighbours += 1;
+        }
+        assert!(neighbours > 0, "no neighbour of the same level was compared");
+        // On a vertex it is the mesh, but for what is too fine to be seen.
+        let relief_m = tile.max_height_m - tile.min_height_m;
+        let [greater, rest, ..] = detail.heights[texel(0, 0)].map(f64::from);
+        let rise_m = f64::from(detail.base_m) + greater + rest - f64::from(tile.vertices[0].height_m);
+        assert!(rise_m.abs() < 0.2 * relief_m + 50.0, "{rise_m} of {relief_m}");
+    }
+
+    /// A child that has not come in yet shows what its parent shows.
+    #[test]
+    fn a_child_begins_as_its_parents_quarter() {
+        let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
+        let planet = Arc::new(shipped::default_planet());
+        let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
+        let tile = &surface.leaves[surface.leaves.len() / 2].tile;
+        let parent = texels(&terrain, tile.id, 1, &|| true).unwrap();
+        let id = tile.id.children()[3];
+        let child = texels(&terrain, id, 2, &|| true).unwrap();
+        let offset = (DETAIL_SIDE - 1) / 2;
+        let (mut worst, mut steepest) = (0.0_f64, 0.0_f64);
+        for (x, y) in (0..DETAIL_SIDE).step_by(2).flat_map(|y| (0..DETAIL_SIDE).step_by(2).map(move |x| (x, y))) {
+            let theirs = &parent[texel(offset + x / 2, offset + y / 2)];
+            let ours = between(&child, DETAIL_APRON + x, DETAIL_APRON + y);
+            assert_eq!(ours.height_m, theirs.height_m, "{x} {y}");
+            let (theirs, ours) = (theirs.slope, ours.slope);
+            worst = worst.max((theirs[0] - ours[0]).abs().max((theirs[1] - ours[1]).abs()));
+            steepest = steepest.max(theirs[0].abs().max(theirs[1].abs()));
+        }
+        assert!(steepest > 0.05 && worst < 1e-6 * steepest, "{worst} of {steepest}");
+    }
+}

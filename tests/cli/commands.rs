@@ -1,0 +1,280 @@
+//! The command line, run as a process: answers, messages, exit status.
+
+use assert_cmd::Command;
+use std::path::{Path, PathBuf};
+use tellus::planet::{Planet, random};
+
+const AUREL: &str = "planets/aurel.ron";
+
+fn tellus(args: &[&str]) -> Command {
+    let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");
+    command.current_dir(env!("CARGO_MANIFEST_DIR")).args(args);
+    command
+}
+
+/// Runs, and gives exit status, standard output and standard error.
+fn run(args: &[&str]) -> (i32, String, String) {
+    let output = tellus(args).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn text_of(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn broken(folder: &tempfile::TempDir) -> PathBuf {
+    let path = folder.path().join("broken.ron");
+    std::fs::write(&path, "(\n version: 1,\n radius_km: 0,\n layers: [(shape: Fbm(octaves: 99))],\n)").unwrap();
+    path
+}
+
+#[test]
+fn wrong_usage_is_status_2_and_says_what_would_be_right() {
+    for (args, part) in [
+        (vec!["render"], "--output <OUT.png>"),
+        (vec!["render", AUREL], "--output <OUT.png>"),
+        (vec!["render", AUREL, "-o", "x.png", "--size", "0x9"], "each 1 to 8192, such as 1280x720"),
+        (vec!["render", AUREL, "-o", "x.png", "--lat", "91"], "91 is out of range; use -90 to 90"),
+        (vec!["render", AUREL, "-o", "x.png", "--sun", "5"], "write LAT,LON such as 20,-45"),
+        (vec!["render", AUREL, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),
+        (vec!["render", AUREL, "-o", "x.png", "--quality", "best"], "possible values: low, medium, high"),
+        (vec!["render", AUREL, "-o", "x.png", "--altitude", "0"], "0 is on the surface; use 0.1 or more"),
+        (vec!["check"], "<FILE.ron>"),
+        (vec!["sample", AUREL, "--lat", "1"], "--lon <DEG>"),
+        (vec!["new", "-o", "x.ron", "--seed", "x"], "invalid digit"),
+        (vec!["bench", "--fast"], "unexpected argument"),
+        (vec!["--nonsense"], "unexpected argument"),
+    ] {
+        let (status, out, err) = run(&args);
+        assert!(status == 2 && out.is_empty() && err.starts_with("error: ") && err.contains(part), "{args:?}: {err}");
+    }
+}
+
+#[test]
+fn help_and_version_are_no_errors() {
+    let (status, out, err) = run(&["--help"]);
+    assert!(status == 0 && err.is_empty() && out.contains("render") && out.contains("bench"), "{out}{err}");
+    let (status, out, _) = run(&["--version"]);
+    assert_eq!((status, out.trim()), (0, concat!("tellus ", env!("CARGO_PKG_VERSION"))));
+}
+
+#[test]
+fn check_names_every_problem_of_every_file() {
+    let folder = folder();
+    let broken = broken(&folder);
+    let file = text_of(&broken);
+    let (status, out, err) = run(&["check", file, AUREL]);
+    assert_eq!((status, out.as_str()), (1, "planets/aurel.ron: valid\n"));
+    assert_eq!(
+        err,
+        format!(
+            "{file}:3:13: radius_km: 0 is out of range; use 1 to 100000 km\n\
+             {file}:4:32: layers[0].shape.octaves: 99 is out of range; use 1 to 24\n"
+        )
+    );
+    let (status, out, err) = run(&["check", AUREL]);
+    assert_eq!((status, out.as_str(), err.as_str()), (0, "planets/aurel.ron: valid\n", ""));
+}
+
+#[test]
+fn a_wrong_preset_is_status_1_everywhere() {
+    let folder = folder();
+    let broken = broken(&folder);
+    let output = folder.path().join("out");
+    let (file, output) = (text_of(&broken), text_of(&output));
+    for args in [
+        vec![file],
+        vec!["render", file, "-o", output],
+        vec!["sample", file, "--lat", "0", "--lon", "0"],
+        vec!["new", "-o", output, "--from", file],
+    ] {
+        let (status, _, err) = run(&args);
+        assert!(status == 1 && err.starts_with(&format!("error: {file}:3:13: radius_km: ")), "{args:?}: {err}");
+        assert!(!Path::new(output).exists());
+    }
+    let (status, _, err) = run(&["sample", "no.ron", "--lat", "0", "--lon", "0"]);
+    assert!(status == 1 && err.starts_with("error: no.ron: "), "{err}");
+}
+
+#[test]
+fn a_new_planet_needs_a_folder_and_a_name_that_ends_in_ron() {
+    let folder = folder();
+    for (name, part) in
+        [("no/such/folder/new.ron", "there is no folder"), ("new.txt", "ends in .ron, such as new.txt.ron")]
+    {
+        let path = folder.path().join(name);
+        let (status, _, err) = run(&[text_of(&path)]);
+        assert!(status == 1 && err.contains(part), "{name}: {err}");
+    }
+    // Without a display the editor cannot open, but the name is no reason to stay out.
+    let path = folder.path().join("new.ron");
+    let output = tellus(&[text_of(&path)]).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(err.contains("the window could not be opened"), "{err}");
+}
+
+#[test]
+fn sample_answers_people_and_machines() {
+    let (status, out, err) = run(&["sample", AUREL, "--lat", "-33.5", "--lon", "-70", "--json"]);
+    assert_eq!((status, err.as_str()), (0, ""));
+    let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let planet = Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join(AUREL)).unwrap();
+    for key in ["height_m", "slope_deg", "temperature_c", "temperature", "precipitation_mm", "moisture"] {
+        assert!(answer[key].is_number(), "{key}: {answer}");
+    }
+    assert_eq!(answer["normal"].as_array().unwrap().len(), 3);
+    assert!(planet.biomes.palette.iter().any(|biome| answer["biome"] == biome.name.as_str()), "{answer}");
+    for layer in answer["layers"].as_array().unwrap() {
+        assert!(layer["name"].is_string() && layer["height_m"].is_number(), "{layer}");
+    }
+    let (status, out, _) = run(&["sample", AUREL, "--lat", "-33.5", "--lon", "-70"]);
+    assert!(status == 0 && out.contains("height") && out.contains(" m\n"), "{out}");
+}
+
+#[test]
+fn sky_says_the_same_by_physics_and_by_shaders() {
+    let air = "tests/fixtures/earth_air.ron";
+    let ask = |more: &[&str]| {
+        let args = ["sky", air, "--sun-zenith", "60", "--view-zenith", "0", "--json"];
+        let (status, out, err) = run(&[&args, more].concat());
+        assert_eq!(status, 0, "{err}");
+        let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let rgb = |key: &str| -> [f64; 3] { std::array::from_fn(|i| answer[key][i].as_f64().unwrap()) };
+        [rgb("transmittance"), rgb("radiance")]
+    };
+    let near = |a: [f64; 3], b: [f64; 3], share: f64| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= share * b);
+    let [through, radiance] = ask(&[]);
+    assert!(near(through, [0.88478, 0.75386, 0.58228], 0.003), "{through:?}");
+    assert!(near(radiance, [0.00459, 0.00992, 0.02376], 0.05), "{radiance:?}");
+    let [drawn_through, drawn] = ask(&["--gpu"]);
+    assert!(near(drawn_through, through, 0.02) && near(drawn, radiance, 0.02), "{drawn_through:?} {drawn:?}");
+    let (status, out, _) = run(&["sky", air, "--sun-zenith", "90", "--view-zenith", "80", "--azimuth", "-30"]);
+    assert!(status == 0 && out.contains("transmittance  0.106") && out.contains("radiance"), "{out}");
+    let (status, _, err) = run(&["sky", air, "--sun-zenith", "190", "--view-zenith", "0"]);
+    assert!(status == 2 && err.contains("use 0 to 180"), "{err}");
+}
+
+#[test]
+fn new_writes_valid_planets_that_their_seed_repeats() {
+    let folder = folder();
+    let paths = ["a.ron", "b.ron", "c.ron"].map(|name| folder.path().join(name));
+    let [a, b, c] = paths.each_ref().map(|path| text_of(path));
+    let read = |path: &str| std::fs::read_to_string(path).unwrap();
+    assert_eq!(run(&["new", "-o", a, "--seed", "7"]).0, 0);
+    assert_eq!(run(&["new", "-o", b, "--seed", "7"]).0, 0);
+    assert_eq!(read(a), read(b));
+    assert_eq!(Planet::load(a).unwrap(), random::random(7));
+
+    assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", AUREL]).0, 0);
+    assert_ne!(read(a), read(b));
+    assert_eq!(run(&["check", a, b]).0, 0);
+
+    let (status, out, _) = run(&["new", "-o", c]);
+    assert!(status == 0 && out.contains("seed "), "{out}");
+    let (status, _, err) = run(&["new", "-o", "no/such/folder/x.ron"]);
+    assert!(status == 1 && err.contains("there is no folder"), "{err}");
+}
+
+#[test]
+fn render_writes_the_same_picture_for_the_same_command() {
+    let folder = folder();
+    let paths = ["a.png", "b.png"].map(|name| folder.path().join(name));
+    for path in &paths {
+        let args = [
+            "render",
+            AUREL,
+            "-o",
+            text_of(path),
+            "--size",
+            "161x90",
+            "--lat",
+            "-10",
+            "--lon",
+            "-20",
+            "--altitude",
+            "3000000",
+            "--heading",
+            "-30",
+            "--pitch",
+            "-80",
+            "--fov",
+            "40",
+            "--sun",
+            "-5,10",
+            "--time",
+            "60",
+            "--exposure",
+            "-0.5",
+            "--quality",
+            "low",
+            "--view",
+            "shaded",
+        ];
+        let (status, _, err) = run(&args);
+        assert!(status == 0, "{err}");
+    }
+    let [a, b] = paths.map(|path| std::fs::read(path).unwrap());
+    assert!(a == b, "the same command drew two pictures");
+    let picture = image::load_from_memory(&a).unwrap();
+    assert_eq!((picture.width(), picture.height()), (161, 90));
+}
+
+#[test]
+fn render_needs_little_to_be_told_and_cannot_write_everywhere() {
+    let folder = folder();
+    let path = folder.path().join("a.png");
+    let (status, _, err) = run(&["render", AUREL, "-o", text_of(&path), "--size", "64x36", "--quality", "low"]);
+    assert!(status == 0, "{err}");
+    let (status, _, err) = run(&["render", AUREL, "-o", "no/such/folder/x.png", "--size", "16x9", "--quality", "low"]);
+    assert!(status == 1 && err.contains("there is no folder"), "{err}");
+}
+
+#[test]
+fn a_gpu_that_is_not_there_is_named() {
+    let output = tellus(&["render", AUREL, "-o", "never.png", "--size", "16x9"])
+        .env("WGPU_ADAPTER_NAME", "no such adapter")
+        .output()
+        .unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err.contains("error: no GPU is called like WGPU_ADAPTER_NAME=no such adapter"), "{err}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_tellus"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["check", AUREL, AUREL, AUREL])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
+}
+
+/// The camera dives under the sea, but not under its bed.
+#[test]
+fn altitude_goes_below_the_sea() {
+    let folder = folder();
+    let picture = folder.path().join("deep.png");
+    let shot = |lat: &str, lon: &str, altitude: &str| {
+        let place = ["--lat", lat, "--lon", lon, "--altitude", altitude, "--size", "32x20", "--quality", "low"];
+        run(&[&["render", AUREL, "-o", text_of(&picture)][..], &place].concat())
+    };
+    // In the deep sea, below its bed, and on land.
+    let (status, _, err) = shot("15", "45", "-30");
+    assert!(status == 0 && picture.exists(), "{err}");
+    let (status, _, err) = shot("15", "45", "-9000");
+    assert!(status == 1 && err.contains("m deep there; use -"), "{err}");
+    let (status, _, err) = shot("13", "-6", "-5");
+    assert!(status == 1 && err.contains("there is no sea there; use 0.1 or more"), "{err}");
+}

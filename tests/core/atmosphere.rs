@@ -1,0 +1,146 @@
+//! The physics of the air against figures that were measured by an independent path tracer, and against its own one.
+
+use proptest::prelude::*;
+use tellus::atmosphere::{Air, SkyRay, reference};
+use tellus::planet::param::{Domain, ValueMut};
+use tellus::planet::{Atmosphere, Biomes, Planet};
+
+fn earth() -> Planet {
+    Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap()
+}
+
+fn ray(altitude_m: f64, view_zenith: f64, sun_zenith: f64, azimuth: f64) -> SkyRay {
+    SkyRay {
+        altitude_m,
+        view_zenith_rad: view_zenith.to_radians(),
+        sun_zenith_rad: sun_zenith.to_radians(),
+        azimuth_rad: azimuth.to_radians(),
+    }
+}
+
+/// From 2000 km up, past the limb at a height of 15 km; the star stands over that point of the limb.
+fn limb() -> SkyRay {
+    let nadir = (6375.0_f64 / 8360.0).asin().to_degrees();
+    ray(2_000_000.0, 180.0 - nadir, 90.0 - nadir, 0.0)
+}
+
+#[test]
+fn transmittance_from_sea_level() {
+    let air = Air::try_new(&earth()).unwrap();
+    for (zenith, expected) in [
+        (0.0_f64, [0.94036, 0.86762, 0.76231]),
+        (60.0, [0.88478, 0.75386, 0.58228]),
+        (85.0, [0.54364, 0.24947, 0.06363]),
+        (90.0, [0.10643, 0.00958, 0.00005]),
+    ] {
+        // 90 degrees are measured at sea level itself.
+        let found = air.sun_transmittance(0.0, zenith.to_radians());
+        for (found, expected) in found.into_iter().zip(expected) {
+            let allowed = if zenith == 90.0 { 1e-4 } else { expected * 0.003 };
+            assert!((found - expected).abs() <= allowed, "{zenith} degrees: {found} instead of {expected}");
+        }
+    }
+}
+
+/// Ray, path-traced radiance, by how many percent Hillaire's method is known to differ.
+fn known() -> [(SkyRay, [f64; 3], [f64; 3]); 6] {
+    [
+        (ray(2.0, 0.0, 0.0, 0.0), [0.02607, 0.03381, 0.05534], [0.0, 0.0, 2.0]),
+        (ray(2.0, 0.0, 60.0, 0.0), [0.00459, 0.00992, 0.02376], [1.0, 1.0, 4.0]),
+        (ray(2.0, 80.0, 60.0, 180.0), [0.02705, 0.05174, 0.09077], [3.0, 6.0, 9.0]),
+        (ray(2.0, 88.0, 85.0, 90.0), [0.02777, 0.02651, 0.01852], [8.0, 11.0, 21.0]),
+        (ray(2_000_000.0, 180.0, 60.0, 0.0), [0.00464, 0.00984, 0.02401], [3.0, 3.0, 4.0]),
+        (limb(), [0.03468, 0.04510, 0.10970], [1.0, 1.0, 6.0]),
+    ]
+}
+
+#[test]
+fn radiance_is_as_near_to_path_tracing_as_the_method_allows() {
+    let air = Air::try_new(&earth()).unwrap();
+    for (ray, expected, percent) in known() {
+        let found = air.radiance(&ray);
+        for i in 0..3 {
+            let off = (found[i] / expected[i] - 1.0).abs() * 100.0;
+            assert!(off <= percent[i] + 1.0, "{ray:?}: {found:?} instead of {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn our_path_tracer_agrees_with_the_figures() {
+    let air = Air::try_new(&earth()).unwrap();
+    for (ray, expected, _) in known() {
+        let found = reference::radiance(&air, &ray, 60_000);
+        for i in 0..3 {
+            assert!((found[i] / expected[i] - 1.0).abs() < 0.02, "{ray:?}: {found:?} instead of {expected:?}");
+        }
+    }
+}
+
+/// A planet with air anywhere in the range of its sliders, their ends included.
+fn any_air() -> impl Strategy<Value = Planet> {
+    let places = proptest::collection::vec(prop_oneof![Just(0.0), Just(1.0), 0.0..=1.0], 64);
+    places.prop_map(|places| {
+        let mut planet = Planet { atmosphere: Some(Atmosphere::default()), ..Planet::default() };
+        let mut places = places.into_iter().cycle();
+        planet.each(&mut |_, param, value| {
+            let mut next = || places.next().unwrap_or_default();
+            match (value, param.domain) {
+                (ValueMut::Number(v), Domain::Number { min, max, logarithmic }) => {
+                    let x = next();
+                    let least = if min > 0.0 { min } else { max * 1e-6 };
+                    *v = if logarithmic && x > 0.0 { least * (max / least).powf(x) } else { min + x * (max - min) };
+                    *v = v.clamp(min, max);
+                }
+                (ValueMut::Triple(v), Domain::Triple { max }) => *v = [0; 3].map(|_| max * next().powi(4)),
+                (ValueMut::Triple(v), Domain::Color) => *v = [0; 3].map(|_| next()),
+                _ => {}
+            }
+        });
+        // The ends of its ranges contradict each other there, and air knows nothing of it.
+        planet.biomes = Biomes::default();
+        planet
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+    #[test]
+    fn air_never_returns_all_light(planet in any_air(), share in 0.0..=1.0_f64) {
+        let top_m = planet.atmosphere.as_ref().unwrap().height_km * 1e3;
+        let returned = Air::returned_share(&planet, share * top_m);
+        prop_assert!(returned.iter().all(|f| (0.0..1.0).contains(f)), "{returned:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn radiance_is_finite_for_all_air(planet in any_air(), rays in proptest::collection::vec(
+        (0.0..7.0_f64, 0.0..=180.0_f64, 0.0..=180.0_f64, 0.0..=180.0_f64), 30))
+    {
+        let air = Air::try_new(&planet).unwrap();
+        for (log_altitude, view, sun, azimuth) in rays {
+            let ray = ray(10_f64.powf(log_altitude), view, sun, azimuth);
+            let (radiance, through) = (air.radiance(&ray), air.sun_transmittance(ray.altitude_m, ray.sun_zenith_rad));
+            prop_assert!(radiance.iter().all(|x| (0.0..1e6).contains(x)), "{ray:?}: {radiance:?}");
+            prop_assert!(through.iter().all(|x| (0.0..=1.0).contains(x)), "{ray:?}: {through:?}");
+        }
+    }
+}
+
+#[test]
+fn the_ground_ends_a_ray_that_begins_on_it() {
+    let air = Air::try_new(&earth()).unwrap();
+    assert_eq!(air.radiance(&ray(0.0, 120.0, 30.0, 0.0)), [0.0; 3]);
+    let [zero, two] = [0.0, 2.0].map(|altitude_m| air.radiance(&ray(altitude_m, 60.0, 30.0, 0.0)));
+    assert!(zero.iter().zip(two).all(|(a, b)| (a / b - 1.0).abs() < 1e-3), "{zero:?} {two:?}");
+}
+
+#[test]
+fn a_planet_without_air_has_a_black_sky_and_clear_sunlight() {
+    let air = Air::try_new(&Planet::default()).unwrap();
+    assert_eq!(air.radiance(&ray(2.0, 30.0, 40.0, 10.0)), [0.0; 3]);
+    assert_eq!(air.sun_transmittance(2.0, 1.0), [1.0; 3]);
+    assert_eq!(air.sun_transmittance(2.0, 1.7), [0.0; 3]);
+}

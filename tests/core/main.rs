@@ -1,0 +1,25 @@
+//! Tests of the core: presets, evaluator, level of detail, tiles. They need neither the GPU nor the user interface.
+//!
+//! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
+//! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
+//! - `lod`, `rebuild`: level of detail and incremental rebuilds
+//! - `atmosphere`: the CPU reference of the air
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+mod atmosphere;
+mod heightmap;
+mod joining;
+mod landforms;
+mod lod;
+mod nonsense;
+mod preset;
+mod rebuild;
+mod relief;
+mod sphere;
+mod terrain;
+
+#[path = "../support"]
+mod support {
+    pub mod dice;
+    pub mod edits;
+}

@@ -1,0 +1,25 @@
+//! Tests of the renderer, on whichever adapter wgpu's environment variables choose. A test without an adapter fails.
+//!
+//! - `shaders`: every WGSL file through naga
+//! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
+//! - `biomes`, `colours`, `materials`: the ground's colours
+//! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures
+//! - `planets`: the shipped presets, against goldens
+//! - `render`: passes, stages and errors of the renderer
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, missing_docs)]
+
+mod air;
+mod biomes;
+mod colours;
+mod edges;
+mod lod_pictures;
+mod materials;
+mod planets;
+mod render;
+mod shaders;
+mod shadows;
+mod shimmer;
+mod sky;
+
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,197 @@
+//! Biomes as materials, drawn: colour from near and far, and the biome of a query against the one in the picture.
+
+use crate::support::{Gpu, SIZE_PX, camera, frame, surface};
+use std::sync::Arc;
+use tellus::planet::{Biome, Biomes, Detail, Planet, Steep, Table};
+use tellus::render::{DebugView, Frame};
+
+const PLACE: (f64, f64) = (37.0, 20.0);
+
+/// A bare ball of one biome.
+fn ball(biome: Biome) -> Planet {
+    let table = Table::uniform(biome.key, 2, 2);
+    Planet {
+        biomes: Biomes { palette: vec![biome], table, ..Biomes::default() },
+        water: None,
+        atmosphere: None,
+        clouds: None,
+        ..Planet::default()
+    }
+}
+
+fn grey(albedo: f64) -> Biome {
+    Biome { color: [albedo; 3], variation: 0.0, specular: 0.0, ..Biome::default() }
+}
+
+/// The middle of the picture, straight down from `altitude_m`.
+fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<[u8; 3]> {
+    let planet = Arc::new(planet.clone());
+    let camera = camera(&planet, PLACE.0, PLACE.1, altitude_m, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let picture = gpu.draw(&frame(&surface, &planet, camera, (PLACE.0, sun_lon)));
+    let [width, height] = SIZE_PX.map(|side| side as usize);
+    let pixel = |x: usize, y: usize| std::array::from_fn(|c| picture[(y * width + x) * 4 + c]);
+    (height / 4..height * 3 / 4).flat_map(|y| (width / 4..width * 3 / 4).map(move |x| pixel(x, y))).collect()
+}
+
+/// The albedo of level grey ground that is shown as each byte, from orbit.
+fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
+    let mut known: Vec<(f64, f64)> = vec![(0.0, 0.0)];
+    for step in 1..=24 {
+        let albedo = (f64::from(step) / 24.0).powi(2);
+        let pixels = middle(gpu, &ball(grey(albedo)), 2e4, sun_lon);
+        let byte = pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / pixels.len() as f64;
+        known.push((byte, albedo));
+    }
+    (0..256)
+        .map(|byte| {
+            let byte = f64::from(byte);
+            let above = known.iter().position(|(b, _)| *b >= byte).unwrap_or(known.len() - 1).max(1);
+            let ((b0, a0), (b1, a1)) = (known[above - 1], known[above]);
+            a0 + (a1 - a0) * (byte - b0) / (b1 - b0).max(1e-9)
+        })
+        .collect()
+}
+
+/// Colour from orbit equals colour on the ground within 3%, for each pattern, under a high sun and under lower ones from either side:
+/// the ground before one's feet may lie on the slope of a bump.
+#[test]
+fn every_pattern_is_as_bright_from_orbit_as_from_near() {
+    let mut gpu = Gpu::new();
+    let mut problems = Vec::new();
+    let planets = Detail::ALL.iter().filter(|kind| **kind != Detail::None);
+    let planets: Vec<_> =
+        planets.map(|kind| (*kind, ball(Biome { detail: *kind, detail_m: 1.0, ..grey(0.25) }))).collect();
+    for suns in [vec![PLACE.1], vec![PLACE.1 + 50.0, PLACE.1 - 50.0]] {
+        let mut sums = vec![[0.0; 2]; planets.len()];
+        for sun_lon in &suns {
+            let albedo = albedo_by_byte(&mut gpu, *sun_lon);
+            let mut mean = |planet: &Planet, altitude_m: f64| {
+                let pixels = middle(&mut gpu, planet, altitude_m, *sun_lon);
+                pixels.iter().map(|p| p.iter().map(|&byte| albedo[usize::from(byte)]).sum::<f64>() / 3.0).sum::<f64>()
+                    / pixels.len() as f64
+            };
+            for ((_, planet), sum) in planets.iter().zip(&mut sums) {
+                sum[0] += mean(planet, 6.0) / suns.len() as f64;
+                sum[1] += mean(planet, 2e4) / suns.len() as f64;
+            }
+        }
+        for ((kind, _), [near, far]) in planets.iter().zip(sums) {
+            println!("{kind:?}: {near:.4} from near, {far:.4} from orbit, suns {suns:?}");
+            if (far / 0.25 - 1.0).abs() > 0.03 || (near / far - 1.0).abs() > 0.03 {
+                problems.push(format!("{kind:?}: {near} from near, {far} from orbit, suns {suns:?}"));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{problems:#?}");
+}
+
+/// A pattern shows from near: pixels differ, and do not from orbit.
+#[test]
+fn patterns_show_from_near_and_fade_away() {
+    let mut gpu = Gpu::new();
+    let planet = ball(Biome { detail: Detail::Gravel, ..grey(0.25) });
+    let mut spread = |altitude_m: f64| {
+        let pixels = middle(&mut gpu, &planet, altitude_m, PLACE.1 + 30.0);
+        let mean = pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / pixels.len() as f64;
+        (pixels.iter().map(|p| (f64::from(p[1]) - mean).powi(2)).sum::<f64>() / pixels.len() as f64).sqrt()
+    };
+    let (near, far) = (spread(3.0), spread(2e4));
+    assert!(near > 12.0 && far < 5.5, "{near} {far}");
+}
+
+/// Lava glows at night, and what glows moves with the time where it flows.
+#[test]
+fn lava_glows_and_flows() {
+    let mut gpu = Gpu::new();
+    let lava = Biome { detail: Detail::Lava, glow: 3.0, flow_m_s: 0.2, ..grey(0.05) };
+    let planet = Arc::new(ball(lava.clone()));
+    let camera = camera(&planet, PLACE.0, PLACE.1, 4.0, 0.0, -60.0);
+    let surface = surface(&planet, &camera);
+    let night = (-PLACE.0, PLACE.1 + 180.0);
+    let mut draw =
+        |planet: &Planet, time_secs: f64| gpu.draw(&Frame { time_secs, ..frame(&surface, planet, camera, night) });
+    let first = draw(&planet, 0.0);
+    let red = first.chunks(4).filter(|p| p[0] > 60 && p[0] > p[2]).count();
+    assert!(red > 500, "{red} pixels glow");
+    assert_ne!(first, draw(&planet, 3.0), "it flows");
+    let cold = ball(Biome { glow: 0.0, ..lava.clone() });
+    assert!(draw(&cold, 0.0).chunks(4).all(|p| p[0] < 4), "without glow the night is dark");
+    let still = ball(Biome { flow_m_s: 0.0, ..lava });
+    assert_eq!(draw(&still, 0.0), draw(&still, 3.0), "without flow it stands");
+}
+
+/// The biome of a query is the one that the debug view shows there, rules for steep ground, beaches and snow included; near the
+/// borders a pixel's width decides.
+#[test]
+fn the_biome_of_a_query_is_the_one_in_the_picture() {
+    let mut planet = crate::support::earth();
+    planet.clouds = None;
+    let colors = [[0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9], [0.9, 0.9, 0.1], [0.1, 0.9, 0.9]];
+    for (biome, color) in planet.biomes.palette.iter_mut().zip(colors) {
+        biome.color = color;
+        biome.steep = Steep::Biome;
+        biome.steep_key = 't';
+        (biome.steep_from_deg, biome.steep_to_deg) = (14.0, 22.0);
+    }
+    (planet.biomes.beach_m, planet.biomes.beach_key) = (40.0, 's');
+    (planet.biomes.snow, planet.biomes.snow_key, planet.biomes.snow_below_c) = (true, 'w', 6.0);
+    let planet = Arc::new(planet);
+    let mut gpu = Gpu::new();
+    let (mut right, mut points, mut seen) = (0, 0, std::collections::BTreeSet::new());
+    let key_of = |color: [u8; 3]| {
+        let distance = |c: &[f64; 3]| -> f64 {
+            let shown = color.map(|byte| f64::from(byte) / 255.0);
+            // Only which channels are high matters: the tone curve is monotonous.
+            c.iter().zip(shown).map(|(c, s)| if (*c > 0.5) == (s > 0.5) { 0.0 } else { 1.0 }).sum()
+        };
+        colors.iter().position(|c| distance(c) == 0.0)
+    };
+    for (lat, lon) in (0..24).map(|i| (-62.0 + 5.3 * f64::from(i), 37.0 * f64::from(i))) {
+        let camera = camera(&planet, lat, lon, 2500.0, 0.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let mut frame = frame(&surface, &planet, camera, (lat, lon));
+        frame.debug_view = DebugView::Biome;
+        let picture = gpu.draw(&frame);
+        let at = |x: usize, y: usize| -> [u8; 3] { std::array::from_fn(|c| picture[(y * 320 + x) * 4 + c]) };
+        for (x, y) in (8..180).step_by(16).flat_map(|y| (8..320).step_by(16).map(move |x| (x, y))) {
+            let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
+            let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), frame.view.aspect());
+            let Some(away_m) = surface.terrain.raycast(camera.position_planet_m, dir) else { continue };
+            let sample = surface.terrain.sample(camera.position_planet_m + dir * away_m);
+            if planet.sea_level_m().is_some_and(|sea_m| sample.height_m < sea_m) {
+                continue;
+            }
+            points += 1;
+            seen.insert(sample.biome);
+            let around = [(0, 0), (1, 0), (0, 1), (2, 1), (1, 2), (2, 2), (0, 2), (2, 0), (1, 1)];
+            let shown = around.iter().any(|(dx, dy)| key_of(at(x + dx - 1, y + dy - 1)) == Some(sample.biome));
+            right += u32::from(shown);
+        }
+    }
+    assert!(points > 1500 && seen.len() >= 4, "{points} points of the biomes {seen:?}");
+    assert!(f64::from(right) >= 0.99 * f64::from(points), "{right} of {points} agree");
+}
+
+/// Milliseconds of a frame from 2 m with and without patterns; to be read, not to be passed.
+#[test]
+#[ignore = "a report: what patterns cost"]
+fn report_what_patterns_cost() {
+    let mut gpu = Gpu::new();
+    for (name, kind) in [("none", Detail::None), ("gravel", Detail::Gravel)] {
+        let planet = Arc::new(ball(Biome { detail: kind, ..grey(0.25) }));
+        let camera = camera(&planet, PLACE.0, PLACE.1, 2.0, 0.0, -10.0);
+        let surface = surface(&planet, &camera);
+        for quality in tellus::lod::Quality::ALL {
+            let mut frame = frame(&surface, &planet, camera, PLACE);
+            frame.view.quality = quality;
+            gpu.draw_only(&frame, 2);
+            let best = (0..8).map(|_| {
+                let begun = std::time::Instant::now();
+                gpu.draw_only(&frame, 1);
+                begun.elapsed().as_secs_f64() * 1e3
+            });
+            println!("{name}, {quality:?}: {:.1} ms", best.fold(f64::MAX, f64::min));
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The planets that ship with the program, drawn as a person would see them: no holes, the same twice, and as they
+//! looked when somebody last looked (goldens, blessed on Mesa's software driver with `TELLUS_BLESS=1`).
+
+use crate::support::{Gpu, camera_over, frame_of, inside_disc, lights, surface_of};
+use glam::DVec3;
+use image::RgbImage;
+use std::path::PathBuf;
+use std::sync::Arc;
+use tellus::lod::opening::{default_pitch_deg, opening_place, opening_view};
+use tellus::lod::{Quality, View};
+use tellus::planet::{Planet, shipped};
+use tellus::render::{DebugView, Metering};
+use tellus::sphere::LatLon;
+use tellus::terrain::Terrain;
+
+const SIZE_PX: [u32; 2] = [192, 108];
+
+fn planets() -> Vec<(&'static str, Arc<Planet>)> {
+    shipped::ALL.iter().map(|preset| (preset.file, Arc::new(preset.load().unwrap()))).collect()
+}
+
+/// Over the planet's opening place, at a height over ground or sea.
+fn view(planet: &Arc<Planet>, altitude_m: f64) -> View {
+    let (terrain, place) = (Terrain::try_new(planet.clone()).unwrap(), opening_place(planet));
+    let pitch_rad = default_pitch_deg(planet, altitude_m).to_radians();
+    let camera = camera_over(&terrain, place, altitude_m, [0.8, pitch_rad]);
+    View { camera, size_px: SIZE_PX, quality: Quality::Low }
+}
+
+/// Where the star stands at noon over the opening place, and where it sets there.
+fn noon_and_sunset(planet: &Planet) -> [LatLon; 2] {
+    let place = opening_place(planet);
+    let west = |rad: f64| LatLon { lon_rad: place.lon_rad - rad, ..place };
+    [west(0.2), LatLon { lat_rad: 0.0, ..west(1.5) }]
+}
+
+#[test]
+fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice() {
+    let mut gpu = Gpu::new();
+    for (file, planet) in planets() {
+        for altitude_m in [1.9 * planet.radius_m(), 10_000.0, 100.0] {
+            let view = view(&planet, altitude_m);
+            let surface = surface_of(&planet, &view);
+            let lowest_m = surface.leaves.iter().map(|leaf| leaf.tile.min_height_m).fold(f64::MAX, f64::min);
+
+            let mut coverage = frame_of(&surface, &planet, view, DVec3::X);
+            coverage.debug_view = DebugView::Coverage;
+            let white = lights(&gpu.draw(&coverage));
+            // A coarse tile's chord lies below the sphere by up to spacing^2 / 8 R.
+            let inside = inside_disc(&coverage, lowest_m.min(0.0) - 0.003 * planet.radius_m());
+            let holes = white.iter().zip(&inside).filter(|(light, inside)| **inside && **light != 765).count();
+            assert_eq!(holes, 0, "{file} from {altitude_m} m");
+
+            for sun in noon_and_sunset(&planet) {
+                let frame = frame_of(&surface, &planet, view, sun.direction());
+                let picture = gpu.draw(&frame);
+                assert!(lights(&picture).iter().any(|&light| light > 100), "{file} from {altitude_m} m is dark");
+                // Where there is air no place that the star stands over is black; a value that
+                // is not a number would be.
+                let noon = sun == noon_and_sunset(&planet)[0] && planet.atmosphere.is_some();
+                let black =
+                    lights(&picture).iter().zip(&inside).filter(|(light, inside)| **inside && **light == 0).count();
+                assert!(!noon || black == 0, "{file} from {altitude_m} m has {black} black pixels at noon");
+                assert!(picture == gpu.draw(&frame), "{file} from {altitude_m} m");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_planet_looks_as_it_did() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/goldens");
+    let mut gpu = Gpu::new();
+    let mut problems = Vec::new();
+    for (file, planet) in planets() {
+        let near = View { quality: Quality::Medium, ..view(&planet, 10_000.0) };
+        for (name, view) in [("orbit", opening_view(&planet, SIZE_PX, Quality::Medium)), ("low", near)] {
+            let surface = surface_of(&planet, &view);
+            let star = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg);
+            let drawn = gpu.draw(&frame_of(&surface, &planet, view, star.direction()));
+            let rgb: Vec<u8> = drawn.chunks(4).flat_map(|p| p[..3].to_vec()).collect();
+            let path = folder.join(format!("{}_{name}.png", file.trim_end_matches(".ron")));
+            if std::env::var_os("TELLUS_BLESS").is_some() {
+                std::fs::create_dir_all(&folder).unwrap();
+                RgbImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgb).unwrap().save(&path).unwrap();
+                continue;
+            }
+            let golden = image::open(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())).to_rgb8();
+            assert_eq!([golden.width(), golden.height()], SIZE_PX);
+            let mean =
+                rgb.iter().zip(golden.as_raw()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / rgb.len() as f64;
+            if mean > 1.5 {
+                let seen = std::env::temp_dir().join(path.file_name().unwrap());
+                RgbImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgb).unwrap().save(&seen).unwrap();
+                problems.push(format!(
+                    "{}: differs by {mean:.2} of 255 in the mean; see {}",
+                    path.display(),
+                    seen.display()
+                ));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "on {}:\n{}", gpu.adapter, problems.join("\n"));
+}
+
+/// Sunlit clouds and snow are white, and the open sea is dark, as the editor opens these planets.
+#[test]
+fn white_is_white_and_the_open_sea_is_dark() {
+    let mut gpu = Gpu::new();
+    gpu.renderer.metering = Metering::Instant;
+    // Least of the brightest pixels, and most of the sea's.
+    let bars: [(&str, u8, [u8; 3]); 3] =
+        [("aurel.ron", 235, [28, 48, 84]), ("maren.ron", 235, [32, 60, 106]), ("hoarfrost.ron", 225, [30, 50, 90])];
+    for (file, whitest, darkest) in bars {
+        let planet = Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap());
+        let view = opening_view(&planet, [320, 240], Quality::Medium);
+        let surface = surface_of(&planet, &view);
+        let star = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg);
+        let frame = frame_of(&surface, &planet, view, star.direction());
+        let drawn = gpu.draw(&frame);
+        let disc = inside_disc(&frame, -0.1 * planet.radius_m());
+        let mut pixels: Vec<[u8; 3]> =
+            drawn.chunks(4).zip(disc).filter(|(_, inside)| *inside).map(|(p, _)| [p[0], p[1], p[2]]).collect();
+        pixels.sort_by_key(|p| p.iter().map(|c| u32::from(*c)).sum::<u32>());
+        let white = pixels[pixels.len() * 985 / 1000];
+        assert!(white.iter().all(|c| *c >= whitest), "{file}: the brightest pixels are {white:?}");
+        let spread = white.iter().max().unwrap() - white.iter().min().unwrap();
+        assert!(spread <= 10, "{file}: white has a tint: {white:?}");
+        // Blue, and not the twilight at the terminator.
+        let sea: Vec<_> = pixels.iter().filter(|p| u32::from(p[2]) > 2 * u32::from(p[0]) && p[2] > 40).collect();
+        let sea = sea[sea.len() / 2];
+        assert!(sea.iter().zip(darkest).all(|(c, most)| *c <= most), "{file}: the sea is {sea:?}");
+    }
+}
+
+/// Directions spread evenly over the sphere.
+fn spread(count: usize) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |i| {
+        let z = 1.0 - 2.0 * (i as f64 + 0.5) / count as f64;
+        let (y, x) = (i as f64 * 2.399_963).sin_cos();
+        let flat = (1.0 - z * z).sqrt();
+        DVec3::new(x * flat, y * flat, z)
+    })
+}
+
+fn shipped_terrain(file: &str) -> Terrain {
+    Terrain::try_new(Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap())).unwrap()
+}
+
+/// What single layers add there, metres.
+fn layer_m(terrain: &Terrain, dir: DVec3, name: &str) -> f64 {
+    let at = terrain.planet().layers.iter().position(|layer| layer.name == name).unwrap();
+    terrain.sample(dir).layers_m[at]
+}
+
+/// Cinnabar's black sand lies in dry basins, not in rings round volcanoes; Pallor's dark basalt fills its maria, not its craters.
+#[test]
+fn dark_ground_lies_where_the_land_says_so() {
+    let terrain = shipped_terrain("cinnabar.ron");
+    let black = terrain.planet().biomes.palette.iter().position(|biome| biome.name == "Black sand").unwrap();
+    let on_volcanoes = spread(6000)
+        .filter(|dir| layer_m(&terrain, *dir, "Shield volcanoes") > 1500.0)
+        .filter(|dir| terrain.sample(*dir).biome == black)
+        .count();
+    assert!(on_volcanoes <= 3, "{on_volcanoes}");
+    let terrain = shipped_terrain("pallor.ron");
+    let basalt = terrain.planet().biomes.palette.iter().position(|biome| biome.name == "Dark basalt").unwrap();
+    let floors: Vec<DVec3> = spread(6000)
+        .filter(|dir| layer_m(&terrain, *dir, "Great craters") < -1200.0 && layer_m(&terrain, *dir, "Maria") > -300.0)
+        .collect();
+    let dark = floors.iter().filter(|dir| terrain.sample(**dir).biome == basalt).count();
+    assert!(floors.len() > 50 && dark * 8 < floors.len(), "{dark} of {}", floors.len());
+}
+
+/// In their own belts dunes are as high as dunes are.
+#[test]
+fn dunes_stand_in_their_belts() {
+    for (file, least_m) in [("aurel.ron", 75.0), ("cinnabar.ron", 110.0)] {
+        let terrain = shipped_terrain(file);
+        // The tallest stretches of 2 km among many.
+        let mut rises: Vec<f64> = spread(1500)
+            .map(|dir| {
+                let east = DVec3::Z.cross(dir).normalize_or(DVec3::X);
+                let step = 100.0 / terrain.planet().radius_m();
+                let heights: Vec<f64> =
+                    (0..20).map(|i| layer_m(&terrain, dir + east * step * f64::from(i), "Dunes")).collect();
+                let most = heights.iter().copied().fold(f64::MIN, f64::max);
+                most - heights.iter().copied().fold(f64::MAX, f64::min)
+            })
+            .collect();
+        rises.sort_by(f64::total_cmp);
+        let tall = rises[rises.len() - 4];
+        assert!(tall > least_m, "{file}: {tall} m");
+    }
+}

@@ -1,0 +1,383 @@
+//! The renderer on a real (software) adapter.
+
+use crate::support::edits::{every_edit, full_planet};
+use crate::support::{Gpu, camera, earth, frame, inside_disc, lights, surface};
+use std::sync::Arc;
+use tellus::lod::{Quality, View};
+use tellus::planet::param::Stage;
+use tellus::planet::{Clouds, Fbm, Layer, Planet, Shape};
+use tellus::render::{DebugView, Frame, Metering, RenderError};
+
+/// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
+const POSES: [(f64, f64, f64); 8] = [
+    (13e6, -90.0, 0.0),
+    (13e6, -90.0, -80.0),
+    (400e3, -18.0, 0.0),
+    (400e3, -18.0, -100.0),
+    (10e3, -12.0, 10.0),
+    (100.0, 0.0, -78.0),
+    (2.0, 2.0, 0.0),
+    (2.0, 90.0, 10.0),
+];
+
+#[test]
+fn every_pose_is_lit_and_drawn_twice_the_same() {
+    let planet = Arc::new(earth());
+    let mut gpu = Gpu::new();
+    for quality in Quality::ALL {
+        for (altitude_m, pitch, sun_lon) in POSES {
+            let camera = camera(&planet, 10.0, 10.0, altitude_m, 40.0, pitch);
+            let surface = surface(&planet, &camera);
+            let mut frame = frame(&surface, &planet, camera, (12.0, sun_lon));
+            frame.view.quality = quality;
+            let picture = gpu.draw(&frame);
+            assert_eq!(picture, gpu.draw(&frame), "{altitude_m} m, {quality:?}");
+            // A pixel that is not a number comes out black, and so would every one that it is averaged with.
+            let day = sun_lon.abs() < 20.0;
+            let disc = inside_disc(&frame, 0.0);
+            let black = lights(&picture).iter().zip(&disc).filter(|(light, inside)| **inside && **light < 12).count();
+            assert!(!day || black == 0, "{black} black pixels from {altitude_m} m, {quality:?}");
+        }
+    }
+}
+
+/// Beyond the picture there is nothing to draw: a target of another size gets no streaks but an error, and stays as it was.
+#[test]
+fn a_target_of_another_size_is_refused() {
+    let planet = Arc::new(earth());
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 10.0, 10.0, 13e6, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (12.0, 0.0));
+    let [width, height] = frame.view.size_px;
+    for target_px in [[width * 2, height * 2], [width + 1, height], [width, height - 1]] {
+        match gpu.draw_into(&frame, target_px) {
+            Err(RenderError::TargetSize { target_px: target, view_px: view }) => {
+                assert_eq!((target, view), (target_px, frame.view.size_px));
+            }
+            other => panic!("{target_px:?}: {other:?}"),
+        }
+    }
+    gpu.draw_into(&frame, [width, height]).expect("the right size");
+}
+
+#[test]
+fn the_surface_has_no_holes() {
+    let planet = Arc::new(earth());
+    let mut gpu = Gpu::new();
+    for (altitude_m, pitch, _) in POSES {
+        let camera = camera(&planet, 40.0, 44.0, altitude_m, 40.0, pitch);
+        let surface = surface(&planet, &camera);
+        let mut frame = frame(&surface, &planet, camera, (12.0, 0.0));
+        frame.debug_view = DebugView::Coverage;
+        let picture = gpu.draw(&frame);
+        let holes = lights(&picture)
+            .iter()
+            .zip(inside_disc(&frame, -8000.0))
+            .filter(|(light, inside)| *inside && **light != 765)
+            .count();
+        assert_eq!(holes, 0, "from {altitude_m} m");
+        assert!(lights(&picture).iter().all(|&light| light == 0 || light == 765));
+    }
+}
+
+#[test]
+fn clouds_that_cover_nothing_are_no_clouds() {
+    let bare = Arc::new(Planet { clouds: None, ..earth() });
+    let clear = Planet { clouds: Some(Clouds { coverage: 0.0, ..Clouds::default() }), ..earth() };
+    let mut gpu = Gpu::new();
+    for (altitude_m, pitch, sun_lon) in POSES {
+        let camera = camera(&bare, 10.0, 10.0, altitude_m, 40.0, pitch);
+        let surface = surface(&bare, &camera);
+        let without = gpu.draw(&frame(&surface, &bare, camera, (12.0, sun_lon)));
+        let with = gpu.draw(&frame(&surface, &clear, camera, (12.0, sun_lon)));
+        assert_eq!(without, with, "from {altitude_m} m");
+    }
+}
+
+#[test]
+fn closed_clouds_hide_the_ground_from_above_beneath_and_within() {
+    let clouds = Clouds { coverage: 1.0, density: 20.0, ..Clouds::default() };
+    let dark = Planet { clouds: Some(clouds), ..earth() };
+    let mut gpu = Gpu::new();
+    // Only what is behind the clouds differs: the stars' brightness through them cannot show, nor can the ground.
+    for (altitude_m, pitch) in [(2000e3, -90.0), (10e3, -60.0), (4e3, 0.0)] {
+        let camera = camera(&dark, 10.0, 10.0, altitude_m, 40.0, pitch);
+        let bright = Planet { water: None, ..dark.clone() };
+        let planet = Arc::new(dark.clone());
+        let surface = surface(&planet, &camera);
+        let one = lights(&gpu.draw(&frame(&surface, &planet, camera, (12.0, 10.0))));
+        let other = lights(&gpu.draw(&frame(&surface, &bright, camera, (12.0, 10.0))));
+        let disc = inside_disc(&frame(&surface, &planet, camera, (12.0, 10.0)), 0.0);
+        let most = one.iter().zip(&other).zip(disc).filter(|(_, inside)| *inside);
+        let most = most.map(|((a, b), _)| a.abs_diff(*b)).max().unwrap_or(0);
+        assert!(most <= 12, "the ground shows through by {most} from {altitude_m} m");
+    }
+}
+
+#[test]
+fn the_night_side_of_a_moon_is_black() {
+    let moon = Arc::new(Planet { water: None, atmosphere: None, clouds: None, ..earth() });
+    let mut gpu = Gpu::new();
+    // Or a star beside the limb would be part of it.
+    gpu.renderer.smooth_edges = false;
+    let camera = camera(&moon, 0.0, 0.0, 13e6, 0.0, -90.0);
+    let surface = surface(&moon, &camera);
+    let night = frame(&surface, &moon, camera, (0.0, 180.0));
+    let disc = inside_disc(&night, -5000.0);
+    let brightest = lights(&gpu.draw(&night)).into_iter().zip(&disc).filter(|(_, i)| **i).map(|(l, _)| l).max();
+    assert_eq!(brightest, Some(0));
+    let day = lights(&gpu.draw(&frame(&surface, &moon, camera, (0.0, 0.0))));
+    let center = day[90 * 320 + 160];
+    assert!(center > 60, "{center}");
+}
+
+#[test]
+fn the_sea_lies_where_the_ground_is_below_its_level() {
+    // Neither clouds nor ice, and nothing that blue air could be taken for.
+    let mut planet = Planet { clouds: None, atmosphere: None, ..earth() };
+    planet.climate.pole_c = 20.0;
+    let planet = Arc::new(planet);
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 0.0, 0.0, 13e6, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (20.0, 0.0));
+    let picture = gpu.draw(&frame);
+    let (mut seas, mut lands) = (0, 0);
+    for (x, y) in (50..130).step_by(4).flat_map(|y| (120..200).step_by(4).map(move |x| (x, y))) {
+        let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
+        let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), frame.view.aspect());
+        let Some(away_m) = surface.terrain.raycast(camera.position_planet_m, dir) else { continue };
+        let height_m = surface.terrain.height_m(camera.position_planet_m + dir * away_m);
+        let [red, _, blue] = [0, 1, 2].map(|c| picture[(y * 320 + x) * 4 + c]);
+        // Shallows show the sand, and a coast may lie within the pixel.
+        if height_m < -400.0 {
+            seas += 1;
+            assert!(blue > red, "{height_m} m at {x} {y}: {red} {blue}");
+        } else if height_m > 900.0 {
+            lands += 1;
+            assert!(red > blue, "{height_m} m at {x} {y}: {red} {blue}");
+        }
+    }
+    assert!(seas > 20 && lands > 20, "{seas} {lands}");
+}
+
+#[test]
+fn exposure_lights_dusk_and_lets_night_be_read() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 0.0, 0.0, 200.0, 90.0, -8.0);
+    let surface = surface(&planet, &camera);
+    let mut mean = |sun_lon: f64, metering: Metering| {
+        gpu.renderer.metering = metering;
+        let light = lights(&gpu.draw(&frame(&surface, &planet, camera, (0.0, sun_lon))));
+        f64::from(light.iter().sum::<u32>()) / light.len() as f64 / 3.0
+    };
+    let [noon, sunset, dusk, night] = [0.0, 91.0, 96.0, 150.0].map(|lon| mean(lon, Metering::Instant));
+    assert!(noon > 60.0 && sunset > 40.0 && dusk > 12.0, "{noon} {sunset} {dusk}");
+    assert!(noon > dusk && dusk > 1.5 * night && (8.0..40.0).contains(&night), "{noon} {dusk} {night}");
+    assert!(mean(91.0, Metering::Manual) < sunset && mean(96.0, Metering::Manual) < dusk);
+    // Bit by bit, from noon to where it settles at sunset.
+    mean(0.0, Metering::Instant);
+    let steps = [0.1; 60].map(|secs| mean(91.0, Metering::Adapting { secs }));
+    assert!(steps[0] < steps[3] && (steps[59] - sunset).abs() < 1.0, "{steps:?} {sunset}");
+}
+
+/// With air and without: ridges stand out against the sky, and the ground is not black.
+#[test]
+fn at_night_the_ground_is_lit_by_the_sky() {
+    let layer = Layer {
+        amplitude_m: 3000.0,
+        shape: Shape::Fbm(Fbm { wavelength_km: 20.0, ..Fbm::default() }),
+        ..Layer::default()
+    };
+    let mut aired = Planet { water: None, clouds: None, layers: vec![layer], ..earth() };
+    aired.biomes.palette.iter_mut().for_each(|biome| biome.color = [0.15; 3]);
+    let airless = Planet { atmosphere: None, ..aired.clone() };
+    let mut gpu = Gpu::new();
+    for planet in [aired, airless].map(Arc::new) {
+        let camera = camera(&planet, 0.0, 0.0, 500.0, 90.0, 0.0);
+        let surface = surface(&planet, &camera);
+        let night = frame(&surface, &planet, camera, (0.0, 150.0));
+        let is_ground: Vec<bool> = {
+            let seen =
+                gpu.draw(&Frame { debug_view: DebugView::Coverage, ..frame(&surface, &planet, camera, (0.0, 0.0)) });
+            lights(&seen).iter().map(|light| *light > 0).collect()
+        };
+        gpu.renderer.metering = Metering::Instant;
+        let light = lights(&gpu.draw(&night));
+        let median = |of: bool| {
+            let mut all: Vec<u32> =
+                light.iter().zip(&is_ground).filter(|(_, ground)| **ground == of).map(|(l, _)| l / 3).collect();
+            all.sort_unstable();
+            all[all.len() / 2]
+        };
+        let (ground, sky) = (median(true), median(false));
+        assert!((6..60).contains(&ground) && sky > ground + ground / 4 && sky < 90, "ground {ground}, sky {sky}");
+        // A star beside a ridge would be part of it.
+        (gpu.renderer.metering, gpu.renderer.smooth_edges) = (Metering::Manual, false);
+        let by_day = lights(&gpu.draw(&night));
+        gpu.renderer.smooth_edges = true;
+        let most = by_day.iter().zip(&is_ground).filter(|(_, ground)| **ground).map(|(l, _)| *l).max().unwrap_or(0);
+        assert!(most < 12, "exposed for the day the night is black, not {most}");
+    }
+}
+
+#[test]
+fn each_parameter_makes_the_tables_it_declares_and_no_others() {
+    let planet = Arc::new(full_planet());
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 10.0, 10.0, 3e6, 40.0, -90.0);
+    // Tables follow the planet, not the tiles: one surface does for all, in a picture as small as may be.
+    let surface = surface(&planet, &camera);
+    let view = View { camera, size_px: [32, 18], quality: Quality::Low };
+    let mut draw = |planet: &Planet| {
+        // Clouds that have drifted for a while, and the planet turned: the wind and the length of the day show.
+        let sun = planet.star.place(1000.0).to_degrees();
+        let before = gpu.renderer.table_runs();
+        gpu.draw_only(&Frame { time_secs: 1000.0, view, ..frame(&surface, planet, camera, sun) }, 1);
+        let after = gpu.renderer.table_runs();
+        [
+            after.uniforms - before.uniforms,
+            after.biomes - before.biomes,
+            after.weather - before.weather,
+            after.air - before.air,
+        ]
+    };
+    draw(&planet);
+    for edit in every_edit(&planet) {
+        let stages = [Stage::Uniform, Stage::Material, Stage::CloudMap, Stage::AirTables];
+        let mut declared = stages.map(|stage| u64::from(edit.declared.contains(stage)));
+        // A biome's key that changes in the table and in all rules as well changes nothing that is drawn.
+        if edit.path.ends_with("].key") {
+            declared[1] = 0;
+        }
+        let drawn = draw(&edit.planet);
+        // With new tiles anything may come that the uniforms take from them.
+        if edit.declared.touches_tiles() && declared[0] == 0 {
+            declared[0] = drawn[0];
+        }
+        assert_eq!(drawn, declared, "uniforms, biomes, weather, air: {}", edit.path);
+        draw(&planet);
+    }
+}
+
+#[test]
+fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
+    let planet = Arc::new(earth());
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let tile_bytes = (surface.leaves[0].tile.vertices.len() * size_of::<tellus::lod::Vertex>()) as u64;
+    let (mut done, mut rounds, mut before) = (false, 0, 0);
+    while !done {
+        done = gpu.renderer.upload(&gpu.device, &gpu.queue, &surface, 5 * tile_bytes);
+        let bytes = gpu.renderer.uploaded_bytes() - before;
+        assert!(done || (bytes > 0 && bytes <= 5 * tile_bytes), "{bytes}");
+        (before, rounds) = (before + bytes, rounds + 1);
+    }
+    // Tiles, horizons, details.
+    let all = gpu.renderer.uploaded_bytes();
+    assert!(rounds > 5 && all > surface.leaves.len() as u64 * tile_bytes, "{rounds} {all}");
+    let ahead = gpu.draw(&frame(&surface, &planet, camera, (12.0, 0.0)));
+    assert_eq!(gpu.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
+    assert_eq!(ahead, Gpu::new().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));
+}
+
+/// Red, green and blue of the brightest pixels of a picture but for a share of them.
+fn brightest(picture: &[u8], inside: &[bool], share: f64) -> [u8; 3] {
+    let mut pixels: Vec<[u8; 3]> =
+        picture.chunks(4).zip(inside).filter(|(_, inside)| **inside).map(|(p, _)| [p[0], p[1], p[2]]).collect();
+    pixels.sort_by_key(|p| u32::from(p[0]) + u32::from(p[1]) + u32::from(p[2]));
+    pixels[((1.0 - share) * pixels.len() as f64) as usize - 1]
+}
+
+/// A thin crescent is metered for what is lit: neither blown out nor dim.
+#[test]
+fn a_thin_crescent_keeps_its_colours() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let mut gpu = Gpu::new();
+    gpu.renderer.metering = Metering::Instant;
+    let camera = camera(&planet, 10.0, 30.0, 12e6, 0.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (10.0, 185.0));
+    let picture = gpu.draw(&frame);
+    let disc = inside_disc(&frame, -20_000.0);
+    let [top, lit] = [0.001, 0.01].map(|share| brightest(&picture, &disc, share));
+    assert!(top.iter().all(|c| *c < 250), "blown out: {top:?}");
+    assert!(lit.iter().any(|c| *c > 40), "too dim: {lit:?}");
+}
+
+/// Rough ground under a low star behind the camera: no pixel outshines all others, and none is a black blot.
+#[test]
+fn ground_under_a_low_star_has_neither_fireflies_nor_blots() {
+    let planet = Arc::new(tellus::planet::shipped::ALL[2].load().expect("Cinnabar"));
+    assert_eq!(planet.name, "Cinnabar");
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 13.0, 114.0, 2.0, 60.0, -3.0);
+    let sun = tellus::sphere::LatLon::from_degrees(10.0, 37.0).direction();
+    for quality in [Quality::Low, Quality::Medium] {
+        let view = View { camera, size_px: [480, 300], quality };
+        let surface = crate::support::surface_of(&planet, &view);
+        gpu.draw_only(&crate::support::frame_of(&surface, &planet, view, sun), 1);
+        let ([width, height], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+        let ground = &pixels[(width * height * 55 / 100) as usize..];
+        let mut light: Vec<f32> = ground.iter().map(|p| p[0] + p[1] + p[2]).collect();
+        light.sort_by(f32::total_cmp);
+        let at = |share: f64| light[((light.len() - 1) as f64 * share) as usize];
+        assert!(at(1.0) < 3.0 * at(0.98), "{quality:?}: {} beside {}", at(1.0), at(0.98));
+        let is_dotted = quality == Quality::Low && at(0.01) < 0.25 * at(0.5);
+        assert!(!is_dotted, "{quality:?}: {} beside {}", at(0.01), at(0.5));
+    }
+}
+
+/// Inside a closed layer of clouds the light changes steadily from row to row: the horizon is no line.
+#[test]
+fn the_horizon_is_no_line_inside_clouds() {
+    let clouds = Clouds { coverage: 1.0, density: 12.0, altitude_km: 4.5, thickness_km: 3.0, ..Clouds::default() };
+    let planet = Arc::new(Planet { clouds: Some(clouds), layers: Vec::new(), ..earth() });
+    let mut gpu = Gpu::new();
+    let camera = camera(&planet, 5.0, -5.0, 5000.0, 90.0, -2.0);
+    let surface = surface(&planet, &camera);
+    let view = View { camera, size_px: [64, 360], quality: Quality::Medium };
+    gpu.draw_only(&Frame { view, ..frame(&surface, &planet, camera, (5.0, 50.0)) }, 1);
+    let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+    let rows: Vec<f32> = pixels.chunks(64).map(|row| row.iter().map(|p| p[1]).sum::<f32>() / 64.0).collect();
+    // A line differs from what lies ten rows above and below it.
+    for (i, at) in rows.windows(21).enumerate() {
+        let line = (at[10] - 0.5 * (at[0] + at[20])).abs() / at[10];
+        assert!(line < 0.012, "row {}: {line}", i + 10);
+    }
+}
+
+/// The sea from 1 km: what is drawn is the mean of sixteen samples a pixel, but for little.
+#[test]
+fn waves_make_no_moire() {
+    // Deep water: no foam.
+    let water = tellus::planet::Water { level_m: 2000.0, ..tellus::planet::Water::default() };
+    let planet = Arc::new(Planet { clouds: None, layers: Vec::new(), water: Some(water), ..earth() });
+    let mut gpu = Gpu::new();
+    gpu.renderer.smooth_edges = false;
+    let camera = camera(&planet, 15.0, 38.4, 1000.0, 60.0, -10.0);
+    let surface = surface(&planet, &camera);
+    let mut radiance = |size_px: [u32; 2]| {
+        let view = View { camera, size_px, quality: Quality::Medium };
+        gpu.draw_only(&Frame { view, ..frame(&surface, &planet, camera, (15.0, 85.0)) }, 1);
+        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+        // As bright as the eye has it: glints do not decide.
+        pixels.iter().map(|p| p[1].min(1.0).sqrt()).collect::<Vec<_>>()
+    };
+    let (width, height) = (160, 100);
+    let coarse = radiance([width as u32, height as u32]);
+    let fine = radiance([4 * width as u32, 4 * height as u32]);
+    let (mut error, mut count) = (0.0, 0.0);
+    for y in height / 2..height {
+        for x in 0..width {
+            let mean = (0..16).map(|i| fine[(4 * y + i / 4) * 4 * width + 4 * x + i % 4]).sum::<f32>() / 16.0;
+            error += (coarse[y * width + x] - mean).powi(2);
+            count += 1.0;
+        }
+    }
+    let error = (error / count).sqrt();
+    assert!(error < 0.0105, "{error}");
+}

@@ -1,0 +1,62 @@
+//! The shaders of the air against the same method in 64 bits.
+
+use crate::support::Gpu;
+use std::f64::consts::{PI, TAU};
+use tellus::atmosphere::{Air, SkyRay};
+use tellus::lod::Quality;
+use tellus::planet::{Planet, shipped};
+
+/// The air of every shipped planet that has some, and that of the Earth.
+fn planets() -> Vec<(&'static str, Planet)> {
+    let earth = Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap();
+    let shipped = shipped::ALL.iter().map(|preset| (preset.file, preset.load().unwrap()));
+    shipped.filter(|(_, planet)| planet.atmosphere.is_some()).chain([("earth_air.ron", earth)]).collect()
+}
+
+/// A ten-thousandth of a sky at noon.
+const FLOOR: f64 = 3e-6;
+
+/// So many rays from altitudes of 1 m to 10,000 km. Half of them look near the horizon, where it is hardest.
+fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
+    let mut state = 1_u64;
+    let mut dice = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let ray = |i: u64| {
+        let altitude_m = 10_f64.powf(7.0 * dice());
+        let horizon = PI - (planet.radius_m() / (planet.radius_m() + altitude_m)).asin();
+        let anywhere = (1.0 - 2.0 * dice()).acos();
+        // Nearer to the horizon, 32 bits do not tell whether a ray meets the ground.
+        let off = 0.3 * (dice() - 0.5).powi(3);
+        let off = off.abs().max(4e-6).copysign(off);
+        let view_zenith_rad = if i.is_multiple_of(2) { anywhere } else { (horizon + off).clamp(0.0, 3.1) };
+        SkyRay { altitude_m, view_zenith_rad, sun_zenith_rad: dice() * PI, azimuth_rad: dice() * TAU }
+    };
+    (0..count).map(ray).collect()
+}
+
+#[test]
+fn the_shaders_agree_with_the_physics() {
+    let mut gpu = Gpu::new();
+    let mut problems = Vec::new();
+    for (file, planet) in planets() {
+        let rays = rays(&planet, 500);
+        let air = Air::try_new(&planet).unwrap();
+        let answers = gpu.renderer.sky(&gpu.device, &gpu.queue, &planet, Quality::High, &rays).unwrap();
+        for (ray, answer) in rays.iter().zip(&answers) {
+            let differs = |found: [f64; 3], expected: [f64; 3], floor: f64| {
+                found.iter().zip(expected).any(|(found, expected)| (found - expected).abs() > 0.02 * expected + floor)
+            };
+            let (radiance, through) = (air.radiance(ray), air.sun_transmittance(ray.altitude_m, ray.sun_zenith_rad));
+            if differs(answer.radiance, radiance, FLOOR) {
+                problems.push(format!("{file}: {ray:?}: radiance {:?} instead of {radiance:?}", answer.radiance));
+            }
+            if differs(answer.transmittance, through, 1e-5) {
+                problems
+                    .push(format!("{file}: {ray:?}: transmittance {:?} instead of {through:?}", answer.transmittance));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "on {}: {} rays:\n{}", gpu.adapter, problems.len(), problems.join("\n"));
+}
