@@ -4,7 +4,7 @@ use super::{Failure, args, headless, load};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
-use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
+use crate::render::{DebugView, Metering, Renderer, Scene, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use crate::tiles::{add_detail, build_now};
@@ -118,25 +118,19 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
     let gpu = headless::Gpu::open(args.size)?;
     let mut renderer =
-        Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
-    renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
-    renderer.tone = args.tone;
+        Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let view = view(args, &planet)?;
     let mut surface = build_now(&planet, &view).map_err(|error| error.to_string())?;
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
-    let frame = Frame {
-        surface: &surface,
-        planet: &planet,
-        view,
-        frozen: None,
-        sun_dir_planet: sun.direction(),
-        time_secs: args.time,
-        exposure_ev: args.exposure.unwrap_or(0.0),
-        debug_view: args.view,
-    };
+    let mut scene = Scene::of_planet(&planet, &surface, view, sun.direction());
+    scene.time_secs = args.time;
+    scene.debug_view = args.view;
+    scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
+    scene.post.exposure_ev = args.exposure.unwrap_or(0.0);
+    scene.post.tone = args.tone;
     let pixels = gpu.picture(args.size, |target| {
-        renderer.render(&gpu.device, &gpu.queue, target, &frame).map(drop).map_err(|error| error.to_string())
+        renderer.render(target, &scene).map(drop).map_err(|error| error.to_string())
     })?;
     let [width, height] = args.size;
     let mut png = Vec::new();

@@ -70,8 +70,8 @@ fn shaders(planet: &Planet, ray: SkyRay) -> Result<SkyAnswer, Failure> {
     let gpu = headless::Gpu::open([1, 1])?;
     let failed = |error: &dyn std::fmt::Display| format!("the GPU ({}): {error}", gpu.name);
     let mut renderer =
-        Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
+        Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let answers =
-        renderer.sky(&gpu.device, &gpu.queue, planet, Quality::High, &[ray]).map_err(|error| failed(&error))?;
+        renderer.sky(planet, Quality::High, &[ray]).map_err(|error| failed(&error))?;
     Ok(answers.first().copied().ok_or_else(|| failed(&"no answer"))?)
 }

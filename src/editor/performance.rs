@@ -95,7 +95,7 @@ fn memory(ui: &mut egui::Ui, app: &EditorApp) {
         ui.label(format!("Horizons for the newest view: {} made in {}", horizons.tiles, ms(horizons.secs)))
             .on_hover_text("What shades the ground, found in the background once its tiles are there");
     }
-    if let Some(runs) = app.viewport().table_runs() {
+    if let Some(runs) = app.viewport().lut_runs() {
         ui.label(format!(
             "Tables made since the start: biomes {}, weather {}, air {}, uniforms {}",
             runs.biomes, runs.weather, runs.air, runs.uniforms

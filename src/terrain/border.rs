@@ -15,7 +15,7 @@ pub(crate) const OCTAVES: usize = 5;
 const COARSEST: f64 = 1.1;
 /// How much finer each octave is than the one before, and how much weaker.
 const FINER: f64 = 11.0;
-const GAIN: f64 = 0.25;
+pub(crate) const GAIN: f64 = 0.25;
 /// Texels along the tile of noise.
 pub(crate) const TILE_SIDE: usize = 32;
 /// From one octave to the next: turned octaves never repeat together along an axis. The same as in the shaders.

@@ -141,12 +141,12 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
     harness.hover_at(cell(&harness, column, row));
     wait_for_picture(&mut harness);
     let viewport = harness.state().viewport();
-    let (surface, runs, pictures) = (viewport.surface().unwrap(), viewport.table_runs().unwrap(), viewport.pictures());
+    let (surface, runs, pictures) = (viewport.surface().unwrap(), viewport.lut_runs().unwrap(), viewport.pictures());
     harness.drag_at(cell(&harness, column, row));
     harness.step();
     let viewport = harness.state().viewport();
     assert!(viewport.pictures() > pictures, "drawn in the frame of the press");
-    assert!(viewport.table_runs().unwrap().biomes > runs.biomes);
+    assert!(viewport.lut_runs().unwrap().biomes > runs.biomes);
     harness.drop_at(cell(&harness, column, row));
     wait_for_picture(&mut harness);
     let after = harness.state().viewport().surface().unwrap();

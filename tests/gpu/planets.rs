@@ -107,7 +107,7 @@ fn every_planet_looks_as_it_did() {
 #[test]
 fn white_is_white_and_the_open_sea_is_dark() {
     let mut gpu = Gpu::new();
-    gpu.renderer.metering = Metering::Instant;
+    gpu.post.metering = Metering::Instant;
     // Least of the brightest pixels, and most of the sea's.
     let bars: [(&str, u8, [u8; 3]); 3] =
         [("aurel.ron", 235, [28, 48, 84]), ("maren.ron", 235, [32, 60, 106]), ("hoarfrost.ron", 225, [30, 50, 90])];

@@ -26,7 +26,7 @@ use super::painter::is_chord;
 use crate::lod::opening::opening_place;
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, FrameStats, MarkedCells, Renderer, TableRuns, Tone};
+use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Renderer, Scene, Tone};
 use crate::sphere::LatLon;
 use crate::tiles::{Builder, Leaf, Memory, Surface};
 use adaptation::Adaptation;
@@ -173,7 +173,7 @@ impl Viewport {
     /// A viewport that draws with eframe's device, or shows why it cannot.
     pub fn new(ctx: &egui::Context, render_state: Option<&RenderState>, planet: &Planet) -> Self {
         let drawing = match render_state {
-            Some(state) => match Renderer::new(&state.device, &state.queue, target::FORMAT) {
+            Some(state) => match Renderer::new(&state.device, &state.queue) {
                 Ok(renderer) => Drawing::Ready(Box::new(renderer), state.clone()),
                 Err(error) => Drawing::Failed(error.to_string()),
             },
@@ -247,9 +247,9 @@ impl Viewport {
     }
 
     /// How often each table has been made since the start.
-    pub fn table_runs(&self) -> Option<TableRuns> {
+    pub fn lut_runs(&self) -> Option<LutRuns> {
         match &self.drawing {
-            Drawing::Ready(renderer, _) => Some(renderer.table_runs()),
+            Drawing::Ready(renderer, _) => Some(renderer.lut_runs(BodyId::default())),
             Drawing::Failed(_) => None,
         }
     }
@@ -409,9 +409,9 @@ impl Viewport {
         let newest = self.builder.surface();
         let (drawing, frames, span) = (&mut self.drawing, &mut self.frames, &mut self.upload);
         self.swap.advance(newest.clone(), |surface| {
-            let Drawing::Ready(renderer, state) = drawing else { return true };
+            let Drawing::Ready(renderer, _) = drawing else { return true };
             let (begin, before) = (Instant::now(), renderer.uploaded_bytes());
-            let done = renderer.upload(&state.device, &state.queue, surface, UPLOAD_BUDGET_BYTES);
+            let done = renderer.upload(BodyId::default(), surface, UPLOAD_BUDGET_BYTES);
             let now = Span::since(begin);
             frames.uploaded(now.end - now.begin);
             let (first, before) = span.map_or((now, before), |(span, before)| (span, before));
@@ -448,25 +448,19 @@ impl Viewport {
             }
             return;
         }
-        renderer.marked = key.marked.clone();
-        renderer.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
-        renderer.tone = key.tone;
         let begin = Instant::now();
-        let drawn = renderer.render(
-            &state.device,
-            &state.queue,
-            target.view(),
-            &Frame {
-                surface: &key.surface,
-                planet,
-                view,
-                frozen: key.frozen,
-                sun_dir_planet: planet.star.place(key.time_secs).direction(),
-                time_secs: key.time_secs,
-                exposure_ev: key.exposure_ev,
-                debug_view: key.debug_view,
-            },
-        );
+        let sun_dir_planet = planet.star.place(key.time_secs).direction();
+        let mut scene = Scene::of_planet(planet, &key.surface, view, sun_dir_planet);
+        scene.time_secs = key.time_secs;
+        scene.debug_view = key.debug_view;
+        scene.post.metering = self.adaptation.metering(self.settings.auto_exposure, changed);
+        scene.post.exposure_ev = key.exposure_ev;
+        scene.post.tone = key.tone;
+        for body in &mut scene.bodies {
+            body.frozen = key.frozen;
+            body.marked.clone_from(&key.marked);
+        }
+        let drawn = renderer.render(target.view(), &scene);
         match drawn {
             Ok(stats) => self.stats = stats,
             Err(error) => {
