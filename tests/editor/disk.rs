@@ -3,7 +3,7 @@
 use super::app::{open_file, until};
 use super::*;
 use std::path::Path;
-use tellus::editor::dialogs::{NoDialogs, ScriptedDialogs};
+use tellus::editor::files::dialogs::{NoDialogs, ScriptedDialogs};
 
 fn seeded(seed: u32) -> Planet {
     Planet { seed, ..Planet::default() }

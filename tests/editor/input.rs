@@ -119,7 +119,7 @@ fn the_panel_is_as_wide_as_it_was_after_every_tab() {
     click(&mut harness, "Planet");
     harness.run_steps(5);
     let before = picture(&harness);
-    for tab in ["Air", "Water", "Clouds", "Biomes", "Terrain", "Star", "Climate", "Planet"] {
+    for tab in ["Atmosphere", "Water", "Clouds", "Biomes", "Terrain", "Star", "Climate", "Planet"] {
         harness.get_by_role_and_label(Role::Button, tab).click();
         harness.run_steps(10);
         assert_eq!(picture(&harness), before, "{tab}");

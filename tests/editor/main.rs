@@ -210,7 +210,7 @@ fn clouds_turned_off_and_on_are_the_same_clouds() {
 #[test]
 fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
     let mut harness = editor(vec![]);
-    for tab in ["Planet", "Terrain", "Climate", "Biomes", "Water", "Air", "Clouds", "Star"] {
+    for tab in ["Planet", "Terrain", "Climate", "Biomes", "Water", "Atmosphere", "Clouds", "Star"] {
         harness.get_by_role_and_label(Role::Button, tab).click();
         harness.run_steps(3);
         harness.check_accessibility();

@@ -7,7 +7,7 @@ use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
-use tellus::editor::dialogs::{FileDialogs, ScriptedDialogs};
+use tellus::editor::files::dialogs::{FileDialogs, ScriptedDialogs};
 use tellus::planet::Planet;
 
 pub type Editor = Harness<'static, EditorApp>;

@@ -4,6 +4,7 @@ use super::biome_palette::PaletteState;
 use super::biome_table::{PainterState, Shown, TableOutput};
 use super::{Draft, biome_edit, biome_palette, biome_table};
 use crate::editor::command::Command;
+use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, PainterLink};
@@ -164,9 +165,9 @@ fn tables(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
         }
     }
     ui.separator();
-    for command in [Command::ImportTable, Command::ExportTable] {
-        if ui.button(command.label()).on_hover_text(command.tooltip()).clicked() {
-            draft.commands.push(command);
+    for row in [Command::ImportTable, Command::ExportTable].into_iter().filter_map(commands::row) {
+        if ui.button(row.label).on_hover_text(row.tooltip).clicked() {
+            draft.commands.send(row.command);
             ui.close();
         }
     }

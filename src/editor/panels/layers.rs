@@ -1,6 +1,7 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
 use super::{Draft, layer_edit, masks};
+use crate::editor::command::Action;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
@@ -143,7 +144,8 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems, biomes: &[] };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
     let mut default = Layer { shape, ..Layer::default() };
-    draft.browse = params_grid(ui, &grid, layer, &mut default);
+    let browse = params_grid(ui, &grid, layer, &mut default);
+    draft.commands.extend(browse.map(Action::Browse));
     ui.add_space(6.0);
     if let Some(label) = masks::show(ui, index, layer, &names, problems) {
         draft.name_edit(label);

@@ -13,7 +13,7 @@ use eframe::egui;
 
 /// Parts that were turned off, with the values they had.
 #[derive(Default)]
-pub struct Remembered {
+pub struct TurnedOff {
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
@@ -21,7 +21,7 @@ pub struct Remembered {
 
 /// Name, seed, radius.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    let skip = ["star", "layers", "climate", "biomes", "water", "atmosphere", "clouds"];
+    let skip = ["star", "layers", "climate", "biomes", "water", "atmosphere", "clouds", "editor"];
     let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());
 }
@@ -46,7 +46,7 @@ pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 
 /// The star's place by the hour where one looks from, and by the season.
 fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    let (lon_deg, time_secs) = draft.here;
+    let (lon_deg, time_secs) = (draft.eye_lon_deg, draft.time_secs);
     let star = &mut draft.planet.star;
     labelled_row(ui, "Hour here", |ui, label| {
         let mut hour = (star.hour(lon_deg, time_secs) * 100.0).round() / 100.0;
@@ -93,13 +93,13 @@ pub fn climate(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 }
 
 /// The sea, if there is one.
-pub fn water(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
-    let label = optional(ui, "water", &mut draft.planet.water, &mut remembered.water, draft.problems);
+pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 
 /// The air, if there is any.
-pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
+pub fn atmosphere(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
     menu_button(ui, "Start from …", |ui| {
         for air in STARTING_AIRS {
             if ui.button(air.name).on_hover_text(air.note).clicked() {
@@ -114,14 +114,14 @@ pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Dr
         scatterer(ui, "Mie", &mut air.mie_scattering_per_km);
     }
     ui.add_space(4.0);
-    let (part, kept) = (&mut draft.planet.atmosphere, &mut remembered.atmosphere);
+    let (part, kept) = (&mut draft.planet.atmosphere, &mut turned_off.atmosphere);
     let label = optional(ui, "atmosphere", part, kept, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 
 /// The clouds, if there are any.
-pub fn clouds(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
-    let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut remembered.clouds, draft.problems);
+pub fn clouds(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut turned_off.clouds, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 

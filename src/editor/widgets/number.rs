@@ -81,6 +81,11 @@ fn round_to(value: f64, decimals: usize) -> String {
     format!("{:.decimals$}", (value * scale).round() / scale + 0.0)
 }
 
+/// Megabytes of 2^20 bytes.
+pub fn megabytes(bytes: u64) -> f64 {
+    bytes as f64 / f64::from(1 << 20)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

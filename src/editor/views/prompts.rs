@@ -1,50 +1,65 @@
-//! Windows over the window: questions about files, messages, the name of a bookmark, the controls.
+//! Questions and messages in front of the window.
 
-use super::answers::{ChangeAnswer, PromptAnswer, ReplaceAnswer};
-use super::app::EditorApp;
-use super::files::Change;
-use super::handle::Action;
-use super::{bookmarks, controls};
+use super::path_field::PathField;
+use super::rename::RenameField;
+use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, ReplaceAnswer, UnsavedAnswer};
+use crate::editor::state::questions::Change;
+use crate::editor::state::{Message, State};
 use eframe::egui;
 use std::path::Path;
 
-/// Something went wrong; shown until dismissed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Message {
-    /// What happened.
-    pub title: String,
-    /// Everything there is to say about it.
-    pub lines: Vec<String>,
+/// Texts that are being typed into questions.
+#[derive(Default)]
+pub struct Prompts {
+    path: Option<PathField>,
+    rename: Option<RenameField>,
 }
 
-/// Shows whatever is open.
-pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
-    let answer = if app.files.prompt.is_some() {
-        unsaved(ctx, app).map(Action::Answer)
-    } else if let Some(replace) = &app.files.replace {
-        replaced(ctx, replace.path()).map(Action::Replace)
-    } else if let Some(change) = &app.files.change {
-        changed(ctx, &app.document.title(), change).map(Action::Change)
-    } else if let Some((_, field)) = &mut app.files.path_field {
-        field.show(ctx).map(Action::Path)
-    } else {
-        None
-    };
-    app.actions.extend(answer);
-    if let Some(orphan) = app.orphans.first()
-        && !app.document.is_dirty()
-        && let Some(keep) = recover(ctx, &orphan.planet.name)
-    {
-        app.actions.push(Action::Recover(keep));
+impl Prompts {
+    /// Shows the questions and messages that are open.
+    pub fn show(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
+        commands.extend(self.question(ctx, state).map(Action::Answer));
+        if let Some(orphan) = state.orphans.first()
+            && !state.document.is_dirty()
+            && let Some(keep) = recover(ctx, &orphan.planet.name)
+        {
+            commands.push(Action::Answer(Answer::Recover(keep)));
+        }
+        if let Some(message) = state.messages.first()
+            && dismissed(ctx, message)
+        {
+            commands.push(Action::DismissMessage);
+        }
+        self.rename_bookmark(ctx, state, commands);
     }
-    if let Some(message) = app.messages.first()
-        && dismissed(ctx, message)
-    {
-        app.messages.remove(0);
-        ctx.request_repaint();
+
+    /// The question about files that comes first.
+    fn question(&mut self, ctx: &egui::Context, state: &State) -> Option<Answer> {
+        let questions = &state.questions;
+        self.path = self.path.take().filter(|field| questions.path.as_ref().is_some_and(|wanted| field.is_for(wanted)));
+        if questions.unsaved.is_some() {
+            unsaved(ctx, state).map(Answer::Unsaved)
+        } else if let Some(replace) = &questions.replace {
+            replaced(ctx, replace.path()).map(Answer::Replace)
+        } else if let Some(change) = &questions.change {
+            changed(ctx, &state.document.title(), change).map(Answer::Change)
+        } else if let Some(wanted) = &questions.path {
+            self.path.get_or_insert_with(|| PathField::new(wanted)).show(ctx).map(Answer::Path)
+        } else {
+            None
+        }
     }
-    bookmarks::rename_window(ctx, app);
-    controls::show(ctx, &mut app.show_controls);
+
+    fn rename_bookmark(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
+        let bookmark = state.renaming.and_then(|index| Some((index, state.document.bookmarks().get(index)?)));
+        let Some((index, bookmark)) = bookmark else {
+            self.rename = None;
+            return;
+        };
+        let field = self.rename.take().filter(|field| field.is_for(index));
+        let field = self.rename.insert(field.unwrap_or_else(|| RenameField::new(index, &bookmark.name)));
+        commands.extend(field.show(ctx).map(Action::Bookmark));
+    }
 }
 
 /// A question with a button for each answer; to close it is `cancel`.
@@ -73,21 +88,21 @@ fn question<A: Copy>(
     if modal.inner.is_none() && modal.should_close() { Some(cancel) } else { modal.inner }
 }
 
-fn unsaved(ctx: &egui::Context, app: &EditorApp) -> Option<PromptAnswer> {
-    let dirty = app.document.is_dirty();
-    let title = app.document.title();
+fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
+    let dirty = state.document.is_dirty();
+    let title = state.document.title();
     let here = dirty.then(|| format!("{} has changes that are not in any file.", title.trim_start_matches("• ")));
-    let before = app
+    let before = state
         .document
         .rolled_over()
         .into_iter()
         .map(|name| format!("{name} had such changes before the random planet; undo brings them back."));
     let lines: Vec<String> = here.into_iter().chain(before).collect();
-    let save = ("Save changes", PromptAnswer::Save);
-    let rest = [("Discard changes", PromptAnswer::Discard), ("Cancel", PromptAnswer::Cancel)];
+    let save = ("Save changes", UnsavedAnswer::Save);
+    let rest = [("Discard changes", UnsavedAnswer::Discard), ("Cancel", UnsavedAnswer::Cancel)];
     let answers: Vec<_> = dirty.then_some(save).into_iter().chain(rest).collect();
     let heading = if dirty { "Save your changes?" } else { "Lose your changes?" };
-    question(ctx, "unsaved work", (heading, &lines), &answers, PromptAnswer::Cancel)
+    question(ctx, "unsaved work", (heading, &lines), &answers, UnsavedAnswer::Cancel)
 }
 
 fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {

@@ -3,25 +3,29 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+/// The extension of presets.
+pub const PRESET_EXTENSION: &str = "ron";
+
 /// A planet's name by that of its file: "ice-moon.ron" is "Ice moon".
-pub(super) fn readable_stem(path: &Path) -> String {
+pub fn readable_stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(['-', '_'], " ");
     let mut chars = stem.trim().chars().filter(|c| !c.is_control()).take(64);
     chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
 }
 
 /// Whether two paths lead to one file, however they are written.
-pub(super) fn is_same_file(a: &Path, b: &Path) -> bool {
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();
     a == b || whole(a).is_some_and(|a| Some(a) == whole(b))
 }
 
-pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
+/// Whether the path has this extension, in small or capital letters.
+pub fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
 
 /// The path with the extension behind its whole name, if it does not end in it.
-pub(super) fn with_extension(path: &Path, extension: &str) -> PathBuf {
+pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
     if has_extension(path, extension) {
         return path.to_owned();
     }

@@ -4,7 +4,7 @@
 //! its first change and [`History::settle`], called while nobody drags or types, closes it. Planets are kept as `Arc`,
 //! so a step costs the planet's data once.
 
-use super::file_names::is_same_file;
+use crate::editor::files::file_names::is_same_file;
 use crate::planet::Planet;
 use std::collections::VecDeque;
 use std::path::PathBuf;

@@ -1,6 +1,8 @@
 //! The window that lists every key and what the mouse does. Shortcuts come from the commands themselves.
 
-use super::command::Command;
+use crate::editor::command::{Action, Commands, Window};
+use crate::editor::commands::COMMANDS;
+use crate::editor::state::State;
 use eframe::egui;
 
 /// What is no command: held keys and the mouse.
@@ -57,9 +59,10 @@ fn id() -> egui::Id {
 }
 
 /// Shows the window while it is open.
-pub fn show(ctx: &egui::Context, open: &mut bool) {
+pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
+    let mut open = state.shows.controls;
     let most_high = ctx.content_rect().height() - 120.0;
-    egui::Window::new("Controls").id(id()).open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+    egui::Window::new("Controls").id(id()).open(&mut open).resizable(false).collapsible(false).show(ctx, |ui| {
         egui::ScrollArea::vertical().max_height(most_high).show(ui, |ui| {
             egui::Grid::new("controls").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
                 for (title, rows) in GROUPS {
@@ -69,16 +72,16 @@ pub fn show(ctx: &egui::Context, open: &mut bool) {
                     }
                 }
                 heading(ui, "Shortcuts");
-                for &command in Command::ALL {
-                    let keys: Vec<String> =
-                        command.shortcuts().iter().map(|shortcut| ctx.format_shortcut(shortcut)).collect();
-                    if !keys.is_empty() {
-                        row(ui, &keys.join(", "), command.tooltip());
-                    }
+                for command in COMMANDS.iter().filter(|command| !command.shortcuts.is_empty()) {
+                    let keys = command.shortcuts.iter().map(|shortcut| ctx.format_shortcut(shortcut));
+                    row(ui, &keys.collect::<Vec<_>>().join(", "), command.tooltip);
                 }
             });
         });
     });
+    if open != state.shows.controls {
+        commands.push(Action::Close(Window::Controls));
+    }
 }
 
 fn heading(ui: &mut egui::Ui, title: &str) {

@@ -60,7 +60,8 @@ fn param_at(planet: &Planet, wanted: &ParamPath) -> Option<(&'static Param, Valu
     found
 }
 
-fn lower_first(text: &str) -> String {
+/// The text with a small first letter.
+pub fn lower_first(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }

@@ -7,7 +7,7 @@ use super::describe;
 use super::history::{History, Home};
 use crate::planet::param::ParamPath;
 use crate::planet::picture::{Picture, PictureKey, folder_of};
-use crate::planet::{Planet, validate};
+use crate::planet::{Bookmark, Planet, validate};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -106,6 +106,11 @@ impl Document {
         }
         let rolled_over = self.work_rolled_over().last().map(|(planet, _)| planet);
         rolled_over.or_else(|| self.is_dirty().then_some(&self.valid))
+    }
+
+    /// The bookmarks of the planet as edited.
+    pub fn bookmarks(&self) -> &[Bookmark] {
+        self.planet.editor.as_ref().map_or(&[], |notes| &notes.bookmarks)
     }
 
     /// The folder of its file.

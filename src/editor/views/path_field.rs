@@ -1,7 +1,8 @@
 //! Asks for a file in the window itself, where the desktop has no file dialogs: a path to type, and what lies in its
 //! folder.
 
-use super::dialogs::DialogRequest;
+use crate::editor::files::dialogs::DialogRequest;
+use crate::editor::state::questions::WantedPath;
 use eframe::egui;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
@@ -26,13 +27,19 @@ struct Entry {
 }
 
 impl PathField {
-    pub(super) fn new(request: DialogRequest, why: String) -> Self {
+    pub(super) fn new(wanted: &WantedPath) -> Self {
+        let (request, why) = (wanted.request.clone(), wanted.why.clone());
         let base = request.folder().cloned().or_else(|| std::env::current_dir().ok()).unwrap_or_default();
         let mut typed = base.join(request.file_name().unwrap_or_default()).display().to_string();
         if request.file_name().is_none() && !typed.ends_with(MAIN_SEPARATOR) {
             typed.push(MAIN_SEPARATOR);
         }
         Self { request, why, typed, problem: None, listed: None }
+    }
+
+    /// Whether the field asks for this path.
+    pub(super) fn is_for(&self, wanted: &WantedPath) -> bool {
+        self.request == wanted.request
     }
 
     /// The path that is meant: `~` is the home folder, and what is relative counts from where a dialog would begin.
@@ -200,6 +207,11 @@ fn entries(folder: &Path, extensions: &[&str]) -> Vec<Entry> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::editor::state::questions::Asking;
+
+    fn field_for(request: DialogRequest) -> PathField {
+        PathField::new(&WantedPath { asking: Asking::Open, request, why: String::new() })
+    }
 
     #[test]
     fn a_path_is_checked_before_it_is_taken() {
@@ -207,7 +219,7 @@ mod tests {
         let base = folder.path().to_owned();
         fs::write(base.join("a.ron"), "").unwrap();
         let open = DialogRequest::Open { folder: Some(base.clone()) };
-        let mut field = PathField::new(open, String::new());
+        let mut field = field_for(open);
         let mut chosen = |typed: &str| {
             field.typed = typed.to_owned();
             field.chosen()
@@ -218,7 +230,7 @@ mod tests {
         assert!(chosen("").unwrap_err().contains("is a folder"));
 
         let save = DialogRequest::SaveAs { folder: Some(base.clone()), file_name: "new.ron".to_owned() };
-        let field = PathField::new(save, String::new());
+        let field = field_for(save);
         assert_eq!(field.chosen(), Ok(base.join("new.ron")), "the name that is offered");
         assert_eq!(entries(&base, &["ron"]).len(), 1);
         assert!(entries(&base, &["png"]).is_empty());

@@ -1,8 +1,10 @@
 //! The performance panel: where the time of the last edit went, what was reused, what is kept, and the newest frames.
 
-use super::app::EditorApp;
-use super::viewport::frames::FrameTime;
-use super::viewport::timeline::{Step, Timeline};
+use crate::editor::command::{Action, Commands, Window};
+use crate::editor::state::State;
+use crate::editor::viewport::frames::FrameTime;
+use crate::editor::viewport::timeline::{Step, Timeline};
+use crate::editor::widgets::number::megabytes;
 use eframe::egui;
 use egui::{Color32, Rect, RichText, Sense, Stroke, pos2, vec2};
 use std::time::Duration;
@@ -23,22 +25,24 @@ fn id() -> egui::Id {
 }
 
 /// Shows the panel if it is open.
-pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
-    let mut open = app.show_performance;
+pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
+    let mut open = state.shows.performance;
     let window = egui::Window::new("Performance").id(id()).open(&mut open);
     window.resizable(false).default_pos([12.0, 40.0]).show(ctx, |ui| {
-        match app.viewport().edit_clock.timeline() {
+        match state.viewport.edit_clock.timeline() {
             Some(timeline) => last_edit(ui, timeline),
             None => {
                 ui.weak("The times of the next edit appear here.");
             }
         }
         ui.separator();
-        memory(ui, app);
+        memory(ui, state);
         ui.separator();
-        frames(ui, app);
+        frames(ui, state);
     });
-    app.show_performance = open;
+    if open != state.shows.performance {
+        commands.push(Action::Close(Window::Performance));
+    }
 }
 
 fn last_edit(ui: &mut egui::Ui, timeline: &Timeline) {
@@ -81,8 +85,8 @@ fn busy_text(step: &Step) -> String {
     format!("{}{times}", ms(step.busy_secs))
 }
 
-fn memory(ui: &mut egui::Ui, app: &EditorApp) {
-    let memory = app.viewport().memory();
+fn memory(ui: &mut egui::Ui, state: &State) {
+    let memory = state.viewport.memory();
     let share = memory.used_bytes as f32 / memory.budget_bytes.max(1) as f32;
     let text = format!("{:.0} of {:.0} MB", megabytes(memory.used_bytes as u64), megabytes(memory.budget_bytes as u64));
     ui.horizontal(|ui| {
@@ -90,12 +94,12 @@ fn memory(ui: &mut egui::Ui, app: &EditorApp) {
         ui.add(egui::ProgressBar::new(share.min(1.0)).desired_width(BAR_WIDTH).text(text));
         ui.label(format!("{} tiles, {} horizons, {} layer fields", memory.tiles, memory.horizons, memory.fields));
     });
-    if let Some(surface) = app.viewport().surface() {
+    if let Some(surface) = state.viewport.surface() {
         let horizons = surface.stats.horizons;
         ui.label(format!("Horizons for the newest view: {} made in {}", horizons.tiles, ms(horizons.secs)))
             .on_hover_text("What shades the ground, found in the background once its tiles are there");
     }
-    if let Some(runs) = app.viewport().table_runs() {
+    if let Some(runs) = state.viewport.table_runs() {
         ui.label(format!(
             "Tables made since the start: biomes {}, weather {}, air {}, uniforms {}",
             runs.biomes, runs.weather, runs.air, runs.uniforms
@@ -103,8 +107,8 @@ fn memory(ui: &mut egui::Ui, app: &EditorApp) {
     }
 }
 
-fn frames(ui: &mut egui::Ui, app: &EditorApp) {
-    let log = &app.viewport().frames;
+fn frames(ui: &mut egui::Ui, state: &State) {
+    let log = &state.viewport.frames;
     let (longest, most) = log.worst(|frame| frame.editor);
     ui.label(format!(
         "Editor's share of the last {} frames: at most {}, 95 in 100 within {}",
@@ -139,9 +143,4 @@ fn frames(ui: &mut egui::Ui, app: &EditorApp) {
 
 fn ms(secs: f64) -> String {
     format!("{:.1} ms", secs * 1000.0)
-}
-
-/// Megabytes of 2^20 bytes.
-pub(super) fn megabytes(bytes: u64) -> f64 {
-    bytes as f64 / f64::from(1 << 20)
 }

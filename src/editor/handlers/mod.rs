@@ -1,0 +1,19 @@
+//! Handlers: what commands and answers do to the state.
+//!
+//! - [`opening`]: another document in the place of this one, without losing unsaved work
+//! - [`saving`]: the planet into a file
+//! - [`answers`]: what follows from answers about files, and from the close button
+//! - [`open_file`]: the open file has changed on disk
+//! - [`biome_table`]: import and export of the biome table
+//! - [`pictures`]: height maps
+//! - [`bookmarks`]: views kept in the preset
+//! - [`window`]: full screen and theme
+
+pub mod answers;
+pub mod biome_table;
+pub mod bookmarks;
+pub mod open_file;
+pub mod opening;
+pub mod pictures;
+pub mod saving;
+pub mod window;
