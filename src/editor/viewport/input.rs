@@ -2,6 +2,7 @@
 
 use super::camera::orbit::turn_sun;
 use super::camera::{Cameras, Controls, Ground, Mode};
+use super::pointer::in_view;
 use crate::editor::painter::is_chord;
 use crate::editor::widgets::keys_are_taken;
 use crate::planet::Planet;
@@ -35,11 +36,7 @@ pub fn handle(
 ) -> Moved {
     let rect = response.rect;
     let aspect = f64::from(rect.width() / rect.height());
-    let to_view = |pos: egui::Pos2| {
-        let x = (pos.x - rect.center().x) / (0.5 * rect.width());
-        let y = (rect.center().y - pos.y) / (0.5 * rect.height());
-        (f64::from(x), f64::from(y))
-    };
+    let to_view = |pos: egui::Pos2| in_view(rect, pos);
     let mut moved = Moved::default();
 
     if response.clicked() || response.drag_started() {

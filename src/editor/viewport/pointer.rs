@@ -4,6 +4,7 @@
 use crate::lod::View;
 use crate::sphere::LatLon;
 use crate::tiles::Surface;
+use eframe::egui;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -106,6 +107,12 @@ impl Probe {
     pub fn answer(&self) -> Option<&UnderPointer> {
         self.answer.as_ref()
     }
+}
+
+/// A point of the window in view coordinates: -1 to 1, right and up.
+pub(super) fn in_view(rect: egui::Rect, pos: egui::Pos2) -> (f64, f64) {
+    let (x, y) = ((pos.x - rect.center().x) / (0.5 * rect.width()), (rect.center().y - pos.y) / (0.5 * rect.height()));
+    (f64::from(x), f64::from(y))
 }
 
 fn look(question: &Question) -> Option<UnderPointer> {
