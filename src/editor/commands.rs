@@ -293,7 +293,7 @@ fn camera() -> Vec<Row> {
         .enabled_when(|s| s.viewport.cameras().mode() == Mode::Fly)
         .yielding_to_text(),
         Row::new(Command::ResetView, "Reset view", "Look at the whole planet, as when it was opened.", |s, _| {
-            s.reset_view()
+            s.reset_view();
         })
         .within(Menu::Camera, 1)
         .keys([ctrl(Key::Num0)]),
@@ -311,13 +311,13 @@ fn bookmarks_and_table() -> Vec<Row> {
             "Import biome table…",
             "Read a PNG with one pixel for each cell. Each colour becomes the nearest biome; transparent pixels \
              change nothing.",
-            |s, ctx| biome_table::ask_for_import(s, ctx),
+            biome_table::ask_for_import,
         ),
         Row::new(
             Command::ExportTable,
             "Export biome table…",
             "Write the table as a PNG with one pixel for each cell, in the colour of its biome.",
-            |s, ctx| biome_table::ask_for_export(s, ctx),
+            biome_table::ask_for_export,
         ),
     ]
 }

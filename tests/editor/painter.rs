@@ -199,7 +199,7 @@ fn the_planet_and_the_table_point_at_each_other() {
     harness.hover_at(rect.center());
     until(&mut harness, "the ground is known", |harness| harness.state().viewport().under_pointer().is_some());
     let under = harness.state().viewport().under_pointer().unwrap().clone();
-    let sample = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(under.place.direction());
+    let sample = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(under.location.direction());
     assert_eq!((under.cell, under.biome_index), (sample.cell, sample.biome));
     harness.run_steps(2);
     assert!(harness.query_by_label_contains("Here: ").is_some(), "the table says which cell that is");

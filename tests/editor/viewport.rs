@@ -205,7 +205,7 @@ fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
 fn every_key_stands_in_the_list_of_controls() {
     let mut harness = editor(vec![]);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F1);
-    for text in ["Walk; slower uphill", "Keep this view in the preset", "Show where tiles meet"] {
+    for text in ["Walk; slower uphill", "Keep this view in the preset", "Show the borders of the tiles"] {
         assert!(harness.query_by_label(text).is_some(), "{text}");
     }
     press(&mut harness, egui::Modifiers::SHIFT, egui::Key::Questionmark);
@@ -227,7 +227,7 @@ fn what_lies_under_the_pointer_is_told_without_holding_up_the_picture() {
     }
     let viewport = harness.state().viewport();
     let below = viewport.eye(&planet(&harness)).1;
-    let under = viewport.under_pointer().unwrap().place;
+    let under = viewport.under_pointer().unwrap().location;
     assert!(under.direction().distance(below.direction()) < 0.02, "{under:?} {below:?}");
     harness.hover_at(egui::pos2(rect.center().x, rect.bottom() + 10.0));
     harness.run_steps(3);

@@ -28,7 +28,7 @@ pub fn path(state: &mut State, ctx: &egui::Context, path: Option<PathBuf>) {
 fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf, agreed: Option<&Path>) {
     match asking {
         Asking::Open => opening::pursue(state, ctx, Goal::OpenPath(file)),
-        Asking::SaveAs => saving::save_chosen(state, ctx, file, agreed),
+        Asking::SaveAs => saving::save_chosen(state, ctx, &file, agreed),
         Asking::Picture(path) => pictures::choose(state, &path, &file),
         Asking::ImportTable => biome_table::import(state, &file),
         Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),

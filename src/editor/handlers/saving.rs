@@ -37,12 +37,12 @@ fn save_own(state: &mut State, ctx: &egui::Context, path: PathBuf) {
 }
 
 /// Saves to a file that was chosen. `agreed` is the file that the user has agreed to replace, if it exists.
-pub fn save_chosen(state: &mut State, ctx: &egui::Context, file: PathBuf, agreed: Option<&Path>) {
+pub fn save_chosen(state: &mut State, ctx: &egui::Context, file: &Path, agreed: Option<&Path>) {
     // The file that the planet was read from may have any extension.
-    if let Some(own) = state.document.path().filter(|own| is_same_file(own, &file)).map(Path::to_owned) {
+    if let Some(own) = state.document.path().filter(|own| is_same_file(own, file)).map(Path::to_owned) {
         return save_own(state, ctx, own);
     }
-    let path = with_extension(&file, PRESET_EXTENSION);
+    let path = with_extension(file, PRESET_EXTENSION);
     match state.document.path().filter(|own| is_same_file(own, &path)).map(Path::to_owned) {
         Some(own) => save_own(state, ctx, own),
         None if path.exists() && agreed != Some(&path) => state.questions.replace = Some(Replace::Planet(path)),

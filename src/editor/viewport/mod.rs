@@ -214,7 +214,7 @@ impl Viewport {
             return None;
         }
 
-        self.picture.advance(self.builder.surface(), &mut self.frames, ui.ctx());
+        self.picture.advance(self.builder.surface().as_ref(), &mut self.frames, ui.ctx());
         let surface = self.surface();
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
@@ -289,7 +289,7 @@ impl Viewport {
         let (settings, marked) = (&self.settings, self.painter.marked.clone());
         let scene = Scene { surface, planet, view, frozen: self.frozen, settings, marked };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
-        self.picture.draw(&scene, Meters { frames, frame_meter, edit_clock });
+        self.picture.draw(&scene, &mut Meters { frames, frame_meter, edit_clock });
     }
 
     /// Asks for the ground under the pointer.

@@ -126,9 +126,9 @@ impl Picture {
     }
 
     /// Uploads one frame's share of the newest surface, and shows it once all of its tiles are uploaded.
-    pub(super) fn advance(&mut self, newest: Option<Arc<Surface>>, frames: &mut FrameLog, ctx: &egui::Context) {
+    pub(super) fn advance(&mut self, newest: Option<&Arc<Surface>>, frames: &mut FrameLog, ctx: &egui::Context) {
         let (drawing, upload) = (&mut self.drawing, &mut self.upload);
-        self.swap.advance(newest.clone(), |surface| {
+        self.swap.advance(newest.cloned(), |surface| {
             let Drawing::Ready(renderer, state) = drawing else { return true };
             let (begin, before) = (Instant::now(), renderer.uploaded_bytes());
             let done = renderer.upload(&state.device, &state.queue, surface, UPLOAD_BUDGET_BYTES);
@@ -138,13 +138,13 @@ impl Picture {
             *upload = Some((Span { end: now.end, ..first }, before));
             done
         });
-        if self.is_behind(newest.as_ref()) {
+        if self.is_behind(newest) {
             ctx.request_repaint();
         }
     }
 
     /// Draws the scene, unless the texture holds that picture already.
-    pub(super) fn draw(&mut self, scene: &Scene<'_>, meters: Meters<'_>) {
+    pub(super) fn draw(&mut self, scene: &Scene<'_>, meters: &mut Meters<'_>) {
         let Drawing::Ready(renderer, state) = &mut self.drawing else { return };
         let Scene { planet, settings, .. } = scene;
         let key = PictureKey::of(scene);

@@ -14,7 +14,7 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
         let left = match viewport.under_pointer() {
             Some(under) => format!(
                 "{}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
-                location_text(under.place),
+                location_text(under.location),
                 length_text(under.height_m),
                 under.slope_deg,
                 under.biome,
