@@ -257,7 +257,7 @@ fn a_planet_without_a_file_is_asked_about_before_it_is_lost_under_a_random_one()
     assert!(!harness.state().document().is_dirty());
     send(&mut harness, Command::New);
     assert!(harness.query_by_label("Lose your changes?").is_some());
-    assert!(harness.query_by_label_contains(&format!("{name} had such changes")).is_some());
+    assert!(harness.query_by_label_contains(&format!("{name} had unsaved changes")).is_some());
     click(&mut harness, "Cancel");
     send(&mut harness, Command::Undo);
     assert_eq!(planet(&harness).radius_km, 2500.0);

@@ -236,7 +236,7 @@ fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
     let before = biomes(&harness);
     press(&mut harness, egui::Modifiers::COMMAND);
     until(&mut harness, "painted", |harness| undo_len(harness) == 1);
-    assert_eq!(undo_label(&harness), "Paint a place's climate");
+    assert_eq!(undo_label(&harness), "Paint climate of location");
     let mut expected = before.clone();
     expected.table.set_key(under.cell[0], under.cell[1], key);
     assert_eq!(biomes(&harness), expected, "that very cell and no other");

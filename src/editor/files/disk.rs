@@ -1,7 +1,7 @@
-//! The open file on disk: notices when somebody else changes it, and is asked once more before it is written over.
+//! Whether another program has changed a file.
 //!
-//! What counts are the bytes, not dates: this editor's own saves change nothing, and a change that the system did not
-//! report is found all the same when the window gets the focus and when the file is about to be saved.
+//! The bytes decide, not the dates: this editor's own saves are no change. A change that the system did not report is found
+//! when the window gets the focus, and again before a save.
 
 use crate::planet::Planet;
 use crate::planet::file::{self, MAX_FILE_BYTES};
@@ -14,20 +14,20 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What stands in a file, beside what was last read from it or written to it.
+/// The content of a file, compared with what was last read or written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum OnDisk {
-    /// The same, or nothing as before.
+    /// Equal, or still no file.
     Same,
-    /// It cannot be told: something is there that cannot be read, or is no file.
+    /// Unknown: the path cannot be read, or is no regular file.
     Unknown,
-    /// There was a file, and there is none now.
+    /// The file is gone.
     Gone,
-    /// Something else.
+    /// Another content.
     Changed(Vec<u8>),
 }
 
-/// Compares a file with what is known of it.
+/// Compares a file with its known content.
 pub fn look(path: &Path, known: Option<&[u8]>) -> OnDisk {
     match (file::read(path, MAX_FILE_BYTES), known) {
         (Ok(bytes), Some(known)) if known == bytes => OnDisk::Same,
@@ -40,17 +40,17 @@ pub fn look(path: &Path, known: Option<&[u8]>) -> OnDisk {
     }
 }
 
-/// What others have written into the open file.
+/// The content of the open file as another program has written it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TheirFile {
     /// Its text, UTF-8 or not.
     pub bytes: Vec<u8>,
-    /// Their planet, or why it cannot be read.
+    /// Its planet, or why it cannot be read.
     pub planet: Result<Planet, String>,
 }
 
 impl TheirFile {
-    /// Reads what was found at `path`; pictures that `ours` has are there at once.
+    /// Reads the content of `path`. Pictures that `ours` has need not be read again.
     pub fn read(path: &Path, bytes: Vec<u8>, ours: &Planet) -> Self {
         let Ok(text) = std::str::from_utf8(&bytes) else {
             return Self { bytes, planet: Err("the text is not UTF-8; save it as UTF-8".to_owned()) };
@@ -71,8 +71,8 @@ impl TheirFile {
     }
 }
 
-/// Calls `noted` from another thread when a file in the folder changes whose name is wanted; None where the system
-/// cannot watch.
+/// Calls `noted` from another thread when a file of the folder with a wanted name changes. None if the system cannot watch
+/// the folder.
 pub fn watch(
     folder: &Path,
     wanted: impl Fn(&OsStr) -> bool + Send + 'static,
@@ -80,7 +80,7 @@ pub fn watch(
 ) -> Option<RecommendedWatcher> {
     let handler = move |event: notify::Result<notify::Event>| {
         let is_news = event.is_ok_and(|event| {
-            // To look at a file is no change of it.
+            // Reading a file is no change.
             !matches!(event.kind, EventKind::Access(_))
                 && (event.need_rescan() || event.paths.iter().filter_map(|path| path.file_name()).any(&wanted))
         });
@@ -98,17 +98,17 @@ pub fn watch(
     watcher.ok()
 }
 
-/// When something last happened, until that was looked into. Clones share it.
+/// The time of the last report, until it is dealt with. Clones share it.
 #[derive(Clone, Default)]
 pub struct News(Arc<Mutex<Option<Instant>>>);
 
 impl News {
-    /// Something has just happened; from any thread.
+    /// Notes a report; from any thread.
     pub fn note(&self) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     }
 
-    /// Whether something has happened and it has been quiet for so long since, once. Asks for a frame at the time.
+    /// Whether there was a report and none for the time `quiet` since; once. Asks for a frame when that time has passed.
     pub fn is_due(&self, quiet: Duration, ctx: &egui::Context) -> bool {
         let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(since) = *last else { return false };

@@ -1,4 +1,4 @@
-//! Names of files: what they end in, what they say about a planet, and whether two of them mean one file.
+//! File names: extensions, names for people, and whether two paths are of one file.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 /// The extension of presets.
 pub const PRESET_EXTENSION: &str = "ron";
 
-/// A planet's name by that of its file: "ice-moon.ron" is "Ice moon".
+/// A planet's name from its file name: "ice-moon.ron" is "Ice moon".
 pub fn readable_stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(['-', '_'], " ");
     let mut chars = stem.trim().chars().filter(|c| !c.is_control()).take(64);
     chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// Whether two paths lead to one file, however they are written.
+/// Whether two paths, relative or not, are of one file.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();
     a == b || whole(a).is_some_and(|a| Some(a) == whole(b))
@@ -24,7 +24,7 @@ pub fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
 
-/// The path with the extension behind its whole name, if it does not end in it.
+/// The path with the extension appended to the whole name, unless the path has it.
 pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
     if has_extension(path, extension) {
         return path.to_owned();

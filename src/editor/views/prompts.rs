@@ -62,7 +62,7 @@ impl Prompts {
     }
 }
 
-/// A question with a button for each answer; to close it is `cancel`.
+/// A question with a button for each answer; closing it answers `cancel`.
 fn question<A: Copy>(
     ctx: &egui::Context,
     id: &'static str,
@@ -80,7 +80,7 @@ fn question<A: Copy>(
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             let clicked = |(text, meaning): &(&str, A)| ui.button(*text).clicked().then_some(*meaning);
-            // All of them are shown, whichever was clicked.
+            // The fold shows all buttons, also those after the clicked one.
             answers.iter().map(clicked).fold(None, Option::or)
         })
         .inner
@@ -91,12 +91,12 @@ fn question<A: Copy>(
 fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
     let dirty = state.document.is_dirty();
     let title = state.document.title();
-    let here = dirty.then(|| format!("{} has changes that are not in any file.", title.trim_start_matches("• ")));
+    let here = dirty.then(|| format!("{} has unsaved changes.", title.trim_start_matches("• ")));
     let before = state
         .document
         .rolled_over()
         .into_iter()
-        .map(|name| format!("{name} had such changes before the random planet; undo brings them back."));
+        .map(|name| format!("{name} had unsaved changes before the random planet; undo brings them back."));
     let lines: Vec<String> = here.into_iter().chain(before).collect();
     let save = ("Save changes", UnsavedAnswer::Save);
     let rest = [("Discard changes", UnsavedAnswer::Discard), ("Cancel", UnsavedAnswer::Cancel)];
@@ -106,7 +106,7 @@ fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
 }
 
 fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
-    let lines = [format!("{} exists already. What is in it would be lost.", path.display())];
+    let lines = [format!("{} exists already. Its content would be lost.", path.display())];
     let answers = [
         ("Replace", ReplaceAnswer::Replace),
         ("Other name…", ReplaceAnswer::OtherName),
@@ -117,14 +117,14 @@ fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
 
 fn changed(ctx: &egui::Context, title: &str, change: &Change) -> Option<ChangeAnswer> {
     let mut lines =
-        vec![format!("{} was written by another program since it was read here.", title.trim_start_matches("• "))];
+        vec![format!("Another program has written {} since it was opened here.", title.trim_start_matches("• "))];
     let mut answers = Vec::new();
     match &change.theirs.planet {
         Ok(_) => {
-            lines.push("Reload takes theirs over; undo brings yours back.".to_owned());
+            lines.push("Reload takes the file; undo brings yours back.".to_owned());
             answers.push(("Reload", ChangeAnswer::Reload));
         }
-        Err(why) => lines.push(format!("It cannot be read now: {why}")),
+        Err(why) => lines.push(format!("The file cannot be read now: {why}")),
     }
     let keep = if change.saving { "Save mine over it" } else { "Keep mine" };
     answers.extend([(keep, ChangeAnswer::KeepMine), ("Save mine as…", ChangeAnswer::SaveAs)]);
@@ -134,17 +134,17 @@ fn changed(ctx: &egui::Context, title: &str, change: &Change) -> Option<ChangeAn
 }
 
 fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {
-    // No way out but an answer: a click beside it must not throw work away.
+    // Only an answer closes the question: a click beside it must not delete work.
     let modal = egui::Modal::new(egui::Id::unique("recover work")).show(ctx, |ui| {
         ui.set_width(360.0);
         ui.heading("Recover unsaved work?");
         ui.add_space(4.0);
-        ui.label(format!("{name} was being edited when the editor stopped without saving it."));
+        ui.label(format!("The editor stopped without saving {name}."));
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             if ui.button("Recover").clicked() {
                 Some(true)
-            } else if ui.button("Throw away").clicked() {
+            } else if ui.button("Delete").clicked() {
                 Some(false)
             } else {
                 None
