@@ -1,7 +1,7 @@
 //! The table of commands: for each its name, tooltip, menu, shortcuts, condition and handler.
 //!
-//! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a row
-//! here.
+//! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a
+//! row here.
 
 use super::command::Command;
 use super::handlers::{biome_table, bookmarks, opening, saving, window};

@@ -1,6 +1,6 @@
-//! Whether another window has the same file open. Each window holds a lock in the folder of the working copies, on a file
-//! named after the document's path. The system releases the lock when the window ends, also after a crash. The lock
-//! blocks nothing: it only informs.
+//! Whether another window has the same file open. Each window holds a lock in the folder of the working copies, on a
+//! file named after the document's path. The system releases the lock when the window ends, also after a crash. The
+//! lock blocks nothing: it only informs.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{Seek as _, Write as _};

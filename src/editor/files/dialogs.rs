@@ -1,5 +1,5 @@
-//! File dialogs that never block the window, behind a trait so that tests can answer them. Where the desktop has no dialogs,
-//! the editor asks for a path in its window.
+//! File dialogs that never block the window, behind a trait so that tests can answer them. Where the desktop has no
+//! dialogs, the editor asks for a path in its window.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;

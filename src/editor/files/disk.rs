@@ -1,7 +1,7 @@
 //! Whether another program has changed a file.
 //!
-//! The bytes decide, not the dates: this editor's own saves are no change. A change that the system did not report is found
-//! when the window gets the focus, and again before a save.
+//! The bytes decide, not the dates: this editor's own saves are no change. A change that the system did not report is
+//! found when the window gets the focus, and again before a save.
 
 use crate::planet::Planet;
 use crate::planet::file::{self, MAX_FILE_BYTES};
@@ -71,8 +71,8 @@ impl TheirFile {
     }
 }
 
-/// Calls `noted` from another thread when a file of the folder with a wanted name changes. None if the system cannot watch
-/// the folder.
+/// Calls `noted` from another thread when a file of the folder with a wanted name changes. None if the system cannot
+/// watch the folder.
 pub fn watch(
     folder: &Path,
     wanted: impl Fn(&OsStr) -> bool + Send + 'static,
@@ -108,7 +108,8 @@ impl News {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     }
 
-    /// Whether there was a report and none for the time `quiet` since; once. Asks for a frame when that time has passed.
+    /// Whether there was a report and none for the time `quiet` since; once. Asks for a frame when that time has
+    /// passed.
     pub fn is_due(&self, quiet: Duration, ctx: &egui::Context) -> bool {
         let mut last = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(since) = *last else { return false };

@@ -12,8 +12,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 /// Number of directions: the error of a share is about a tenth of a percent.
 const DIRECTIONS: usize = 24_576;
 
-/// The result. Shares are of the land, or of the whole surface of a planet without a sea. Each list adds up to 1, or to 0
-/// without land.
+/// The result. Shares are of the land, or of the whole surface of a planet without a sea. Each list adds up to 1, or to
+/// 0 without land.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
     columns: usize,

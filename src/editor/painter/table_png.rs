@@ -1,5 +1,5 @@
-//! The biome table as a PNG: one pixel for each cell, in the colour of its biome. An import takes the nearest colour of the
-//! palette.
+//! The biome table as a PNG: one pixel for each cell, in the colour of its biome. An import takes the nearest colour of
+//! the palette.
 
 use crate::planet::{Biomes, Table};
 use image::{ImageFormat, ImageReader, Rgba, RgbaImage};

@@ -1,9 +1,9 @@
 //! The painter's tools as functions on a biome table. Positions are in cells: (0, 0) is the upper left corner of the
 //! table, (0.5, 0.5) the middle of its first cell.
 //!
-//! A table holds keys, which a soft brush cannot mix. The brush covers a share of each cell, and paints the cell if that
-//! share exceeds the cell's threshold. The thresholds are fixed during a stroke, so that a soft edge is dithered however
-//! long the pointer stays; the next stroke has other thresholds.
+//! A table holds keys, which a soft brush cannot mix. The brush covers a share of each cell, and paints the cell if
+//! that share exceeds the cell's threshold. The thresholds are fixed during a stroke, so that a soft edge is dithered
+//! however long the pointer stays; the next stroke has other thresholds.
 
 use crate::planet::Table;
 

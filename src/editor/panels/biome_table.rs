@@ -132,8 +132,8 @@ impl PainterState {
         gesture.cells(modifiers.shift)
     }
 
-    /// The cells that light up: none during a stroke, so that its ground is visible; those under the pointer; or else the
-    /// selection.
+    /// The cells that light up: none during a stroke, so that its ground is visible; those under the pointer; or else
+    /// the selection.
     fn marked(&self, biomes: &Biomes, hovered: Option<Cell>, preview: &[Cell]) -> Option<MarkedCells> {
         let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
         let stroke = self.gesture.as_ref().is_some_and(|gesture| gesture.tool() != Tool::Select);

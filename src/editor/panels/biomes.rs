@@ -199,9 +199,7 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> T
             format!("{}; {land:.1} % of the land", described(cell))
         }
         (None, Some(cell)) => format!("Here: {}", described(cell)),
-        (None, None) => {
-            "A right click or a letter picks a biome. Ctrl and click on the planet paints the climate there.".to_owned()
-        }
+        (None, None) => "Right click or a biome's letter picks. Ctrl and click on the planet paints there.".to_owned(),
     };
     ui.add(egui::Label::new(egui::RichText::new(text).small().weak()).truncate());
     for (path, problem) in draft.problems {

@@ -21,8 +21,8 @@ struct Dragged(usize);
 pub struct LayersState {
     /// Index of the selected layer.
     pub selected: usize,
-    /// Index of a layer and the name that is being typed. The layer gets the name when the field loses the focus, so that
-    /// no mask refers to half a name.
+    /// Index of a layer and the name that is being typed. The layer gets the name when the field loses the focus, so
+    /// that no mask refers to half a name.
     typed_name: Option<(usize, String)>,
 }
 

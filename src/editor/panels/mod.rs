@@ -1,7 +1,7 @@
 //! The side panel: one tab for each part of the planet.
 //!
-//! Panels change a draft of the planet; the application makes an undo step of a changed draft. [`PANELS`] lists the tabs:
-//! a new panel is a file and a row there.
+//! Panels change a draft of the planet; the application makes an undo step of a changed draft. [`PANELS`] lists the
+//! tabs: a new panel is a file and a row there.
 //!
 //! - [`parts`]: planet, star, climate, and the optional parts
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list

@@ -19,7 +19,8 @@ pub struct TurnedOff {
     clouds: Option<Clouds>,
 }
 
-/// The planet's own parameters: name, seed, radius. The other parts have panels of their own, and the editor's notes none.
+/// The planet's own parameters: name, seed, radius. The other parts have panels of their own, and the editor's notes
+/// none.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     let skip = ["star", "layers", "climate", "biomes", "water", "atmosphere", "clouds", "editor"];
     let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };

@@ -1,7 +1,7 @@
 //! The planet being edited, its file, and its undo steps. Every change of the planet goes through here.
 //!
-//! An undo step may change the file too: a random planet has no file, and undo restores the planet before it together with
-//! its file.
+//! An undo step may change the file too: a random planet has no file, and undo restores the planet before it together
+//! with its file.
 
 use super::describe;
 use super::history::{History, Home};
@@ -84,8 +84,8 @@ impl Document {
         self.home.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.planet, saved) && self.planet != *saved)
     }
 
-    /// Planets that a random planet has replaced before their changes were saved, oldest first: the path of each, or the
-    /// name if there is no file. Undo restores them.
+    /// Planets that a random planet has replaced before their changes were saved, oldest first: the path of each, or
+    /// the name if there is no file. Undo restores them.
     pub fn rolled_over(&self) -> Vec<String> {
         let name = |(planet, home): (&Arc<Planet>, &Home)| match &home.path {
             Some(path) => path.display().to_string(),
@@ -98,8 +98,8 @@ impl Document {
         self.history.homes().filter(|(planet, home)| home.lacks(planet))
     }
 
-    /// The planet to keep as the working copy: unsaved work, or else the last that a random planet has replaced, or else
-    /// an untouched random planet.
+    /// The planet to keep as the working copy: unsaved work, or else the last that a random planet has replaced, or
+    /// else an untouched random planet.
     pub fn to_recover(&self) -> Option<&Arc<Planet>> {
         if self.home.lacks(&self.planet) {
             return Some(&self.valid);

@@ -1,8 +1,8 @@
 //! Undo and redo: one step for each gesture, each a whole planet.
 //!
-//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames. [`History::record`] opens a step at its
-//! first change; [`History::settle`], called while nobody drags or types, closes it. Planets are shared by `Arc`: a step
-//! takes the memory of one planet.
+//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames. [`History::record`] opens a step at
+//! its first change; [`History::settle`], called while nobody drags or types, closes it. Planets are shared by `Arc`: a
+//! step takes the memory of one planet.
 
 use crate::editor::files::file_names::is_same_file;
 use crate::planet::Planet;

@@ -1,7 +1,7 @@
 //! The working copy: unsaved work, written beside the layout every few seconds, and offered after a crash.
 //!
-//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`. A file whose lock nobody holds was left
-//! behind by a crash. The documents' own files are never touched.
+//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`. A file whose lock nobody holds was
+//! left behind by a crash. The documents' own files are never touched.
 
 use super::document::Document;
 use crate::planet::Planet;
@@ -67,7 +67,8 @@ impl Recovery {
         Ok((recovery, orphans))
     }
 
-    /// Writes unsaved work on another thread, if it is time; deletes the file if there is none. Gives when to call again.
+    /// Writes unsaved work on another thread, if it is time; deletes the file if there is none. Gives when to call
+    /// again.
     pub fn tick(&mut self, document: &Document) -> Option<Duration> {
         if self.writing.as_ref().is_some_and(|thread| !thread.is_finished()) {
             return Some(INTERVAL / 10);

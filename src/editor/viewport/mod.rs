@@ -4,7 +4,8 @@
 //! - [`settings`]: debug view, quality, exposure, time
 //! - [`input`]: what the pointer and the keys do
 //! - [`ground`]: the ground as the camera knows it
-//! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its upload
+//! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
+//!   upload
 //! - `outline`: the frustum of a frozen view
 //! - [`pointer`]: the ground under the pointer; [`clicks`]: clicks for the painter
 //! - [`adaptation`]: exposure that adapts gradually

@@ -62,8 +62,8 @@ pub struct Drawing {
 }
 
 impl Timeline {
-    /// The timeline of an edit at `edited_at` whose picture has just been drawn, without its total. `surface`: the surface,
-    /// if its tiles were built for this edit.
+    /// The timeline of an edit at `edited_at` whose picture has just been drawn, without its total. `surface`: the
+    /// surface, if its tiles were built for this edit.
     pub fn new(edited_at: Instant, surface: Option<&Surface>, drawing: &Drawing) -> Self {
         let mut timeline = Timeline { uploaded_bytes: drawing.uploaded_bytes, ..Timeline::default() };
         let secs = |at: Instant| at.saturating_duration_since(edited_at).as_secs_f64();

@@ -4,8 +4,8 @@ use eframe::egui;
 use std::any::Any;
 
 /// Makes row `index` of a list draggable, and draws a line in the gap into which a row would be dropped. Gives the row
-/// that was dropped on this one, and the gap: `n` is before row `n`. `row` holds the index, in a type of its own for each
-/// list, so that rows stay in their list.
+/// that was dropped on this one, and the gap: `n` is before row `n`. `row` holds the index, in a type of its own for
+/// each list, so that rows stay in their list.
 pub fn dragged_row<T: Any + Send + Sync + Copy>(
     ui: &egui::Ui,
     response: &egui::Response,

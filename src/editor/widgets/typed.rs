@@ -1,7 +1,7 @@
 //! Number fields that say why they refuse a text.
 //!
-//! egui's own fields clamp a number to the range, and silently restore the old number if they cannot read the text. These
-//! fields refuse both, and show the reason below the field for some seconds.
+//! egui's own fields clamp a number to the range, and silently restore the old number if they cannot read the text.
+//! These fields refuse both, and show the reason below the field for some seconds.
 
 use super::number::{format_digits, read_number, suffix};
 use crate::planet::param::Unit;

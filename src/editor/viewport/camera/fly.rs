@@ -55,8 +55,8 @@ impl Fly {
         self.position_planet_m = self.position_planet_m.normalize_or(DVec3::Z) * radius_m;
     }
 
-    /// Advances by a time; `floor_m` gives the distance from the planet's centre to the ground or the sea. Gives whether
-    /// the camera moved.
+    /// Advances by a time; `floor_m` gives the distance from the planet's centre to the ground or the sea. Gives
+    /// whether the camera moved.
     pub fn advance(
         &mut self,
         duration_secs: f64,

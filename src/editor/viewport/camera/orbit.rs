@@ -141,8 +141,8 @@ impl Orbit {
             Some((x, y, dir, ground.raycast(camera.position_planet_m, dir)?))
         });
         let far_m = FAR_ALTITUDES * altitude_m;
-        // Towards a far point the eye moves straight: its altitude says little about the distance. Backwards it does not,
-        // since it would hardly rise.
+        // Towards a far point the eye moves straight: its altitude says little about the distance. Backwards it does
+        // not, since it would hardly rise.
         if let Some((_, _, dir, _)) = hit.filter(|(_, _, _, distance_m)| *distance_m > far_m && steps > 0.0) {
             let eye = camera.position_planet_m + dir * far_m * (1.0 - libm::exp(-steps));
             self.location = LatLon::from_direction(eye);
@@ -285,8 +285,8 @@ fn auto_pitch(altitude_m: f64, planet_radius_m: f64) -> f64 {
     lerp(GROUND_PITCH_RAD, -FRAC_PI_2, share)
 }
 
-/// Direction of the first intersection of a ray with a sphere about the origin. A ray that misses gives the direction of
-/// its point nearest to the origin.
+/// Direction of the first intersection of a ray with a sphere about the origin. A ray that misses gives the direction
+/// of its point nearest to the origin.
 fn sphere_point(eye: DVec3, ray: DVec3, radius_m: f64) -> DVec3 {
     let along = -eye.dot(ray);
     let nearest = eye + ray * along.max(0.0);

@@ -1,5 +1,5 @@
-//! Walking: gravity, jumps, and a speed that follows the slope. The physics has a fixed time step, so that equal keys lead
-//! to equal positions at any frame rate.
+//! Walking: gravity, jumps, and a speed that follows the slope. The physics has a fixed time step, so that equal keys
+//! lead to equal positions at any frame rate.
 
 use super::Controls;
 use super::pose::{Attitude, Pose};
@@ -78,8 +78,8 @@ impl Walk {
         self.feet.standing
     }
 
-    /// Lifts the feet onto ground that has risen, and lets them fall onto ground that has sunk. `floor_m` is the distance
-    /// of the ground from the planet's centre.
+    /// Lifts the feet onto ground that has risen, and lets them fall onto ground that has sunk. `floor_m` is the
+    /// distance of the ground from the planet's centre.
     pub fn keep_above(&mut self, floor_m: f64) {
         if self.feet.radius_m < floor_m {
             self.feet = Feet { radius_m: floor_m, climb_m_s: 0.0, standing: true, ..self.feet };
@@ -95,8 +95,8 @@ impl Walk {
         self.before = self.feet;
     }
 
-    /// Advances by a time; `floor_m` gives the distance of the ground from the planet's centre. Gives whether the camera
-    /// moves.
+    /// Advances by a time; `floor_m` gives the distance of the ground from the planet's centre. Gives whether the
+    /// camera moves.
     pub fn advance(&mut self, duration_secs: f64, controls: &Controls, floor_m: impl Fn(DVec3) -> f64) -> bool {
         if self.is_resting() && !controls.moves_feet() {
             self.left_secs = 0.0;
