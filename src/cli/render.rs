@@ -162,10 +162,10 @@ fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
             let ground_m = terrain.height_m(place.direction());
             let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
             let depth_m = floor_m - ground_m;
-            // Exactly 0.1 on land.
+            // Lowest altitude: 0.1 m above the ground or the sea bed.
             let deepest_m = 0.1 - depth_m;
             if altitude_m < deepest_m {
-                // Rounded up: what is offered is allowed.
+                // Rounded up, so that the offered altitude is allowed.
                 let least_m = (deepest_m * 10.0).ceil() / 10.0;
                 let range = match depth_m > 0.2 {
                     true => format!("the sea is {depth_m:.1} m deep there; use {least_m:.1} or more"),

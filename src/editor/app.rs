@@ -29,7 +29,7 @@ const PANEL_WIDTH: f32 = 376.0;
 /// The editor.
 pub struct EditorApp {
     state: State,
-    /// What is asked for, to be carried out at the start of the next frame.
+    /// The commands of this frame, carried out at the start of the next.
     commands: Commands,
     panels: PanelState,
     prompts: Prompts,
@@ -73,8 +73,8 @@ impl EditorApp {
         self
     }
 
-    /// Keeps the working copy in `folder`, and offers what a crash left there. Other windows see there which file this
-    /// one has open.
+    /// Keeps the working copy in `folder`, and offers the working copies that crashes left there. Other windows see
+    /// there which file this one has open.
     pub fn with_recovery(mut self, folder: &Path) -> Self {
         self.state.notices.claim_in(folder);
         match Recovery::open(folder) {
@@ -168,7 +168,7 @@ impl EditorApp {
         }
     }
 
-    /// Ends the gesture under way when nobody drags, types or holds a key.
+    /// Ends the gesture under way if the user neither drags, types nor holds a key.
     fn settle(&mut self, ctx: &egui::Context) {
         let busy = ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty()) || ctx.text_edit_focused();
         if !busy {
@@ -186,7 +186,7 @@ impl EditorApp {
             ctx.request_repaint();
         }
         if state.viewport.frame_meter.interval_secs().is_some() {
-            // One more frame after the last movement, in which the status bar says that the picture is idle.
+            // One more frame after the last movement: in it the status bar says "idle".
             ctx.request_repaint_after_secs(0.5);
         }
     }

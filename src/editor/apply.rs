@@ -1,4 +1,4 @@
-//! Carries out what views asked for.
+//! Carries out the actions that views ask for.
 
 use super::command::{Action, Answer, Command, Commands, Setting, Window};
 use super::commands;

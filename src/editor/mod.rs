@@ -5,7 +5,7 @@
 //! - [`app`]: the eframe application: the order of a frame
 //! - [`command`]: the messages from views to handlers; [`commands`]: the table of commands; [`apply`]: carries them out
 //! - [`state`]: the document, its undo steps, questions, notices, the working copy
-//! - [`handlers`]: what each command does
+//! - [`handlers`]: the effects of the commands
 //! - [`files`]: file dialogs, changes on disk, other windows
 //! - [`views`]: menus, status bar, questions, windows
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
@@ -61,7 +61,7 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
 /// Whether the editor can begin with this file: it can be read, or a new planet can be saved under its name.
 ///
 /// # Errors
-/// What is wrong with it, and what would be right.
+/// What is wrong with the file, and what would be right.
 pub fn check_first(path: &Path) -> Result<(), String> {
     handlers::opening::first_document(path).map(drop).map_err(|error| error.to_string())
 }

@@ -28,7 +28,7 @@ impl Claim {
         let stem = folder.join(format!("{PREFIX}{:016x}", fnv1a(whole.ok()?.as_os_str().as_encoded_bytes())));
         fs::create_dir_all(folder).ok()?;
         (0..SLOTS).find_map(|slot| {
-            let lock = File::options().create(true).truncate(false).write(true).open(place(&stem, slot)).ok()?;
+            let lock = File::options().create(true).truncate(false).write(true).open(lock_path(&stem, slot)).ok()?;
             lock.try_lock().ok()?;
             let claim = Self { stem: stem.clone(), slot, lock };
             claim.tell();
@@ -40,7 +40,7 @@ impl Claim {
     pub fn is_shared(&self) -> bool {
         (0..SLOTS).filter(|slot| *slot != self.slot).any(|slot| {
             // A shared lock: two windows that look at the same time do not take each other for owners.
-            let other = File::open(place(&self.stem, slot));
+            let other = File::open(lock_path(&self.stem, slot));
             other.is_ok_and(|other| matches!(other.try_lock_shared(), Err(TryLockError::WouldBlock)))
         })
     }
@@ -65,7 +65,7 @@ pub fn is_claim(name: &std::ffi::OsStr) -> bool {
     name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
 }
 
-fn place(stem: &Path, slot: u32) -> PathBuf {
+fn lock_path(stem: &Path, slot: u32) -> PathBuf {
     stem.with_extension(format!("{slot}.lock"))
 }
 
@@ -94,12 +94,12 @@ mod tests {
         let third = Claim::take(&locks, &file).unwrap();
         assert!(first.is_shared() && third.is_shared(), "a slot is used again");
         drop(third);
-        // Two who look at the same time.
-        let looking = File::open(place(&first.stem, 1)).unwrap();
+        // Two windows that look at once.
+        let looking = File::open(lock_path(&first.stem, 1)).unwrap();
         looking.try_lock_shared().unwrap();
         assert!(!first.is_shared());
-        // A lock file that nobody holds.
-        fs::write(place(&first.stem, 3), "").unwrap();
+        // A lock file without a lock.
+        fs::write(lock_path(&first.stem, 3), "").unwrap();
         assert!(!first.is_shared());
     }
 }

@@ -1,4 +1,4 @@
-//! What follows from the answers to questions about files, and from the window's close button.
+//! Answers to questions about files, and the window's close button.
 
 use super::{biome_table, opening, pictures, saving};
 use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};

@@ -1,8 +1,8 @@
-//! Handlers: what commands and answers do to the state.
+//! Handlers: they change the state, as commands and answers ask.
 //!
 //! - [`opening`]: another document in the place of this one, without losing unsaved work
 //! - [`saving`]: the planet into a file
-//! - [`answers`]: what follows from answers about files, and from the close button
+//! - [`answers`]: answers to questions about files, and the close button
 //! - [`open_file`]: the open file has changed on disk
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps

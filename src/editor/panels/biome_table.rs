@@ -207,11 +207,11 @@ impl PainterState {
                 let begin = canvas.in_cells(origin.filter(|_| down).unwrap_or(pos));
                 let line_from = self.last_end.filter(|_| self.tool == Tool::Brush && modifiers.shift);
                 let from = line_from.unwrap_or(begin);
-                // The number of the preview: the stroke paints what the preview showed.
+                // The number of the preview: the stroke paints the cells of the preview.
                 let number = self.strokes - 1;
                 Gesture::new(self.tool, biome.key, self.brush, self.selection, &biomes.table, from, number)
             });
-            // A fill stays at its begin: under the pointer lies now what it has filled.
+            // A fill keeps its first cell: the cell under the pointer is filled already.
             if gesture.tool() != Tool::Fill {
                 // The whole path since the last frame, not its end alone.
                 let path = ui.input(|i| {

@@ -64,7 +64,7 @@ const FIRST_TAB: usize = 1;
 pub struct Draft<'a> {
     /// A copy of the document's planet. If it differs from the document after the frame, it becomes an edit.
     pub planet: &'a mut Planet,
-    /// The name of the edit; None names it after what changed.
+    /// The name of the edit; None names it after the changed parameters.
     pub label: Option<String>,
     /// Everything wrong with the document's planet.
     pub problems: &'a [(ParamPath, String)],
@@ -72,7 +72,7 @@ pub struct Draft<'a> {
     pub under_pointer: Option<&'a UnderPointer>,
     /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
-    /// What is asked for beside edits.
+    /// The commands of the panels, beside edits.
     pub commands: &'a mut Commands,
     /// Longitude of the eye, in degrees.
     pub eye_lon_deg: f64,
@@ -110,7 +110,7 @@ impl Default for PanelState {
 }
 
 impl PanelState {
-    /// Forgets what belongs to another document than that of this number.
+    /// Forgets selections and texts if they belong to another document than the one of this number.
     pub fn keep_to_document(&mut self, document_number: u64) {
         if self.document_number != document_number {
             *self = Self { tab: self.tab, document_number, ..Self::default() };
@@ -122,7 +122,7 @@ impl PanelState {
         PANELS.get(self.tab).is_some_and(|panel| panel.paints)
     }
 
-    /// What the open tab has to do with the picture of the planet.
+    /// What the open tab shows on the planet, and which clicks it takes.
     pub fn painter_link(&self) -> PainterLink {
         if self.paints() { self.biomes.link() } else { PainterLink::default() }
     }

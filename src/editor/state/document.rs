@@ -129,7 +129,7 @@ impl Document {
         self.home.saved = self.home.saved.as_ref().map(given);
     }
 
-    /// Replaces the planet. `label` names the undo step; None names it after what changed.
+    /// Replaces the planet. `label` names the undo step; None names it after the changed parameters.
     pub fn edit(&mut self, mut planet: Planet, label: Option<String>) {
         if let Some(folder) = self.folder() {
             planet.set_folder(&folder);
@@ -154,7 +154,7 @@ impl Document {
         self.settle();
     }
 
-    /// Replaces the planet by what the file holds now: one undo step.
+    /// Replaces the planet by the content of its file: one undo step.
     pub fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
         let planet = Arc::new(planet);
         if planet != self.planet {
@@ -166,7 +166,7 @@ impl Document {
         self.note_saved(Some(planet), Some(bytes));
     }
 
-    /// Notes what the file holds now, and leaves the planet as it is.
+    /// Notes the content of the file, and leaves the planet as it is.
     pub fn note_disk(&mut self, planet: Option<Planet>, bytes: Option<Vec<u8>>) {
         self.note_saved(planet.map(Arc::new), bytes);
     }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Most steps that can be undone; older ones are dropped.
 pub const MAX_STEPS: usize = 500;
 
-/// The file of a planet, and what it holds.
+/// The file of a planet, and its content.
 #[derive(Clone, Debug, Default)]
 pub struct Home {
     /// The path of the file, if there is one.

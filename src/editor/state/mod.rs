@@ -3,9 +3,9 @@
 //! Views read it and send commands; handlers change it. It knows neither.
 //!
 //! - [`document`], [`history`], [`describe`]: the planet being edited, its file, its undo steps, changes in words
-//! - [`questions`]: what the editor asks about files
+//! - [`questions`]: questions about files
 //! - [`open_file`]: the watch over the open file
-//! - [`notices`]: what the editor says without being asked
+//! - [`notices`]: notices of the editor
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
 
@@ -71,7 +71,7 @@ pub struct State {
     pub questions: Questions,
     /// The watch over the open file.
     pub open_file: OpenFile,
-    /// What the editor says without being asked.
+    /// Notices of the editor.
     pub notices: Notices,
     /// Height maps.
     pub pictures: Pictures,
@@ -135,7 +135,7 @@ impl State {
         ctx.request_repaint();
     }
 
-    /// Replaces the planet by what its file holds: one undo step.
+    /// Replaces the planet by the content of its file: one undo step.
     pub fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
         self.document.reload(planet, bytes);
         self.start_edit_clock();
@@ -154,7 +154,7 @@ impl State {
         self.forget_document();
     }
 
-    /// Forgets what belonged to the document before.
+    /// Drops the questions and the view of the document before.
     fn forget_document(&mut self) {
         self.document_number += 1;
         self.questions.forget();

@@ -1,4 +1,4 @@
-//! What the editor says without being asked: what it has just done, and what is wrong with the open file.
+//! Notices of the editor: its last action, and other windows on the open file.
 
 use crate::editor::files::claim::{self, Claim};
 use crate::editor::files::disk::{self, News};
@@ -7,14 +7,14 @@ use notify::RecommendedWatcher;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How long the editor shows what it has just done.
+/// Time for which the last action is shown.
 const SHOWN: Duration = Duration::from_secs(5);
 /// Longest time between two looks for other windows while the system reports none.
 const LOOK: Duration = Duration::from_secs(1);
 /// Pause between a report of the system and the look: a window takes its lock a moment after it makes the file.
 const SETTLED: Duration = Duration::from_millis(100);
 
-/// What the editor says, and what it knows about other windows on the open file.
+/// The last action, and whether another window has the open file.
 #[derive(Default)]
 pub struct Notices {
     said: Option<(String, Instant)>,
@@ -35,12 +35,12 @@ impl Notices {
         self.claims = Some(folder.to_owned());
     }
 
-    /// Says what has just been done.
+    /// Notes an action to show.
     pub fn say(&mut self, text: String) {
         self.said = Some((text, Instant::now()));
     }
 
-    /// What has just been done, and how long to show it still.
+    /// The last action, and the time for which it is still shown.
     pub fn said(&self) -> Option<(&str, Duration)> {
         let (text, since) = self.said.as_ref()?;
         Some((text, SHOWN.checked_sub(since.elapsed())?))

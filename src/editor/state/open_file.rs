@@ -42,7 +42,7 @@ pub struct OpenFile {
     was_focused: bool,
     /// A change on disk about which the user decides later: the question comes again before the file is saved.
     pub put_off: Option<Vec<u8>>,
-    /// What is wrong with the file, shown as long as it holds.
+    /// A notice about the file, shown while it holds.
     pub notice: Option<String>,
 }
 
@@ -66,7 +66,7 @@ impl OpenFile {
         self.watch.as_ref().is_some_and(|watch| watch.news.is_due(QUIET, ctx))
     }
 
-    /// Notes that the file holds what was last read or written.
+    /// Notes that the file has its known content: no notice holds any more.
     pub fn settle(&mut self) {
         (self.notice, self.put_off) = (None, None);
     }

@@ -33,7 +33,7 @@ impl Failure {
 }
 
 impl Pictures {
-    /// What is wrong with the document's pictures. The planet can be saved all the same.
+    /// Problems of the document's pictures. They do not prevent saving.
     pub fn problems(&self) -> &[(ParamPath, String)] {
         &self.problems
     }

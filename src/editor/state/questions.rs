@@ -1,4 +1,4 @@
-//! What the editor asks about files, and what is to follow the answers.
+//! Questions about files, and the actions that wait for the answers.
 
 use crate::editor::files::dialogs::{DialogRequest, FileDialogs, Wake};
 use crate::editor::files::disk::TheirFile;
@@ -55,7 +55,7 @@ impl Replace {
 pub struct Change {
     /// The file.
     pub path: PathBuf,
-    /// What it holds now.
+    /// Its content now.
     pub theirs: TheirFile,
     /// Whether this was found when the file was about to be saved.
     pub saving: bool,

@@ -2,7 +2,7 @@
 //!
 //! - [`camera`]: the cameras; pure mathematics
 //! - [`settings`]: debug view, quality, exposure, time
-//! - [`input`]: what the pointer and the keys do
+//! - [`input`]: pointer and keys
 //! - [`ground`]: the ground as the camera knows it
 //! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
 //!   upload

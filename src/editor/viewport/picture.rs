@@ -16,7 +16,7 @@ use eframe::egui_wgpu::RenderState;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What is to be drawn.
+/// The scene to draw.
 pub(super) struct Scene<'a> {
     pub(super) surface: Arc<Surface>,
     /// The planet that gives sea, air, clouds and light.

@@ -2,7 +2,7 @@
 //!
 //! - [`menus`]: the menu bar
 //! - [`status`]: the status bar
-//! - [`problems`]: notices, and what is wrong with the planet
+//! - [`problems`]: notices and problems
 //! - [`prompts`], `path_field`, `rename`: questions and messages
 //! - [`controls`], [`performance`]: windows
 //! - [`shortcuts`]: keys and dropped files

@@ -1,4 +1,4 @@
-//! Notices, and what is wrong with the planet, above the picture.
+//! Notices and problems above the picture, and the last action below it.
 
 use crate::editor::state::State;
 use eframe::egui;
@@ -6,7 +6,7 @@ use eframe::egui;
 /// Most problems that are listed; the rest are counted.
 const MOST_LISTED: usize = 4;
 
-/// Shows what is wrong, if anything is.
+/// Shows notices and problems, if there are any.
 pub fn show(ui: &mut egui::Ui, state: &State) {
     let (problems, pictures) = (state.document.problems(), state.pictures.problems());
     let error = state.viewport.error();
@@ -37,7 +37,7 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
     });
 }
 
-/// What is wrong with the open file.
+/// Notices about the open file.
 fn notices(state: &State) -> Vec<String> {
     let shared = state
         .document
@@ -47,7 +47,7 @@ fn notices(state: &State) -> Vec<String> {
     shared.into_iter().chain(state.open_file.notice.clone()).collect()
 }
 
-/// Shows what the editor has just done.
+/// Shows the last action of the editor.
 pub fn show_said(ctx: &egui::Context, state: &State) {
     let Some((text, left)) = state.notices.said() else { return };
     egui::Area::new(egui::Id::unique("said"))
