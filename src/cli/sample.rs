@@ -1,4 +1,4 @@
-//! `tellus sample`: what the surface is at one place, as the editor's picture and a game see it.
+//! `tellus sample`: height, normal, climate and biome at a location, from the evaluator that the editor and games use.
 
 use super::{Failure, args, load, print};
 use crate::sphere::LatLon;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Say what the surface is at a place
+/// Print height, slope, climate and biome at a location
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The preset
@@ -19,8 +19,8 @@ pub(super) struct Args {
     /// Longitude in degrees, east positive
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: f64,
-    /// Answer as a JSON object: height_m, slope_deg, normal, temperature_c and precipitation_mm (a year), temperature
-    /// and moisture (0 to 1, the sides of the biome table), biome, layers
+    /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
+    /// moisture (0 to 1, the axes of the biome table), biome, layers
     #[arg(long)]
     json: bool,
 }

@@ -1,5 +1,5 @@
-//! How much of the planet's land lies in each cell of the biome table, and how much of it each biome has: a survey at directions
-//! that stand for equal areas, on a thread of its own. It asks the terrain that everything else asks.
+//! The shares of the planet's land in each cell of the biome table and in each biome: samples of the evaluator at
+//! directions of equal areas, on another thread.
 
 use crate::planet::param::Stages;
 use crate::planet::{Planet, diff};
@@ -9,25 +9,26 @@ use glam::DVec3;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Directions asked for: shares are good to about a tenth of a percent.
+/// Number of directions: the error of a share is about a tenth of a percent.
 const DIRECTIONS: usize = 24_576;
 
-/// What was found. Shares are of the land, or of everything where there is no sea; each list adds up to 1, or to 0 without land.
+/// The result. Shares are of the land, or of the whole surface of a planet without a sea. Each list adds up to 1, or to
+/// 0 without land.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
     columns: usize,
     /// Share of each cell, row by row.
     cells: Vec<f64>,
-    /// Share of each biome of the palette, after the rules for steep ground, beaches and snow.
+    /// Share of each biome of the palette, after the surface rules (steep ground, beaches, snow).
     pub biomes: Vec<f64>,
-    /// Share of the whole surface that lies under the sea.
+    /// Share of the whole surface under the sea.
     pub sea: f64,
-    /// The greatest share of a cell.
+    /// The largest share of a cell.
     pub most: f64,
 }
 
 impl Survey {
-    /// Asks a terrain.
+    /// Surveys a terrain.
     pub fn of(terrain: &Terrain) -> Self {
         let planet = terrain.planet();
         let dirs: Vec<DVec3> = spread(DIRECTIONS).collect();
@@ -52,14 +53,14 @@ impl Survey {
         Self { columns, cells, biomes, sea: 1.0 - count as f64 / DIRECTIONS as f64, most }
     }
 
-    /// Share of a cell; none outside of the table that was surveyed.
+    /// Share of a cell; 0 outside the surveyed table.
     pub fn cell(&self, column: usize, row: usize) -> f64 {
         let inside = column < self.columns;
         self.cells.get(row * self.columns + column).copied().filter(|_| inside).unwrap_or(0.0)
     }
 }
 
-/// Asks and remembers the newest answer.
+/// Surveys planets on another thread, and keeps the newest result.
 pub struct Surveyor {
     planets: Sender<Arc<Planet>>,
     answers: Receiver<Survey>,
@@ -68,20 +69,20 @@ pub struct Surveyor {
 }
 
 impl Surveyor {
-    /// Starts the thread; `wake` is called from it with each answer. It ends with the surveyor.
+    /// Starts the thread, which calls `wake` after each survey and ends with the surveyor.
     pub fn new(wake: impl Fn() + Send + 'static) -> Self {
         let (planets, asked) = channel::<Arc<Planet>>();
         let (answered, answers) = channel();
         let spawned = std::thread::Builder::new().name("tellus-survey".to_owned()).spawn(move || {
             let mut kept: Option<Terrain> = None;
             while let Ok(planet) = asked.recv() {
-                // Only the newest matters.
+                // Only the newest planet matters.
                 let planet = asked.try_iter().last().unwrap_or(planet);
                 let terrain = match &kept {
                     Some(before) => Terrain::try_after(planet, before),
                     None => Terrain::try_new(planet),
                 };
-                // A planet that is not valid has no ground: the newest answer stays.
+                // A planet with problems has no terrain: the newest result stays.
                 let Ok(terrain) = terrain else { continue };
                 if answered.send(Survey::of(&terrain)).is_err() {
                     return;
@@ -90,15 +91,15 @@ impl Surveyor {
                 wake();
             }
         });
-        // Without a thread there are no figures, and nothing else breaks.
+        // Without the thread there are no shares, and nothing else breaks.
         debug_assert!(spawned.is_ok());
         Self { planets, answers, asked: None, survey: None }
     }
 
-    /// Asks for a planet, unless the newest question was about the same ground.
+    /// Asks for a survey of a planet, unless the newest request was for equal ground.
     pub fn ask(&mut self, planet: &Arc<Planet>) {
         if !self.asked.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, planet) || same_ground(asked, planet)) {
-            // Without a thread there is nobody to ask.
+            // Fails only if the thread could not be started.
             let _ = self.planets.send(planet.clone());
         }
         self.asked = Some(planet.clone());
@@ -107,13 +108,13 @@ impl Surveyor {
         }
     }
 
-    /// The newest answer: perhaps about a planet of a moment ago.
+    /// The newest result; it may be of a planet of a moment ago.
     pub fn survey(&self) -> Option<&Survey> {
         self.survey.as_ref()
     }
 }
 
-/// Whether a survey would find the same.
+/// Whether two planets have the same survey.
 fn same_ground(a: &Planet, b: &Planet) -> bool {
     a.biomes == b.biomes && diff::touched_stages(a, b).within(Stages::OF_TILES).is_empty()
 }

@@ -1,20 +1,20 @@
-//! The planet being edited, its file, and its history. Everything that changes the planet goes through here.
+//! The planet being edited, its file, and its undo steps. Every change of the planet goes through here.
 //!
-//! A step of the history may change the file too: a rolled planet has none, and undo brings the planet before it back
-//! together with its file.
+//! An undo step may change the file too: a random planet has no file, and undo restores the planet before it together
+//! with its file.
 
 use super::describe;
 use super::history::{History, Home};
 use crate::planet::param::ParamPath;
 use crate::planet::picture::{Picture, PictureKey, folder_of};
-use crate::planet::{Planet, validate};
+use crate::planet::{Bookmark, Planet, validate};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A planet with its file and its undo steps.
 pub struct Document {
     planet: Arc<Planet>,
-    /// The newest planet without problems: what is drawn.
+    /// The newest planet without problems: the one that is drawn.
     valid: Arc<Planet>,
     home: Home,
     problems: Vec<(ParamPath, String)>,
@@ -22,7 +22,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// A document that has just been made. Its file, if it has a name already, does not exist yet.
+    /// A new document. Its file, if it has a path already, does not exist yet.
     pub fn new(planet: Planet, path: Option<PathBuf>) -> Self {
         let planet = Arc::new(planet);
         let problems = validate::problems(&planet);
@@ -35,14 +35,14 @@ impl Document {
         }
     }
 
-    /// A document that has just been read from `path`, which holds `text`.
+    /// A document read from `path`, which holds `text`.
     pub fn opened(planet: Planet, path: PathBuf, text: String) -> Self {
         let mut document = Self::new(planet, Some(path));
         document.home.bytes = Some(text.into_bytes());
         document
     }
 
-    /// A document that was never saved: closing it asks.
+    /// A document with unsaved work: to close it asks.
     pub fn unsaved(planet: Planet) -> Self {
         let mut document = Self::new(planet, None);
         document.home.saved = None;
@@ -59,7 +59,7 @@ impl Document {
         &self.valid
     }
 
-    /// What is wrong with the planet as edited.
+    /// Problems of the planet as edited.
     pub fn problems(&self) -> &[(ParamPath, String)] {
         &self.problems
     }
@@ -69,7 +69,7 @@ impl Document {
         self.home.path.as_deref()
     }
 
-    /// What stood in the file when it was last read or written; None where there is no file yet.
+    /// Content of the file when it was last read or written; None if there is no file yet.
     pub fn disk_bytes(&self) -> Option<&[u8]> {
         self.home.bytes.as_deref()
     }
@@ -79,13 +79,13 @@ impl Document {
         &self.history
     }
 
-    /// Whether there is work that no file holds.
+    /// Whether there is unsaved work.
     pub fn is_dirty(&self) -> bool {
         self.home.saved.as_ref().is_none_or(|saved| !Arc::ptr_eq(&self.planet, saved) && self.planet != *saved)
     }
 
-    /// The files of planets that were rolled over before their changes were saved, oldest first. Where there is no
-    /// file, it is the planet's name. Undo brings them back.
+    /// Planets that a random planet has replaced before their changes were saved, oldest first: the path of each, or
+    /// the name if there is no file. Undo restores them.
     pub fn rolled_over(&self) -> Vec<String> {
         let name = |(planet, home): (&Arc<Planet>, &Home)| match &home.path {
             Some(path) => path.display().to_string(),
@@ -98,8 +98,8 @@ impl Document {
         self.history.homes().filter(|(planet, home)| home.lacks(planet))
     }
 
-    /// What a crash must not take: unsaved work here, or else the last that was rolled over. A random planet that
-    /// nobody has touched comes after both.
+    /// The planet to keep as the working copy: unsaved work, or else the last that a random planet has replaced, or
+    /// else an untouched random planet.
     pub fn to_recover(&self) -> Option<&Arc<Planet>> {
         if self.home.lacks(&self.planet) {
             return Some(&self.valid);
@@ -108,12 +108,17 @@ impl Document {
         rolled_over.or_else(|| self.is_dirty().then_some(&self.valid))
     }
 
-    /// The folder of its file.
+    /// The bookmarks of the planet as edited.
+    pub fn bookmarks(&self) -> &[Bookmark] {
+        self.planet.editor.as_ref().map_or(&[], |notes| &notes.bookmarks)
+    }
+
+    /// The folder of the file.
     pub fn folder(&self) -> Option<PathBuf> {
         self.home.path.as_deref().map(folder_of)
     }
 
-    /// Hands over a picture that has been read. That is no edit: what the planet says stays the same.
+    /// Gives a picture that has been read to the planet. That is no edit: no parameter changes.
     pub fn give_picture(&mut self, key: &PictureKey, picture: &Arc<Picture>) {
         let given = |planet: &Arc<Planet>| {
             let mut planet = (**planet).clone();
@@ -124,7 +129,7 @@ impl Document {
         self.home.saved = self.home.saved.as_ref().map(given);
     }
 
-    /// Replaces the planet; `label` names the step, or it is named after what changed.
+    /// Replaces the planet. `label` names the undo step; None names it after the changed parameters.
     pub fn edit(&mut self, mut planet: Planet, label: Option<String>) {
         if let Some(folder) = self.folder() {
             planet.set_folder(&folder);
@@ -133,13 +138,13 @@ impl Document {
             return;
         }
         let label = label.unwrap_or_else(|| describe::change(&self.planet, &planet));
-        // A rule that has just been switched on is of something, within the same step.
+        // A surface rule that was just switched on gets a biome, within the same step.
         planet.biomes.name_missing(false);
         self.history.record(&self.planet, &label);
         self.show(Arc::new(planet));
     }
 
-    /// Puts another planet, which no file holds, in the place of this one: one step.
+    /// Replaces the planet by one that no file holds: one undo step.
     pub fn roll(&mut self, planet: Planet, label: &str) {
         self.settle();
         let planet = Arc::new(planet);
@@ -149,7 +154,7 @@ impl Document {
         self.settle();
     }
 
-    /// Takes over what the file holds now: one step.
+    /// Replaces the planet by the content of its file: one undo step.
     pub fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
         let planet = Arc::new(planet);
         if planet != self.planet {
@@ -161,37 +166,37 @@ impl Document {
         self.note_saved(Some(planet), Some(bytes));
     }
 
-    /// Notes what the file holds now, and leaves the planet as it is.
+    /// Notes the content of the file, and leaves the planet as it is.
     pub fn note_disk(&mut self, planet: Option<Planet>, bytes: Option<Vec<u8>>) {
         self.note_saved(planet.map(Arc::new), bytes);
     }
 
-    /// What the file holds now, here and in the steps of the history that lead back to the same file.
+    /// Notes the content of the file, here and in the undo steps of the same file.
     fn note_saved(&mut self, saved: Option<Arc<Planet>>, bytes: Option<Vec<u8>>) {
         (self.home.saved, self.home.bytes) = (saved, bytes);
         self.history.note_file(&self.home);
     }
 
-    /// Ends the gesture under way; call it while nobody drags or types.
+    /// Ends the gesture under way. Call it while nobody drags or types.
     pub fn settle(&mut self) {
         self.history.settle(&self.planet);
     }
 
-    /// Goes one step back.
+    /// Goes one undo step back.
     pub fn undo(&mut self) {
         if let Some(planet) = self.history.undo(&self.planet, &mut self.home) {
             self.show(planet);
         }
     }
 
-    /// Goes one step forward.
+    /// Goes one undo step forward.
     pub fn redo(&mut self) {
         if let Some(planet) = self.history.redo(&self.planet, &mut self.home) {
             self.show(planet);
         }
     }
 
-    /// Notes that `planet` now stands in the file at `path`. Paths of pictures count from there from now on.
+    /// Notes that the file at `path` holds `planet`. Paths of pictures are relative to its folder from now on.
     pub fn mark_saved(&mut self, planet: &Planet, path: PathBuf) {
         let folder = folder_of(&path);
         let saved = Arc::new(planet.moved_to(&folder));

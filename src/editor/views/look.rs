@@ -1,8 +1,8 @@
-//! How the editor looks: dark by default, quiet, compact.
+//! Colours and spacing: dark by default.
 
 use eframe::egui;
 
-/// Sets the styles of both themes. What was remembered from the last run wins over the dark default.
+/// Sets the styles of both themes. The theme of the last run, if any, replaces the dark default.
 pub fn set_up(ctx: &egui::Context) {
     ctx.options_mut(|options| options.fallback_theme = egui::Theme::Dark);
     ctx.all_styles_mut(|style| {

@@ -1,16 +1,18 @@
-//! The window that lists every key and what the mouse does. Shortcuts come from the commands themselves.
+//! The window that lists the keys and the mouse. Shortcuts come from the table of commands.
 
-use super::command::Command;
+use crate::editor::command::{Action, Commands, Window};
+use crate::editor::commands::COMMANDS;
+use crate::editor::state::State;
 use eframe::egui;
 
-/// What is no command: held keys and the mouse.
+/// Held keys and the mouse, which are no commands.
 const GROUPS: [(&str, &[(&str, &str)]); 5] = [
     (
         "Mouse",
         &[
             ("Drag", "Orbit: hold the ground and turn the planet. Fly, walk: look around"),
-            ("Right drag", "Turn the head"),
-            ("Scroll", "Orbit: go nearer to what is under the pointer. Fly: faster or slower"),
+            ("Right drag", "Look around"),
+            ("Scroll", "Orbit: move towards the point under the pointer. Fly: faster or slower"),
             ("Double click", "Fly there; any key stops"),
             ("Shift and drag, middle drag", "Turn the star"),
             ("Right click on a name in the panel", "Copy or reset a value"),
@@ -21,13 +23,13 @@ const GROUPS: [(&str, &[(&str, &str)]); 5] = [
         &[
             ("W A S D, arrow keys", "Travel over the ground"),
             ("E, Q, Page up, Page down", "Higher, lower"),
-            ("Shift and arrow keys", "Turn the head"),
+            ("Shift and arrow keys", "Look around"),
         ],
     ),
     (
         "Fly",
         &[
-            ("W A S D", "To where you look, back, to the sides; faster the higher you are"),
+            ("W A S D", "Along the view, back, to the sides; faster the higher you are"),
             ("E or Space, Q", "Up, down"),
             ("Z, C", "Roll to the left, to the right"),
             ("Arrow keys", "Look around"),
@@ -40,7 +42,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 5] = [
             ("A biome's letter, right click, Ctrl and click", "Choose that biome"),
             ("[ ]", "Smaller, larger brush"),
             ("Shift", "Straight lines, outlines of rectangles; fill everywhere; join brush strokes"),
-            ("Ctrl and click on the planet", "Paint the climate of that place"),
+            ("Ctrl and click on the planet", "Paint the climate there"),
             ("Escape", "End the selection"),
         ],
     ),
@@ -57,9 +59,10 @@ fn id() -> egui::Id {
 }
 
 /// Shows the window while it is open.
-pub fn show(ctx: &egui::Context, open: &mut bool) {
+pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
+    let mut open = state.shows.controls;
     let most_high = ctx.content_rect().height() - 120.0;
-    egui::Window::new("Controls").id(id()).open(open).resizable(false).collapsible(false).show(ctx, |ui| {
+    egui::Window::new("Controls").id(id()).open(&mut open).resizable(false).collapsible(false).show(ctx, |ui| {
         egui::ScrollArea::vertical().max_height(most_high).show(ui, |ui| {
             egui::Grid::new("controls").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
                 for (title, rows) in GROUPS {
@@ -69,16 +72,16 @@ pub fn show(ctx: &egui::Context, open: &mut bool) {
                     }
                 }
                 heading(ui, "Shortcuts");
-                for &command in Command::ALL {
-                    let keys: Vec<String> =
-                        command.shortcuts().iter().map(|shortcut| ctx.format_shortcut(shortcut)).collect();
-                    if !keys.is_empty() {
-                        row(ui, &keys.join(", "), command.tooltip());
-                    }
+                for command in COMMANDS.iter().filter(|command| !command.shortcuts.is_empty()) {
+                    let keys = command.shortcuts.iter().map(|shortcut| ctx.format_shortcut(shortcut));
+                    row(ui, &keys.collect::<Vec<_>>().join(", "), command.tooltip);
                 }
             });
         });
     });
+    if open != state.shows.controls {
+        commands.push(Action::Close(Window::Controls));
+    }
 }
 
 fn heading(ui: &mut egui::Ui, title: &str) {

@@ -1,7 +1,7 @@
-//! Asks for a file in the window itself, where the desktop has no file dialogs: a path to type, and what lies in its
-//! folder.
+//! Asks for a file in the window, where the desktop has no file dialogs: a path to type, and a list of its folder.
 
-use super::dialogs::DialogRequest;
+use crate::editor::files::dialogs::DialogRequest;
+use crate::editor::state::questions::WantedPath;
 use eframe::egui;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
@@ -26,7 +26,8 @@ struct Entry {
 }
 
 impl PathField {
-    pub(super) fn new(request: DialogRequest, why: String) -> Self {
+    pub(super) fn new(wanted: &WantedPath) -> Self {
+        let (request, why) = (wanted.request.clone(), wanted.why.clone());
         let base = request.folder().cloned().or_else(|| std::env::current_dir().ok()).unwrap_or_default();
         let mut typed = base.join(request.file_name().unwrap_or_default()).display().to_string();
         if request.file_name().is_none() && !typed.ends_with(MAIN_SEPARATOR) {
@@ -35,7 +36,12 @@ impl PathField {
         Self { request, why, typed, problem: None, listed: None }
     }
 
-    /// The path that is meant: `~` is the home folder, and what is relative counts from where a dialog would begin.
+    /// Whether the field asks for this path.
+    pub(super) fn is_for(&self, wanted: &WantedPath) -> bool {
+        self.request == wanted.request
+    }
+
+    /// The path that was typed: `~` is the home folder, and a relative path counts from the folder of the request.
     fn path(&self) -> PathBuf {
         let typed = self.typed.trim();
         let home = || std::env::home_dir().unwrap_or_default();
@@ -49,8 +55,8 @@ impl PathField {
         base.join(typed)
     }
 
-    /// The folder that is being typed in, and the begin of a name in it.
-    fn place(&self) -> (PathBuf, String) {
+    /// The folder of the typed path, and the begin of a name in it.
+    fn folder_and_name(&self) -> (PathBuf, String) {
         let path = self.path();
         match (path.parent(), path.file_name()) {
             (Some(folder), Some(name)) if !self.typed.trim_end().ends_with(['/', MAIN_SEPARATOR]) => {
@@ -60,9 +66,9 @@ impl PathField {
         }
     }
 
-    /// The file, or what is wrong with the path.
+    /// The chosen file, or what is wrong with the path.
     fn chosen(&self) -> Result<PathBuf, String> {
-        let (path, (folder, name)) = (self.path(), self.place());
+        let (path, (folder, name)) = (self.path(), self.folder_and_name());
         if !folder.is_dir() {
             return Err(format!("There is no folder {}.", folder.display()));
         }
@@ -75,7 +81,7 @@ impl PathField {
         Ok(path)
     }
 
-    /// Shows the field; gives the file that was chosen, or None when the person cancelled.
+    /// Shows the field. Gives the chosen file, or an inner None if the user cancelled.
     pub(super) fn show(&mut self, ctx: &egui::Context) -> Option<Option<PathBuf>> {
         let modal = egui::Modal::new(egui::Id::unique("path field")).show(ctx, |ui| {
             ui.set_width(520.0_f32.min(ctx.content_rect().width() - 60.0));
@@ -107,7 +113,7 @@ impl PathField {
         if done {
             match self.chosen() {
                 Ok(path) => return Some(Some(path)),
-                // Enter on a folder goes into it.
+                // Enter on a folder opens it.
                 Err(_) if self.path().is_dir() && !self.typed.ends_with(MAIN_SEPARATOR) => {
                     self.typed.push(MAIN_SEPARATOR);
                     move_cursor_to_end(ctx);
@@ -118,14 +124,14 @@ impl PathField {
         (cancelled || modal.should_close()).then_some(None)
     }
 
-    /// Lists what could be meant; a click takes a name over. Whether a file was clicked twice.
+    /// Lists the names that the typed path may become; a click takes a name. Gives whether a file was double-clicked.
     fn list(&mut self, ui: &mut egui::Ui) -> bool {
-        let (folder, begin) = self.place();
+        let (folder, begin) = self.folder_and_name();
         if self.listed.as_ref().is_none_or(|(listed, _)| *listed != folder) {
             self.listed = Some((folder.clone(), entries(&folder, self.request.extensions())));
         }
         let entries = self.listed.as_ref().map(|(_, entries)| entries.clone()).unwrap_or_default();
-        // The whole name of what is there already, or a name to save under, narrows nothing.
+        // A complete name, and a name to save under, do not filter the list.
         let known = entries.iter().any(|entry| entry.name == begin) || self.request.saves();
         let fits = |entry: &&Entry| known || entry.name.to_lowercase().starts_with(&begin.to_lowercase());
         let mut picked = false;
@@ -150,7 +156,7 @@ impl PathField {
         picked
     }
 
-    /// The path of a name that was clicked.
+    /// The path of a clicked name.
     fn taken(&self, folder: &Path, entry: &Entry) -> String {
         let path = match (entry.is_folder, entry.name.as_str()) {
             (true, "..") => folder.parent().unwrap_or(folder).to_owned(),
@@ -160,7 +166,7 @@ impl PathField {
         if entry.is_folder && !text.ends_with(MAIN_SEPARATOR) {
             text.push(MAIN_SEPARATOR);
         }
-        // The name to save under goes along from folder to folder.
+        // The name to save under stays when the folder changes.
         if let Some(name) = self.request.file_name().filter(|_| entry.is_folder) {
             text.push_str(name);
         }
@@ -168,7 +174,7 @@ impl PathField {
     }
 }
 
-/// The field keeps the focus; what is typed next goes on behind what was taken over.
+/// The field keeps the focus; the user types on at the end of the path.
 fn move_cursor_to_end(ctx: &egui::Context) {
     if let Some(id) = ctx.memory(egui::Memory::focused)
         && let Some(mut state) = egui::TextEdit::load_state(ctx, id)
@@ -179,7 +185,7 @@ fn move_cursor_to_end(ctx: &egui::Context) {
     }
 }
 
-/// Folders, then files of these kinds, by name; nothing hidden.
+/// Folders, then files with these extensions, by name, without hidden ones.
 fn entries(folder: &Path, extensions: &[&str]) -> Vec<Entry> {
     let Ok(read) = fs::read_dir(folder) else { return Vec::new() };
     let mut entries: Vec<Entry> = read
@@ -200,6 +206,11 @@ fn entries(folder: &Path, extensions: &[&str]) -> Vec<Entry> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::editor::state::questions::Asking;
+
+    fn field_for(request: DialogRequest) -> PathField {
+        PathField::new(&WantedPath { asking: Asking::Open, request, why: String::new() })
+    }
 
     #[test]
     fn a_path_is_checked_before_it_is_taken() {
@@ -207,7 +218,7 @@ mod tests {
         let base = folder.path().to_owned();
         fs::write(base.join("a.ron"), "").unwrap();
         let open = DialogRequest::Open { folder: Some(base.clone()) };
-        let mut field = PathField::new(open, String::new());
+        let mut field = field_for(open);
         let mut chosen = |typed: &str| {
             field.typed = typed.to_owned();
             field.chosen()
@@ -218,7 +229,7 @@ mod tests {
         assert!(chosen("").unwrap_err().contains("is a folder"));
 
         let save = DialogRequest::SaveAs { folder: Some(base.clone()), file_name: "new.ron".to_owned() };
-        let field = PathField::new(save, String::new());
+        let field = field_for(save);
         assert_eq!(field.chosen(), Ok(base.join("new.ron")), "the name that is offered");
         assert_eq!(entries(&base, &["ron"]).len(), 1);
         assert!(entries(&base, &["png"]).is_empty());

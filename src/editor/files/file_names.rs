@@ -1,27 +1,31 @@
-//! Names of files: what they end in, what they say about a planet, and whether two of them mean one file.
+//! File names: extensions, names for people, and whether two paths are of one file.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// A planet's name by that of its file: "ice-moon.ron" is "Ice moon".
-pub(super) fn readable_stem(path: &Path) -> String {
+/// The extension of presets.
+pub const PRESET_EXTENSION: &str = "ron";
+
+/// A planet's name from its file name: "ice-moon.ron" is "Ice moon".
+pub fn readable_stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(['-', '_'], " ");
     let mut chars = stem.trim().chars().filter(|c| !c.is_control()).take(64);
     chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// Whether two paths lead to one file, however they are written.
-pub(super) fn is_same_file(a: &Path, b: &Path) -> bool {
+/// Whether two paths, relative or not, are of one file.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();
     a == b || whole(a).is_some_and(|a| Some(a) == whole(b))
 }
 
-pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
+/// Whether the path has this extension, in small or capital letters.
+pub fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }
 
-/// The path with the extension behind its whole name, if it does not end in it.
-pub(super) fn with_extension(path: &Path, extension: &str) -> PathBuf {
+/// The path with the extension appended to the whole name, unless the path has it.
+pub fn with_extension(path: &Path, extension: &str) -> PathBuf {
     if has_extension(path, extension) {
         return path.to_owned();
     }

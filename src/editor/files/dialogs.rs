@@ -1,15 +1,15 @@
-//! File dialogs that never block the window, behind a trait so that tests answer them. Where the desktop has none, the
-//! editor asks for a path in its window.
+//! File dialogs that never block the window, behind a trait so that tests can answer them. Where the desktop has no
+//! dialogs, the editor asks for a path in its window.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-/// Nobody cancels a dialog as fast as this: it never showed.
+/// A dialog that is cancelled faster than this was never shown.
 const TOO_FAST: Duration = Duration::from_millis(400);
 
-/// What a dialog asks for.
+/// The file that a dialog asks for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DialogRequest {
     /// A preset to open.
@@ -31,14 +31,14 @@ pub enum DialogRequest {
     ExportTable {
         /// Folder to begin in.
         folder: Option<PathBuf>,
-        /// File name to offer.
+        /// Proposed file name.
         file_name: String,
     },
     /// A file to save to.
     SaveAs {
         /// Folder to begin in.
         folder: Option<PathBuf>,
-        /// File name to offer.
+        /// Proposed file name.
         file_name: String,
     },
 }
@@ -55,7 +55,7 @@ impl DialogRequest {
         }
     }
 
-    /// What the files are, and what their names end in.
+    /// Kind and extensions of the files.
     fn filter(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             DialogRequest::Open { .. } | DialogRequest::SaveAs { .. } => ("Planet presets", &["ron"]),
@@ -64,7 +64,7 @@ impl DialogRequest {
         }
     }
 
-    /// What the files' names end in.
+    /// Extensions of the files.
     pub fn extensions(&self) -> &'static [&'static str] {
         self.filter().1
     }
@@ -80,7 +80,7 @@ impl DialogRequest {
         }
     }
 
-    /// The name that is offered for a file to be written.
+    /// The proposed name of a file to write.
     pub fn file_name(&self) -> Option<&str> {
         match self {
             DialogRequest::ExportTable { file_name, .. } | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
@@ -88,13 +88,13 @@ impl DialogRequest {
         }
     }
 
-    /// Whether the file is to be written.
+    /// Whether the file will be written.
     pub fn saves(&self) -> bool {
         self.file_name().is_some()
     }
 }
 
-/// Called from any thread when an answer has come.
+/// Called from any thread when there is an answer.
 pub type Wake = Box<dyn Fn() + Send + 'static>;
 
 /// Asks for files. The answer comes later, through [`FileDialogs::poll`].
@@ -104,9 +104,9 @@ pub trait FileDialogs {
     /// # Errors
     /// Why this desktop cannot show one.
     fn start(&mut self, request: DialogRequest, wake: Wake) -> Result<(), String>;
-    /// The answer, once: the file, or None when the person cancelled.
+    /// The answer, once: the file, or an inner None if the user cancelled.
     fn poll(&mut self) -> Option<Option<PathBuf>>;
-    /// After an answer: what was asked for and why the dialog never showed, if it did not.
+    /// After an answer: the request and why its dialog was never shown, if so.
     fn failed(&mut self) -> Option<(DialogRequest, String)> {
         None
     }
@@ -122,8 +122,8 @@ pub struct NativeDialogs {
 
 const NO_DIALOGS: &str = "This desktop shows no file dialogs (xdg-desktop-portal or zenity would): type the path.";
 
-/// Whether anything here can show a file dialog: on Linux that is a portal, reached over the session bus, or zenity.
-/// Without either the dialog would be "cancelled" at once, and nobody would know why.
+/// Whether this desktop can show a file dialog. On Linux that needs a portal, reached over the session bus, or zenity.
+/// Without either, a dialog would be "cancelled" at once without a reason.
 fn can_show_dialogs() -> bool {
     if !cfg!(target_os = "linux") {
         return true;
@@ -144,7 +144,7 @@ impl FileDialogs for NativeDialogs {
         if let Some(folder) = request.folder() {
             dialog = dialog.set_directory(folder);
         }
-        // Desktops want dialogs made on the main thread; the waiting is done elsewhere.
+        // Some desktops need the dialog made on the main thread. Another thread waits for the answer.
         let future: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match request.file_name()
         {
             Some(file_name) => Box::pin(dialog.set_file_name(file_name).save_file()),
@@ -155,7 +155,7 @@ impl FileDialogs for NativeDialogs {
         self.answer = Some(receiver);
         std::thread::spawn(move || {
             let file = pollster::block_on(future).map(|handle| handle.path().to_owned());
-            // The receiver is gone when the editor closed meanwhile.
+            // The receiver is gone if the editor has closed.
             let _ = sender.send(file);
             wake();
         });
@@ -166,7 +166,7 @@ impl FileDialogs for NativeDialogs {
         let answer = match self.answer.as_ref()?.try_recv() {
             Ok(answer) => answer,
             Err(std::sync::mpsc::TryRecvError::Empty) => return None,
-            // The waiting thread died: the same as a cancelled dialog.
+            // The waiting thread has panicked: treated as a cancelled dialog.
             Err(std::sync::mpsc::TryRecvError::Disconnected) => None,
         };
         self.answer = None;
@@ -193,7 +193,7 @@ impl FileDialogs for NoDialogs {
     }
 }
 
-/// Answers prepared in advance, for tests.
+/// Prepared answers, for tests.
 #[derive(Default)]
 pub struct ScriptedDialogs {
     answers: VecDeque<Option<PathBuf>>,
@@ -201,7 +201,7 @@ pub struct ScriptedDialogs {
 }
 
 impl ScriptedDialogs {
-    /// Gives these answers one after the other; when they run out, every dialog is cancelled.
+    /// Gives these answers in order; every later dialog is cancelled.
     pub fn new(answers: impl IntoIterator<Item = Option<PathBuf>>) -> Self {
         Self { answers: answers.into_iter().collect(), pending: None }
     }

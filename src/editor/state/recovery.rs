@@ -1,7 +1,7 @@
-//! Unsaved work outlives a crash: it is written beside the layout every few seconds, and offered at the next start.
+//! The working copy: unsaved work, written beside the layout every few seconds, and offered after a crash.
 //!
-//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`; a file whose lock nobody holds was
-//! left behind. The documents' own files are never touched.
+//! Each running editor owns `recovery-N.ron` and holds a lock on `recovery-N.lock`. A file whose lock nobody holds was
+//! left behind by a crash. The documents' own files are never touched.
 
 use super::document::Document;
 use crate::planet::Planet;
@@ -12,13 +12,13 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Least time between two writes.
+/// Least time between two writes: the most work that a crash can cost.
 const INTERVAL: Duration = Duration::from_secs(2);
 
-/// The recovery file of this editor.
+/// The working copy of this editor.
 pub struct Recovery {
     file: PathBuf,
-    /// Held as long as this editor runs; the system lets go when it crashes.
+    /// Held while this editor runs; the system releases it after a crash.
     _lock: File,
     lock_path: PathBuf,
     written: Option<Arc<Planet>>,
@@ -26,22 +26,22 @@ pub struct Recovery {
     writing: Option<JoinHandle<()>>,
 }
 
-/// Work that an editor left behind.
+/// A working copy that a crash left behind.
 #[derive(Clone, Debug)]
 pub struct Orphan {
     /// Its file.
     pub file: PathBuf,
-    /// What was being edited.
+    /// The planet.
     pub planet: Planet,
 }
 
 impl Recovery {
-    /// Takes a file of its own in `folder`, and finds what crashed editors left there.
+    /// Takes a free number in `folder`, and finds the working copies of crashed editors there.
     pub fn open(folder: &Path) -> io::Result<(Self, Vec<Orphan>)> {
         fs::create_dir_all(folder)?;
         let mut orphans = Vec::new();
         let mut own = None;
-        // As many editors at once as anybody has; a number whose lock is held belongs to another.
+        // More than anybody runs at once. A number whose lock is held belongs to another editor.
         for number in 0..64 {
             let file = folder.join(format!("recovery-{number}.ron"));
             if !file.exists() && own.is_some() {
@@ -53,7 +53,7 @@ impl Recovery {
                 continue;
             }
             if file.exists() {
-                // One that cannot be read stays where it is: somebody may still save it by hand.
+                // A file that cannot be read stays: the user may still repair it.
                 if let Ok(planet) = Planet::open(&file) {
                     orphans.push(Orphan { file, planet });
                 }
@@ -67,8 +67,8 @@ impl Recovery {
         Ok((recovery, orphans))
     }
 
-    /// Writes unsaved work if it is time, on another thread; removes the file when there is none.
-    /// Gives when to call again.
+    /// Writes unsaved work on another thread, if it is time; deletes the file if there is none. Gives when to call
+    /// again.
     pub fn tick(&mut self, document: &Document) -> Option<Duration> {
         if self.writing.as_ref().is_some_and(|thread| !thread.is_finished()) {
             return Some(INTERVAL / 10);
@@ -90,23 +90,23 @@ impl Recovery {
         let (planet, file) = (planet.clone(), self.file.clone());
         self.writing = Some(std::thread::spawn(move || {
             if let Err(error) = planet.save(&file) {
-                log::warn!("unsaved work could not be kept for recovery: {error}");
+                log::warn!("unsaved work could not be written to the working copy: {error}");
             }
         }));
         None
     }
 
-    /// Makes what was left behind this editor's own.
+    /// Makes the working copy of a crashed editor this editor's own.
     pub fn adopt(&self, orphan: &Path) {
         if let Err(error) = fs::rename(orphan, &self.file) {
             log::warn!("{}: {error}", orphan.display());
         }
     }
 
-    /// Removes the file: there is nothing to recover.
+    /// Deletes the working copy: there is no unsaved work.
     pub fn forget(&mut self) {
         if let Some(thread) = self.writing.take() {
-            // A panic in the thread leaves at most a file too many.
+            // A panic in the thread leaves at most a stale file.
             let _ = thread.join();
         }
         if self.written.take().is_some() {
@@ -114,14 +114,14 @@ impl Recovery {
         }
     }
 
-    /// The editor ends as it should.
+    /// Deletes the working copy and the lock: the editor ends regularly.
     pub fn close(&mut self) {
         self.forget();
         remove(&self.lock_path);
     }
 }
 
-/// Removes a recovery file that is no longer needed.
+/// Deletes a working copy.
 pub fn remove(file: &Path) {
     if let Err(error) = fs::remove_file(file)
         && error.kind() != io::ErrorKind::NotFound

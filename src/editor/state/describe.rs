@@ -11,7 +11,7 @@ pub fn change(before: &Planet, after: &Planet) -> String {
     let changes = diff::diff(before, after);
     match changes.as_slice() {
         [only] => match param_at(after, &only.path) {
-            // The owner's own name changes with every letter typed, and would make each of them a step.
+            // The step must not contain the name itself, which changes with each letter: each would be a step.
             Some((param, _)) if param.name == "name" && only.path.segments().len() > 1 => {
                 let biome = only.path.segments().first() == Some(&Segment::Field("biomes"));
                 format!("Rename {}", if biome { "biome" } else { "layer" })
@@ -38,7 +38,7 @@ pub fn change(before: &Planet, after: &Planet) -> String {
     }
 }
 
-/// What the parameter at `path` belongs to, as a person calls it: a layer's or biome's name, or the part's.
+/// The owner of the parameter at `path`: the name of the layer, of the biome, or of the part.
 pub fn owner(planet: &Planet, path: &ParamPath) -> Option<String> {
     match path.segments() {
         [Segment::Field("layers"), Segment::Index(i), ..] => planet.layers.get(*i).map(|layer| layer.name.clone()),
@@ -60,7 +60,8 @@ fn param_at(planet: &Planet, wanted: &ParamPath) -> Option<(&'static Param, Valu
     found
 }
 
-fn lower_first(text: &str) -> String {
+/// The text with a small first letter.
+pub fn lower_first(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }

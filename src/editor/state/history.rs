@@ -1,50 +1,50 @@
-//! Undo and redo: whole planets, shared, one step for each gesture.
+//! Undo and redo: one step for each gesture, each a whole planet.
 //!
-//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames; [`History::record`] opens a step at
-//! its first change and [`History::settle`], called while nobody drags or types, closes it. Planets are kept as `Arc`,
-//! so a step costs the planet's data once.
+//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames. [`History::record`] opens a step at
+//! its first change; [`History::settle`], called while nobody drags or types, closes it. Planets are shared by `Arc`: a
+//! step takes the memory of one planet.
 
-use super::file_names::is_same_file;
+use crate::editor::files::file_names::is_same_file;
 use crate::planet::Planet;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Most steps that can be undone; the oldest are forgotten.
+/// Most steps that can be undone; older ones are dropped.
 pub const MAX_STEPS: usize = 500;
 
-/// Where a planet is kept.
+/// The file of a planet, and its content.
 #[derive(Clone, Debug, Default)]
 pub struct Home {
-    /// Its file, if it has a name.
+    /// The path of the file, if there is one.
     pub path: Option<PathBuf>,
-    /// What the file holds, or what a new document began with; None if nothing holds any of it.
+    /// The planet in the file, or the one that a new document began with; None for unsaved work.
     pub saved: Option<Arc<Planet>>,
-    /// What stood in the file when it was last read or written, UTF-8 or not; None where there is no file yet.
+    /// Content of the file when it was last read or written, UTF-8 or not; None if there is no file yet.
     pub bytes: Option<Vec<u8>>,
-    /// The random planet that it began with, which is nobody's work.
+    /// The random planet that the document began with: it counts as nobody's work.
     pub rolled: Option<Arc<Planet>>,
 }
 
 impl Home {
-    /// Whether a planet that is kept here is somebody's work, and no file holds it.
+    /// Whether a planet with this file is unsaved work.
     pub fn lacks(&self, planet: &Arc<Planet>) -> bool {
         let begun = self.saved.as_ref().or(self.rolled.as_ref());
         begun.is_none_or(|begun| !Arc::ptr_eq(begun, planet) && begun != planet)
     }
 }
 
-/// One change: what to call it, and the planet on its other side.
+/// An undo step: its name, and the planet on its other side.
 #[derive(Clone, Debug)]
 struct Step {
     label: String,
     planet: Arc<Planet>,
-    /// Where the planet on the other side is kept, if that is elsewhere.
+    /// The file of the planet on the other side, if it is another.
     home: Option<Home>,
 }
 
 impl Step {
-    /// Goes through the step: gives the planet on its other side, and the step that leads back.
+    /// Takes the step. Gives the planet on its other side, and the step back.
     fn turned(self, current: &Arc<Planet>, home: &mut Home) -> (Arc<Planet>, Self) {
         let back = self.home.map(|other| std::mem::replace(home, other));
         (self.planet, Self { label: self.label, planet: current.clone(), home: back })
@@ -56,12 +56,12 @@ impl Step {
 pub struct History {
     undo: VecDeque<Step>,
     redo: Vec<Step>,
-    /// Whether the newest step still grows.
+    /// Whether the gesture of the newest step is under way.
     open: bool,
 }
 
 impl History {
-    /// Notes that `before` is about to be replaced. A change with the same label as an unfinished gesture joins it.
+    /// Notes that `before` is about to be replaced. A change with the name of the gesture under way joins its step.
     pub fn record(&mut self, before: &Arc<Planet>, label: &str) {
         self.redo.clear();
         if self.open && self.undo.back().is_some_and(|step| step.label == label) {
@@ -70,7 +70,7 @@ impl History {
         self.push(before, None, label);
     }
 
-    /// The same for a change after which the planet is kept elsewhere; `home` is where it was before.
+    /// Notes a change after which the planet has another file; `home` is the file before.
     pub fn record_move(&mut self, before: &Arc<Planet>, home: Home, label: &str) {
         self.redo.clear();
         self.push(before, Some(home), label);
@@ -84,12 +84,12 @@ impl History {
         self.open = true;
     }
 
-    /// The planets that are kept elsewhere, with where that is.
+    /// The planets of steps that change the file, with their files.
     pub fn homes(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
         self.undo.iter().chain(&self.redo).filter_map(|step| Some((&step.planet, step.home.as_ref()?)))
     }
 
-    /// Notes in every home in the same file what that file holds now.
+    /// Notes the content of a file in every step of that file.
     pub fn note_file(&mut self, now: &Home) {
         let Some(path) = &now.path else { return };
         for home in self.undo.iter_mut().chain(&mut self.redo).filter_map(|step| step.home.as_mut()) {
@@ -99,7 +99,7 @@ impl History {
         }
     }
 
-    /// Ends the gesture under way; one that came back to where it began leaves no step.
+    /// Ends the gesture under way. A gesture that ends with the planet of its begin leaves no step.
     pub fn settle(&mut self, current: &Arc<Planet>) {
         if self.open && self.undo.back().is_some_and(|step| step.planet == *current) {
             self.undo.pop_back();
@@ -107,7 +107,7 @@ impl History {
         self.open = false;
     }
 
-    /// Goes one step back: gives the planet of then, and makes `home` where that is kept.
+    /// Goes one step back. Gives the planet before the step, and sets `home` to its file.
     pub fn undo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
         self.settle(current);
         let step = self.undo.pop_back()?;
@@ -116,7 +116,7 @@ impl History {
         Some(planet)
     }
 
-    /// Takes the last undo back.
+    /// Goes one step forward.
     pub fn redo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
         self.open = false;
         let step = self.redo.pop()?;
@@ -125,17 +125,17 @@ impl History {
         Some(planet)
     }
 
-    /// What an undo would undo.
+    /// Name of the step that undo takes.
     pub fn undo_label(&self) -> Option<&str> {
         self.undo.back().map(|step| step.label.as_str())
     }
 
-    /// What a redo would redo.
+    /// Name of the step that redo takes.
     pub fn redo_label(&self) -> Option<&str> {
         self.redo.last().map(|step| step.label.as_str())
     }
 
-    /// How many steps can be undone.
+    /// Number of steps that can be undone.
     pub fn undo_len(&self) -> usize {
         self.undo.len()
     }

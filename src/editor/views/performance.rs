@@ -1,16 +1,19 @@
-//! The performance panel: where the time of the last edit went, what was reused, what is kept, and the newest frames.
+//! The performance window: the times of the last edit, the memory of the cache, and the newest frames.
 
-use super::app::EditorApp;
-use super::viewport::frames::FrameTime;
-use super::viewport::timeline::{Step, Timeline};
+use crate::editor::command::{Action, Commands, Window};
+use crate::editor::state::State;
+use crate::editor::viewport::frames::FrameTime;
+use crate::editor::viewport::timeline::{Step, Timeline};
+use crate::editor::widgets::number::megabytes;
 use eframe::egui;
 use egui::{Color32, Rect, RichText, Sense, Stroke, pos2, vec2};
 use std::time::Duration;
 
+/// Width of the bars, in points.
 const BAR_WIDTH: f32 = 220.0;
 /// Frames in the graph.
 const GRAPH_FRAMES: usize = 200;
-/// What a frame should take at most; the graph's line.
+/// Longest time that a frame should take: the line in the graph.
 const FRAME_BAR: Duration = Duration::from_millis(33);
 
 /// The window's layer.
@@ -22,23 +25,25 @@ fn id() -> egui::Id {
     egui::Id::unique("performance window")
 }
 
-/// Shows the panel if it is open.
-pub fn show(ctx: &egui::Context, app: &mut EditorApp) {
-    let mut open = app.show_performance;
+/// Shows the window if it is open.
+pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
+    let mut open = state.shows.performance;
     let window = egui::Window::new("Performance").id(id()).open(&mut open);
     window.resizable(false).default_pos([12.0, 40.0]).show(ctx, |ui| {
-        match app.viewport().edit_clock.timeline() {
+        match state.viewport.edit_clock.timeline() {
             Some(timeline) => last_edit(ui, timeline),
             None => {
                 ui.weak("The times of the next edit appear here.");
             }
         }
         ui.separator();
-        memory(ui, app);
+        memory(ui, state);
         ui.separator();
-        frames(ui, app);
+        frames(ui, state);
     });
-    app.show_performance = open;
+    if open != state.shows.performance {
+        commands.push(Action::Close(Window::Performance));
+    }
 }
 
 fn last_edit(ui: &mut egui::Ui, timeline: &Timeline) {
@@ -48,7 +53,7 @@ fn last_edit(ui: &mut egui::Ui, timeline: &Timeline) {
         for step in &timeline.steps {
             ui.label(step.label);
             bar(ui, step, total_secs);
-            ui.label(busy_text(step)).on_hover_text("Time on all threads, and how often it ran");
+            ui.label(busy_text(step)).on_hover_text("Time on all threads, and number of runs");
             ui.end_row();
         }
     });
@@ -63,7 +68,7 @@ fn last_edit(ui: &mut egui::Ui, timeline: &Timeline) {
     ));
 }
 
-/// When a step ran; brighter the more threads were at it.
+/// The bar of a step: brighter the more threads it used.
 fn bar(ui: &mut egui::Ui, step: &Step, total_secs: f64) {
     let (rect, response) = ui.allocate_exact_size(vec2(BAR_WIDTH, ui.spacing().interact_size.y * 0.6), Sense::hover());
     let x = |secs: f64| rect.left() + rect.width() * (secs / total_secs).clamp(0.0, 1.0) as f32;
@@ -81,30 +86,30 @@ fn busy_text(step: &Step) -> String {
     format!("{}{times}", ms(step.busy_secs))
 }
 
-fn memory(ui: &mut egui::Ui, app: &EditorApp) {
-    let memory = app.viewport().memory();
+fn memory(ui: &mut egui::Ui, state: &State) {
+    let memory = state.viewport.memory();
     let share = memory.used_bytes as f32 / memory.budget_bytes.max(1) as f32;
     let text = format!("{:.0} of {:.0} MB", megabytes(memory.used_bytes as u64), megabytes(memory.budget_bytes as u64));
     ui.horizontal(|ui| {
-        ui.label("Kept");
+        ui.label("Cache");
         ui.add(egui::ProgressBar::new(share.min(1.0)).desired_width(BAR_WIDTH).text(text));
         ui.label(format!("{} tiles, {} horizons, {} layer fields", memory.tiles, memory.horizons, memory.fields));
     });
-    if let Some(surface) = app.viewport().surface() {
+    if let Some(surface) = state.viewport.surface() {
         let horizons = surface.stats.horizons;
         ui.label(format!("Horizons for the newest view: {} made in {}", horizons.tiles, ms(horizons.secs)))
-            .on_hover_text("What shades the ground, found in the background once its tiles are there");
+            .on_hover_text("The horizon angles that shade the ground, computed in the background for finished tiles");
     }
-    if let Some(runs) = app.viewport().lut_runs() {
+    if let Some(runs) = state.viewport.lut_runs() {
         ui.label(format!(
-            "Tables made since the start: biomes {}, weather {}, air {}, uniforms {}",
+            "Look-up tables made since the start: biomes {}, weather {}, air {}, uniforms {}",
             runs.biomes, runs.weather, runs.air, runs.uniforms
         ));
     }
 }
 
-fn frames(ui: &mut egui::Ui, app: &EditorApp) {
-    let log = &app.viewport().frames;
+fn frames(ui: &mut egui::Ui, state: &State) {
+    let log = &state.viewport.frames;
     let (longest, most) = log.worst(|frame| frame.editor);
     ui.label(format!(
         "Editor's share of the last {} frames: at most {}, 95 in 100 within {}",
@@ -112,7 +117,7 @@ fn frames(ui: &mut egui::Ui, app: &EditorApp) {
         ms(longest.as_secs_f64()),
         ms(most.as_secs_f64())
     ))
-    .on_hover_text("Without egui's painting, and without the driver's drawing");
+    .on_hover_text("Without egui's painting and the driver's work");
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 60.0), Sense::hover());
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
@@ -139,9 +144,4 @@ fn frames(ui: &mut egui::Ui, app: &EditorApp) {
 
 fn ms(secs: f64) -> String {
     format!("{:.1} ms", secs * 1000.0)
-}
-
-/// Megabytes of 2^20 bytes.
-pub(super) fn megabytes(bytes: u64) -> f64 {
-    bytes as f64 / f64::from(1 << 20)
 }
