@@ -4,7 +4,8 @@
 //! Angles are in turns (1 is a full circle): a turn more or less is then a whole number, which f32 takes away without
 //! error. The polynomials interpolate at Chebyshev nodes; their errors, like the rounding, are about 1e-7.
 
-use super::jet::{Real, Scalar};
+use super::jet::Real;
+use super::scalar::Scalar;
 use std::f64::consts::TAU;
 
 /// An angle in turns without its whole turns: -0.5 to 0.5. The angle must be below 2^22.

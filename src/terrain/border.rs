@@ -1,9 +1,9 @@
-//! Noise that moves the borders between biomes: where a place falls in the biome table.
+//! Border jitter: noise that moves the borders between biomes.
 //!
-//! Moisture and row choose a point of the table; noise of the place moves that point by a share of a cell, so that neither the
-//! table's grid nor a line of equal climate shows on the ground. Octaves go from a thousand kilometres (on a planet like the
-//! Earth) down to some ten metres, the finer the weaker: borders wind and fray as coasts do. `border.wgsl` does the same with
-//! the same tile and the same octaves, so that a query and a picture agree.
+//! Moisture and temperature (or height) choose a point of the biome table. Noise moves that point by a share of a cell, so
+//! that neither the table's grid nor a line of equal climate shows on the ground. The periods go from a thousand kilometres
+//! on a planet like the Earth down to some ten metres, the finer the weaker: borders wind and fray as coasts do.
+//! `border.wgsl` samples the same texture with the same octaves, so that queries and pictures agree.
 
 use crate::planet::Planet;
 use glam::{DMat3, DVec3};
@@ -22,42 +22,50 @@ pub(crate) const TILE_SIDE: usize = 32;
 pub(crate) const OCTAVE_TURN: DMat3 =
     DMat3::from_cols(DVec3::new(0.36, -0.8, 0.48), DVec3::new(0.48, 0.6, 0.64), DVec3::new(-0.8, 0.0, 0.6));
 
-/// Each octave's repeat in metres, coarse to fine.
+/// Period of each octave in metres, coarse to fine.
 pub(crate) fn periods_m(radius_m: f64) -> [f64; OCTAVES] {
+    // Powers of a small whole number are exact in f64.
     std::array::from_fn(|octave| radius_m * COARSEST / FINER.powi(octave as i32))
 }
 
-/// The cell of the biome table under a unit direction, as column and row, where moisture and row (0 last to 1 first) are these.
-pub(crate) fn cell_of(planet: &Planet, dir: DVec3, moisture: f64, row: f64) -> [usize; 2] {
-    let table = &planet.biomes.table;
-    let offset = match planet.biomes.border_jitter {
-        jitter if jitter > 0.0 => offset(dir * planet.radius_m(), planet.radius_m()).map(|offset| offset * jitter),
-        _ => [0.0; 2],
-    };
-    let cell = |at: f64, cells: usize, offset: f64| {
-        let cells_f = cells as f64;
-        (at * cells_f + offset).clamp(0.0, (cells_f - 0.5).max(0.0)) as usize
-    };
-    [cell(moisture, table.columns(), offset[0]), cell(1.0 - row, table.rows().len(), offset[1])]
+/// The border jitter of a planet.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Border {
+    /// How far borders move, in cells of the table.
+    jitter: f64,
+    radius_m: f64,
+    periods_m: [f64; OCTAVES],
 }
 
-/// How far the borders are moved at a point of the reference sphere, in cells, for a jitter of 1.
-fn offset(place_m: DVec3, radius_m: f64) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    let (mut place_m, mut weight) = (place_m, 1.0);
-    for period_m in periods_m(radius_m) {
-        let noise = tile_at(place_m / period_m);
-        sum = [sum[0] + weight * noise[0], sum[1] + weight * noise[1]];
-        place_m = OCTAVE_TURN * place_m;
-        weight *= GAIN;
+impl Border {
+    pub(crate) fn new(planet: &Planet) -> Self {
+        let radius_m = planet.radius_m();
+        Self { jitter: planet.biomes.border_jitter, radius_m, periods_m: periods_m(radius_m) }
     }
-    sum
+
+    /// How far the borders move under a unit direction, in columns and rows.
+    pub(crate) fn offset_at(&self, dir_planet: DVec3) -> [f64; 2] {
+        if self.jitter > 0.0 { self.offset(dir_planet).map(|offset| offset * self.jitter) } else { [0.0; 2] }
+    }
+
+    /// The same for a jitter of 1.
+    fn offset(&self, dir_planet: DVec3) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        let (mut point_m, mut weight) = (dir_planet * self.radius_m, 1.0);
+        for period_m in self.periods_m {
+            let noise = tile_at(point_m / period_m);
+            sum = [sum[0] + weight * noise[0], sum[1] + weight * noise[1]];
+            point_m = OCTAVE_TURN * point_m;
+            weight *= GAIN;
+        }
+        sum
+    }
 }
 
-/// The tile at a point, in repeats: linear between texels, as a sampler of the GPU has it.
-fn tile_at(place: DVec3) -> [f64; 2] {
+/// The tile at a point, in periods: trilinear between texels, as the GPU samples it.
+fn tile_at(point: DVec3) -> [f64; 2] {
     let tile = tile();
-    let at = (place - place.floor()) * TILE_SIDE as f64 - 0.5;
+    let at = (point - point.floor()) * TILE_SIDE as f64 - 0.5;
     let low = at.floor();
     let f = at - low;
     let side = TILE_SIDE as i64;
@@ -126,11 +134,12 @@ fn hashed([x, y, z]: [u32; 3], seed: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terrain::survey::spread;
+    use crate::sphere::spread;
 
     #[test]
     fn the_noise_is_even_and_moves_borders_by_about_half_a_cell() {
-        let offsets: Vec<[f64; 2]> = spread(4000).map(|dir| offset(dir * 6.371e6, 6.371e6)).collect();
+        let border = Border::new(&Planet::default());
+        let offsets: Vec<[f64; 2]> = spread(4000).map(|dir| border.offset(dir)).collect();
         for axis in 0..2 {
             let mean = offsets.iter().map(|o| o[axis]).sum::<f64>() / offsets.len() as f64;
             let deviation = (offsets.iter().map(|o| o[axis].powi(2)).sum::<f64>() / offsets.len() as f64).sqrt();
@@ -138,15 +147,5 @@ mod tests {
             assert!((0.15..0.4).contains(&deviation), "{deviation}");
             assert!(offsets.iter().all(|o| o[axis].abs() < 1.2));
         }
-    }
-
-    #[test]
-    fn without_jitter_cells_follow_climate_alone() {
-        let mut planet = Planet::default();
-        planet.biomes.border_jitter = 0.0;
-        let (columns, rows) = (planet.biomes.table.columns(), planet.biomes.table.rows().len());
-        assert_eq!(cell_of(&planet, DVec3::X, 0.0, 1.0), [0, 0]);
-        assert_eq!(cell_of(&planet, DVec3::X, 1.0, 0.0), [columns - 1, rows - 1]);
-        assert_eq!(cell_of(&planet, DVec3::X, 0.5, 0.5), [columns / 2, rows / 2]);
     }
 }

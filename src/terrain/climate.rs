@@ -68,10 +68,27 @@ impl CompiledClimate {
         }
     }
 
-    /// Distance to the sea at each point, as an angle; nothing where it does not matter.
-    pub(crate) fn inland_rad(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
-        let coast = self.coast.iter();
-        coast.flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir))).collect()
+    /// Distance to the sea at each point, as an angle; empty where climate does not depend on it.
+    pub(crate) fn inland_rad<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = f64> + 'a {
+        self.coast.iter().flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir)))
+    }
+}
+
+/// What climate depends on besides height, at a batch of points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClimateInputs<'a> {
+    /// Noise for temperature and moisture.
+    pub(crate) noise: [&'a [f64]; 2],
+    /// Distance to the sea as an angle; empty where climate does not depend on it.
+    pub(crate) inland_rad: &'a [f64],
+}
+
+impl ClimateInputs<'_> {
+    /// Noise and distance to the sea at one point.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> ([f64; 2], f64) {
+        let at = |numbers: &[f64], missing: f64| numbers.get(i).copied().unwrap_or(missing);
+        ([at(self.noise[0], 0.0), at(self.noise[1], 0.0)], at(self.inland_rad, NO_SEA))
     }
 }
 
@@ -159,6 +176,14 @@ impl Rules {
             - self.drying_per_km * above_km
             + self.sea_moisture * left * left;
         [temperature_c, moisture]
+    }
+
+    /// Lowest and greatest moisture and row at a point, whatever the noise there (up to `most_noise` either way) and
+    /// however far the sea is.
+    pub(crate) fn ranges(&self, sin_lat: f64, height_m: f64, most_noise: f64) -> [(f64, f64); 2] {
+        let low = self.at(sin_lat, height_m, [-most_noise; 2], NO_SEA);
+        let high = self.at(sin_lat, height_m, [most_noise; 2], 0.0);
+        [(low.moisture, high.moisture), (low.row.min(high.row), low.row.max(high.row))]
     }
 
     /// How much moisture and row change with each metre of height, where they do.

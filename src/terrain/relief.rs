@@ -11,19 +11,35 @@
 //!
 //! The arithmetic is the same whatever the instruction set; the noise is the layers' own.
 
-use super::climate::{ClimateField, CompiledClimate, NO_SEA, Rules};
-use super::field::{Components, Field};
+use super::climate::{ClimateInputs, CompiledClimate, Rules};
+use super::field::Field;
 use super::height::Heights;
 use super::landform::Landform;
+use super::noise;
 use super::points::Points;
-use super::simd::Simd;
 use crate::planet::Planet;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// Octaves of each relief.
 const OCTAVES: u32 = 4;
 /// Apart from the seeds of layers, whose upper half is the planet's seed, and of the climate.
 const SEED: u64 = 0x5EED_0000_0000_0003;
+
+/// Bound of the climate noise, whose weights sum to 1 up to rounding.
+const MOST_NOISE: f64 = noise::BOUND * (1.0 + 1e-5);
+
+/// Where the noise that biome relief needs comes from: kept, or evaluated when it is asked for.
+pub(crate) trait Inputs {
+    /// The inputs of the climate at the points.
+    fn climate(&mut self) -> ClimateInputs<'_>;
+
+    /// Makes sure that the field of one of [`Relief::noises`] is there.
+    fn prepare_relief(&mut self, noise: usize);
+
+    /// A field that was prepared.
+    fn relief(&self, noise: usize) -> Option<&Field>;
+}
 
 /// The reliefs of a planet's biomes; equal ones make equal heights of equal ground.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +48,10 @@ pub(crate) struct Relief {
     noises: Vec<Arc<Landform>>,
     columns: usize,
     rows: usize,
-    /// For each cell of the table, row by row: which noise, and how high.
+    /// For each cell of the table, row by row, the index of its noise and the height of its relief.
     cells: Vec<(usize, f64)>,
+    /// First and last column, first and last row of the cells with relief.
+    extent: [(usize, usize); 2],
     rules: Rules,
     climate_noises: Option<[Landform; 2]>,
     has_coast: bool,
@@ -49,15 +67,20 @@ impl Relief {
         let reliefs = planet.biomes.reliefs()?;
         let (mut sizes, mut cells): (Vec<f64>, _) = (Vec::new(), Vec::new());
         for (height_m, size_m) in &reliefs.cells {
-            let known = sizes.iter().position(|known| known == size_m || *height_m <= 0.0);
-            cells.push((known.unwrap_or(sizes.len()), *height_m));
-            if known.is_none() {
+            if *height_m > 0.0 && !sizes.contains(size_m) {
                 sizes.push(*size_m);
+            }
+            cells.push((sizes.iter().position(|known| known == size_m).unwrap_or(0), *height_m));
+        }
+        let mut extent = [(usize::MAX, 0); 2];
+        for (index, _) in cells.iter().enumerate().filter(|(_, (_, height_m))| *height_m > 0.0) {
+            for ((least, most), at) in extent.iter_mut().zip([index % reliefs.columns, index / reliefs.columns]) {
+                (*least, *most) = (at.min(*least), at.max(*most));
             }
         }
         let noise = |size_m: &f64| {
             // Of the size alone: another biome's relief, or a new one, leaves this one as it is.
-            let seed = super::noise::mix(u64::from(planet.seed) ^ SEED) ^ size_m.to_bits();
+            let seed = noise::mix(u64::from(planet.seed) ^ SEED) ^ size_m.to_bits();
             Arc::new(Landform::fbm(seed, planet.radius_m() / size_m, OCTAVES))
         };
         Some(Self {
@@ -65,6 +88,7 @@ impl Relief {
             columns: reliefs.columns,
             rows: reliefs.rows,
             cells,
+            extent,
             rules: Rules::new(planet),
             climate_noises: climate.noises().cloned(),
             has_coast: CompiledClimate::needs_coast(planet),
@@ -93,43 +117,67 @@ impl Relief {
         (lo * most_m * (1.0 + 1e-6), hi * most_m * (1.0 + 1e-6))
     }
 
-    /// Adds it to heights that the layers made, and to their gradients. `fields` are those of [`Relief::noises`].
+    /// Adds biome relief to heights that the layers made, and to their gradients.
     pub(crate) fn add(
         &self,
         heights: &mut Heights,
         spacings_rad: &[f64],
         points: &Points,
-        fields: &[Arc<Field>],
-        climate: &ClimateField,
-        inland_rad: &[f64],
+        inputs: &mut impl Inputs,
+        shares: &mut Shares,
     ) {
-        let gradients: Vec<Vec<&Components>> = spacings_rad
-            .iter()
-            .map(|spacing_rad| fields.iter().filter_map(|field| field.gradient(*spacing_rad)).collect())
-            .collect();
-        for (i, dir) in points.dirs.iter().enumerate() {
-            let noise = [climate.temperature[i], climate.moisture[i]];
-            let inland_rad = inland_rad.get(i).copied().unwrap_or(NO_SEA);
-            let shares = self.shares(dir.z, heights.height_m[i], noise, inland_rad);
+        let can_reach = |(dir, height_m): (&DVec3, &f64)| self.can_reach(dir.z, *height_m);
+        if !points.dirs.iter().zip(&heights.height_m).any(can_reach) {
+            return;
+        }
+        let climate = inputs.climate();
+        shares.0.clear();
+        shares.0.extend(points.dirs.iter().zip(&heights.height_m).enumerate().map(|(i, (dir, height_m))| {
+            let (noise, inland_rad) = climate.at(i);
+            self.shares(dir.z, *height_m, noise, inland_rad)
+        }));
+        for noise in 0..self.noises.len() {
+            if shares.0.iter().flatten().any(|share| share.noise == noise && share.height_m != 0.0) {
+                inputs.prepare_relief(noise);
+            }
+        }
+        let inputs = &*inputs;
+        for (i, shares) in shares.0.iter().enumerate().filter(|(_, shares)| shares.iter().any(|s| s.height_m != 0.0)) {
             let (mut relief_m, mut per_metre) = (0.0, 0.0);
-            for share in &shares {
-                let value = fields[share.noise].value[i];
+            for share in shares.iter().filter(|share| share.height_m != 0.0) {
+                let value = inputs.relief(share.noise).map_or(0.0, |field| field.value[i]);
                 relief_m += share.height_m * value;
                 per_metre += share.height_by_height * value;
             }
             let raised_m = heights.height_m[i] + relief_m;
             heights.height_m[i] = raised_m.clamp(self.limits_m.0, self.limits_m.1);
             let by_ground = (1.0 + per_metre) as f32;
-            for (ground, noises) in heights.gradients.iter_mut().zip(&gradients) {
-                if noises.len() < fields.len() {
-                    continue;
-                }
+            for (ground, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
+                let own = shares.map(|share| {
+                    let field = inputs.relief(share.noise).filter(|_| share.height_m != 0.0);
+                    (share.height_m as f32, field.and_then(|field| field.gradient(spacing_rad)))
+                });
                 for (axis, component) in ground.iter_mut().enumerate() {
-                    let own = shares.iter().map(|share| share.height_m as f32 * noises[share.noise][axis][i]);
-                    component[i] = component[i] * by_ground + own.sum::<f32>();
+                    let slope = own.iter().filter_map(|(height_m, noise)| Some(height_m * noise.as_ref()?[axis][i]));
+                    component[i] = component[i] * by_ground + slope.sum::<f32>();
                 }
             }
         }
+    }
+
+    /// Whether a biome with relief is anywhere within reach of the climate of a point, whatever the noise there. Most of
+    /// a planet is spared the noise.
+    fn can_reach(&self, sin_lat: f64, height_m: f64) -> bool {
+        let [moisture, row] = self.rules.ranges(sin_lat, height_m, MOST_NOISE);
+        let along = |low: f64, high: f64, cells: usize| {
+            let cell = |at: f64| (at * cells as f64 - 0.5).floor();
+            let last = cells.saturating_sub(1);
+            (cell(low).max(0.0) as usize, ((cell(high) + 1.0).max(0.0) as usize).min(last))
+        };
+        let (left, right) = along(moisture.0, moisture.1, self.columns);
+        let (top, bottom) = along(1.0 - row.1, 1.0 - row.0, self.rows);
+        let [(least_left, most_right), (least_top, most_bottom)] = self.extent;
+        left <= most_right && right >= least_left && top <= most_bottom && bottom >= least_top
     }
 
     /// The four cells around the climate of the ground.
@@ -154,16 +202,16 @@ impl Relief {
     }
 }
 
-/// What a cell of the table adds.
+/// The relief that one cell of the biome table adds at a point.
 #[derive(Clone, Copy, Debug)]
 struct Share {
     noise: usize,
+    /// Height of the relief, weighted by the blend.
     height_m: f64,
-    /// The same, by the height of the ground below.
+    /// Its derivative by the height of the ground below.
     height_by_height: f64,
 }
 
-/// The fields of a relief's noises.
-pub(crate) fn fields(relief: &Relief, simd: Simd, points: &Points, spacings_rad: &[f64]) -> Vec<Arc<Field>> {
-    relief.noises.iter().map(|noise| Arc::new(Field::new(noise, simd, points, spacings_rad))).collect()
-}
+/// The shares of a batch of points: memory that is used again.
+#[derive(Debug, Default)]
+pub(crate) struct Shares(Vec<[Share; 4]>);

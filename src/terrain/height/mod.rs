@@ -18,8 +18,9 @@ mod lanes;
 mod steps;
 
 pub use curve::curve_at;
-pub(crate) use join::{Heights, combine};
+pub(crate) use join::{Batch, Heights, LayerFields, Scratch, combine};
 
+use super::field::Spacings;
 use super::landform::Landform;
 use crate::planet::{self, Layer, MAX_MASKS, Mask, Planet, Shape};
 use curve::CompiledCurve;
@@ -32,6 +33,8 @@ pub(crate) struct LayerStack {
     /// The distances over which masks measure slopes.
     slope_bands: Vec<Band>,
     height_curve: Option<CompiledCurve>,
+    /// Whether a layer depends on the direction itself: terraces, and masks by slope or latitude.
+    looks_at_directions: bool,
     radius_m: f64,
 }
 
@@ -40,8 +43,10 @@ pub(crate) struct LayerStack {
 pub(crate) struct CompiledLayer {
     /// Its noise; equal shapes have equal fields, so this is the key under which a field is kept.
     pub(crate) landform: Arc<Landform>,
-    /// Whether its field is needed: it is on, or a layer that is on is masked by it.
+    /// Whether its field is needed: it is enabled, or an enabled layer is masked by it.
     pub(crate) needed: bool,
+    /// Whether an enabled layer is masked by it.
+    pub(crate) masks_others: bool,
     /// Spacings at which gradients of its field are needed for slopes.
     slope_spacings_rad: Vec<f64>,
     enabled: bool,
@@ -112,9 +117,10 @@ impl LayerStack {
     pub(crate) fn new(planet: &Planet) -> Self {
         let layers = planet.layers.iter().map(|layer| CompiledLayer::new(planet, layer)).collect();
         let (height_curve, radius_m) = (CompiledCurve::new(&planet.height_curve), planet.radius_m());
-        let mut stack = Self { layers, slope_bands: Vec::new(), height_curve, radius_m };
+        let mut stack = Self { layers, slope_bands: Vec::new(), height_curve, looks_at_directions: false, radius_m };
         stack.find_slope_bands();
         stack.find_needed();
+        stack.looks_at_directions = stack.layers.iter().any(CompiledLayer::looks_at_directions);
         stack
     }
 
@@ -156,6 +162,7 @@ impl LayerStack {
             for needed in needed {
                 let layer = &mut self.layers[needed];
                 layer.needed = true;
+                layer.masks_others |= needed != index;
                 for band in self.slope_bands.iter().filter(|band| band.until > index) {
                     if !layer.slope_spacings_rad.contains(&band.spacing_rad) {
                         layer.slope_spacings_rad.push(band.spacing_rad);
@@ -163,13 +170,6 @@ impl LayerStack {
                 }
             }
         }
-    }
-
-    /// Whether a layer needs to know where on the planet it is.
-    fn looks_at_directions(&self) -> bool {
-        let mask = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
-        let looks = |layer: &CompiledLayer| layer.steps.is_some() || layer.masks.iter().any(mask);
-        self.layers.iter().any(|layer| layer.enabled && looks(layer))
     }
 
     /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths
@@ -192,6 +192,7 @@ impl CompiledLayer {
         Self {
             landform: Arc::new(Landform::new(&layer.shape, seed, planet.radius_km, planet.precision.into())),
             needed: false,
+            masks_others: false,
             slope_spacings_rad: Vec::new(),
             enabled: layer.enabled,
             steps,
@@ -206,10 +207,15 @@ impl CompiledLayer {
         }
     }
 
+    fn looks_at_directions(&self) -> bool {
+        let mask = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
+        self.enabled && (self.steps.is_some() || self.masks.iter().any(mask))
+    }
+
     /// The spacings at which gradients of its field are needed when these are asked for.
-    pub(crate) fn spacings_rad(&self, asked_rad: &[f64]) -> Vec<f64> {
+    pub(crate) fn spacings_rad(&self, asked_rad: &[f64]) -> Spacings {
         let more = self.slope_spacings_rad.iter().filter(|spacing| !asked_rad.contains(spacing));
-        asked_rad.iter().chain(more).copied().collect()
+        Spacings::new(asked_rad.iter().chain(more).copied())
     }
 }
 

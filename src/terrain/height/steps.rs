@@ -101,9 +101,10 @@ mod tests {
     fn walk(layers: Vec<Layer>) -> Vec<Place> {
         let planet = Planet { layers, ..Planet::default() };
         let (count, radius_m) = (3000, planet.radius_m());
-        let dirs = (0..count).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
+        let dirs: Vec<DVec3> =
+            (0..count).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
         let spacings = SPACINGS_M.map(|spacing_m| spacing_m / radius_m);
-        let relief = Terrain::try_new(Arc::new(planet)).unwrap().relief_at(dirs, &spacings);
+        let relief = Terrain::try_new(Arc::new(planet)).unwrap().slopes_at(&dirs, &spacings);
         let slopes = |i: usize| std::array::from_fn(|band| relief.slopes[band][i]);
         (0..relief.height_m.len()).map(|i| (relief.height_m[i], slopes(i))).collect()
     }

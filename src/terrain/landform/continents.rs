@@ -11,7 +11,7 @@ use super::varying::{Around, Point};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::noise::CHUNK;
+use crate::terrain::lane::CHUNK;
 use crate::terrain::points::Points;
 use crate::terrain::simd::Simd;
 use glam::DVec3;
@@ -36,8 +36,8 @@ const SHELF_EDGE: f64 = -0.05;
 pub(crate) struct Continents {
     warp: Warp,
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many of them, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     curve: Curve,
 }
 
@@ -48,7 +48,7 @@ impl Continents {
         let octaves = series(seed, frequency, octaves, gain, lacunarity);
         let mut continents = Self {
             warp: Warp::new(seed, frequency / WARP_WAVELENGTH, WARP_OCTAVES, warp / frequency),
-            exact: arithmetic.exact_of(&octaves, REST),
+            f64_octaves: arithmetic.f64_octaves(&octaves, REST),
             octaves,
             curve: Curve::new(&[]),
         };
@@ -83,8 +83,8 @@ impl Continents {
     fn add_noise(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, displaced, .. } = scratch;
         let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
-        self.warp.add_octaves(coarse, self.exact, chunk, noise, displaced, sums);
-        add_octaves(fine, self.exact.saturating_sub(coarse.len()), chunk, LEAST_POINTS, noise, sums);
+        self.warp.add_octaves(coarse, self.f64_octaves, chunk, noise, displaced, sums);
+        add_octaves(fine, self.f64_octaves.saturating_sub(coarse.len()), chunk, LEAST_POINTS, noise, sums);
     }
 }
 

@@ -12,10 +12,12 @@ mod near;
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::{Arithmetic, Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
-use crate::terrain::jet::{Jet, Jets, Real, Scalar};
-use crate::terrain::noise::{self, CHUNK, Octave};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::scalar::Scalar;
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Octave};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
@@ -38,8 +40,8 @@ const THICKNESS: f32 = 0.34;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Craters {
     sizes: Vec<Size>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many of them, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
 }
 
 /// The craters of one octave.
@@ -88,7 +90,7 @@ impl Craters {
             Size { lattices, weight, mould: Mould::new(params, density, collapse) }
         });
         let sizes: Vec<Size> = sizes.collect();
-        Self { exact: arithmetic.exact(sizes.iter().map(|size| size.weight), REST), sizes }
+        Self { f64_octaves: arithmetic.f64_count(sizes.iter().map(|size| size.weight), REST), sizes }
     }
 }
 
@@ -166,48 +168,46 @@ impl Evaluate for Craters {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, jets: [craters, ..], wide, .. } = scratch;
-        let n = chunk.len();
-        let mut places = <Places>::default();
-        for (k, Size { lattices, weight, mould }) in self.sizes.iter().enumerate() {
-            let frequency = lattices[0].frequency;
-            let fades = chunk.fades(1.0 / frequency, LEAST_POINTS);
+        let Scratch { sums, jets: [craters, ..], places, in_f64, .. } = scratch;
+        for (k, size) in self.sizes.iter().enumerate() {
+            let weight = size.weight;
+            let fades = chunk.fades(1.0 / size.lattices[0].frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
-            let exact = k < chunk.exact(self.exact);
-            if exact {
-                let mut places = Places::<f64>::default();
-                let [craters, ..] = &mut wide.jets;
-                craters.fill(n, 0.0);
-                for octave in lattices {
-                    places.find_exact(chunk.simd, chunk.skewed, octave);
-                    for corner in CORNERS {
-                        dig_exact(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
-                    }
-                }
-                settle_exact(chunk.simd, n, frequency as f32, craters);
-                sums.add_exact(chunk, &craters.value, f64::from(*weight));
-                if fades.is_unseen() {
+            let unseen = fades.is_unseen();
+            let is_f64 = k < chunk.f64_octaves(self.f64_octaves);
+            if is_f64 {
+                let Scratch64 { jets: [craters, ..], places, .. } = in_f64;
+                size.evaluate::<f64>(chunk, places, craters);
+                sums.add_f64(chunk, &craters.value, f64::from(weight));
+                if unseen {
                     continue;
                 }
             }
-            let dig = if fades.is_unseen() { dig_values } else { dig_gradients };
-            let settle = if fades.is_unseen() { settle_values } else { settle_gradients };
-            craters.fill(n, 0.0);
-            for octave in lattices {
-                places.find(chunk.simd, chunk.skewed, octave);
-                for corner in CORNERS {
-                    dig(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
-                }
-            }
-            settle(chunk.simd, n, frequency as f32, craters);
-            if exact {
-                sums.add_gradients(chunk, &craters.gradient, *weight, &fades);
+            let evaluate = if unseen { Size::evaluate::<f32> } else { Size::evaluate::<Jet> };
+            evaluate(size, chunk, places, craters);
+            if is_f64 {
+                sums.add_gradients(chunk, &craters.gradient, weight, &fades);
             } else {
-                sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
+                sums.add(chunk, &craters.value, &craters.gradient, weight, &fades);
             }
         }
+    }
+}
+
+impl Size {
+    /// The height of all craters of the octave.
+    fn evaluate<R: Real>(&self, chunk: &Chunk<'_>, places: &mut Places<R::S>, craters: &mut Jets<R::S>) {
+        let (simd, n) = (chunk.simd, chunk.len());
+        craters.fill(n, R::S::default());
+        for octave in &self.lattices {
+            places.find(simd, chunk.skewed, octave);
+            for corner in CORNERS {
+                dig::<R>(simd, n, places, corner, octave.seed, self.mould, craters);
+            }
+        }
+        settle::<R>(simd, n, self.lattices[0].frequency as f32, craters);
     }
 }
 
@@ -234,9 +234,7 @@ fn dig_body<R: Real>(
         (R::load(craters, i) + crater).store(craters, i);
     }
 }
-for_each_simd!(fn dig_values(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<f32>);
-for_each_simd!(fn dig_exact(n: usize, places: &Places<f64>, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets<f64>) = dig_body::<f64>);
-for_each_simd!(fn dig_gradients(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<Jet>);
+for_each_simd!(fn dig<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets<R::S>) = dig_body);
 
 /// Overlapping craters dig no deeper than one; and gradients by the lattice become gradients by the direction.
 #[inline(always)]
@@ -248,9 +246,7 @@ fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets<R::S>) {
         sum.chain(v.clamp(-one, one), slope).store(craters, i);
     }
 }
-for_each_simd!(fn settle_values(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<f32>);
-for_each_simd!(fn settle_exact(n: usize, frequency: f32, craters: &mut Jets<f64>) = settle_body::<f64>);
-for_each_simd!(fn settle_gradients(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<Jet>);
+for_each_simd!(fn settle<R: Real>(n: usize, frequency: f32, craters: &mut Jets<R::S>) = settle_body);
 
 /// Height and gradient by the lattice coordinates of a crater whose centre lies `to` from a point with unit direction
 /// `dir`. `random` decides whether it is there, its size and its age.

@@ -13,11 +13,13 @@ mod near;
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
 use super::varying::Around;
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
+use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::approx;
-use crate::terrain::jet::{Jet, Jets, Real, Scalar};
-use crate::terrain::noise::{self, CHUNK, Noise, Octave};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::scalar::Scalar;
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::f32::consts::TAU;
@@ -40,8 +42,8 @@ const LEAST_POINTS: f64 = 4.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Dunes {
     sizes: Vec<Size>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many of them, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     wind: Wind,
     profile: Profile,
     /// How far noise bends the crests, in wavelengths.
@@ -98,7 +100,7 @@ impl Dunes {
             .collect();
         let (east, north) = libm::sincos(wind_deg.to_radians());
         Self {
-            exact: arithmetic.exact(sizes.iter().map(|size| size.weight), REST),
+            f64_octaves: arithmetic.f64_count(sizes.iter().map(|size| size.weight), REST),
             sizes,
             wind: Wind { east: east as f32, north: north as f32 },
             profile: Profile::new(asymmetry as f32),
@@ -125,56 +127,62 @@ impl Evaluate for Dunes {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [re, im, dunes, ..], wide, .. } = scratch;
-        let (simd, n) = (chunk.simd, chunk.len());
-        let mut places = <Places>::default();
+        let Scratch { sums, noise, jets, places, in_f64, .. } = scratch;
         for (k, size) in self.sizes.iter().enumerate() {
             let fades = chunk.fades(size.wavelength_rad, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
-            let exact = k < chunk.exact(self.exact);
-            if exact {
-                let Wide { noise, jets: [re, im, dunes, ..] } = wide;
-                let mut places = Places::<f64>::default();
-                re.fill(n, 0.0);
-                im.fill(n, 0.0);
-                for octave in &size.lattices {
-                    places.find_exact(simd, chunk.skewed, octave);
-                    for corner in CORNERS {
-                        send_exact(simd, n, &places, corner, octave, self.wind, re, im);
-                    }
-                }
-                noise.values(simd, chunk.skewed, &size.bends);
-                pile_exact(simd, n, re, im, noise, self.waviness, self.profile, dunes);
-                sums.add_exact(chunk, &dunes.value, f64::from(size.weight));
+            let is_f64 = k < chunk.f64_octaves(self.f64_octaves);
+            if is_f64 {
+                let Scratch64 { noise, jets, places, .. } = in_f64;
+                noise.values(chunk.simd, chunk.skewed, &size.bends);
+                let dunes = self.octave::<f64>(chunk, size, noise, places, jets);
+                sums.add_f64(chunk, &dunes.value, f64::from(size.weight));
                 if unseen {
                     continue;
                 }
             }
-            let send = if unseen { send_values } else { send_gradients };
-            re.fill(n, 0.0);
-            im.fill(n, 0.0);
-            for octave in &size.lattices {
-                places.find(simd, chunk.skewed, octave);
-                for corner in CORNERS {
-                    send(simd, n, &places, corner, octave, self.wind, re, im);
-                }
-            }
-            if unseen {
-                noise.values(simd, chunk.skewed, &size.bends);
-                pile_values(simd, n, re, im, noise, self.waviness, self.profile, dunes);
+            let evaluate = if unseen {
+                noise.values(chunk.simd, chunk.skewed, &size.bends);
+                Self::octave::<f32>
             } else {
-                noise.gradients(simd, chunk.skewed, &size.bends);
-                pile_gradients(simd, n, re, im, noise, self.waviness, self.profile, dunes);
-            }
-            if exact {
+                noise.gradients(chunk.simd, chunk.skewed, &size.bends);
+                Self::octave::<Jet>
+            };
+            let dunes = evaluate(self, chunk, size, noise, places, jets);
+            if is_f64 {
                 sums.add_gradients(chunk, &dunes.gradient, size.weight, &fades);
             } else {
                 sums.add(chunk, &dunes.value, &dunes.gradient, size.weight, &fades);
             }
         }
+    }
+}
+
+impl Dunes {
+    /// The height of dunes of one size, whose crests the noise bends.
+    fn octave<'j, R: Real>(
+        &self,
+        chunk: &Chunk<'_>,
+        size: &Size,
+        bends: &Noise<R::S>,
+        places: &mut Places<R::S>,
+        jets: &'j mut [Jets<R::S>; JETS],
+    ) -> &'j Jets<R::S> {
+        let [re, im, dunes, ..] = jets;
+        let (simd, n) = (chunk.simd, chunk.len());
+        re.fill(n, R::S::default());
+        im.fill(n, R::S::default());
+        for octave in &size.lattices {
+            places.find(simd, chunk.skewed, octave);
+            for corner in CORNERS {
+                send::<R>(simd, n, places, corner, octave, self.wind, re, im);
+            }
+        }
+        pile::<R>(simd, n, re, im, bends, self.waviness, self.profile, dunes);
+        dunes
     }
 }
 
@@ -234,9 +242,7 @@ fn send_body<R: Real>(
         (R::load(im, i) + part(sin, cos)).store(im, i);
     }
 }
-for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<f32>);
-for_each_simd!(fn send_exact(n: usize, places: &Places<f64>, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets<f64>, im: &mut Jets<f64>) = send_body::<f64>);
-for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<Jet>);
+for_each_simd!(fn send<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets<R::S>, im: &mut Jets<R::S>) = send_body);
 
 /// The height of dunes from the sum of waves and the noise that bends them.
 #[inline(always)]
@@ -257,9 +263,7 @@ fn pile_body<R: Real>(
         (profile.height(phase) * strength).plus(-1.0).store(dunes, i);
     }
 }
-for_each_simd!(fn pile_values(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<f32>);
-for_each_simd!(fn pile_exact(n: usize, re: &Jets<f64>, im: &Jets<f64>, bends: &Noise<f64>, waviness: f32, profile: Profile, dunes: &mut Jets<f64>) = pile_body::<f64>);
-for_each_simd!(fn pile_gradients(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<Jet>);
+for_each_simd!(fn pile<R: Real>(n: usize, re: &Jets<R::S>, im: &Jets<R::S>, bends: &Noise<R::S>, waviness: f32, profile: Profile, dunes: &mut Jets<R::S>) = pile_body);
 
 /// The section of a dune along the wind.
 #[derive(Clone, Copy, Debug, PartialEq)]

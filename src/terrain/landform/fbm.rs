@@ -16,8 +16,8 @@ pub(super) const REST: f64 = 0.26;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fbm {
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many of them, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
 }
 
 impl Fbm {
@@ -31,7 +31,7 @@ impl Fbm {
     }
 
     fn of(octaves: Vec<Weighted>, arithmetic: Arithmetic) -> Self {
-        Self { exact: arithmetic.exact_of(&octaves, REST), octaves }
+        Self { f64_octaves: arithmetic.f64_octaves(&octaves, REST), octaves }
     }
 }
 
@@ -50,15 +50,15 @@ impl Evaluate for Fbm {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, .. } = scratch;
-        add_octaves(&self.octaves, self.exact, chunk, LEAST_POINTS, noise, sums);
+        add_octaves(&self.octaves, self.f64_octaves, chunk, LEAST_POINTS, noise, sums);
     }
 }
 
-/// Adds octaves, the first `exact` of them in f64, each shown in full from `least_points` points for each lattice cell
+/// Adds octaves, the first `f64_octaves` of them in f64, each shown in full from `least_points` points for each lattice cell
 /// on.
 pub(super) fn add_octaves(
     octaves: &[Weighted],
-    exact: usize,
+    f64_octaves: usize,
     chunk: &Chunk<'_>,
     least_points: f64,
     noise: &mut Noise,
@@ -69,10 +69,10 @@ pub(super) fn add_octaves(
         if chunk.skips(&fades) {
             break;
         }
-        if k < chunk.exact(exact) {
-            noise.add_exact(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
+        if k < chunk.f64_octaves(f64_octaves) {
+            noise.add_f64(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
             if !fades.is_unseen() {
-                noise.exact_gradients(chunk.simd, chunk.len(), octave);
+                noise.gradients_of_f64(chunk.simd, chunk.len(), octave);
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
             }
             continue;

@@ -53,7 +53,7 @@ impl Evaluate for HeightMap {
             scratch.sums.value[i] += self.low + span * finest.0;
             // Bands often share a level.
             let mut sampled: (usize, DVec3) = (0, finest.1);
-            for (gradient, &spacing_rad) in scratch.sums.gradients.iter_mut().zip(chunk.spacings_rad) {
+            for (gradient, &spacing_rad) in scratch.sums.gradients_mut().iter_mut().zip(chunk.spacings_rad) {
                 let level = picture.level_for(spacing_rad);
                 if level != sampled.0 {
                     sampled = (level, picture.sample(&place, level).1);

@@ -27,7 +27,7 @@ impl From<Precision> for Arithmetic {
 
 impl Arithmetic {
     /// How many octaves are found in f64: in `Fine`, so many that those left weigh no more than `rest`.
-    pub(super) fn exact(self, weights: impl Iterator<Item = f32> + Clone, rest: f64) -> usize {
+    pub(super) fn f64_count(self, weights: impl Iterator<Item = f32> + Clone, rest: f64) -> usize {
         match self {
             Self::Classic => 0,
             Self::Fine => {
@@ -40,8 +40,8 @@ impl Arithmetic {
     }
 
     /// The same for a series.
-    pub(super) fn exact_of(self, octaves: &[Weighted], rest: f64) -> usize {
-        self.exact(octaves.iter().map(|octave| octave.weight), rest)
+    pub(super) fn f64_octaves(self, octaves: &[Weighted], rest: f64) -> usize {
+        self.f64_count(octaves.iter().map(|octave| octave.weight), rest)
     }
 }
 

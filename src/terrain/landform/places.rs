@@ -1,7 +1,8 @@
 //! Where points stand in a lattice of cubic cells: what the kinds share that scatter something in jittered cells.
 
-use crate::terrain::jet::Scalar;
-use crate::terrain::noise::{self, CHUNK, Lane, Octave, Points3};
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::noise::{self, Octave};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
 /// Cell, place within the cell (0 to 1) and unit direction of each point of a chunk.
@@ -17,15 +18,8 @@ impl<S: Scalar> Default for Places<S> {
     }
 }
 
-impl Places<f64> {
-    /// Finds the places of skewed points in the cells of an octave.
-    pub(super) fn find_exact(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
-        find_exact_places(simd, skewed, octave, self);
-    }
-}
-
-impl Places {
-    /// Finds the places of skewed points in the cells of an octave.
+impl<S: Scalar> Places<S> {
+    /// Finds the positions of skewed points in the cells of an octave.
     pub(super) fn find(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_places(simd, skewed, octave, self);
     }
@@ -45,8 +39,7 @@ fn find_places_body<S: Scalar>(skewed: Points3<'_>, octave: &Octave, places: &mu
         }
     }
 }
-for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places) = find_places_body::<f32>);
-for_each_simd!(fn find_exact_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places<f64>) = find_places_body::<f64>);
+for_each_simd!(fn find_places<S: Scalar>(skewed: Points3<'_>, octave: &Octave, places: &mut Places<S>) = find_places_body);
 
 /// The eight cells around a point, in steps towards the nearer side: its own, and the neighbour along each axis or not.
 pub(super) const CORNERS: [[i32; 3]; 8] =

@@ -7,7 +7,9 @@ use super::*;
 use crate::planet::{Planet, Precision, shipped};
 use crate::terrain::Terrain;
 use crate::terrain::field::Field;
+use crate::terrain::lane::CHUNK;
 use crate::terrain::points::Points;
+use crate::terrain::simd::Simd;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -91,7 +93,7 @@ fn cost() {
         let [fine, classic] = [Precision::Millimetre, Precision::Classic]
             .map(|precision| Terrain::try_new(Arc::new(Planet { precision, ..planet.clone() })).unwrap());
         let ratio = |spacings_rad: &[f64]| {
-            let run = |terrain: &Terrain| drop(black_box(terrain.fields(&points, spacings_rad)));
+            let run = |terrain: &Terrain| drop(black_box(terrain.slopes_at(&points.dirs, spacings_rad)));
             times_longer(|| run(&fine), || run(&classic))
         };
         // Values alone; with the gradients of a tile seen from space and its parent's; with all gradients.

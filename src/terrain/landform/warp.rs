@@ -3,12 +3,14 @@
 //! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian,
 //! which only turns gradients, in f32.
 
+use super::chunk::{Chunk, Sums, add_gradient, add_gradient_f64};
 use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
+use super::scratch::{Displaced, Jacobian64};
 use super::varying::{Around, Point, Varying};
-use super::{Chunk, Sums, add_gradient};
-use crate::terrain::jet::Scalar;
-use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::noise::{self, Noise, precise};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::for_each_simd;
 
 /// At least so many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
@@ -26,32 +28,6 @@ pub(super) struct Warp {
     octaves: Vec<Weighted>,
     /// Displacement at a noise of 1, in radii.
     reach: f64,
-}
-
-/// Where the points of a chunk went.
-#[derive(Default)]
-pub(crate) struct Displaced {
-    skewed: Displacement,
-    /// For each band the derivatives of the displaced point by the point: `[coordinate displaced][coordinate]`.
-    jacobians: Vec<[[Lane<f32>; 3]; 3]>,
-    /// Second derivatives of each coordinate displaced, in the order of [`Noise::curvature`].
-    curvatures: Curvatures,
-}
-
-struct Curvatures([[Lane<f32>; 6]; 3]);
-
-impl Default for Curvatures {
-    fn default() -> Self {
-        Self([[[0.0; CHUNK]; 6]; 3])
-    }
-}
-
-struct Displacement([Lane<f64>; 3]);
-
-impl Default for Displacement {
-    fn default() -> Self {
-        Self([[0.0; CHUNK]; 3])
-    }
 }
 
 impl Warp {
@@ -98,7 +74,7 @@ impl Warp {
     pub(super) fn add_octaves(
         &self,
         octaves: &[Weighted],
-        exact: usize,
+        f64_octaves: usize,
         chunk: &Chunk<'_>,
         noise: &mut Noise,
         displaced: &mut Displaced,
@@ -107,9 +83,9 @@ impl Warp {
         self.displace(chunk, false, noise, displaced);
         let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
         let least_points = LEAST_POINTS * self.squeeze();
-        let (coarse, fine) = octaves.split_at(exact.max(PRECISE).min(octaves.len()));
+        let (coarse, fine) = octaves.split_at(f64_octaves.max(PRECISE).min(octaves.len()));
         for Weighted { octave, weight } in coarse {
-            noise.add_exact(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
+            noise.add_f64(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
             let fades = chunk.fades(1.0 / octave.frequency, least_points);
             if !fades.is_unseen() {
                 noise.gradients(chunk.simd, there.skewed, octave);
@@ -123,21 +99,10 @@ impl Warp {
     /// Displaces the points of a chunk; with second derivatives if `curved`.
     pub(super) fn displace(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise, displaced: &mut Displaced) {
         let n = chunk.len();
-        displaced.skewed.0 = [[0.0; CHUNK]; 3];
-        displaced.jacobians.resize(chunk.spacings_rad.len(), [[[0.0; CHUNK]; 3]; 3]);
-        for jacobian in &mut displaced.jacobians {
-            for (row, lanes) in jacobian.iter_mut().enumerate() {
-                for (column, lane) in lanes.iter_mut().enumerate() {
-                    lane.fill(if row == column { 1.0 } else { 0.0 });
-                }
-            }
-        }
-        if curved {
-            displaced.curvatures.0 = [[[0.0; CHUNK]; 6]; 3];
-        }
+        displaced.restart(n, chunk.spacings_rad.len(), curved);
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            noise.add_exact_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
+            noise.add_f64_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed);
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if fades.is_unseen() {
                 continue;
@@ -145,69 +110,82 @@ impl Warp {
             for (row, octave) in precise::components(octave).iter().enumerate() {
                 if curved {
                     noise.curvatures(chunk.simd, chunk.skewed, octave);
-                    add_curvature(chunk.simd, n, &noise.curvature, reach as f32, &mut displaced.curvatures.0[row]);
+                    add_curvature(chunk.simd, n, &noise.curvature, reach as f32, &mut displaced.curvatures[row]);
                 } else {
                     noise.gradients(chunk.simd, chunk.skewed, octave);
                 }
-                for (jacobian, share) in displaced.jacobians.iter_mut().zip(fades.0) {
+                for (jacobian, share) in displaced.jacobians[..displaced.bands].iter_mut().zip(fades.0) {
                     add_gradient(chunk.simd, n, &noise.gradient, reach as f32 * share, &mut jacobian[row]);
                 }
             }
         }
-        add_skewed(chunk.simd, chunk.skewed, &mut displaced.skewed.0);
+        add_skewed(chunk.simd, chunk.skewed, &mut displaced.skewed);
     }
 }
 
-/// The derivatives of displaced points by the points, in f64.
-pub(super) struct ExactJacobian([[Lane<f64>; 3]; 3]);
-
-impl ExactJacobian {
-    /// Of the points of a chunk.
-    pub(super) fn new(warp: &Warp, chunk: &Chunk<'_>, noise: &mut Noise<f64>) -> Box<Self> {
-        let mut jacobian = Box::new(Self([[[0.0; CHUNK]; 3]; 3]));
-        for (row, lanes) in jacobian.0.iter_mut().enumerate() {
-            lanes[row].fill(1.0);
-        }
+impl Jacobian64 {
+    /// Finds the derivatives at the points of a chunk.
+    pub(super) fn find(&mut self, warp: &Warp, chunk: &Chunk<'_>, noise: &mut Noise<f64>) {
+        let n = chunk.len();
+        identity(n, &mut self.0);
         for Weighted { octave, weight } in &warp.octaves {
             let reach = warp.reach * f64::from(*weight);
-            for (lanes, octave) in jacobian.0.iter_mut().zip(&precise::components(octave)) {
-                noise.gradients(chunk.simd, chunk.skewed, octave);
-                for (lane, gradient) in lanes.iter_mut().zip(&noise.gradient) {
-                    for (sum, gradient) in lane.iter_mut().zip(gradient) {
-                        *sum += gradient * reach;
-                    }
-                }
+            noise.find_vector(chunk.simd, chunk.skewed, octave);
+            for (component, sums) in self.0.iter_mut().enumerate() {
+                noise.vector_gradients(chunk.simd, n, octave, component);
+                add_gradient_f64(chunk.simd, n, &noise.gradient, reach, sums);
             }
         }
-        jacobian
     }
 
-    /// Turns the gradient of a noise at the displaced points into that by the points.
+    /// Turns the gradient of a noise at the displaced points into the gradient by the points.
     pub(super) fn pull_back(&self, chunk: &Chunk<'_>, noise: &mut Noise<f64>) {
-        multiply_exact(chunk.simd, chunk.len(), &self.0, &mut noise.gradient);
+        multiply::<f64>(chunk.simd, chunk.len(), &self.0, &mut noise.gradient);
+    }
+}
+
+/// Makes a Jacobian the identity at the first `n` points.
+fn identity<S: Scalar>(n: usize, jacobian: &mut [[Lane<S>; 3]; 3]) {
+    for (row, lanes) in jacobian.iter_mut().enumerate() {
+        for (column, lane) in lanes.iter_mut().enumerate() {
+            lane[..n].fill(S::of(if row == column { 1.0 } else { 0.0 }));
+        }
     }
 }
 
 impl Displaced {
+    /// Points that are not displaced yet.
+    fn restart(&mut self, n: usize, bands: usize, curved: bool) {
+        self.skewed.iter_mut().for_each(|lane| lane[..n].fill(0.0));
+        self.bands = bands;
+        if self.jacobians.len() < bands {
+            self.jacobians.resize(bands, [[[0.0; CHUNK]; 3]; 3]);
+        }
+        self.jacobians[..bands].iter_mut().for_each(|jacobian| identity(n, jacobian));
+        if curved {
+            self.curvatures.iter_mut().flatten().for_each(|lane| lane[..n].fill(0.0));
+        }
+    }
+
     /// The displaced points, of which there are `n`.
     pub(super) fn points(&self, n: usize) -> Points3<'_> {
-        self.skewed.0.each_ref().map(|lane| &lane[..n])
+        self.skewed.each_ref().map(|lane| &lane[..n])
     }
 
     /// Turns the gradient of a noise at the displaced points (and its second derivatives, if `curved`) into those by
     /// the points, as the first band shows them.
     pub(super) fn pull_back_noise(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise) {
-        let Some(jacobian) = self.jacobians.first() else { return };
+        let Some(jacobian) = self.jacobians[..self.bands].first() else { return };
         if curved {
-            bend(chunk.simd, chunk.len(), jacobian, &self.curvatures.0, noise);
+            bend(chunk.simd, chunk.len(), jacobian, &self.curvatures, noise);
         }
-        multiply(chunk.simd, chunk.len(), jacobian, &mut noise.gradient);
+        multiply::<f32>(chunk.simd, chunk.len(), jacobian, &mut noise.gradient);
     }
 
     /// Turns gradients by the displaced points into gradients by the points.
     fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
-        for (jacobian, gradient) in self.jacobians.iter().zip(&mut sums.gradients) {
-            multiply(chunk.simd, chunk.len(), jacobian, gradient);
+        for (jacobian, gradient) in self.jacobians[..self.bands].iter().zip(sums.gradients_mut()) {
+            multiply::<f32>(chunk.simd, chunk.len(), jacobian, gradient);
         }
     }
 }
@@ -236,8 +214,7 @@ fn multiply_body<S: Scalar>(n: usize, jacobian: &[[Lane<S>; 3]; 3], gradient: &m
         z[i] = jx[2][i] * gx + jy[2][i] * gy + jz[2][i] * gz;
     }
 }
-for_each_simd!(fn multiply(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) = multiply_body::<f32>);
-for_each_simd!(fn multiply_exact(n: usize, jacobian: &[[Lane<f64>; 3]; 3], gradient: &mut [Lane<f64>; 3]) = multiply_body::<f64>);
+for_each_simd!(fn multiply<S: Scalar>(n: usize, jacobian: &[[Lane<S>; 3]; 3], gradient: &mut [Lane<S>; 3]) = multiply_body);
 
 #[inline(always)]
 fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) {

@@ -6,17 +6,9 @@
 
 use super::precise::Lattice;
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
-use crate::terrain::jet::Scalar;
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
-
-/// Points worked on at a time: few enough for all arrays to stay in the first-level cache.
-pub(crate) const CHUNK: usize = 256;
-
-/// One number for each point of a chunk.
-pub(crate) type Lane<T> = [T; CHUNK];
-
-/// Coordinates of a chunk of points, each coordinate in a slice of its own; at most [`CHUNK`] of them.
-pub(crate) type Points3<'a> = [&'a [f64]; 3];
 
 /// The noise of one octave at a chunk of points, by the coordinates of the points (not of the lattice).
 pub(crate) struct Noise<S = f32> {
@@ -45,6 +37,16 @@ impl<S: Scalar> Default for Noise<S> {
 }
 
 impl Noise<f64> {
+    /// Finds the lattice of a vector noise for [`Noise::vector_gradients`].
+    pub(crate) fn find_vector(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
+        self.lattice.find_vector(simd, skewed, octave);
+    }
+
+    /// The gradients of one component of the vector noise.
+    pub(crate) fn vector_gradients(&mut self, simd: Simd, n: usize, octave: &Octave, component: usize) {
+        self.lattice.gradients(simd, n, octave.frequency, component, &mut self.value, &mut self.gradient);
+    }
+
     /// Values alone, at skewed points.
     pub(crate) fn values(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         self.lattice.find(simd, skewed, octave);
@@ -55,7 +57,7 @@ impl Noise<f64> {
     pub(crate) fn gradients(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         let Self { value, gradient, lattice, .. } = self;
         lattice.find(simd, skewed, octave);
-        lattice.gradients(simd, skewed[0].len(), octave.frequency, value, gradient);
+        lattice.gradients(simd, skewed[0].len(), octave.frequency, 0, value, gradient);
     }
 }
 
@@ -73,7 +75,7 @@ impl Noise {
     }
 
     /// Adds the noise, found in f64, times a weight to a sum.
-    pub(crate) fn add_exact(
+    pub(crate) fn add_f64(
         &mut self,
         simd: Simd,
         skewed: Points3<'_>,
@@ -85,14 +87,14 @@ impl Noise {
         self.lattice.add(simd, skewed[0].len(), weight, sum);
     }
 
-    /// The gradients of the noise that [`Noise::add_exact`] found last.
-    pub(crate) fn exact_gradients(&mut self, simd: Simd, n: usize, octave: &Octave) {
+    /// The gradients of the noise that [`Noise::add_f64`] found last.
+    pub(crate) fn gradients_of_f64(&mut self, simd: Simd, n: usize, octave: &Octave) {
         self.lattice.rounded_gradients(simd, n, octave.frequency, &mut self.gradient);
     }
 
     /// Adds three noises on the lattice of an octave, found in f64, times a weight to sums; see
     /// [`precise::components`](super::precise::components).
-    pub(crate) fn add_exact_vector(
+    pub(crate) fn add_f64_vector(
         &mut self,
         simd: Simd,
         skewed: Points3<'_>,

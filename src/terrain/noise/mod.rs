@@ -16,8 +16,8 @@ mod batch;
 mod near;
 pub(crate) mod precise;
 
-use super::jet::Scalar;
-pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
+use super::scalar::Scalar;
+pub(crate) use batch::Noise;
 pub(crate) use near::{Nearby, SLOPE_BOUND, near};
 
 /// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.

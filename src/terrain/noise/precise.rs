@@ -6,9 +6,9 @@
 //! twice as long (see [`super::batch`]). What is found once serves values, gradients, and other noises on the same
 //! lattice, which differ by their hashes.
 
-use super::batch::{CHUNK, Lane, Points3};
 use super::{Octave, PRIME, SCALE, dot, falloff, gradient, scramble, split};
-use crate::terrain::jet::Scalar;
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
 /// The three noises of a vector noise.
@@ -66,16 +66,17 @@ impl Lattice {
         fill_values(simd, n, self, value);
     }
 
-    /// The noise (the same bits) and its gradient by the points.
+    /// The noise (the same bits) and its gradient by the points, of one component of a vector noise.
     pub(super) fn gradients(
         &self,
         simd: Simd,
         n: usize,
         frequency: f64,
+        component: usize,
         value: &mut Lane<f64>,
         gradient: &mut [Lane<f64>; 3],
     ) {
-        fill_gradients(simd, n, self, frequency, value, gradient);
+        fill_gradients(simd, n, self, frequency, component, value, gradient);
     }
 
     /// The gradient by the points, in f32.
@@ -137,7 +138,7 @@ fn ways<S: Scalar>([x, y, z]: [S; 3], order: [bool; 3]) -> [[S; 3]; 4] {
 
 /// The same in f64, which need not ask for the order again.
 #[inline(always)]
-fn exact_ways(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
+fn ways_f64(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
     let [x, y, z] = &lattice.fraction;
     let (x, y, z) = (x[i], y[i], z[i]);
     ways([x, y, z], [x >= y, y >= z, z > x])
@@ -162,7 +163,7 @@ fn weighted(d: [f64; 3]) -> [f64; 3] {
 fn add_body(n: usize, lattice: &Lattice, weight: f64, sum: &mut Lane<f64>) {
     let scale = weight * f64::from(SCALE);
     for (i, sum) in sum.iter_mut().enumerate().take(n) {
-        let ways = exact_ways(lattice, i).map(weighted);
+        let ways = ways_f64(lattice, i).map(weighted);
         *sum += unscaled(&ways, &lattice.hashes[0], i) * scale;
     }
 }
@@ -173,7 +174,7 @@ fn add_vector_body(n: usize, lattice: &Lattice, weight: f64, sums: &mut [Lane<f6
     let ([x, y, z], [hx, hy, hz]) = (sums, &lattice.hashes);
     let scale = weight * f64::from(SCALE);
     for i in 0..n.min(CHUNK) {
-        let ways = exact_ways(lattice, i).map(weighted);
+        let ways = ways_f64(lattice, i).map(weighted);
         x[i] += unscaled(&ways, hx, i) * scale;
         y[i] += unscaled(&ways, hy, i) * scale;
         z[i] += unscaled(&ways, hz, i) * scale;
@@ -184,7 +185,7 @@ for_each_simd!(fn add_three(n: usize, lattice: &Lattice, weight: f64, sums: &mut
 #[inline(always)]
 fn fill_values_body(n: usize, lattice: &Lattice, value: &mut Lane<f64>) {
     for (i, value) in value.iter_mut().enumerate().take(n) {
-        *value = unscaled(&exact_ways(lattice, i).map(weighted), &lattice.hashes[0], i) * f64::from(SCALE);
+        *value = unscaled(&ways_f64(lattice, i).map(weighted), &lattice.hashes[0], i) * f64::from(SCALE);
     }
 }
 for_each_simd!(fn fill_values(n: usize, lattice: &Lattice, value: &mut Lane<f64>) = fill_values_body);
@@ -212,24 +213,25 @@ fn fill_gradients_body(
     n: usize,
     lattice: &Lattice,
     frequency: f64,
+    component: usize,
     value: &mut Lane<f64>,
     [gx, gy, gz]: &mut [Lane<f64>; 3],
 ) {
-    let hashes = &lattice.hashes[0];
+    let hashes = &lattice.hashes[component];
     for i in 0..n.min(CHUNK) {
-        let ways = exact_ways(lattice, i);
+        let ways = ways_f64(lattice, i);
         value[i] = unscaled(&ways.map(weighted), hashes, i) * f64::from(SCALE);
         [gx[i], gy[i], gz[i]] = gradient_at(ways, hashes, i, frequency);
     }
 }
-for_each_simd!(fn fill_gradients(n: usize, lattice: &Lattice, frequency: f64, value: &mut Lane<f64>, gradient: &mut [Lane<f64>; 3]) = fill_gradients_body);
+for_each_simd!(fn fill_gradients(n: usize, lattice: &Lattice, frequency: f64, component: usize, value: &mut Lane<f64>, gradient: &mut [Lane<f64>; 3]) = fill_gradients_body);
 
 #[inline(always)]
 fn fill_rounded_gradients_body(n: usize, lattice: &Lattice, frequency: f32, [gx, gy, gz]: &mut [Lane<f32>; 3]) {
     let mut fraction = [[0.0; CHUNK]; 3];
-    for (rounded, exact) in fraction.iter_mut().zip(&lattice.fraction) {
-        for (rounded, exact) in rounded.iter_mut().zip(exact) {
-            *rounded = *exact as f32;
+    for (rounded, fraction) in fraction.iter_mut().zip(&lattice.fraction) {
+        for (rounded, fraction) in rounded.iter_mut().zip(fraction).take(n) {
+            *rounded = *fraction as f32;
         }
     }
     let ([x, y, z], Lattice { order, hashes, .. }) = (&fraction, lattice);
@@ -255,13 +257,13 @@ mod tests {
         let skewed: Points3<'_> = [&x, &y, &z];
         let (mut noise, mut wide) = (<Noise>::default(), Noise::<f64>::default());
         let mut sums = [[1.0; CHUNK]; 3];
-        noise.add_exact_vector(Simd::detect(), skewed, &octave, 2.0, &mut sums);
+        noise.add_f64_vector(Simd::detect(), skewed, &octave, 2.0, &mut sums);
         for (octave, sum) in components(&octave).iter().zip(&sums) {
             noise.gradients(Simd::detect(), skewed, octave);
             wide.gradients(Simd::detect(), skewed, octave);
             let (value, gradient) = (noise.value, noise.gradient);
-            noise.add_exact(Simd::detect(), skewed, octave, 1.0, &mut [0.0; CHUNK]);
-            noise.exact_gradients(Simd::detect(), CHUNK, octave);
+            noise.add_f64(Simd::detect(), skewed, octave, 1.0, &mut [0.0; CHUNK]);
+            noise.gradients_of_f64(Simd::detect(), CHUNK, octave);
             for i in 0..CHUNK {
                 assert!((1.0 + 2.0 * f64::from(value[i]) - sum[i]).abs() < 2e-6);
                 assert!((1.0 + 2.0 * wide.value[i] - sum[i]).abs() < 1e-14);
@@ -275,11 +277,11 @@ mod tests {
         }
         for simd in Simd::available() {
             let mut same = [[1.0; CHUNK]; 3];
-            noise.add_exact_vector(simd, skewed, &octave, 2.0, &mut same);
+            noise.add_f64_vector(simd, skewed, &octave, 2.0, &mut same);
             assert_eq!(same, sums, "{}", simd.name());
         }
         let mut first = [1.0; CHUNK];
-        noise.add_exact(Simd::detect(), skewed, &octave, 2.0, &mut first);
+        noise.add_f64(Simd::detect(), skewed, &octave, 2.0, &mut first);
         assert_eq!(first, sums[0]);
     }
 }

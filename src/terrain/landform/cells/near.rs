@@ -18,7 +18,7 @@ impl Near {
     pub(super) fn new(octave: &Octave, jitter: f32, dir_planet: DVec3, angle_rad: f64) -> Self {
         let [x, y, z] = noise::skew(dir_planet.to_array());
         let mut places = Places::<f64>::default();
-        places.find_exact(Simd::detect(), [&[x], &[y], &[z]], octave);
+        places.find(Simd::detect(), [&[x], &[y], &[z]], octave);
         let centre = |step: [i32; 3]| {
             let (square, random) = centre::<f64>(&places, step, octave.seed, jitter, 0);
             (square.sqrt(), f64::from(2.0 * unit::<f32>(noise::scramble(random)) - 1.0))

@@ -19,7 +19,7 @@ impl Size {
         let mut places = Places::<f64>::default();
         let mut sum = (0.0, 0.0);
         for octave in &self.lattices {
-            places.find_exact(Simd::detect(), [&[x], &[y], &[z]], octave);
+            places.find(Simd::detect(), [&[x], &[y], &[z]], octave);
             for step in (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]) {
                 let (cell, from) = neighbour(&places, step, 0);
                 let random = noise::cell_hash(cell, octave.seed);

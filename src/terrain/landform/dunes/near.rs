@@ -52,7 +52,7 @@ impl Size {
         let (mut sum, mut gradients, mut weights, mut bend) = ([0.0; 2], [DVec3::ZERO; 2], 0.0, 0.0);
         let mut places = Places::<f64>::default();
         for octave in &self.lattices {
-            places.find_exact(Simd::detect(), skewed.each_ref().map(std::slice::from_ref), octave);
+            places.find(Simd::detect(), skewed.each_ref().map(std::slice::from_ref), octave);
             for corner in (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]) {
                 let wave = wave(&places, corner, octave, dunes.wind, 0);
                 let (to, waves) = (DVec3::from_array(wave.to), wave_vector(wave.along));
