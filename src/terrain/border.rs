@@ -9,16 +9,16 @@ use crate::planet::Planet;
 use glam::{DMat3, DVec3};
 use std::sync::OnceLock;
 
-/// Octaves of the noise; the same as in `border.wgsl`.
+/// Octaves of the noise, as in `border.wgsl`.
 pub(crate) const OCTAVES: usize = 5;
-/// Repeat of the first octave, in planet radii.
+/// Period of the first octave, in planet radii.
 const COARSEST: f64 = 1.1;
-/// How much finer each octave is than the one before, and how much weaker.
+/// Ratio of frequency and of amplitude from one octave to the next.
 const FINER: f64 = 11.0;
 const GAIN: f64 = 0.25;
-/// Texels along the tile of noise.
+/// Texels along a side of the noise texture.
 pub(crate) const TILE_SIDE: usize = 32;
-/// From one octave to the next: turned octaves never repeat together along an axis. The same as in the shaders.
+/// Rotation from one octave to the next, so that octaves never repeat together along an axis; as in the shaders.
 pub(crate) const OCTAVE_TURN: DMat3 =
     DMat3::from_cols(DVec3::new(0.36, -0.8, 0.48), DVec3::new(0.48, 0.6, 0.64), DVec3::new(-0.8, 0.0, 0.6));
 
@@ -31,7 +31,7 @@ pub(crate) fn periods_m(radius_m: f64) -> [f64; OCTAVES] {
 /// The border jitter of a planet.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Border {
-    /// How far borders move, in cells of the table.
+    /// How far borders move, in cells of the biome table.
     jitter: f64,
     radius_m: f64,
     periods_m: [f64; OCTAVES],
@@ -62,7 +62,7 @@ impl Border {
     }
 }
 
-/// The tile at a point, in periods: trilinear between texels, as the GPU samples it.
+/// The noise texture at a point in periods, trilinear between texels as the GPU samples it.
 fn tile_at(point: DVec3) -> [f64; 2] {
     let tile = tile();
     let at = (point - point.floor()) * TILE_SIDE as f64 - 0.5;
@@ -82,7 +82,8 @@ fn tile_at(point: DVec3) -> [f64; 2] {
     sum
 }
 
-/// A cube of smooth noise that repeats without a seam, about -0.5 to 0.5 with mean 0, two independent values; x runs fastest.
+/// The noise texture: a cube of smooth noise without a seam, two independent channels of about -0.5 to 0.5 with mean
+/// 0; x runs fastest.
 pub(crate) fn tile() -> &'static [[f32; 2]] {
     static TILE: OnceLock<Vec<[f32; 2]>> = OnceLock::new();
     TILE.get_or_init(|| {
@@ -104,7 +105,7 @@ pub(crate) fn tile() -> &'static [[f32; 2]] {
     })
 }
 
-/// Smoothly interpolated values of a lattice that repeats after `cells`, -1 to 1.
+/// Smoothly interpolated values of a lattice with a period of `cells`, -1 to 1.
 fn value_noise(place: [f32; 3], cells: u32, seed: u32) -> f32 {
     let at = place.map(|x| x * cells as f32);
     let low = at.map(|x| x.floor() as u32);
@@ -122,7 +123,7 @@ fn value_noise(place: [f32; 3], cells: u32, seed: u32) -> f32 {
     2.0 * sum - 1.0
 }
 
-/// A hash of a lattice point, 0 to 1 (the mixer of murmur3).
+/// A hash of a lattice point, 0 to 1 (the finaliser of MurmurHash3).
 fn hashed([x, y, z]: [u32; 3], seed: u32) -> f32 {
     let mut h = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ z.wrapping_mul(0xC2B2_AE3D);
     h = (h ^ seed.wrapping_mul(0x27D4_EB2F)).wrapping_mul(0x85EB_CA6B);

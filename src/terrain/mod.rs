@@ -1,26 +1,23 @@
-//! What the surface is: the compiled evaluator that everything asks.
+//! The evaluator: from a planet to the height, normal, climate and biome of any point of its surface.
 //!
-//! - [`simd`]: the instruction sets the loops are compiled for
-//! - `noise`: gradient noise of one octave; the arithmetic all else rests on
-//! - `approx`: sine, cosine and arctangent for the hot loops
-//! - `jet`: numbers that carry their gradient
+//! - [`simd`]: the instruction sets that the loops are compiled for
+//! - `scalar`, `lane`, `jet`: the numbers of the loops, chunks of them, and numbers with gradients
+//! - `approx`: sine, cosine and arctangent for the loops
+//! - `noise`: gradient noise of one octave
 //! - `landform`: the kinds of layer, one file each
-//! - `points`, `field`: batches of points; a layer's noise and gradient at them
-//! - `kept`: the fields of all layers at a batch, present and past
+//! - `points`, `field`: a batch of points; the value and gradient of a landform there
 //! - `height`: layers joined by amplitude, curves, blends and masks
-//! - `relief`: what biomes add to the height
-//! - `climate`: temperature, moisture, the place in the biome table
-//! - `border`: noise that moves the borders between biomes
-//! - [`survey`]: where the planet lies in its biome table
-//! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
-//! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
-//! - `bench`: the noise alone, for measuring
-//! - `raycast`: a ray against the ground and the sea
+//! - `climate`: temperature and moisture
+//! - `relief`: biome relief
+//! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
+//! - `biome`, `border`: the biome of a point; border jitter
+//! - `query`, `raycast`: the queries of [`Terrain`]
+//! - `kept`: the fields that a tile keeps from one edit to the next
+//! - `coast`, `coarse`: distance to the coast, and the coarse heights that it is made from
+//! - `bench`: noise alone, for measuring
 //!
-//! [`Terrain`] is the only thing outsiders need. Tiles go through the same functions as queries, in batches.
-//!
-//! Every question has a finite answer. A direction may have any length; one that leads nowhere (zero, infinite or NaN)
-//! counts as the one to the north pole.
+//! [`Terrain`] is the public interface. Tiles and queries take the same pipeline, and every query has a finite
+//! answer.
 
 mod approx;
 pub mod bench;
@@ -63,14 +60,14 @@ use std::sync::Arc;
 
 /// The compiled evaluator of one planet.
 ///
-/// The same planet gives the same bits on every machine, instruction set and number of threads.
+/// The same planet has bit-identical heights on every machine, instruction set and number of threads.
 #[derive(Clone, Debug)]
 pub struct Terrain {
     planet: Arc<Planet>,
     simd: Simd,
     pub(crate) stack: LayerStack,
     pub(crate) climate: CompiledClimate,
-    /// What biomes add to the height that the layers make.
+    /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
     /// What the shores were found with, if they matter.
     coarse: CoarseFields,
@@ -149,7 +146,7 @@ impl Terrain {
         self.stack == other.stack && self.planet.sea_level_m() == other.planet.sea_level_m()
     }
 
-    /// The same terrain evaluated with a given instruction set, for tests and benches. The answers are the same.
+    /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.
     pub fn with_simd(mut self, simd: Simd) -> Self {
         self.simd = simd.min(Simd::detect());
         self
@@ -165,12 +162,12 @@ impl Terrain {
         self.simd
     }
 
-    /// Lowest and greatest height the planet can have (conservative: no point lies outside).
+    /// Lowest and greatest height of the ground. Conservative: no point lies outside.
     pub fn height_bounds_m(&self) -> (f64, f64) {
         self.height_bounds_m
     }
 
-    /// The same for the ground within an angle of a direction: narrower, or equal. NaN is any angle.
+    /// The same within an angle of a direction: narrower, or equal. NaN counts as any angle.
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let angle_rad = if angle_rad.is_nan() { PI } else { angle_rad.abs().min(PI) };
         let ((lo, hi), (lowest, highest)) =
@@ -178,14 +175,14 @@ impl Terrain {
         (lo.max(lowest), hi.min(highest))
     }
 
-    /// Bounds of what the layers make, widened by what biomes add.
+    /// Bounds of the height that the layers make, widened by biome relief.
     fn with_relief(&self, (lo, hi): (f64, f64)) -> (f64, f64) {
         let Some(relief) = &self.relief else { return (lo, hi) };
         let ((less, more), (lowest, highest)) = (relief.bounds_m(), self.stack.limits_m());
         ((lo + less).clamp(lowest, highest), (hi + more).clamp(lowest, highest))
     }
 
-    /// How many octaves of noise one point takes.
+    /// How many octaves of noise one point takes at most.
     pub fn octaves_per_point(&self) -> usize {
         let layers: usize = self.stack.layers.iter().filter(|l| l.needed).map(|l| l.landform.octave_count()).sum();
         let climate: usize = self.climate.noises().into_iter().flatten().map(Landform::octave_count).sum();

@@ -1,15 +1,13 @@
-//! The relief that biomes have of their own: hummocks, hollows, ripples, added to the height that the layers make.
+//! Biome relief: hummocks, hollows and ripples that biomes add to the height that the layers make.
 //!
-//! A biome counts as far as the table's linear blend has it at the climate of the ground below, so nothing stands at a border. The
-//! blend follows the height of that ground exactly. How it follows latitude, climate noise and the distance from the sea is left out
-//! of gradients: over the hundreds of kilometres between two cells of the table, that is less than a millionth of a relief's height
-//! for each metre.
+//! The biome table is blended linearly at the climate of the ground below, so that no biome border makes a cliff.
+//! Gradients follow the blend by the height of that ground exactly. They leave out its dependence on latitude,
+//! climate noise and the coast distance: two cells of the table lie hundreds of kilometres apart, so that this is
+//! less than a millionth of the relief's height per metre.
 //!
-//! The noise that moves borders to and fro (`border`) does not move the blend: it is a tile with creases from texel to texel, and heights
-//! made with it would have creases in their normals, and cliffs where its finest octaves cross a step of the table. So the relief of a
-//! biome begins gently up to half a cell before or after the border that one sees.
-//!
-//! The arithmetic is the same whatever the instruction set; the noise is the layers' own.
+//! Border jitter does not move the blend. Its noise is a texture with creases between texels: heights made with it
+//! would have creases in their normals, and cliffs where its finest octaves cross a cell of the table. So the relief
+//! of a biome begins gradually, up to half a cell before or after the border that is drawn.
 
 use super::climate::{ClimateInputs, CompiledClimate, Rules};
 use super::field::Field;
@@ -21,30 +19,30 @@ use crate::planet::Planet;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Octaves of each relief.
+/// Octaves of each noise.
 const OCTAVES: u32 = 4;
-/// Apart from the seeds of layers, whose upper half is the planet's seed, and of the climate.
+/// Keeps the seeds apart from those of layers, whose upper half is the planet's seed, and of the climate.
 const SEED: u64 = 0x5EED_0000_0000_0003;
 
-/// Bound of the climate noise, whose weights sum to 1 up to rounding.
+/// Bound of the climate noise. Its weights sum to 1 up to rounding.
 const MOST_NOISE: f64 = noise::BOUND * (1.0 + 1e-5);
 
-/// Where the noise that biome relief needs comes from: kept, or evaluated when it is asked for.
+/// Where the noise for biome relief comes from: kept, or evaluated on demand.
 pub(crate) trait Inputs {
     /// The inputs of the climate at the points.
     fn climate(&mut self) -> ClimateInputs<'_>;
 
-    /// Makes sure that the field of one of [`Relief::noises`] is there.
+    /// Makes sure that the field of one of [`Relief::noises`] is available.
     fn prepare_relief(&mut self, noise: usize);
 
     /// A field that was prepared.
     fn relief(&self, noise: usize) -> Option<&Field>;
 }
 
-/// The reliefs of a planet's biomes; equal ones make equal heights of equal ground.
+/// The biome relief of a planet. Equal ones add equal heights to equal ground.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Relief {
-    /// One noise for each size.
+    /// One noise for each feature size.
     noises: Vec<Arc<Landform>>,
     columns: usize,
     rows: usize,
@@ -58,11 +56,11 @@ pub(crate) struct Relief {
     limits_m: (f64, f64),
 }
 
-/// What a tile keeps of the noises: each with the landform that it is of.
+/// The noise fields that a tile keeps, each with its landform as the key.
 pub(crate) type ReliefFields = Vec<(Arc<Landform>, Arc<Field>)>;
 
 impl Relief {
-    /// None where no biome of the table has a relief.
+    /// `None` if no biome of the table has relief.
     pub(crate) fn new(planet: &Planet, climate: &CompiledClimate, limits_m: (f64, f64)) -> Option<Self> {
         let reliefs = planet.biomes.reliefs()?;
         let (mut sizes, mut cells): (Vec<f64>, _) = (Vec::new(), Vec::new());
@@ -79,7 +77,7 @@ impl Relief {
             }
         }
         let noise = |size_m: &f64| {
-            // Of the size alone: another biome's relief, or a new one, leaves this one as it is.
+            // The seed depends on the size alone: relief of other biomes stays as it is when one is added.
             let seed = noise::mix(u64::from(planet.seed) ^ SEED) ^ size_m.to_bits();
             Arc::new(Landform::fbm(seed, planet.radius_m() / size_m, OCTAVES))
         };
@@ -106,7 +104,7 @@ impl Relief {
         &self.noises
     }
 
-    /// Least and most that it adds. Conservative.
+    /// Least and greatest height that it adds. Conservative.
     pub(crate) fn bounds_m(&self) -> (f64, f64) {
         let most_m = self.cells.iter().map(|(_, height_m)| *height_m).fold(0.0, f64::max);
         let (lo, hi) = self
@@ -165,8 +163,8 @@ impl Relief {
         }
     }
 
-    /// Whether a biome with relief is anywhere within reach of the climate of a point, whatever the noise there. Most of
-    /// a planet is spared the noise.
+    /// Whether a cell with relief is within reach of the climate of a point, for any noise. Where none is, the
+    /// climate noise need not be evaluated.
     fn can_reach(&self, sin_lat: f64, height_m: f64) -> bool {
         let [moisture, row] = self.rules.ranges(sin_lat, height_m, MOST_NOISE);
         let along = |low: f64, high: f64, cells: usize| {
@@ -180,14 +178,14 @@ impl Relief {
         left <= most_right && right >= least_left && top <= most_bottom && bottom >= least_top
     }
 
-    /// The four cells around the climate of the ground.
+    /// The four cells around the climate of the ground, with bilinear weights.
     fn shares(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> [Share; 4] {
         let climate = self.rules.at(sin_lat, height_m, noise, inland_rad);
         let [by_moisture, by_row] = self.rules.by_height(height_m, &climate);
         let (x, y) = (climate.moisture * self.columns as f64 - 0.5, (1.0 - climate.row) * self.rows as f64 - 0.5);
         let (column, row) = (x.floor(), y.floor());
         let (u, v) = (x - column, y - row);
-        // How far across its cell the climate moves with each metre of height.
+        // Cells that the climate moves with each metre of height.
         let (du, dv) = (by_moisture * self.columns as f64, -by_row * self.rows as f64);
         let cell = |dx: i64, dy: i64| {
             let at = |w: f64, d: i64, count: usize| (w as i64 + d).clamp(0, count as i64 - 1) as usize;
@@ -212,6 +210,6 @@ struct Share {
     height_by_height: f64,
 }
 
-/// The shares of a batch of points: memory that is used again.
+/// The shares of a batch of points, in memory that is reused.
 #[derive(Debug, Default)]
 pub(crate) struct Shares(Vec<[Share; 4]>);

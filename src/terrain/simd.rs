@@ -1,7 +1,7 @@
-//! The instruction sets the noise loops are compiled for, and the choice between them at run time.
+//! The instruction sets that the evaluator's loops are compiled for, and the choice between them at run time.
 //!
-//! The same Rust source is compiled once for each set; the compiler vectorises it. The bits are
-//! equal, only the speed differs.
+//! The same Rust source is compiled once for each set and vectorised by the compiler. Results are bit-identical; only
+//! the speed differs.
 
 use std::sync::OnceLock;
 
@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs)]
 pub enum Simd {
-    /// Whatever the target guarantees: SSE2 on x86-64, NEON on aarch64.
+    /// The target's minimum: SSE2 on x86-64, NEON on aarch64.
     Baseline,
     Sse41,
     Avx2,
@@ -17,13 +17,13 @@ pub enum Simd {
 }
 
 impl Simd {
-    /// The best this machine has.
+    /// The best set of this machine.
     pub fn detect() -> Simd {
         static BEST: OnceLock<Simd> = OnceLock::new();
         *BEST.get_or_init(|| Self::available().last().copied().unwrap_or(Simd::Baseline))
     }
 
-    /// All this machine has, slowest first.
+    /// All sets of this machine, slowest first.
     pub fn available() -> Vec<Simd> {
         #[cfg_attr(not(target_arch = "x86_64"), allow(unused_mut))]
         let mut sets = vec![Simd::Baseline];

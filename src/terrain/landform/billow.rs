@@ -1,6 +1,5 @@
-//! Billow noise: each octave folded at zero into creases and rounded above them, `1 - (1 - |n|)^2`: what `ridged` is
-//! upside down, without its feedback. The creases are a little rounded too, as by sediment; sharp ones
-//! would be drawn as saw teeth.
+//! Billow noise: octaves folded at zero into creases and rounded above, `1 - (1 - |n|)^2`; `ridged` upside down,
+//! without its feedback. Creases are rounded a little, as by sediment: sharp ones would be drawn as saw teeth.
 
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point};
@@ -12,19 +11,19 @@ use crate::terrain::noise::Noise;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Points for each lattice cell from which on an octave shows in full: hills are half as long as waves.
+/// Points per lattice cell at which an octave shows in full: hills are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.07;
 
-/// Noise below which a crease is round.
+/// Noise value below which a crease is round.
 const CREASE: f32 = 0.05;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Billow {
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
 }
 
@@ -42,7 +41,7 @@ impl Evaluate for Billow {
     }
 
     fn bounds(&self) -> (f64, f64) {
-        // The weights sum to 1 but for their rounding.
+        // The weights sum to 1 up to rounding.
         (-1.0 - 1e-5, 1.0 + 1e-5)
     }
 

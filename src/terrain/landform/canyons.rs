@@ -1,8 +1,8 @@
 //! Valleys: the zero lines of warped noise, made into channels.
 //!
-//! A point's distance from the line is about `|n| / |grad n|`, along the ground; dividing by the gradient is what keeps
-//! the width the same everywhere. Each octave is a finer net of valleys, which runs dry with distance from the coarser
-//! ones, so that it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
+//! A point's distance from the line is about `|n| / |grad n|` along the ground; dividing by the gradient keeps the
+//! width of a valley constant. Each octave is a finer net of valleys. It fades with distance from the coarser valleys
+//! and so looks like their tributaries. Gradients take second derivatives of the noise.
 
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point, Varying};
@@ -16,21 +16,20 @@ use crate::terrain::noise::Noise;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.02;
 
-/// Points across a valley's wall from which on it shows in full.
+/// Points across a valley wall at which it shows in full.
 const LEAST_POINTS: f64 = 2.5;
 
-/// Added to the gradient (by the lattice), so that a valley widens no further than this where the noise is level.
+/// Added to the gradient (by the lattice): limits the width of a valley where the noise is level.
 const LEAST_GRADIENT: f32 = 0.5;
 
-/// Tributaries run dry between these distances from the valley they lead to, in its wavelengths.
+/// Distances from a valley between which its tributaries fade, in its wavelengths.
 const WET: f32 = 0.08;
 const DRY: f32 = 0.4;
 
-/// The meanders' wavelength and displacement (at `meander` 1) against the distance between
-/// valleys; octaves of meanders.
+/// Wavelength and displacement (at `meander` 1) of the meanders in distances between valleys, and their octaves.
 const MEANDER_WAVELENGTH: f64 = 0.5;
 const MEANDER_REACH: f64 = 0.3;
 const MEANDER_OCTAVES: u32 = 2;
@@ -39,17 +38,17 @@ const MEANDER_OCTAVES: u32 = 2;
 pub(crate) struct Canyons {
     warp: Warp,
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
     channel: Channel,
-    /// Width of a valley's wall against the wavelength.
+    /// Width of a valley wall in wavelengths.
     wall: f64,
 }
 
-/// The form of a valley.
+/// The cross-section of a valley.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Channel {
-    /// Half widths to a wavelength.
+    /// Half widths per wavelength.
     narrowness: f32,
     /// Share of the width that is flat.
     floor: f32,
@@ -152,7 +151,7 @@ impl Evaluate for Canyons {
                     continue;
                 }
             }
-            // Lines must lie where they are to the millimetre, though they are hundreds of kilometres apart.
+            // Zero lines must be right to a millimetre, though they are hundreds of kilometres apart.
             let mut value = [0.0; CHUNK];
             noise.add_f64(chunk.simd, there, octave, 1.0, &mut value);
             let carve = if fades.is_unseen() {
@@ -178,8 +177,8 @@ impl Evaluate for Canyons {
     }
 }
 
-/// Carves an octave of valleys, at most `depth` deep, out of what coarser ones have left: `uncut`, the share of the
-/// rock; `wet`, how near they are. `scale` is the octave's cell in radii.
+/// Carves one octave of valleys, at most `depth` deep. `state` is the share of rock that coarser octaves left, the
+/// nearness of their valleys, and the depth carved now. `scale` is a lattice cell in radii.
 #[inline(always)]
 fn carve_body<R: Real>(
     n: usize,

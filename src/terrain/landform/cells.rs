@@ -1,12 +1,12 @@
-//! Cells (Worley 1996): the ground is shared out between jittered centres in space, each point to the nearest.
+//! Cells (Worley 1996): jittered centres in space, each with the ground that is nearest to it.
 //!
-//! Distances are squared and in cells. The difference of the squared distances to two centres is linear across the
-//! border between them, so slopes and cracks are straight and need no root.
+//! Distances are squared and in lattice cells. The difference of the squared distances to two centres is linear
+//! across the border between them, so that slopes and cracks are straight and need no root.
 //!
-//! Which cells to search: with centres at most [`JITTER`] from their cells' middles along each axis, the eight cells
-//! nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells beyond [`neighbourhood`]
-//! lie at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which makes sqrt([`HORIZON`]) =
-//! 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
+//! Which lattice cells to search: with centres at most [`JITTER`] from the middle of their cell along each axis, the
+//! eight cells nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells outside
+//! [`neighbourhood`] are at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which is
+//! sqrt([`HORIZON`]) = 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
 
 mod near;
 
@@ -22,19 +22,19 @@ use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use near::Near;
 
-/// Most that a centre stands from its cell's middle along each axis, in cells.
+/// Greatest distance of a centre from the middle of its cell along each axis, in cells.
 const JITTER: f32 = 0.395;
-/// Square of the distance within which all centres are known: 2 (1.5 - JITTER)^2.
+/// Square of the distance within which all centres are found: 2 (1.5 - JITTER)^2.
 const HORIZON: f32 = 2.442;
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.12;
-/// Points for each border's width, or for half a dome, from which on they show in full.
+/// Points per border width, or per half dome, at which they show in full.
 const LEAST_POINTS: f64 = 1.2;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells {
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
     style: CellStyle,
     jitter: f32,
@@ -140,14 +140,14 @@ impl Cells {
     }
 }
 
-/// The cells that must be searched, in steps towards the nearer side: all around a point, and one further along one
-/// axis at a time on its nearer side.
+/// The cells to search, in steps towards the nearer side: all around a point, and one further along one axis on its
+/// nearer side.
 fn neighbourhood() -> impl Iterator<Item = [i32; 3]> {
     let all = (0..64).map(|k| [(k & 3) - 1, ((k >> 2) & 3) - 1, (k >> 4) - 1]);
     all.filter(|step| step.iter().filter(|s| **s == 2).count() <= 1)
 }
 
-/// The square of the distance to the centre of a cell, and random bits of that cell.
+/// The squared distance to the centre of a cell, and the hash of that cell.
 #[inline(always)]
 fn centre<R: Real>(places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, i: usize) -> (R, u32) {
     let (cell, from) = neighbour(places, step, i);
@@ -181,8 +181,8 @@ fn meet_body<R: Real>(
 }
 for_each_simd!(fn meet<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<R::S>, second: &mut Jets<R::S>) = meet_body);
 
-/// How quickly a plate's share falls off beyond its border; never so slowly that centres beyond
-/// the horizon would count.
+/// The steepness with which a plate's share falls off beyond its border: never so low that centres beyond the horizon
+/// would count.
 #[inline(always)]
 fn begin_body<R: Real>(n: usize, width: f32, first: &Jets<R::S>, steepness: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
@@ -191,7 +191,7 @@ fn begin_body<R: Real>(n: usize, width: f32, first: &Jets<R::S>, steepness: &mut
 }
 for_each_simd!(fn begin<R: Real>(n: usize, width: f32, first: &Jets<R::S>, steepness: &mut Jets<R::S>) = begin_body);
 
-/// Adds the share that the plate of a cell has in the ground at each point, and its level as much.
+/// Adds the share of a cell's plate at each point, and its level times the share.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 fn share_body<R: Real>(
@@ -216,7 +216,7 @@ fn share_body<R: Real>(
 }
 for_each_simd!(fn share<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &Jets<R::S>, steepness: &Jets<R::S>, shares: &mut Jets<R::S>, levels: &mut Jets<R::S>) = share_body);
 
-/// The mean level of the plates by their shares; the nearest plate's share is one, so the sum is never zero.
+/// The mean level of the plates, weighted by their shares. The nearest plate's share is 1, so the sum is never 0.
 #[inline(always)]
 fn level_body<R: Real>(n: usize, frequency: f32, shares: &Jets<R::S>, levels: &Jets<R::S>, height: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {

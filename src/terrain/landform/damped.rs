@@ -1,9 +1,9 @@
-//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave divided by `1 + damping * slope^2`, where the
-//! slope is that of the octaves up to it, undamped. Octaves are raised by 1 first, so that damping pulls slopes down:
+//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave is divided by `1 + damping * slope^2`, where
+//! the slope is that of the undamped octaves up to it. Octaves are raised by 1 first, so that damping lowers slopes:
 //! peaks stand out, valleys widen.
 //!
 //! Slopes are measured along the ground, in coarsest wavelengths, so that `damping` means the same on every planet.
-//! Where the gradient is wanted too, second derivatives of the noise make it exact.
+//! Gradients take second derivatives of the noise.
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
@@ -16,18 +16,18 @@ use crate::terrain::noise::{self, Noise};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.07;
 
-/// Cells to the radius, and against the coarsest octave, beyond which the square of a slope
-/// would leave the range of f32.
+/// Greatest frequency in cells per radius, and relative to the coarsest octave: beyond, the square of a slope
+/// overflows f32.
 const FINEST: f64 = 1e10;
 const FINEST_TO_COARSEST: f64 = 1e12;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Damped {
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
     damping: f32,
 }
@@ -112,7 +112,7 @@ impl Evaluate for Damped {
                 }
                 continue;
             }
-            // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
+            // An octave too fine for every band needs no gradient, nor do the finer ones that follow.
             if fades.is_unseen() {
                 noise.gradients(chunk.simd, chunk.skewed, octave);
                 damp::<f32>(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
@@ -127,7 +127,7 @@ impl Evaluate for Damped {
     }
 }
 
-/// Damps an octave, whose gradient times `rise` counts towards the slope.
+/// Damps one octave, whose gradient times `rise` is added to the slope.
 #[inline(always)]
 fn damp_body<R: Real>(
     n: usize,

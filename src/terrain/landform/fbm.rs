@@ -7,16 +7,16 @@ use crate::planet;
 use crate::terrain::noise::{self, Noise};
 use glam::DVec3;
 
-/// Points for each lattice cell from which on an octave shows in full: a wave is about two cells long.
+/// Points per lattice cell at which an octave shows in full: a wave is about two cells long.
 pub(super) const LEAST_POINTS: f64 = 1.5;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 pub(super) const REST: f64 = 0.26;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fbm {
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
 }
 
@@ -54,8 +54,8 @@ impl Evaluate for Fbm {
     }
 }
 
-/// Adds octaves, the first `f64_octaves` of them in f64, each shown in full from `least_points` points for each lattice cell
-/// on.
+/// Adds octaves, the first `f64_octaves` of them in f64. Each shows in full from `least_points` points per lattice
+/// cell.
 pub(super) fn add_octaves(
     octaves: &[Weighted],
     f64_octaves: usize,

@@ -1,13 +1,13 @@
-//! Gullies: mountains as running water carves them, each point by itself, after the gradient-aligned waves of Clay John
-//! (2020) and Rune Skovbo Johansen (2025).
+//! Gullies: mountains carved by running water, evaluated at each point by itself, after the gradient-aligned waves of
+//! Clay John (2020) and Rune Skovbo Johansen (2025).
 //!
-//! A smooth relief of noise is given gullies that run down its slope: in each of the jittered cells around a point
-//! stands a wave whose crests follow the slope, and their sum is a phasor (see `dunes`), the cosine of which is the
-//! gullies' height. Each finer octave runs down the slope of the relief together with the gullies before it, so that
-//! gullies branch. Ground that is flat gets none: summits keep the height of a ridge and valley floors that of a
-//! valley, and ridges and valleys of one octave stay clear of the next.
+//! Smooth noise gets gullies that run down its slope. In each of the jittered cells around a point stands a wave
+//! whose crests follow the slope; the waves sum to a phasor (see `dunes`), and the cosine of its phase is the height
+//! of the gullies. Each finer octave follows the slope of the noise together with the gullies before it, so that
+//! gullies branch. Level ground gets none: summits keep the height of a ridge and valley floors that of a bed, and
+//! each octave leaves the ridges and beds of the coarser ones free.
 //!
-//! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
+//! Gradients take second derivatives of the noise, which tell how the waves turn from point to point.
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
@@ -25,43 +25,43 @@ use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::f32::consts::TAU;
 
-/// Weight of the octaves of the relief, and height of the gullies, that f32 is enough for.
+/// Greatest total weight of the noise octaves, and greatest total height of the gullies, that are evaluated in f32.
 const REST: f64 = 0.09;
-/// Gullies to a cell.
+/// Gullies per cell.
 const WAVES: f32 = 1.0;
-/// How far a wave reaches, in cells.
+/// Reach of a wave, in cells.
 const REACH: f32 = 0.8;
-/// How far the middles of waves stand from their cells' centres along each axis, in cells. REACH + JITTER <= 1.
+/// Greatest distance of a wave's centre from the centre of its cell along each axis, in cells. REACH + JITTER <= 1.
 const JITTER: f32 = 0.2;
-/// The square of the phasor below which gullies fade; where all waves agree it is about 0.4.
+/// The squared phasor below which gullies fade; where all waves agree it is about 0.4.
 const FAINT: f32 = 0.02;
-/// Depth of a gully for each unit of its width at depth 1, against the relief for each unit of wavelength.
+/// Depth of a gully per width at depth 1, in noise heights per wavelength.
 const STEEPNESS: f64 = 0.4;
-/// The slope at which ground has half its gullies, in reliefs for each unit of wavelength.
+/// The slope at which ground has half its gullies, in noise heights per wavelength.
 const FLAT: f32 = 0.35;
-/// How many times coarser than the gullies an octave of the relief must be to lead them: they cannot follow a slope
-/// that turns within their own width.
+/// Least ratio of the wavelength of a noise octave to that of the gullies for it to lead them: gullies cannot follow
+/// a slope that turns within their width.
 const COARSER: f64 = 2.5;
-/// How much gullies count in the slope that leads the next octave: less keeps the finer ones straighter.
+/// Weight of gullies in the slope that leads the next octave: less keeps finer gullies straighter.
 const BRANCH: f32 = 0.6;
-/// How round the crests are: the square of half the height that is taken off them.
+/// Roundness of the crests: the square of half the height that is taken off them.
 const ROUND: f32 = 0.004;
-/// How quickly the next octave sets in beside a crest or a valley of the one before.
+/// How quickly the next octave sets in beside a crest or bed of the one before.
 const CLEAR: f32 = 0.05;
-/// The height of the relief, up and down, that counts as summit and valley floor.
+/// The height of the noise, up and down, that counts as summit and valley floor.
 const SUMMIT: f32 = 0.6;
-/// Points for each gully from which on it shows in full.
+/// Points per gully at which it shows in full.
 const LEAST_GULLY_POINTS: f64 = 3.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Gullies {
     octaves: Vec<Weighted>,
-    /// So many of the relief's octaves are coarser than the gullies and lead them.
+    /// How many noise octaves, the coarsest, lead the gullies.
     leading: usize,
     gullies: Vec<Carved>,
-    /// So many octaves of the relief, and so many of the gullies, are found in f64.
+    /// How many octaves of the noise, and how many of the gullies, are evaluated in f64.
     f64_octaves: [usize; 2],
-    /// Cells of the coarsest octave of the relief to the planet's radius.
+    /// Cells of the coarsest noise octave per planet radius.
     frequency: f64,
 }
 
@@ -69,9 +69,9 @@ pub(crate) struct Gullies {
 #[derive(Clone, Debug, PartialEq)]
 struct Carved {
     lattices: [Octave; 2],
-    /// Height of its ridges over the middle.
+    /// Height of its ridges above the mean.
     height: f32,
-    /// The steepest slope of its flanks, in reliefs for each unit of wavelength.
+    /// The steepest slope of its flanks, in noise heights per wavelength.
     slope: f32,
 }
 
@@ -99,7 +99,7 @@ impl Gullies {
             })
             .collect();
         let leading = octaves.iter().filter(|w| COARSER * w.octave.frequency * gully_km < radius_km).count().max(1);
-        // Gullies hang on one another and on the relief that leads them.
+        // Gullies depend on one another and on the noise that leads them.
         let in_f64 = arithmetic.f64_count(gullies.iter().map(|gully| gully.height), REST);
         let noise_in_f64 = arithmetic.f64_octaves(&octaves, REST);
         let f64_octaves = [if in_f64 > 0 { noise_in_f64.max(leading) } else { noise_in_f64 }, in_f64];
@@ -117,7 +117,7 @@ impl Evaluate for Gullies {
         (-bound, bound)
     }
 
-    /// The gullies may be anywhere in their range: only the relief is known better nearby.
+    /// The gullies may be anywhere in their range; only the noise has tighter bounds nearby.
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let (low, high) = Point::new(Around { dir_planet, angle_rad }).sum(&self.octaves).range();
         let carved = self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>() * (1.0 + 1e-5);
@@ -131,7 +131,7 @@ impl Evaluate for Gullies {
         let (simd, n, skewed) = (chunk.simd, chunk.len(), chunk.skewed);
         let fades_of = |octave: &Octave| chunk.fades(1.0 / octave.frequency, LEAST_GULLY_POINTS * f64::from(WAVES));
         let shaded = self.gullies.first().is_some_and(|gully| !fades_of(&gully.lattices[0]).is_unseen());
-        // Gullies in f64 hand their state to the first in f32; without gradients nothing else reads it before.
+        // Gullies in f64 hand their state to the first in f32. Without gradients nothing reads the f32 state before.
         let leads = shaded || gullies_in_f64 == 0;
         carving.restart(n);
         carving64.restart(n);
@@ -213,7 +213,7 @@ impl Carved {
 }
 
 impl<S: Scalar> Carving<S> {
-    /// Before the first octave: a level guide, and gullies of full depth.
+    /// The state before the first octave: a level guide, and gullies of full depth.
     fn restart(&mut self, n: usize) {
         self.guide.iter_mut().chain([&mut self.target]).for_each(|jets| jets.fill(n, S::default()));
         self.share.fill(n, S::of(1.0));
@@ -221,7 +221,7 @@ impl<S: Scalar> Carving<S> {
 }
 
 impl Carving {
-    /// Takes over the values that were found in f64.
+    /// Rounds the values of the state in f64.
     fn round_from(&mut self, n: usize, source: &Carving<f64>) {
         for (guide, source) in self.guide.iter_mut().zip(&source.guide) {
             guide.round_from(n, source);
@@ -231,7 +231,7 @@ impl Carving {
     }
 }
 
-/// Adds an octave of the relief to the slope that leads, and to the height that summits and valley floors keep.
+/// Adds a noise octave to the slope that leads, and to the height that summits and valley floors keep.
 #[inline(always)]
 fn lead_body<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32, work: &mut Carving<R::S>) {
     for i in 0..n.min(CHUNK) {
@@ -244,7 +244,7 @@ fn lead_body<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32,
 }
 for_each_simd!(fn lead<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32, work: &mut Carving<R::S>) = lead_body);
 
-/// From the relief's height to that of a gully's ridge (1) at summits and of its bed (-1) on valley floors.
+/// Maps the height of the noise to that of a ridge (1) on summits and of a bed (-1) on valley floors.
 #[inline(always)]
 fn settle_body<R: Real>(n: usize, work: &mut Carving<R::S>) {
     for i in 0..n.min(CHUNK) {
@@ -254,7 +254,7 @@ fn settle_body<R: Real>(n: usize, work: &mut Carving<R::S>) {
 }
 for_each_simd!(fn settle<R: Real>(n: usize, work: &mut Carving<R::S>) = settle_body);
 
-/// Turns the slope to the side.
+/// Finds the vector across the slope.
 #[inline(always)]
 fn turn_body<R: Real>(n: usize, places: &Places<R::S>, work: &mut Carving<R::S>) {
     for i in 0..n.min(CHUNK) {
@@ -273,7 +273,7 @@ fn turn_body<R: Real>(n: usize, places: &Places<R::S>, work: &mut Carving<R::S>)
 }
 for_each_simd!(fn turn<R: Real>(n: usize, places: &Places<R::S>, work: &mut Carving<R::S>) = turn_body);
 
-/// Adds the waves of one cell of the eight.
+/// Adds the waves of one of the eight cells.
 #[inline(always)]
 fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, work: &mut Carving<R::S>) {
     let (seed, frequency, scale) = (octave.seed, R::S::of(octave.frequency), R::S::from_f32);
@@ -289,7 +289,8 @@ fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave:
         let weight = near * near * near;
         let waves = to[0] * side[0].value[i] + to[1] * side[1].value[i] + to[2] * side[2].value[i];
         let (sin, cos) = approx::sin_cos(waves * scale(-WAVES));
-        // The gradient as if the waves ran the same way everywhere, all but the part that is the same for all waves.
+        // The gradient as if all waves ran the same way everywhere, except for the part that is the same for all
+        // waves.
         let fall = near * near * scale(6.0 / (REACH * REACH)) * frequency;
         let part = |value: R::S| {
             let fall = fall * value;
@@ -307,13 +308,14 @@ fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave:
 }
 for_each_simd!(fn send<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, work: &mut Carving<R::S>) = send_body);
 
-/// From the sum of waves to the height of gullies, and to what leads the next octave.
+/// From the sum of waves to the height of gullies, and to the state that leads the next octave.
 #[inline(always)]
 fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Carving<R::S>) {
     let (frequency, zero) = (gully.lattices[0].frequency as f32, R::S::of(0.0));
     for i in 0..n.min(CHUNK) {
         let side = [R::load(&work.side[0], i), R::load(&work.side[1], i), R::load(&work.side[2], i)];
-        // Each wave's angle grows along the side, and turns with it by the way to the wave's middle.
+        // The angle of each wave grows along the side vector, and turns with it in proportion to the distance of its
+        // centre.
         let [re, im, re_arm, im_arm] = &work.waves;
         let along = |k: R::S, axis: usize| k * side[axis].value();
         let turned = |sum: &Jets<R::S>, other: &Jets<R::S>, arm: &Jets<R::S>, sign: f32| {

@@ -11,16 +11,16 @@ use crate::terrain::noise::Noise;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Points for each lattice cell from which on an octave shows in full: crests are half as long as waves.
+/// Points per lattice cell at which an octave shows in full: crests are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.07;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ridged {
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
     feedback: f32,
 }
@@ -86,7 +86,7 @@ impl Evaluate for Ridged {
                 feed.round_from(n, feed64);
                 continue;
             }
-            // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
+            // An octave too fine for every band needs no gradient, nor do the finer ones that follow.
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
                 fold::<f32>(chunk.simd, n, noise, self.feedback, feed, crest);

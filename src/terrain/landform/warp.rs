@@ -1,7 +1,7 @@
-//! Domain warping: points displaced by a vector noise before a landform is evaluated at them.
+//! Domain warping: a vector noise displaces points before a landform is evaluated at them.
 //!
-//! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian,
-//! which only turns gradients, in f32.
+//! The displacement is f64, because a step of f32 in hundreds of kilometres is centimetres. Its Jacobian, which only
+//! turns gradients, is f32.
 
 use super::chunk::{Chunk, Sums, add_gradient, add_gradient_f64};
 use super::fbm::{LEAST_POINTS, add_octaves};
@@ -9,18 +9,18 @@ use super::octaves::{Weighted, series};
 use super::scratch::{Displaced, Jacobian64};
 use super::varying::{Around, Point, Varying};
 use crate::terrain::lane::{CHUNK, Lane, Points3};
-use crate::terrain::noise::{self, Noise, precise};
+use crate::terrain::noise::{self, Noise, lattice};
 use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::for_each_simd;
 
-/// At least so many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
+/// Least number of octaves of a warped noise in f64, so that it is smooth underfoot: in the coarsest, a step of f32
 /// is half a millimetre of 4 km.
-const PRECISE: usize = 2;
+const LEAST_F64_OCTAVES: usize = 2;
 
-/// Farthest displacement at a noise of 1, in radii.
+/// Greatest displacement at a noise of 1, in radii.
 const MAX_REACH: f64 = 8.0;
 
-/// Root mean square of the noise's derivative along one axis of its lattice.
+/// Root mean square of the derivative of the noise along one axis of its lattice.
 const DERIVATIVE: f64 = 1.2;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -31,21 +31,22 @@ pub(super) struct Warp {
 }
 
 impl Warp {
-    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells to the radius, that
-    /// displaces by `reach` radii.
+    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells per radius, that displaces by `reach`
+    /// radii.
     pub(super) fn new(seed: u64, frequency: f64, octaves: u32, reach: f64) -> Self {
-        // The lattice must stay within what f64 can split; a few radii away is as good as anywhere.
+        // The lattice must stay within what f64 can split; a few radii away is as good as any distance.
         let reach = reach.min(MAX_REACH);
-        // Another sequence than that of the noise that is warped.
+        // A seed apart from that of the warped noise.
         Self { octaves: series(noise::mix(!seed), frequency, octaves, 0.5, 2.0), reach }
     }
 
-    /// How many octaves of noise it takes at a point.
+    /// How many octaves of noise one point takes.
     pub(super) fn octave_count(&self) -> usize {
         3 * self.octaves.len()
     }
 
-    /// Where the directions around one go; and their derivatives by the direction, `[coordinate displaced][coordinate]`.
+    /// The images of the directions around one, and their derivatives by the direction, `[coordinate
+    /// displaced][coordinate]`.
     pub(super) fn near(&self, around: Around) -> (Point, [[Varying; 3]; 3]) {
         let point = Point::new(around);
         let mut there = point.coordinates;
@@ -53,7 +54,7 @@ impl Warp {
         let mut jacobian = [0, 1, 2].map(|row| [0, 1, 2].map(|column| unit(row == column)));
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            for (axis, octave) in precise::components(octave).iter().enumerate() {
+            for (axis, octave) in lattice::components(octave).iter().enumerate() {
                 let (noise, slope) = point.noise_and_slope(octave);
                 there[axis] = there[axis] + noise.scale(reach);
                 for (derivative, slope) in jacobian[axis].iter_mut().zip(slope) {
@@ -64,13 +65,13 @@ impl Warp {
         (Point::displaced(around, there), jacobian)
     }
 
-    /// By how much features of the warped noise are typically squeezed.
+    /// Typical factor by which features of the warped noise are squeezed.
     fn squeeze(&self) -> f64 {
         let shear = |o: &Weighted| self.reach * f64::from(o.weight) * o.octave.frequency * DERIVATIVE;
         1.0 + self.octaves.iter().map(|o| shear(o) * shear(o)).sum::<f64>().sqrt()
     }
 
-    /// Adds octaves of noise at the displaced points of a chunk, at least so many of them in f64.
+    /// Adds octaves of noise at the displaced points of a chunk, at least `f64_octaves` of them in f64.
     pub(super) fn add_octaves(
         &self,
         octaves: &[Weighted],
@@ -83,7 +84,7 @@ impl Warp {
         self.displace(chunk, false, noise, displaced);
         let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
         let least_points = LEAST_POINTS * self.squeeze();
-        let (coarse, fine) = octaves.split_at(f64_octaves.max(PRECISE).min(octaves.len()));
+        let (coarse, fine) = octaves.split_at(f64_octaves.max(LEAST_F64_OCTAVES).min(octaves.len()));
         for Weighted { octave, weight } in coarse {
             noise.add_f64(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
             let fades = chunk.fades(1.0 / octave.frequency, least_points);
@@ -107,7 +108,7 @@ impl Warp {
             if fades.is_unseen() {
                 continue;
             }
-            for (row, octave) in precise::components(octave).iter().enumerate() {
+            for (row, octave) in lattice::components(octave).iter().enumerate() {
                 if curved {
                     noise.curvatures(chunk.simd, chunk.skewed, octave);
                     add_curvature(chunk.simd, n, &noise.curvature, reach as f32, &mut displaced.curvatures[row]);
@@ -138,7 +139,7 @@ impl Jacobian64 {
         }
     }
 
-    /// Turns the gradient of a noise at the displaced points into the gradient by the points.
+    /// Turns the gradient of a noise by the displaced points into the gradient by the points.
     pub(super) fn pull_back(&self, chunk: &Chunk<'_>, noise: &mut Noise<f64>) {
         multiply::<f64>(chunk.simd, chunk.len(), &self.0, &mut noise.gradient);
     }
@@ -154,7 +155,7 @@ fn identity<S: Scalar>(n: usize, jacobian: &mut [[Lane<S>; 3]; 3]) {
 }
 
 impl Displaced {
-    /// Points that are not displaced yet.
+    /// Points without displacement.
     fn restart(&mut self, n: usize, bands: usize, curved: bool) {
         self.skewed.iter_mut().for_each(|lane| lane[..n].fill(0.0));
         self.bands = bands;
@@ -167,13 +168,13 @@ impl Displaced {
         }
     }
 
-    /// The displaced points, of which there are `n`.
+    /// The first `n` displaced points.
     pub(super) fn points(&self, n: usize) -> Points3<'_> {
         self.skewed.each_ref().map(|lane| &lane[..n])
     }
 
-    /// Turns the gradient of a noise at the displaced points (and its second derivatives, if `curved`) into those by
-    /// the points, as the first band shows them.
+    /// Turns the gradient of a noise by the displaced points (and second derivatives, if `curved`) into derivatives
+    /// by the points, as the first band shows them.
     pub(super) fn pull_back_noise(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise) {
         let Some(jacobian) = self.jacobians[..self.bands].first() else { return };
         if curved {
@@ -226,8 +227,8 @@ fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &m
 }
 for_each_simd!(fn add_curvature(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) = add_curvature_body);
 
-/// Second derivatives of a noise by the points, by the chain rule: `J' H J` and the gradient times
-/// those of the displacement.
+/// Second derivatives of a noise by the points, by the chain rule: `J' H J` plus the gradient times those of the
+/// displacement.
 #[inline(always)]
 fn bend_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], curvatures: &[[Lane<f32>; 6]; 3], noise: &mut Noise) {
     let ([jx, jy, jz], [cx, cy, cz]) = (jacobian, curvatures);

@@ -13,7 +13,7 @@ use glam::DVec3;
 pub(crate) struct Warped {
     warp: Warp,
     octaves: Vec<Weighted>,
-    /// How many of them, the coarsest, are evaluated in f64.
+    /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
 }
 

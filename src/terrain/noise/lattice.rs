@@ -1,9 +1,9 @@
-//! The noise of one octave in f64, for where the rounding of f32 would show: the strongest octaves, displacements of
-//! hundreds of kilometres, distances to a zero line.
+//! One octave of noise in f64, for values in which the rounding of f32 would show: the strongest octaves,
+//! displacements of hundreds of kilometres, distances to a zero line.
 //!
-//! It is the same function as the f32 kernel's, up to rounding, whose gradients therefore belong to it too. Three
-//! loops: the lattice in f64, the hashes of the corners in u32 alone, the noise in f64; together they would take nearly
-//! twice as long (see [`super::batch`]). What is found once serves values, gradients, and other noises on the same
+//! Up to rounding it is the same function as the f32 kernel's, so that the gradients of that kernel belong to it too.
+//! There are three loops: the lattice in f64, the hashes of the corners in u32, the noise in f64; one loop would take
+//! nearly twice as long (see [`super::batch`]). One lattice serves values, gradients and other noises on the same
 //! lattice, which differ by their hashes.
 
 use super::{Octave, PRIME, SCALE, dot, falloff, gradient, scramble, split};
@@ -11,7 +11,7 @@ use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// The three noises of a vector noise.
+/// The three components of a vector noise.
 pub(crate) fn components(octave: &Octave) -> [Octave; 3] {
     let [x, y] = [octave.seed, scramble(octave.seed)];
     [x, y, scramble(y)].map(|seed| Octave { seed, ..*octave })
@@ -21,9 +21,9 @@ pub(crate) fn components(octave: &Octave) -> [Octave; 3] {
 pub(super) struct Lattice {
     cell: [Lane<u32>; 3],
     fraction: [Lane<f64>; 3],
-    /// Which tetrahedron of the cell: whether x >= y, y >= z, z > x, from the lowest bit on.
+    /// The tetrahedron of the cell: whether x >= y, y >= z, z > x, from the lowest bit on.
     order: Lane<u32>,
-    /// Random bits of the four corners of the tetrahedron, for up to three noises.
+    /// Hashes of the four corners of the tetrahedron, for up to three noises.
     hashes: [Hashes; 3],
 }
 
@@ -37,13 +37,13 @@ impl Default for Lattice {
 }
 
 impl Lattice {
-    /// Finds it for an octave at skewed points.
+    /// Finds the lattice of an octave at skewed points.
     pub(super) fn find(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_lattice(simd, skewed, octave, self);
         hash_corners(simd, skewed[0].len(), octave.seed, 0, self);
     }
 
-    /// Finds it for a vector noise.
+    /// Finds the lattice of a vector noise.
     pub(super) fn find_vector(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_lattice(simd, skewed, octave, self);
         for (k, octave) in components(octave).iter().enumerate() {
@@ -61,12 +61,12 @@ impl Lattice {
         add_three(simd, n, self, weight, sums);
     }
 
-    /// The noise.
+    /// Values.
     pub(super) fn values(&self, simd: Simd, n: usize, value: &mut Lane<f64>) {
         fill_values(simd, n, self, value);
     }
 
-    /// The noise (the same bits) and its gradient by the points, of one component of a vector noise.
+    /// Values (the same bits) and gradients of one component of a vector noise.
     pub(super) fn gradients(
         &self,
         simd: Simd,
@@ -79,7 +79,7 @@ impl Lattice {
         fill_gradients(simd, n, self, frequency, component, value, gradient);
     }
 
-    /// The gradient by the points, in f32.
+    /// Gradients in f32.
     pub(super) fn rounded_gradients(&self, simd: Simd, n: usize, frequency: f64, gradient: &mut [Lane<f32>; 3]) {
         fill_rounded_gradients(simd, n, self, frequency as f32, gradient);
     }
@@ -100,7 +100,7 @@ fn find_body(skewed: Points3<'_>, octave: &Octave, lattice: &mut Lattice) {
 }
 for_each_simd!(fn find_lattice(skewed: Points3<'_>, octave: &Octave, lattice: &mut Lattice) = find_body);
 
-/// The second and third corner of a tetrahedron: the axes along which they lie a cell further.
+/// The second and third corner of a tetrahedron: the axes along which they lie in the next cell.
 #[inline(always)]
 fn steps([xy, yz, zx]: [bool; 3]) -> [[bool; 3]; 2] {
     [[xy & !zx, yz & !xy, zx & !yz], [xy | !zx, yz | !xy, zx | !yz]]
@@ -124,7 +124,7 @@ fn hash_body(n: usize, seed: u32, k: usize, lattice: &mut Lattice) {
 }
 for_each_simd!(fn hash_corners(n: usize, seed: u32, k: usize, lattice: &mut Lattice) = hash_body);
 
-/// The way from each of the four corners to the `i`th point.
+/// The vectors from the four corners to a point.
 #[inline(always)]
 fn ways<S: Scalar>([x, y, z]: [S; 3], order: [bool; 3]) -> [[S; 3]; 4] {
     let (half, third, sixth) = (S::of(0.5), S::of(1.0 / 3.0), S::of(1.0 / 6.0));
@@ -136,7 +136,7 @@ fn ways<S: Scalar>([x, y, z]: [S; 3], order: [bool; 3]) -> [[S; 3]; 4] {
     [d0, away(first, sixth), away(second, third), [d0[0] - half, d0[1] - half, d0[2] - half]]
 }
 
-/// The same in f64, which need not ask for the order again.
+/// The vectors from the four corners to the `i`th point in f64, which compares its coordinates again.
 #[inline(always)]
 fn ways_f64(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
     let [x, y, z] = &lattice.fraction;
@@ -144,7 +144,7 @@ fn ways_f64(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
     ways([x, y, z], [x >= y, y >= z, z > x])
 }
 
-/// The sum of the corners' contributions, from ways that are weighted already.
+/// The sum of the contributions of the corners, from vectors that are weighted already.
 #[inline(always)]
 fn unscaled(weighted: &[[f64; 3]; 4], hashes: &Hashes, i: usize) -> f64 {
     let corner = |k: usize| dot(gradient(hashes[k][i]), weighted[k]);
@@ -190,7 +190,7 @@ fn fill_values_body(n: usize, lattice: &Lattice, value: &mut Lane<f64>) {
 }
 for_each_simd!(fn fill_values(n: usize, lattice: &Lattice, value: &mut Lane<f64>) = fill_values_body);
 
-/// The gradient by the lattice of what a corner adds: d/dp of w^4 (g.d) = w^4 g - 8 w^3 (g.d) d.
+/// The gradient of a corner's contribution by the lattice: d/dp of w^4 (g.d) = w^4 g - 8 w^3 (g.d) d.
 #[inline(always)]
 fn corner_gradient<S: Scalar>(d: [S; 3], g: [S; 3]) -> [S; 3] {
     let w = falloff(d);
