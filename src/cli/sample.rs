@@ -27,16 +27,22 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let terrain = Terrain::try_new(Arc::new(load(&args.file)?)).map_err(|error| error.to_string())?;
-    let sample = terrain.sample(LatLon::from_degrees(args.lat, args.lon).direction());
-    print(&if args.json { format!("{:#}", as_json(&terrain, &sample)) } else { as_text(&terrain, &sample) })
+    let dir = LatLon::from_degrees(args.lat, args.lon).direction();
+    let (sample, layers_m) = (terrain.sample(dir), terrain.layers_m(dir));
+    let answer = if args.json {
+        format!("{:#}", as_json(&terrain, &sample, &layers_m))
+    } else {
+        as_text(&terrain, &sample, &layers_m)
+    };
+    print(&answer)
 }
 
 fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
     terrain.planet().biomes.palette.get(sample.biome).map_or("", |biome| biome.name.as_str())
 }
 
-fn as_json(terrain: &Terrain, sample: &Sample) -> Value {
-    let layers = terrain.planet().layers.iter().zip(&sample.layers_m);
+fn as_json(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> Value {
+    let layers = terrain.planet().layers.iter().zip(layers_m);
     json!({
         "height_m": sample.height_m,
         "slope_deg": sample.slope_rad.to_degrees(),
@@ -50,7 +56,7 @@ fn as_json(terrain: &Terrain, sample: &Sample) -> Value {
     })
 }
 
-fn as_text(terrain: &Terrain, sample: &Sample) -> String {
+fn as_text(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> String {
     let [x, y, z] = sample.normal_planet.to_array();
     let mut lines = vec![
         format!("height       {:.3} m", sample.height_m),
@@ -60,7 +66,7 @@ fn as_text(terrain: &Terrain, sample: &Sample) -> String {
         format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
     ];
-    let layers = terrain.planet().layers.iter().zip(&sample.layers_m);
+    let layers = terrain.planet().layers.iter().zip(layers_m);
     lines.extend(layers.map(|(layer, m)| format!("layer        {:.3} m  {}", m, layer.name)));
     lines.join("\n")
 }

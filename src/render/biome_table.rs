@@ -3,7 +3,7 @@
 
 use super::material_kinds;
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
-use crate::terrain::ground::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
+use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
 /// Columns of the numbers: the palette, the rock that biomes share, the rules for all.
 pub(crate) const ROCK: usize = MAX_BIOMES;

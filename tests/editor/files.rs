@@ -104,7 +104,7 @@ fn a_height_map_is_chosen_undone_saved_and_missed() {
     let mut harness = editor(vec![Some(picture.clone()), Some(preset.clone()), Some(preset.clone())]);
     let height_m = |harness: &Editor| {
         let planet = (**harness.state().document().planet()).clone();
-        tellus::terrain::Terrain::try_new(planet.into()).unwrap().sample(glam::DVec3::X).layers_m[1]
+        tellus::terrain::Terrain::try_new(planet.into()).unwrap().layers_m(glam::DVec3::X)[1]
     };
     let settled = |harness: &mut Editor| {
         until(harness, "the picture is read", |harness| !harness.state().pictures().is_reading());

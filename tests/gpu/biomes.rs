@@ -7,8 +7,8 @@ use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, TableBlend, shipped};
 use tellus::render::DebugView;
 use tellus::sphere::LatLon;
+use tellus::sphere::spread;
 use tellus::terrain::Terrain;
-use tellus::terrain::survey::spread;
 use tellus::tiles::build_now;
 
 /// Points asked for on each planet, over all poses.

@@ -7,8 +7,8 @@ use tellus::lod::{Camera, Quality, View};
 use tellus::planet::shipped;
 use tellus::render::DebugView;
 use tellus::sphere::LatLon;
+use tellus::sphere::spread;
 use tellus::terrain::Terrain;
-use tellus::terrain::survey::spread;
 
 /// Pixels along a side of each picture, and how much finer each is than the one before.
 const SIDE_PX: usize = 384;

@@ -155,7 +155,7 @@ fn shipped_terrain(file: &str) -> Terrain {
 /// What single layers add there, metres.
 fn layer_m(terrain: &Terrain, dir: DVec3, name: &str) -> f64 {
     let at = terrain.planet().layers.iter().position(|layer| layer.name == name).unwrap();
-    terrain.sample(dir).layers_m[at]
+    terrain.layers_m(dir)[at]
 }
 
 /// Cinnabar's black sand lies in dry basins, not in rings round volcanoes; Pallor's dark basalt fills its maria, not its craters.

@@ -3,8 +3,8 @@
 
 use crate::planet::param::Stages;
 use crate::planet::{Planet, diff};
-use crate::terrain::Terrain;
-use crate::terrain::survey::spread;
+use crate::sphere::spread;
+use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -36,7 +36,8 @@ impl Survey {
         let columns = planet.biomes.table.columns();
         let mut cells = vec![0.0; columns * planet.biomes.table.rows().len()];
         let mut biomes = vec![0.0; planet.biomes.palette.len()];
-        let grounds = terrain.grounds(&dirs);
+        let mut grounds = vec![Sample::default(); DIRECTIONS];
+        terrain.samples_into(&dirs, Wanted::HEIGHT.and_biome(), &mut grounds, &mut Scratch::default());
         let land = grounds.iter().filter(|ground| ground.height_m >= sea_m);
         let count = land.clone().count();
         let share = 1.0 / count.max(1) as f64;

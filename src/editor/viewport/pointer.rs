@@ -132,6 +132,6 @@ fn look(question: &Question) -> Option<UnderPointer> {
         cell: sample.cell,
         biome_index: sample.biome,
         slope_deg: sample.slope_rad.to_degrees(),
-        layers_m: sample.layers_m,
+        layers_m: surface.terrain.layers_m(dir),
     })
 }

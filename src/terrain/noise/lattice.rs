@@ -1,17 +1,17 @@
-//! The noise of one octave in f64, for where the rounding of f32 would show: the strongest octaves, displacements of
-//! hundreds of kilometres, distances to a zero line.
+//! One octave of noise in f64, for values in which the rounding of f32 would show: the strongest octaves,
+//! displacements of hundreds of kilometres, distances to a zero line.
 //!
-//! It is the same function as the f32 kernel's, up to rounding, whose gradients therefore belong to it too. Three
-//! loops: the lattice in f64, the hashes of the corners in u32 alone, the noise in f64; together they would take nearly
-//! twice as long (see [`super::batch`]). What is found once serves values, gradients, and other noises on the same
+//! Up to rounding it is the same function as the f32 kernel's, so that the gradients of that kernel belong to it too.
+//! There are three loops: the lattice in f64, the hashes of the corners in u32, the noise in f64; one loop would take
+//! nearly twice as long (see [`super::batch`]). One lattice serves values, gradients and other noises on the same
 //! lattice, which differ by their hashes.
 
-use super::batch::{CHUNK, Lane, Points3};
 use super::{Octave, PRIME, SCALE, dot, falloff, gradient, scramble, split};
-use crate::terrain::jet::Scalar;
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// The three noises of a vector noise.
+/// The three components of a vector noise.
 pub(crate) fn components(octave: &Octave) -> [Octave; 3] {
     let [x, y] = [octave.seed, scramble(octave.seed)];
     [x, y, scramble(y)].map(|seed| Octave { seed, ..*octave })
@@ -21,9 +21,9 @@ pub(crate) fn components(octave: &Octave) -> [Octave; 3] {
 pub(super) struct Lattice {
     cell: [Lane<u32>; 3],
     fraction: [Lane<f64>; 3],
-    /// Which tetrahedron of the cell: whether x >= y, y >= z, z > x, from the lowest bit on.
+    /// The tetrahedron of the cell: whether x >= y, y >= z, z > x, from the lowest bit on.
     order: Lane<u32>,
-    /// Random bits of the four corners of the tetrahedron, for up to three noises.
+    /// Hashes of the four corners of the tetrahedron, for up to three noises.
     hashes: [Hashes; 3],
 }
 
@@ -37,13 +37,13 @@ impl Default for Lattice {
 }
 
 impl Lattice {
-    /// Finds it for an octave at skewed points.
+    /// Finds the lattice of an octave at skewed points.
     pub(super) fn find(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_lattice(simd, skewed, octave, self);
         hash_corners(simd, skewed[0].len(), octave.seed, 0, self);
     }
 
-    /// Finds it for a vector noise.
+    /// Finds the lattice of a vector noise.
     pub(super) fn find_vector(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_lattice(simd, skewed, octave, self);
         for (k, octave) in components(octave).iter().enumerate() {
@@ -61,24 +61,25 @@ impl Lattice {
         add_three(simd, n, self, weight, sums);
     }
 
-    /// The noise.
+    /// Values.
     pub(super) fn values(&self, simd: Simd, n: usize, value: &mut Lane<f64>) {
         fill_values(simd, n, self, value);
     }
 
-    /// The noise (the same bits) and its gradient by the points.
+    /// Values (the same bits) and gradients of one component of a vector noise.
     pub(super) fn gradients(
         &self,
         simd: Simd,
         n: usize,
         frequency: f64,
+        component: usize,
         value: &mut Lane<f64>,
         gradient: &mut [Lane<f64>; 3],
     ) {
-        fill_gradients(simd, n, self, frequency, value, gradient);
+        fill_gradients(simd, n, self, frequency, component, value, gradient);
     }
 
-    /// The gradient by the points, in f32.
+    /// Gradients in f32.
     pub(super) fn rounded_gradients(&self, simd: Simd, n: usize, frequency: f64, gradient: &mut [Lane<f32>; 3]) {
         fill_rounded_gradients(simd, n, self, frequency as f32, gradient);
     }
@@ -99,7 +100,7 @@ fn find_body(skewed: Points3<'_>, octave: &Octave, lattice: &mut Lattice) {
 }
 for_each_simd!(fn find_lattice(skewed: Points3<'_>, octave: &Octave, lattice: &mut Lattice) = find_body);
 
-/// The second and third corner of a tetrahedron: the axes along which they lie a cell further.
+/// The second and third corner of a tetrahedron: the axes along which they lie in the next cell.
 #[inline(always)]
 fn steps([xy, yz, zx]: [bool; 3]) -> [[bool; 3]; 2] {
     [[xy & !zx, yz & !xy, zx & !yz], [xy | !zx, yz | !xy, zx | !yz]]
@@ -123,7 +124,7 @@ fn hash_body(n: usize, seed: u32, k: usize, lattice: &mut Lattice) {
 }
 for_each_simd!(fn hash_corners(n: usize, seed: u32, k: usize, lattice: &mut Lattice) = hash_body);
 
-/// The way from each of the four corners to the `i`th point.
+/// The vectors from the four corners to a point.
 #[inline(always)]
 fn ways<S: Scalar>([x, y, z]: [S; 3], order: [bool; 3]) -> [[S; 3]; 4] {
     let (half, third, sixth) = (S::of(0.5), S::of(1.0 / 3.0), S::of(1.0 / 6.0));
@@ -135,15 +136,15 @@ fn ways<S: Scalar>([x, y, z]: [S; 3], order: [bool; 3]) -> [[S; 3]; 4] {
     [d0, away(first, sixth), away(second, third), [d0[0] - half, d0[1] - half, d0[2] - half]]
 }
 
-/// The same in f64, which need not ask for the order again.
+/// The vectors from the four corners to the `i`th point in f64, which compares its coordinates again.
 #[inline(always)]
-fn exact_ways(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
+fn ways_f64(lattice: &Lattice, i: usize) -> [[f64; 3]; 4] {
     let [x, y, z] = &lattice.fraction;
     let (x, y, z) = (x[i], y[i], z[i]);
     ways([x, y, z], [x >= y, y >= z, z > x])
 }
 
-/// The sum of the corners' contributions, from ways that are weighted already.
+/// The sum of the contributions of the corners, from vectors that are weighted already.
 #[inline(always)]
 fn unscaled(weighted: &[[f64; 3]; 4], hashes: &Hashes, i: usize) -> f64 {
     let corner = |k: usize| dot(gradient(hashes[k][i]), weighted[k]);
@@ -162,7 +163,7 @@ fn weighted(d: [f64; 3]) -> [f64; 3] {
 fn add_body(n: usize, lattice: &Lattice, weight: f64, sum: &mut Lane<f64>) {
     let scale = weight * f64::from(SCALE);
     for (i, sum) in sum.iter_mut().enumerate().take(n) {
-        let ways = exact_ways(lattice, i).map(weighted);
+        let ways = ways_f64(lattice, i).map(weighted);
         *sum += unscaled(&ways, &lattice.hashes[0], i) * scale;
     }
 }
@@ -173,7 +174,7 @@ fn add_vector_body(n: usize, lattice: &Lattice, weight: f64, sums: &mut [Lane<f6
     let ([x, y, z], [hx, hy, hz]) = (sums, &lattice.hashes);
     let scale = weight * f64::from(SCALE);
     for i in 0..n.min(CHUNK) {
-        let ways = exact_ways(lattice, i).map(weighted);
+        let ways = ways_f64(lattice, i).map(weighted);
         x[i] += unscaled(&ways, hx, i) * scale;
         y[i] += unscaled(&ways, hy, i) * scale;
         z[i] += unscaled(&ways, hz, i) * scale;
@@ -184,12 +185,12 @@ for_each_simd!(fn add_three(n: usize, lattice: &Lattice, weight: f64, sums: &mut
 #[inline(always)]
 fn fill_values_body(n: usize, lattice: &Lattice, value: &mut Lane<f64>) {
     for (i, value) in value.iter_mut().enumerate().take(n) {
-        *value = unscaled(&exact_ways(lattice, i).map(weighted), &lattice.hashes[0], i) * f64::from(SCALE);
+        *value = unscaled(&ways_f64(lattice, i).map(weighted), &lattice.hashes[0], i) * f64::from(SCALE);
     }
 }
 for_each_simd!(fn fill_values(n: usize, lattice: &Lattice, value: &mut Lane<f64>) = fill_values_body);
 
-/// The gradient by the lattice of what a corner adds: d/dp of w^4 (g.d) = w^4 g - 8 w^3 (g.d) d.
+/// The gradient of a corner's contribution by the lattice: d/dp of w^4 (g.d) = w^4 g - 8 w^3 (g.d) d.
 #[inline(always)]
 fn corner_gradient<S: Scalar>(d: [S; 3], g: [S; 3]) -> [S; 3] {
     let w = falloff(d);
@@ -212,24 +213,25 @@ fn fill_gradients_body(
     n: usize,
     lattice: &Lattice,
     frequency: f64,
+    component: usize,
     value: &mut Lane<f64>,
     [gx, gy, gz]: &mut [Lane<f64>; 3],
 ) {
-    let hashes = &lattice.hashes[0];
+    let hashes = &lattice.hashes[component];
     for i in 0..n.min(CHUNK) {
-        let ways = exact_ways(lattice, i);
+        let ways = ways_f64(lattice, i);
         value[i] = unscaled(&ways.map(weighted), hashes, i) * f64::from(SCALE);
         [gx[i], gy[i], gz[i]] = gradient_at(ways, hashes, i, frequency);
     }
 }
-for_each_simd!(fn fill_gradients(n: usize, lattice: &Lattice, frequency: f64, value: &mut Lane<f64>, gradient: &mut [Lane<f64>; 3]) = fill_gradients_body);
+for_each_simd!(fn fill_gradients(n: usize, lattice: &Lattice, frequency: f64, component: usize, value: &mut Lane<f64>, gradient: &mut [Lane<f64>; 3]) = fill_gradients_body);
 
 #[inline(always)]
 fn fill_rounded_gradients_body(n: usize, lattice: &Lattice, frequency: f32, [gx, gy, gz]: &mut [Lane<f32>; 3]) {
     let mut fraction = [[0.0; CHUNK]; 3];
-    for (rounded, exact) in fraction.iter_mut().zip(&lattice.fraction) {
-        for (rounded, exact) in rounded.iter_mut().zip(exact) {
-            *rounded = *exact as f32;
+    for (rounded, fraction) in fraction.iter_mut().zip(&lattice.fraction) {
+        for (rounded, fraction) in rounded.iter_mut().zip(fraction).take(n) {
+            *rounded = *fraction as f32;
         }
     }
     let ([x, y, z], Lattice { order, hashes, .. }) = (&fraction, lattice);
@@ -255,13 +257,13 @@ mod tests {
         let skewed: Points3<'_> = [&x, &y, &z];
         let (mut noise, mut wide) = (<Noise>::default(), Noise::<f64>::default());
         let mut sums = [[1.0; CHUNK]; 3];
-        noise.add_exact_vector(Simd::detect(), skewed, &octave, 2.0, &mut sums);
+        noise.add_f64_vector(Simd::detect(), skewed, &octave, 2.0, &mut sums);
         for (octave, sum) in components(&octave).iter().zip(&sums) {
             noise.gradients(Simd::detect(), skewed, octave);
             wide.gradients(Simd::detect(), skewed, octave);
             let (value, gradient) = (noise.value, noise.gradient);
-            noise.add_exact(Simd::detect(), skewed, octave, 1.0, &mut [0.0; CHUNK]);
-            noise.exact_gradients(Simd::detect(), CHUNK, octave);
+            noise.add_f64(Simd::detect(), skewed, octave, 1.0, &mut [0.0; CHUNK]);
+            noise.gradients_of_f64(Simd::detect(), CHUNK, octave);
             for i in 0..CHUNK {
                 assert!((1.0 + 2.0 * f64::from(value[i]) - sum[i]).abs() < 2e-6);
                 assert!((1.0 + 2.0 * wide.value[i] - sum[i]).abs() < 1e-14);
@@ -275,11 +277,11 @@ mod tests {
         }
         for simd in Simd::available() {
             let mut same = [[1.0; CHUNK]; 3];
-            noise.add_exact_vector(simd, skewed, &octave, 2.0, &mut same);
+            noise.add_f64_vector(simd, skewed, &octave, 2.0, &mut same);
             assert_eq!(same, sums, "{}", simd.name());
         }
         let mut first = [1.0; CHUNK];
-        noise.add_exact(Simd::detect(), skewed, &octave, 2.0, &mut first);
+        noise.add_f64(Simd::detect(), skewed, &octave, 2.0, &mut first);
         assert_eq!(first, sums[0]);
     }
 }
