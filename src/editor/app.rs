@@ -293,8 +293,10 @@ impl eframe::App for EditorApp {
             let mut label = None;
             let problems = [self.document.problems(), self.pictures.problems()].concat();
             let (mut browse, mut commands) = (None, Vec::new());
-            if self.panels.tab == Tab::Biomes {
-                self.surveyor.ask(self.document.valid_planet());
+            if self.panels.tab == Tab::Biomes
+                && let Some(surface) = self.viewport.surface()
+            {
+                self.surveyor.ask(&surface.terrain);
             }
             let panel = egui::Panel::right("parts").default_size(376.0).size_range(320.0..=560.0);
             panel.show(ui, |ui| {

@@ -117,7 +117,7 @@ pub struct Block {
 }
 
 /// The finished mesh of a node.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Tile {
     /// The node.
     pub id: NodeId,

@@ -3,7 +3,7 @@
 //! ron names a place and its own idea of what it expected; serde_path_to_error adds the path; the description of the
 //! parameter adds what would be right.
 
-use super::param::{Domain, Param, ValueMut};
+use super::param::{Domain, Param};
 use super::{Atmosphere, Bookmark, Clouds, EditorNotes, Layer, Mask, Planet, Problem, Shape, Water, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
@@ -235,10 +235,9 @@ fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
     loop {
         let mut found = None;
         for shape in Shape::all() {
-            specimen(shape).each(&mut |path, param, value| {
+            specimen(shape).each_value(&mut |path, param, value| {
                 if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
-                    let names = if let ValueMut::Choice(choice) = value { choice.names() } else { &[] };
-                    found = Some((param, names));
+                    found = Some((param, value.names()));
                 }
             });
         }

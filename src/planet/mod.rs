@@ -19,6 +19,7 @@ mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
+pub mod key;
 pub(crate) mod kinds;
 pub mod layers;
 pub(crate) mod locate;
@@ -40,6 +41,7 @@ pub mod validate;
 pub use airs::{STARTING_AIRS, StartingAir};
 pub use biome::{Biome, Detail, Steep};
 pub use file::{LoadError, Problem, SaveError};
+pub use key::Key;
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
@@ -122,9 +124,14 @@ impl Planet {
         self.water.as_ref().map(|water| water.level_m)
     }
 
-    /// Calls `visit` for each parameter of the planet, in the order of the file.
+    /// Calls `visit` for each parameter of the planet in the order of the file, to be changed.
     pub fn each(&mut self, visit: &mut param::Visit<'_>) {
-        self.each_param(&mut ParamPath::default(), visit);
+        Params::each_param(self, &mut ParamPath::default(), visit);
+    }
+
+    /// Calls `look` for each parameter of the planet in the order of the file.
+    pub fn each_value(&self, look: &mut param::Look<'_>) {
+        Params::each_value(self, &mut ParamPath::default(), look);
     }
 }
 

@@ -14,7 +14,7 @@ params! {
         /// Temperature at sea level at the poles.
         pole_c: f64 = -28.0, "Poles", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate | Stage::Uniform;
         /// How much colder it gets for each kilometre of height.
-        lapse_c_per_km: f64 = 6.5, "Lapse rate", Unit::CelsiusPerKilometre, linear(0.0, 30.0), Stage::Climate;
+        lapse_c_per_km: f64 = 6.5, "Lapse rate", Unit::CelsiusPerKilometre, linear(0.0, 30.0), Stage::Uniform;
         /// Swing of the temperature from place to place.
         temperature_variation_c: f64 = 5.0, "Temperature variation", Unit::Celsius, linear(0.0, 100.0), Stage::Climate;
         /// Moisture of a place that nothing else makes wet or dry; 0 is desert, 1 is rain forest.
@@ -24,7 +24,7 @@ params! {
         /// Strength of the belts: wet at the equator and in the middle latitudes, dry between them and at the poles.
         belts: f64 = 0.3, "Belts", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// How much drier it gets for each kilometre of height.
-        drying_per_km: f64 = 0.06, "Drying with height", Unit::PerKilometre, linear(0.0, 1.0), Stage::Climate;
+        drying_per_km: f64 = 0.06, "Drying with height", Unit::PerKilometre, linear(0.0, 1.0), Stage::Uniform;
         /// How much moister it is at the sea than far from it.
         sea_moisture: f64 = 0.0, "Moisture from the sea", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// How far moisture from the sea reaches inland; on the way it fades, fastest near the shore.
@@ -65,15 +65,15 @@ params! {
     /// The look-up table that turns climate into ground: rows of one-letter keys over a palette of named biomes.
     pub struct Biomes {
         /// What the rows stand for: temperature (hot first) or elevation (high first). Columns are moisture, dry first.
-        rows: TableRows = TableRows::Temperature, "Rows", Unit::None, Domain::Choice, Stage::Climate;
+        rows: TableRows = TableRows::Temperature, "Rows", Unit::None, Domain::Choice, Stage::Uniform;
         /// Temperature of the last row.
-        coldest_c: f64 = -30.0, "Coldest", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        coldest_c: f64 = -30.0, "Coldest", Unit::Celsius, linear(-270.0, 1000.0), Stage::Uniform;
         /// Temperature of the first row.
-        hottest_c: f64 = 30.0, "Hottest", Unit::Celsius, linear(-270.0, 1000.0), Stage::Climate;
+        hottest_c: f64 = 30.0, "Hottest", Unit::Celsius, linear(-270.0, 1000.0), Stage::Uniform;
         /// Height above the sea (or the reference sphere) of the last row, when rows are elevations.
-        lowest_m: f64 = 0.0, "Lowest", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate;
+        lowest_m: f64 = 0.0, "Lowest", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Uniform;
         /// Height above the sea (or the reference sphere) of the first row, when rows are elevations.
-        highest_m: f64 = 6000.0, "Highest", Unit::Metres, linear(-50_000.0, 100_000.0), Stage::Climate;
+        highest_m: f64 = 6000.0, "Highest", Unit::Metres, linear(-50_000.0, 100_000.0), Stage::Uniform;
         /// What lies between the middles of two cells: a passage (Linear) or a border (Crisp).
         blend: TableBlend = TableBlend::Linear, "Blending", Unit::None, Domain::Choice, Stage::Uniform;
         /// How far noise moves the borders between biomes to and fro, so that neither the table's grid nor lines of

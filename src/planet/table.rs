@@ -1,6 +1,6 @@
 //! The biome table: a grid of one-letter keys, written as rows of text so that a change is a readable diff.
 
-use super::param::{ParamPath, Params, Visit};
+use super::param::{Look, ParamPath, Params, Visit};
 use serde::{Deserialize, Serialize};
 
 /// Rows of keys, all of equal length. Row 0 is the hottest (or highest), column 0 the driest.
@@ -51,7 +51,8 @@ impl Table {
     }
 }
 
-/// The table holds no sliders of its own: the painter and the validator know it as a whole.
+/// The table is one value without a slider: the painter edits it, `validate` checks it.
 impl Params for Table {
     fn each_param(&mut self, _path: &mut ParamPath, _visit: &mut Visit<'_>) {}
+    fn each_value(&self, _path: &mut ParamPath, _look: &mut Look<'_>) {}
 }

@@ -5,7 +5,7 @@
 
 use super::explain::options;
 use super::migrate::FileV3;
-use super::param::{Domain, Param, ValueMut};
+use super::param::{Domain, Param, ValueRef};
 use super::{Biomes, EditorNotes, Layer, Mask, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
@@ -51,8 +51,8 @@ fn header() -> String {
 fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
     // In the planet each path has its own description; in the file it is written once.
     let mut params: HashMap<String, String> = HashMap::new();
-    planet.clone().each(&mut |path, param, value| {
-        params.insert(path.to_string(), comment(param, &value));
+    planet.each_value(&mut |path, param, value| {
+        params.insert(path.to_string(), comment(param, value));
     });
     let parts = [Planet::PARTS, Layer::PARTS, Biomes::PARTS, EditorNotes::PARTS].into_iter().flatten();
     let mut parts: HashMap<&str, String> = parts.map(|(name, doc)| (*name, (*doc).to_owned())).collect();
@@ -76,10 +76,10 @@ fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
 }
 
 /// `Distance from crest to crest. (0.001 to 100000 km)`
-fn comment(param: &Param, value: &ValueMut<'_>) -> String {
+fn comment(param: &Param, value: ValueRef<'_>) -> String {
     let mut text = param.doc.to_owned();
     let range = match (value, param.domain) {
-        (ValueMut::Choice(choice), _) => choice.names().join(", "),
+        (ValueRef::Choice(choice), _) => choice.names().join(", "),
         // Nothing to be learnt from these.
         (_, Domain::Text { .. } | Domain::File { .. } | Domain::Color) => String::new(),
         _ => param.range_text(),

@@ -43,7 +43,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     if !found.0.is_empty() {
         return found.0;
     }
-    planet.clone().each(&mut |path, param, value| {
+    planet.each_value(&mut |path, param, value| {
         if let Some(message) = value.get().problem(param) {
             found.0.push((path.clone(), message));
         }

@@ -12,7 +12,8 @@
 //! - `climate`: temperature, moisture, the place in the biome table
 //! - `border`: noise that moves the borders between biomes
 //! - [`survey`]: where the planet lies in its biome table
-//! - `coast`: how far it is to the sea; `coarse`: the heights that this takes
+//! - `coarse`: the heights that world maps read
+//! - [`revision`]: what changed between two revisions of a planet
 //! - `ground`: which biome the rules for steep ground, beaches and snow put in the table's stead
 //! - `bench`: the noise alone, for measuring
 //! - `raycast`: a ray against the ground and the sea
@@ -26,8 +27,7 @@ mod approx;
 pub mod bench;
 pub(crate) mod border;
 pub(crate) mod climate;
-mod coarse;
-pub(crate) mod coast;
+pub(crate) mod coarse;
 pub(crate) mod field;
 pub(crate) mod ground;
 pub(crate) mod height;
@@ -38,15 +38,16 @@ pub(crate) mod noise;
 pub(crate) mod points;
 mod raycast;
 pub(crate) mod relief;
+pub mod revision;
 pub mod simd;
 pub mod survey;
 
 use crate::planet::{InvalidPlanet, Planet};
+use crate::world::{Inputs, KeepGoing, MapWork, World};
 pub use height::curve_at;
 
 use climate::{CompiledClimate, NO_SEA, PointClimate, Rules};
-use coarse::{CoarseFields, coarse_heights_m};
-use coast::Coast;
+use coarse::{CellFields, LayerGround};
 use field::{Components, EXACT, Field};
 use glam::DVec3;
 use height::{CompiledLayer, Heights, LayerStack};
@@ -54,6 +55,8 @@ use landform::Landform;
 use points::Points;
 use rayon::prelude::*;
 use relief::Relief;
+pub use revision::Revision;
+use revision::{Compiled, Keys, TileContent, TileKeys};
 use simd::Simd;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -69,8 +72,9 @@ pub struct Terrain {
     pub(crate) climate: CompiledClimate,
     /// What biomes add to the height that the layers make.
     pub(crate) relief: Option<Relief>,
-    /// What the shores were found with, if they matter.
-    coarse: CoarseFields,
+    keys: Keys,
+    content: TileContent,
+    map_inputs: Inputs,
     height_bounds_m: (f64, f64),
 }
 
@@ -115,65 +119,78 @@ impl Terrain {
     /// A planet that was changed to something that no preset may say: all that is wrong with it. One that was loaded
     /// and not changed since is valid.
     pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
-        planet.check()?;
-        Ok(Self::compile(planet, None))
+        Self::try_new_with(planet, &CellFields::default(), &mut MapWork::default())
     }
 
-    /// As [`Terrain::try_new`], but takes over from the terrain of a similar planet what is the same and took time to
-    /// find.
+    /// As [`Terrain::try_new`]: waits for the finest world maps.
+    pub(crate) fn try_new_with(
+        planet: Arc<Planet>,
+        fields: &CellFields,
+        work: &mut MapWork,
+    ) -> Result<Self, InvalidPlanet> {
+        let mut terrain = Self::try_draft(planet, &World::default())?;
+        while let Some(next) = terrain.with_next_map(fields, &|| true, work) {
+            terrain = next;
+        }
+        Ok(terrain)
+    }
+
+    /// Compiles a planet with the world maps of an earlier revision, which serve until its own are solved.
     ///
     /// # Errors
     /// As [`Terrain::try_new`].
-    pub fn try_after(planet: Arc<Planet>, before: &Terrain) -> Result<Self, InvalidPlanet> {
+    pub(crate) fn try_draft(planet: Arc<Planet>, world: &World) -> Result<Self, InvalidPlanet> {
         planet.check()?;
-        Ok(Self::compile(planet, Some(before)))
-    }
-
-    /// The planet must be valid: numbers out of their ranges break what the evaluator takes for granted.
-    fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
-        let stack = LayerStack::new(&planet);
-        let climate = CompiledClimate::new(&planet);
-        let relief = Relief::new(&planet, &climate, stack.limits_m());
-        let coarse = CoarseFields::default();
+        let Compiled { stack, mut climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
+        climate.world = world.serving(&map_inputs);
         let simd = Simd::detect();
-        let mut terrain = Self { planet, simd, stack, climate, relief, coarse, height_bounds_m: (0.0, 0.0) };
+        let height_bounds_m = (0.0, 0.0);
+        let mut terrain = Self { planet, simd, stack, climate, relief, keys, content, map_inputs, height_bounds_m };
         terrain.height_bounds_m = terrain.with_relief(terrain.stack.bounds_m());
-        // Found here rather than when first asked for: asked on a worker of a thread pool, it
-        // would wait for its own pool.
-        if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
-            let known = before.filter(|before| before.climate.coast.is_some());
-            if let Some(before) = known.filter(|before| before.has_coast_of(&terrain)) {
-                terrain.climate.coast = before.climate.coast.clone();
-                terrain.coarse = before.coarse.as_known();
-            } else {
-                let (points, known) = (Coast::points(), known.map(|before| &before.coarse));
-                let (heights_m, coarse) =
-                    coarse_heights_m(&terrain.stack, terrain.simd, points, 0.5 * coast::CELL_RAD, known);
-                terrain.climate.coast = Some(Arc::new(Coast::new(sea_m, &heights_m)));
-                terrain.coarse = coarse;
-            }
+        Ok(terrain)
+    }
+
+    /// The revision of the planet that the terrain was compiled from.
+    pub fn revision(&self) -> Revision {
+        Revision::with(self.planet.clone(), self.keys.clone())
+    }
+
+    /// The content keys of the planet.
+    pub fn keys(&self) -> &Keys {
+        &self.keys
+    }
+
+    /// The world maps that serve.
+    pub(crate) fn world(&self) -> &World {
+        &self.climate.world
+    }
+
+    /// Whether the world maps that serve are the planet's own, at their finest level.
+    pub fn has_final_maps(&self) -> bool {
+        self.world().is_final(&self.map_inputs)
+    }
+
+    /// The same terrain with the next level of its own world maps. None if its maps are final, or if `keep_going` said
+    /// no. `fields` keeps layer fields for the next revision.
+    pub(crate) fn with_next_map(
+        &self,
+        fields: &CellFields,
+        keep_going: &KeepGoing<'_>,
+        work: &mut MapWork,
+    ) -> Option<Self> {
+        if self.has_final_maps() {
+            return None;
         }
-        terrain
+        let ground = LayerGround { inputs: &self.map_inputs, stack: &self.stack, simd: self.simd, fields };
+        let world = self.world().step(&ground, keep_going, work)?;
+        let mut terrain = self.clone();
+        terrain.climate.world = world;
+        Some(terrain)
     }
 
-    /// Resident size of what the shores were found with.
-    pub(crate) fn coarse_bytes(&self) -> usize {
-        self.coarse.bytes()
-    }
-
-    /// Forgets what the shores were found with: the next planet finds it anew.
-    pub(crate) fn forget_coarse(&mut self) {
-        self.coarse.forget();
-    }
-
-    /// Octaves of noise times points that were evaluated to compile it.
-    pub(crate) fn octave_samples(&self) -> usize {
-        self.coarse.octave_samples
-    }
-
-    /// Whether both have the same shores: everything that they depend on.
-    fn has_coast_of(&self, other: &Terrain) -> bool {
-        self.stack == other.stack && self.planet.sea_level_m() == other.planet.sea_level_m()
+    /// Content keys of the tiles that the terrain makes, with the world maps that serve.
+    pub(crate) fn tile_keys(&self) -> TileKeys {
+        self.content.keys(self.world().coast.key())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The answers are the same.

@@ -67,7 +67,7 @@ impl Relief {
             cells,
             rules: Rules::new(planet),
             climate_noises: climate.noises().cloned(),
-            has_coast: CompiledClimate::needs_coast(planet),
+            has_coast: CompiledClimate::reads_coast(planet),
             limits_m,
         })
     }

@@ -11,9 +11,10 @@ use super::refine::refine;
 use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
 use crate::lod::tile::{DetailTile, Tile};
-use crate::planet::param::{Stage, Stages};
-use crate::planet::{InvalidPlanet, Planet, diff};
+use crate::planet::{InvalidPlanet, Planet};
 use crate::terrain::Terrain;
+use crate::terrain::coarse::CellFields;
+use crate::world::KeepGoing;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -170,6 +171,8 @@ type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -
 struct Worker {
     cache: Cache,
     terrain: Option<Arc<Terrain>>,
+    /// Layer fields behind the world maps.
+    cell_fields: CellFields,
     /// All tiles of a request whose horizons and detail are being found.
     complete: Option<(u64, Surface, Option<HorizonFinder>)>,
     refine: Refine,
@@ -177,7 +180,8 @@ struct Worker {
 
 impl Worker {
     fn new(budget_bytes: usize) -> Self {
-        Self { cache: Cache::new(budget_bytes), terrain: None, complete: None, refine }
+        let cache = Cache::new(budget_bytes);
+        Self { cache, terrain: None, cell_fields: CellFields::default(), complete: None, refine }
     }
 
     fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
@@ -218,6 +222,7 @@ impl Worker {
                 Err(panic) => {
                     // What it was in the middle of is not to be trusted.
                     self.cache.clear();
+                    self.cell_fields.clear();
                     self.terrain = None;
                     self.complete = None;
                     Some(text_of(panic.as_ref()))
@@ -242,11 +247,13 @@ impl Worker {
         mut stats: BuildStats,
     ) -> Result<(Surface, bool), InvalidPlanet> {
         let begun = Instant::now();
-        let (terrain, compiled_samples) = self.compile(&request.planet)?;
+        let mut terrain = self.compile(&request.planet)?;
+        let planet_wanted = || shared.is_newest_planet(request.number);
         if is_first {
             self.cache.begin_request();
             stats.compile_secs = begun.elapsed().as_secs_f64();
-            stats.octave_samples += compiled_samples;
+        } else {
+            terrain = self.solve_maps(terrain, &planet_wanted, &mut stats);
         }
         let keep_going = || {
             let elapsed = begun.elapsed();
@@ -257,7 +264,9 @@ impl Worker {
         let (mut surface, finder) = match self.complete.take().filter(|(number, ..)| *number == request.number) {
             Some((_, surface, finder)) => (surface, finder),
             None => {
-                let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+                let mut surface =
+                    (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+                surface.complete &= terrain.has_final_maps();
                 if !surface.complete {
                     return Ok((surface, false));
                 }
@@ -272,53 +281,43 @@ impl Worker {
         let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, &request.view));
         let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
         // While the eye moves, a moment of each view goes into what serves the next one, too; after an edit none of it does.
-        let wanted = || shared.is_newest_planet(request.number);
-        let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && wanted());
-        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &wanted);
+        let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && planet_wanted());
+        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &planet_wanted);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted) && has_horizons;
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &planet_wanted) && has_horizons;
         self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
         Ok((surface, done))
     }
 
-    /// The evaluator of a planet, and how many octave samples it took to find; tiles stay valid when nothing that they hold has changed.
-    fn compile(&mut self, planet: &Arc<Planet>) -> Result<(Arc<Terrain>, usize), InvalidPlanet> {
-        let before = self.terrain.clone();
-        let (terrain, samples) = match before {
-            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => (terrain, 0),
-            before => {
-                profiling::scope!("compile");
-                let mut terrain = match &before {
-                    Some(before) => Terrain::try_after(planet.clone(), before),
-                    None => Terrain::try_new(planet.clone()),
-                }?;
-                // Where there is little room, it is for tiles.
-                if terrain.coarse_bytes() > self.cache.budget_bytes() / 8 {
-                    terrain.forget_coarse();
-                }
-                self.cache.set_aside(terrain.coarse_bytes());
-                let terrain = Arc::new(terrain);
-                if let Some(before) = before {
-                    self.cache.invalidate(stale_stages(&before, &terrain));
-                }
-                let samples = terrain.octave_samples();
-                (terrain, samples)
-            }
-        };
-        self.terrain = Some(terrain.clone());
-        Ok((terrain, samples))
+    /// The evaluator of a planet. The world maps of the revision before serve until [`Worker::solve_maps`].
+    fn compile(&mut self, planet: &Arc<Planet>) -> Result<Arc<Terrain>, InvalidPlanet> {
+        if let Some(terrain) = self.terrain.as_ref().filter(|terrain| Arc::ptr_eq(terrain.planet(), planet)) {
+            return Ok(terrain.clone());
+        }
+        profiling::scope!("compile");
+        let world = self.terrain.as_ref().map(|before| before.world().clone()).unwrap_or_default();
+        Ok(self.serve(Terrain::try_draft(planet.clone(), &world)?))
     }
-}
 
-/// Which stages that tiles hold differ between two planets.
-fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
-    let touched = diff::touched_stages(before.planet(), after.planet());
-    // Heights depend on both more and less than single parameters say: on the order of the layers and on which one a mask's
-    // name means, on climate and table where biomes have relief, but on no layer that is off.
-    let same = before.stack.joins_like(&after.stack) && before.relief == after.relief;
-    let height = Stages::of(&[Stage::Height]);
-    let touched = if same { touched.without(height.and(Stages::of(&[Stage::Field]))) } else { touched.and(height) };
-    touched.with_consequences().within(Stages::OF_TILES)
+    /// Solves the next level of the world maps; the terrain as it was if `wanted` said no.
+    fn solve_maps(&mut self, terrain: Arc<Terrain>, wanted: &KeepGoing<'_>, stats: &mut BuildStats) -> Arc<Terrain> {
+        let next = terrain.with_next_map(&self.cell_fields, wanted, &mut stats.maps);
+        stats.octave_samples += self.cell_fields.take_octave_samples();
+        // In a small budget, the room is for tiles.
+        if self.cell_fields.bytes() > self.cache.budget_bytes() / 8 {
+            self.cell_fields.clear();
+        }
+        next.map_or(terrain, |next| self.serve(next))
+    }
+
+    /// From now on, tiles are those of this terrain; tiles whose content is the same stay valid.
+    fn serve(&mut self, terrain: Terrain) -> Arc<Terrain> {
+        let terrain = Arc::new(terrain);
+        self.cache.set_keys(terrain.tile_keys());
+        self.cache.set_aside(self.cell_fields.bytes());
+        self.terrain = Some(terrain.clone());
+        terrain
+    }
 }
 
 /// What a panic said.

@@ -9,10 +9,10 @@ use super::stats::{Memory, Work};
 use crate::lod::View;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::{DetailTile, Tile, Vertex};
-use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::kept::KeptFields;
+use crate::terrain::revision::TileKeys;
 use std::collections::{HashMap, HashSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -28,10 +28,10 @@ struct Entry {
     parts: Option<Arc<Parts>>,
     fields: KeptFields,
     detail: Option<Arc<DetailTile>>,
-    /// Of the present planet or of an earlier one.
+    /// Of the present revision or of an earlier one.
     horizon: Option<Arc<HorizonTile>>,
-    /// The stages in which the tile's planet differs from the present one.
-    stale: Stages,
+    /// Content keys of the tile and its parts.
+    keys: TileKeys,
     /// The request that last asked for it.
     used: u64,
 }
@@ -67,6 +67,8 @@ pub(crate) struct Shown {
 #[derive(Default)]
 struct State {
     entries: HashMap<NodeId, Entry>,
+    /// Content keys of valid tiles.
+    keys: TileKeys,
     shown: Option<Arc<Shown>>,
     /// Size of all entries.
     bytes: usize,
@@ -95,8 +97,8 @@ impl Cache {
     /// The valid tile of a node.
     pub(crate) fn tile(&self, id: NodeId) -> Option<Arc<Tile>> {
         let mut state = self.lock();
-        let request = state.request;
-        let entry = state.entries.get_mut(&id).filter(|entry| entry.stale.is_empty())?;
+        let (request, keys) = (state.request, state.keys);
+        let entry = state.entries.get_mut(&id).filter(|entry| entry.keys == keys)?;
         let tile = entry.tile.clone()?;
         entry.used = request;
         Some(tile)
@@ -143,17 +145,21 @@ impl Cache {
         }
     }
 
-    /// Builds a node's tile from what is known of it and of its parent; adds what that took to `work`. False if `keep_going` (asked
-    /// before each layer) said no before the end; what was found until then is kept.
+    /// Builds a node's tile from what is known of the node and its parent, and adds what that took to `work`. Returns
+    /// false if `keep_going`, asked before each layer, said no; the fields found until then are kept.
     pub(crate) fn build(&self, id: NodeId, terrain: &Terrain, work: &mut Work, keep_going: &dyn Fn() -> bool) -> bool {
-        let (parent, parts, mut fields, stale) = {
+        let (parent, parts, tile, keys, mut fields) = {
             let state = self.lock();
             let parent = id.parent().and_then(|id| state.entries.get(&id)?.parts.clone());
-            let entry = state.entries.get(&id);
-            let fields = entry.map(|entry| entry.fields.clone()).unwrap_or_default();
-            (parent, entry.and_then(|entry| entry.parts.clone()), fields, entry.map_or(Stages::NONE, |e| e.stale))
+            let known = state
+                .entries
+                .get(&id)
+                .map(|entry| (entry.parts.clone(), entry.tile.clone(), entry.keys, entry.fields.clone()));
+            let (parts, tile, keys, fields) = known.unwrap_or_default();
+            (parent, parts, tile, keys, fields)
         };
-        let before = Before { parent: parent.as_deref(), parts: parts.as_deref(), fields: &fields, stale };
+        let before =
+            Before { parent: parent.as_deref(), parts: parts.as_deref(), tile: tile.as_deref(), keys, fields: &fields };
         let (found, made) = make_tile(terrain, id, &before, work, keep_going);
         fields.adopt(&terrain.stack.layers, &found, Instant::now());
 
@@ -167,7 +173,7 @@ impl Cache {
         if let Some((tile, parts)) = made {
             entry.tile = Some(Arc::new(tile));
             entry.parts = Some(Arc::new(parts));
-            entry.stale = Stages::NONE;
+            entry.keys = terrain.tile_keys();
             work.tiles += 1;
         }
         let bytes_after = entry.bytes();
@@ -178,15 +184,13 @@ impl Cache {
         done
     }
 
-    /// The planet changed in these stages: no tile is valid any more that holds one of them.
-    pub(crate) fn invalidate(&self, stages: Stages) {
+    /// From now on, only tiles with these content keys are valid.
+    pub(crate) fn set_keys(&self, keys: TileKeys) {
         let mut state = self.lock();
-        for entry in state.entries.values_mut() {
-            entry.stale = entry.stale.and(stages);
-        }
-        if stages.contains(Stage::Height) {
+        if state.keys.heights != keys.heights {
             state.shown = None;
         }
+        state.keys = keys;
     }
 
     /// What was chosen last for the present heights.

@@ -28,6 +28,8 @@ use crate::lod::{Culling, Ranges, Tile, View};
 use crate::planet::{InvalidPlanet, Planet};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use crate::terrain::coarse::CellFields;
+pub use crate::world::MapWork;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -91,10 +93,11 @@ impl Surface {
 /// # Errors
 /// As [`Terrain::try_new`].
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPlanet> {
-    let terrain = Arc::new(Terrain::try_new(planet.clone())?);
+    let (mut stats, fields) = (BuildStats::default(), CellFields::default());
+    let terrain = Arc::new(Terrain::try_new_with(planet.clone(), &fields, &mut stats.maps)?);
+    stats.octave_samples = fields.take_octave_samples();
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
-    let mut stats = BuildStats::default();
-    stats.octave_samples = terrain.octave_samples();
+    cache.set_keys(terrain.tile_keys());
     Ok(refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true))
 }
 

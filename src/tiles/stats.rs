@@ -2,6 +2,7 @@
 
 use super::horizon::HorizonWork;
 use crate::planet::param::{Stage, Stages};
+use crate::world::MapWork;
 use std::time::Instant;
 
 /// What building a surface took, over all slices of its request.
@@ -23,6 +24,8 @@ pub struct BuildStats {
     pub select_secs: f64,
     /// Slices that the work was done in; each ended in a complete surface.
     pub slices: usize,
+    /// What solving its world maps took.
+    pub maps: MapWork,
     /// What its horizons took, in the background once its tiles were there.
     pub horizons: HorizonWork,
     stages: PerStage,
@@ -52,8 +55,7 @@ impl BuildStats {
 
     /// The stages that ran.
     pub fn ran(&self) -> Stages {
-        let ran = |stage: &Stage| self.stage(*stage).runs > 0;
-        Stage::ALL.into_iter().filter(ran).fold(Stages::NONE, |all, stage| all.and(Stages::of(&[stage])))
+        Stage::ALL.into_iter().filter(|stage| self.stage(*stage).runs > 0).collect()
     }
 
     /// Takes over what was done for it.

@@ -390,7 +390,7 @@ impl Viewport {
         if let Some(surface) = surface {
             // Sea, air and light of one planet over the ground of another would flash until the new tiles are there.
             let shown = surface.terrain.planet().clone();
-            let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&shown, valid) { valid } else { &shown };
+            let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&surface.terrain, valid) { valid } else { &shown };
             self.draw(surface, planet, view);
         }
         if let Some(target) = &self.target {

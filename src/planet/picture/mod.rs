@@ -21,7 +21,7 @@ mod read;
 pub use budget::{Budget, MAX_BYTES, MAX_PIXELS, MAX_WORK_BYTES};
 pub use contain::is_contained;
 
-use super::param::{ParamPath, ParamValue, Segment, ValueMut, choice};
+use super::param::{ParamPath, ParamValue, Segment, ValueMut, ValueRef, choice};
 use super::{Planet, Shape};
 use crate::sphere::raster::{Place, Raster};
 use glam::DVec3;
@@ -173,6 +173,10 @@ impl PartialEq for PictureFile {
 impl ParamValue for PictureFile {
     fn value_mut(&mut self) -> ValueMut<'_> {
         ValueMut::Text(&mut self.path)
+    }
+
+    fn value_ref(&self) -> ValueRef<'_> {
+        ValueRef::Text(&self.path)
     }
 }
 

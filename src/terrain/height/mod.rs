@@ -21,8 +21,9 @@ pub use curve::curve_at;
 pub(crate) use join::{Heights, combine};
 
 use super::landform::Landform;
-use crate::planet::{self, Layer, MAX_MASKS, Mask, Planet, Shape};
+use crate::planet::{self, Key, Layer, MAX_MASKS, Mask, Planet, Shape};
 use curve::CompiledCurve;
+use std::fmt;
 use std::sync::Arc;
 
 /// The layers of a planet and what is done with them together.
@@ -118,14 +119,16 @@ impl LayerStack {
         stack
     }
 
-    /// Whether it makes the same heights, whatever the layers that it does not need are like.
-    pub(crate) fn joins_like(&self, other: &Self) -> bool {
-        let same = |(a, b): (&CompiledLayer, &CompiledLayer)| a == b || !(a.needed || b.needed);
-        self.radius_m == other.radius_m
-            && self.height_curve == other.height_curve
-            && self.slope_bands == other.slope_bands
-            && self.layers.len() == other.layers.len()
-            && self.layers.iter().zip(&other.layers).all(same)
+    /// Content keys of the fields that are needed, with the spacings of their gradients.
+    pub(crate) fn field_keys(&self) -> impl Iterator<Item = Key> {
+        self.layers.iter().filter(|layer| layer.needed).map(CompiledLayer::field_key)
+    }
+
+    /// Everything that heights follow from, to be hashed. Layers that are not needed leave only a gap, so that masks by
+    /// index still tell layers apart.
+    pub(crate) fn joined(&self) -> impl fmt::Debug {
+        let layers: Vec<_> = self.layers.iter().map(|layer| layer.needed.then(|| Key::of(layer))).collect();
+        (layers, self.slope_bands.clone(), self.height_curve.clone(), self.radius_m)
     }
 
     /// For each distance over which slopes are measured, the layers that make the ground it is measured on.
@@ -204,6 +207,10 @@ impl CompiledLayer {
             },
             masks: layer.masks.iter().filter_map(|mask| CompiledMask::new(planet, mask)).take(MAX_MASKS).collect(),
         }
+    }
+
+    fn field_key(&self) -> Key {
+        Key::of(&(&self.landform, &self.slope_spacings_rad))
     }
 
     /// The spacings at which gradients of its field are needed when these are asked for.
