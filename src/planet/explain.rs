@@ -3,8 +3,8 @@
 //! ron names a place and its own idea of what it expected; serde_path_to_error adds the path; the description of the
 //! parameter adds what would be right.
 
-use super::param::{Domain, Param};
-use super::{Atmosphere, Bookmark, Clouds, EditorNotes, Layer, Mask, Planet, Problem, Shape, Water, locate};
+use super::param::{Domain, Form, Param, PartType};
+use super::{Mask, Planet, Problem, Shape, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -171,20 +171,25 @@ fn wanted(text: &str, path: &str, offset: usize) -> String {
     let found = locate::excerpt(text, offset);
     let right = match parameter(path) {
         Some((param, names)) => in_words(param, names),
-        None if path.ends_with("layers")
-            || path.ends_with("masks")
-            || path.ends_with("palette")
-            || path.ends_with("bookmarks") =>
-        {
-            "a list: `[(...), (...)]`".to_owned()
-        }
-        None if path.ends_with("table") => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
-        None if path.contains("table[") => "a row of letters: `\"aab\"`".to_owned(),
         None if path == "version" => format!("a whole number, now {}", super::VERSION),
-        None if matches!(path, "water" | "atmosphere" | "clouds" | "editor") => "`(...)` or `None`".to_owned(),
-        None => "`(field: value, ...)`".to_owned(),
+        None => match (form(path), path.ends_with(']')) {
+            (Some(Form::List), false) => "a list: `[(...), (...)]`".to_owned(),
+            (Some(Form::Table), false) => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
+            (Some(Form::Table), true) => "a row of letters: `\"aab\"`".to_owned(),
+            (Some(Form::Optional), false) => "`(...)` or `None`".to_owned(),
+            _ => "`(field: value, ...)`".to_owned(),
+        },
     };
     format!("{found} is not what belongs here; use {right}")
+}
+
+/// How the part at a path is written, or the part whose element stands there.
+fn form(path: &str) -> Option<Form> {
+    let name = locate::steps(path).into_iter().rev().find_map(|step| match step {
+        locate::Step::Field(name) => Some(name),
+        locate::Step::Index(_) => None,
+    })?;
+    Planet::all_parts().into_iter().find(|part| part.name == name).map(|part| part.form)
 }
 
 fn in_words(param: &Param, names: &[&str]) -> String {
@@ -223,7 +228,7 @@ fn list(names: &[&str], after: &str) -> String {
 
 /// The description of the parameter at a path, if it is one, and its values if there are but a few.
 fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
-    // Any index is as good as 0.
+    // Elements of a list have the same parameters: indices are left out.
     let general = |steps: Vec<locate::Step<'_>>| -> Vec<Option<String>> {
         let name = |step: &locate::Step<'_>| match step {
             locate::Step::Field(name) => Some((*name).to_owned()),
@@ -234,8 +239,8 @@ fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
     let mut wanted = general(locate::steps(path));
     loop {
         let mut found = None;
-        for shape in Shape::all() {
-            specimen(shape).each_value(&mut |path, param, value| {
+        for planet in <Planet as PartType>::every_kind() {
+            planet.each_value(&mut |path, param, value| {
                 if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
                     found = Some((param, value.names()));
                 }
@@ -245,18 +250,5 @@ fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
         if found.is_some() || wanted.pop() != Some(None) {
             return found;
         }
-    }
-}
-
-/// A planet that has every part, so that every parameter can be found in it.
-fn specimen(shape: Shape) -> Planet {
-    let layer = Layer { shape, masks: Mask::all(), ..Layer::default() };
-    Planet {
-        layers: vec![layer],
-        water: Some(Water::default()),
-        atmosphere: Some(Atmosphere::default()),
-        clouds: Some(Clouds::default()),
-        editor: Some(EditorNotes { bookmarks: vec![Bookmark::default()] }),
-        ..Planet::default()
     }
 }

@@ -1,6 +1,7 @@
 //! Loading and saving a preset, and what can go wrong with either.
 
 use super::locate::Place;
+use super::open::{Opened, open};
 use super::param::ParamPath;
 use super::picture::folder_of;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
@@ -161,32 +162,12 @@ pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// What stands at a path; links are followed.
-pub(crate) enum Opened {
-    /// A file, ready to be read.
-    File(std::fs::File),
-    /// A folder.
-    Folder,
-    /// A pipe, a device or a socket. It was not opened: whoever reads one may wait for ever.
-    Special,
-}
-
-/// Opens a file to be read, if it is one.
-pub(crate) fn open(path: &Path) -> io::Result<Opened> {
-    let metadata = std::fs::metadata(path)?;
-    Ok(match metadata.file_type() {
-        kind if kind.is_file() => Opened::File(std::fs::File::open(path)?),
-        kind if kind.is_dir() => Opened::Folder,
-        _ => Opened::Special,
-    })
-}
-
 /// The version that the text says it has. Found without reading the rest, which a newer version may write differently.
 fn version(text: &str) -> Result<u32, Problem> {
     let field = "version";
     let Some(place) = locate::find(text, field) else {
         // A text that is no preset at all has a better explanation than a missing field.
-        let problem = match explain::parse::<migrate::FileV3>(text) {
+        let problem = match explain::parse::<migrate::CurrentFile>(text) {
             Err(problem) if problem.path.is_empty() && !problem.message.starts_with("there is no field") => problem,
             _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version()) },
         };

@@ -78,6 +78,14 @@ macro_rules! kinds {
             }
         }
 
+        impl $crate::planet::param::PartType for $enum {
+            const FORM: $crate::planet::param::Form = $crate::planet::param::Form::Kind;
+
+            fn every_kind() -> Vec<Self> {
+                Self::all()
+            }
+        }
+
         impl $crate::planet::param::Params for $enum {
             fn each_param(
                 &mut self,

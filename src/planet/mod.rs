@@ -26,9 +26,11 @@ pub(crate) mod locate;
 pub mod masks;
 pub(crate) mod migrate;
 pub mod notes;
+mod open;
 pub mod param;
 pub mod parts;
 pub mod picture;
+mod pictures;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
@@ -56,7 +58,7 @@ pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
 pub use validate::InvalidPlanet;
 
-use param::{Curve, Domain, ParamPath, Params, Stage, Unit, choice, log, params};
+use param::{Curve, Domain, ParamPath, Params, Part, PartType, Stage, Unit, choice, log, params};
 use serde::{Deserialize, Serialize};
 
 /// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
@@ -122,6 +124,13 @@ impl Planet {
     /// Height of the sea's surface above the reference sphere, if there is a sea.
     pub fn sea_level_m(&self) -> Option<f64> {
         self.water.as_ref().map(|water| water.level_m)
+    }
+
+    /// Every part of a planet, at any depth.
+    pub fn all_parts() -> Vec<&'static Part> {
+        let mut parts = Vec::new();
+        <Self as PartType>::each_part(&mut |part| parts.push(part));
+        parts
     }
 
     /// Calls `visit` for each parameter of the planet in the order of the file, to be changed.

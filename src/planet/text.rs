@@ -4,9 +4,9 @@
 //! first element of a list from the rest, nor one shape of a layer from another.
 
 use super::explain::options;
-use super::migrate::FileV3;
+use super::migrate::CurrentFile;
 use super::param::{Domain, Param, ValueRef};
-use super::{Biomes, EditorNotes, Layer, Mask, Planet, VERSION, locate};
+use super::{Mask, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -23,7 +23,7 @@ pub(crate) fn write(planet: &Planet) -> String {
     let config = PrettyConfig::new().new_line("\n").escape_strings(false);
     let mut bare = String::new();
     // Writing plain data into a string cannot fail; should it, what came out is refused when it is read.
-    let _ = options().to_writer_pretty(&mut bare, &FileV3::from(planet.clone()), config);
+    let _ = options().to_writer_pretty(&mut bare, &CurrentFile::from(planet.clone()), config);
     let mut text = header();
     let mut done = 0;
     for (at, comment) in comments(planet, &bare) {
@@ -54,8 +54,8 @@ fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
     planet.each_value(&mut |path, param, value| {
         params.insert(path.to_string(), comment(param, value));
     });
-    let parts = [Planet::PARTS, Layer::PARTS, Biomes::PARTS, EditorNotes::PARTS].into_iter().flatten();
-    let mut parts: HashMap<&str, String> = parts.map(|(name, doc)| (*name, (*doc).to_owned())).collect();
+    let mut parts: HashMap<&str, String> =
+        Planet::all_parts().into_iter().map(|part| (part.name, part.doc.to_owned())).collect();
     if let Some(masks) = parts.get_mut("masks") {
         // Each element says its kind, where no comment stands.
         let _ = write!(masks, " ({})", Mask::NAMES.join(", ").replace(' ', GLUE));

@@ -172,7 +172,7 @@ impl Cache {
         let done = made.is_some();
         if let Some((tile, parts)) = made {
             entry.tile = Some(Arc::new(tile));
-            entry.parts = Some(Arc::new(parts));
+            entry.parts = parts.map(Arc::new);
             entry.keys = terrain.tile_keys();
             work.tiles += 1;
         }

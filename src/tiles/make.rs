@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a tile was made from, the fields of its layers apart; kept so that an edit runs only the stages it makes stale.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Parts {
     points: Arc<Points>,
     heights: Arc<Heights>,
@@ -67,14 +67,15 @@ pub(crate) struct Before<'a> {
 pub(crate) type Fields = Vec<Option<Arc<Field>>>;
 
 /// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is asked
-/// before each layer; if it says no, there is no tile and only some of the fields.
+/// before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay gets only a
+/// new climate; it has parts only if it had them before.
 pub(crate) fn make_tile(
     terrain: &Terrain,
     id: NodeId,
     before: &Before<'_>,
     work: &mut Work,
     keep_going: &dyn Fn() -> bool,
-) -> (Fields, Option<(Tile, Parts)>) {
+) -> (Fields, Option<(Tile, Option<Parts>)>) {
     profiling::scope!("tile");
     let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
     let simd = terrain.simd();
@@ -84,19 +85,6 @@ pub(crate) fn make_tile(
     let layers = &terrain.stack.layers;
     let mut fields: Fields =
         layers.iter().map(|layer| before.fields.find(&layer.landform, &layer.spacings_rad(&spacings_rad))).collect();
-    for (layer, slot) in layers.iter().zip(&mut fields) {
-        if slot.is_none() && layer.needed {
-            if !keep_going() {
-                return (fields, None);
-            }
-            let spacings_rad = layer.spacings_rad(&spacings_rad);
-            profiling::scope!("field");
-            work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
-            let field = work.run(Stage::Field, || Field::new(&layer.landform, simd, &points, &spacings_rad));
-            *slot = Some(Arc::new(field));
-        }
-    }
-
     let climate_noises = terrain.climate.noises().cloned();
     let has_same_noises = |parts: &&Parts| parts.climate_noises == climate_noises;
     let climate = match before.parts.filter(has_same_noises) {
@@ -119,6 +107,27 @@ pub(crate) fn make_tile(
         _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
     };
 
+    let same_heights = before.keys.heights == terrain.tile_keys().heights;
+    if let Some(tile) = before.tile.filter(|_| same_heights) {
+        let climate_of = VertexClimate { noise: &climate, inland_rad: &inland_rad };
+        let tile = work.run(Stage::Climate, || with_climate(tile, simd, terrain.planet(), &points.dirs, &climate_of));
+        let parts = before.parts.map(|parts| Parts { climate_noises, climate, coast, inland_rad, ..parts.clone() });
+        return (fields, Some((tile, parts)));
+    }
+
+    for (layer, slot) in layers.iter().zip(&mut fields) {
+        if slot.is_none() && layer.needed {
+            if !keep_going() {
+                return (fields, None);
+            }
+            let spacings_rad = layer.spacings_rad(&spacings_rad);
+            profiling::scope!("field");
+            work.octave_samples += layer.landform.octave_count() * TILE_VERTICES;
+            let field = work.run(Stage::Field, || Field::new(&layer.landform, simd, &points, &spacings_rad));
+            *slot = Some(Arc::new(field));
+        }
+    }
+
     let mut relief_fields: ReliefFields = Vec::new();
     for noise in terrain.relief.iter().flat_map(Relief::noises) {
         let known = before.parts.and_then(|parts| parts.relief_fields.iter().find(|(known, _)| known == noise));
@@ -133,7 +142,6 @@ pub(crate) fn make_tile(
     }
 
     static NEXT_HEIGHTS: AtomicU64 = AtomicU64::new(1);
-    let same_heights = before.keys.heights == terrain.tile_keys().heights;
     let (heights, heights_serial) = match before.parts {
         Some(parts) if same_heights => (parts.heights.clone(), parts.heights_serial),
         _ => work.run(Stage::Height, || {
@@ -150,18 +158,10 @@ pub(crate) fn make_tile(
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
         let climate = VertexClimate { noise: &climate, inland_rad: &inland_rad };
-        match before.tile.filter(|tile| tile.heights_serial == heights_serial) {
-            Some(tile) => with_climate(tile, simd, terrain.planet(), &points.dirs, &climate),
-            None => Tile { heights_serial, ..mesh(terrain, id, &points.dirs, &heights, &climate) },
-        }
+        Tile { heights_serial, ..mesh(terrain, id, &points.dirs, &heights, &climate) }
     });
-    (
-        fields,
-        Some((
-            tile,
-            Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad },
-        )),
-    )
+    let parts = Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad };
+    (fields, Some((tile, Some(parts))))
 }
 
 fn directions(id: NodeId) -> Vec<DVec3> {

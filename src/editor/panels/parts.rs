@@ -21,7 +21,8 @@ pub struct Remembered {
 
 /// Name, seed, radius.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    let skip = ["star", "layers", "climate", "biomes", "water", "atmosphere", "clouds"];
+    // Parts have panels of their own.
+    let skip: Vec<&str> = Planet::PARTS.iter().map(|part| part.name).collect();
     let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());
 }

@@ -50,10 +50,37 @@ macro_rules! params {
                 }, )*
             ];
 
-            /// Name and description of each field that holds parameters of its own.
-            pub const PARTS: &'static [(&'static str, &'static str)] = &[
-                $($( (stringify!($nested), concat!($($nested_doc),+).trim_ascii_start()), )*)?
+            /// The description of each field that holds parameters of its own.
+            pub const PARTS: &'static [$crate::planet::param::Part] = &[
+                $($( $crate::planet::param::Part {
+                    name: stringify!($nested),
+                    doc: concat!($($nested_doc),+).trim_ascii_start(),
+                    form: <$nested_type as $crate::planet::param::PartType>::FORM,
+                }, )*)?
             ];
+        }
+
+        impl $crate::planet::param::PartType for $struct {
+            const FORM: $crate::planet::param::Form = $crate::planet::param::Form::Struct;
+
+            #[allow(unused_variables)]
+            fn each_part(found: &mut dyn FnMut(&'static $crate::planet::param::Part)) {
+                Self::PARTS.iter().for_each(&mut *found);
+                $($( <$nested_type as $crate::planet::param::PartType>::each_part(found); )*)?
+            }
+
+            #[allow(unused_mut)]
+            fn every_kind() -> Vec<Self> {
+                let mut all = vec![Self::default()];
+                $($(
+                    let kinds = <$nested_type as $crate::planet::param::PartType>::every_kind();
+                    all.resize(all.len().max(kinds.len()), all[0].clone());
+                    for (value, kind) in all.iter_mut().zip(kinds.iter().cycle()) {
+                        value.$nested.clone_from(kind);
+                    }
+                )*)?
+                all
+            }
         }
 
         impl $crate::planet::param::Params for $struct {

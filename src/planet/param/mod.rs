@@ -3,6 +3,7 @@
 //! - `description`: [`Param`]: meaning, unit, domain, stages
 //! - `stage`: the stages of a rebuild
 //! - `value`: values, copied or borrowed
+//! - `part`: fields that hold parameters of their own
 //! - `path`: the path of a parameter in a planet
 //! - `macros`: `params!` and `choice!`, which write a type and its description from one list
 //!
@@ -11,12 +12,14 @@
 
 mod description;
 mod macros;
+mod part;
 mod path;
 mod stage;
 mod value;
 
 pub use description::{Curve, Domain, MAX_CURVE_POINTS, Param, Unit, count, linear, log, triple};
 pub(crate) use macros::{choice, params};
+pub use part::{Form, Part, PartType};
 pub use path::{ParamPath, Segment};
 pub use stage::{Stage, Stages};
 pub use value::{Choice, Value, ValueMut, ValueRef};

@@ -1,7 +1,7 @@
 //! The pixels of a picture while they are decoded, in the order in which its raster keeps them: nothing is held twice.
 
-use super::PictureLayout;
 use super::budget::MAX_PIXELS;
+use super::pixels::PictureLayout;
 use crate::sphere::raster::{Raster, Texel};
 
 /// Fewest pixels on the side of a cube's face, and on the height of an equirectangular picture.

@@ -6,7 +6,7 @@
 use super::budget::{Budget, MAX_WORK_BYTES};
 use super::canvas::{Canvas, Size};
 use super::contain::contained;
-use super::{Picture, PictureLayout, Texels};
+use super::pixels::{Picture, PictureLayout, Texels};
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::Reader;
 use exr::block::{BlockIndex, UncompressedBlock};

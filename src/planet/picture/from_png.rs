@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::canvas::{Canvas, Size};
-use super::{Picture, PictureLayout, Texels};
+use super::pixels::{Picture, PictureLayout, Texels};
 use std::fs::File;
 use std::io::BufReader;
 
