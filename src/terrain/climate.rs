@@ -4,7 +4,7 @@ use super::field::Field;
 use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
-use crate::planet::{Planet, TableRows};
+use crate::planet::{CLIMATE_BELTS, Planet, TableRows};
 use crate::world::World;
 use glam::DVec3;
 
@@ -199,8 +199,9 @@ impl Rules {
     }
 }
 
-/// Wet at the equator (1) and at 50° (0.6), dry at 25° and at the poles (-1): the cubic in sin² latitude through those.
+/// The climate belts at a latitude: see [`CLIMATE_BELTS`].
 #[inline(always)]
 fn belt(sin2_lat: f64) -> f64 {
-    1.0 + sin2_lat * (-19.404_782 + sin2_lat * (52.369_621 + sin2_lat * -34.964_839))
+    let [c0, c1, c2, c3] = CLIMATE_BELTS;
+    c0 + sin2_lat * (c1 + sin2_lat * (c2 + sin2_lat * c3))
 }

@@ -1,6 +1,6 @@
-//! One tile from one node: directions, layer fields, climate noise, heights, climate, mesh (see `mesh`). The result of a
-//! stage is taken from the node's tile of an earlier revision if its content key is the same. The climate noise of points
-//! that the parent has is taken from the parent.
+//! One tile from one node: directions, layer fields, climate noise, heights, climate, mesh (see `mesh`). The result of
+//! a stage is taken from the node's tile of an earlier revision if its content key is the same. The climate noise of
+//! points that the parent has is taken from the parent.
 
 use super::mesh::{VertexClimate, mesh, with_climate};
 use super::stats::Work;
@@ -67,8 +67,8 @@ pub(crate) struct Before<'a> {
 pub(crate) type Fields = Vec<Option<Arc<Field>>>;
 
 /// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is asked
-/// before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay gets only a
-/// new climate; it has parts only if it had them before.
+/// before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay gets only
+/// a new climate; it has parts only if it had them before.
 pub(crate) fn make_tile(
     terrain: &Terrain,
     id: NodeId,

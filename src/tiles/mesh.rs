@@ -1,4 +1,4 @@
-//! The vertices of a tile from its heights, gradients and climate: in chunks, each loop over plain arrays.
+//! The vertices of a tile from its heights, gradients and climate, in chunks over plain arrays.
 
 use super::deviation::find_deviations;
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
@@ -13,7 +13,7 @@ use glam::DVec3;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Adding this to an f32 below 2^22 leaves the nearest whole number in the low bits.
+/// Adding this to an f32 below 2^22 leaves the nearest integer in the low bits.
 const ROUNDER_F32: f32 = 12_582_912.0;
 
 static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
@@ -82,7 +82,7 @@ fn chunks(points: usize) -> impl Iterator<Item = Range<usize>> {
     (0..points).step_by(CHUNK).map(move |start| start..(start + CHUNK).min(points))
 }
 
-/// What the climate of a tile's vertices follows from.
+/// The inputs of the climate at the vertices of a tile.
 pub(super) struct VertexClimate<'a> {
     pub(super) noise: &'a ClimateField,
     /// Distance from the sea in radians; empty if climate does not read it.
@@ -96,7 +96,7 @@ impl VertexClimate<'_> {
     }
 }
 
-/// What is known of a chunk's vertices.
+/// The values of a chunk of vertices.
 struct Lanes {
     high_m: [Lane<f32>; 3],
     low_m: [Lane<f32>; 3],
@@ -141,7 +141,7 @@ impl Lanes {
     }
 }
 
-/// Positions, each f64 as two f32.
+/// Positions, each f64 as the sum of two f32.
 #[inline(always)]
 fn place_body(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], lanes: &mut Lanes) {
     let n = dirs.len().min(height_m.len()).min(CHUNK);
@@ -161,7 +161,7 @@ fn place_body(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], 
 }
 for_each_simd!(fn place(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], lanes: &mut Lanes) = place_body);
 
-/// Normals on the octahedron, unfolded (Cigolle et al. 2014), as two snorm numbers.
+/// Octahedral normals (Cigolle et al. 2014) as two snorm numbers.
 #[inline(always)]
 fn face_body(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32]; 3], normal_oct: &mut [Lane<i16>; 2]) {
     let [gx, gy, gz] = gradient;

@@ -4,9 +4,9 @@
 //! - `v3`: the current version, whose parts are the types of today
 //! - `frozen`: macros for old versions
 //!
-//! When version 4 comes: freeze in `v3` the types that change, write their step to `v4` and nothing else about version 3,
-//! read version 4 here, and add `tests/fixtures/preset_v4.ron`. The fixtures of old versions load for ever. Never edit a
-//! fixture, and never migrate text.
+//! When version 4 comes: freeze in `v3` the types that change, write their step to `v4` and nothing else about version
+//! 3, read version 4 here, and add `tests/fixtures/preset_v4.ron`. The fixtures of old versions load for ever. Never
+//! edit a fixture, and never migrate text.
 
 mod frozen;
 mod v1;

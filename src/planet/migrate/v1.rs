@@ -41,14 +41,20 @@ impl Default for File {
 
 impl Migrate<v2::File> for File {
     fn migrate(self) -> v2::File {
-        let File { version, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds } = self;
-        let (version, layers) = (version.migrate(), layers.migrate());
-        let (height_curve, editor) = (Vec::new(), None);
-        #[rustfmt::skip]
-        let file = v2::File {
-            version, name, seed, radius_km, height_curve, star, layers, climate, biomes, water, atmosphere, clouds, editor,
-        };
-        file
+        v2::File {
+            version: self.version.migrate(),
+            name: self.name,
+            seed: self.seed,
+            radius_km: self.radius_km,
+            star: self.star,
+            layers: self.layers.migrate(),
+            climate: self.climate,
+            biomes: self.biomes,
+            water: self.water,
+            atmosphere: self.atmosphere,
+            clouds: self.clouds,
+            ..v2::File::default()
+        }
     }
 }
 

@@ -125,7 +125,8 @@ macro_rules! params {
     };
 }
 
-/// Writes an enum without fields that is a [`Choice`](super::Choice), with its display names. The first value is the default.
+/// Writes an enum without fields that is a [`Choice`](super::Choice), with its display names. The first value is the
+/// default.
 macro_rules! choice {
     (
         $(#[$enum_attr:meta])*

@@ -4,8 +4,8 @@
 //! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an
 //!   OpenEXR. Coarser levels add a third. Reading a picture and making its levels takes about as much again for a
 //!   moment: no planet's pictures ever take more than 1.5 GiB.
-//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers in all channels, used or not: this bounds
-//!   the time.
+//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers in all channels, used or not: this
+//!   bounds the time.
 //!
 //! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures count
 //! once, however many layers use them.

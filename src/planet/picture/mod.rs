@@ -2,8 +2,8 @@
 //!
 //! - `pixels`: the pixels and how they cover the sphere
 //! - `known`: pictures in use, so that none is read twice
-//! - `read`: opens the file; `from_png`, `from_exr`: decoders; `canvas`: where decoded rows or blocks are put; `contain`:
-//!   panics of decoders as errors
+//! - `read`: opens the file; `from_png`, `from_exr`: decoders; `canvas`: where decoded rows or blocks are put;
+//!   `contain`: panics of decoders as errors
 //! - `budget`: memory and work limits of all pictures of a planet
 //! - `place`: paths, relative to the folder of a preset
 //!
@@ -39,8 +39,8 @@ pub struct PictureKey {
 }
 
 impl PictureKey {
-    /// Reads the picture, or shares the picture in use if its file has not changed. Its size is taken from the budget of
-    /// the planet.
+    /// Reads the picture, or shares the picture in use if its file has not changed. Its size is taken from the budget
+    /// of the planet.
     ///
     /// # Errors
     /// What is wrong with the file, and what would be right.
