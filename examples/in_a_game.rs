@@ -1,4 +1,4 @@
-//! The program of README.md, section "In a game".
+//! The program in README.md, section "In a game".
 
 #![allow(clippy::print_stdout)]
 
@@ -10,7 +10,7 @@ use tellus::terrain::Terrain;
 fn main() -> Result<(), Box<dyn Error>> {
     let planet = Planet::load("planets/aurel.ron")?;
     let terrain = Terrain::try_new(planet.into())?;
-    let place = terrain.sample(LatLon::from_degrees(48.2, 16.4).direction());
-    println!("{:.1} m, {}", place.height_m, terrain.planet().biomes.palette[place.biome].name);
+    let ground = terrain.sample(LatLon::from_degrees(48.2, 16.4).direction());
+    println!("{:.1} m, {}", ground.height_m, terrain.planet().biomes.palette[ground.biome].name);
     Ok(())
 }

@@ -1,7 +1,7 @@
 // The air: density by altitude, phase functions, and the mapping of the table of optical depths.
 // Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020; table mapping:
 // Bruneton and Neyret, Precomputed Atmospheric Scattering, 2008.
-#include "globals.wgsl"
+#include "uniforms.wgsl"
 #include "math.wgsl"
 
 struct Air {
@@ -13,13 +13,13 @@ struct Air {
 // Scattering and extinction per km at an altitude.
 fn air_at(h: f32) -> Air {
     let height = max(h, 0.0);
-    let rayleigh = globals.rayleigh.xyz * exp(-height / globals.rayleigh.w);
-    let haze = exp(-height / globals.mie_scattering.w);
-    let absorber = globals.absorber.xyz * max(0.0, 1.0 - abs(height - globals.absorber.w) / globals.air.y);
+    let rayleigh = body.rayleigh_per_km * exp(-height / body.rayleigh_scale_km);
+    let haze = exp(-height / body.mie_scale_km);
+    let absorber = body.absorber_per_km * max(0.0, 1.0 - abs(height - body.absorber_height_km) / body.absorber_width_km);
     var air: Air;
     air.rayleigh = rayleigh;
-    air.mie = globals.mie_scattering.xyz * haze;
-    air.extinction = rayleigh + globals.mie_extinction.xyz * haze + absorber;
+    air.mie = body.mie_scattering_per_km * haze;
+    air.extinction = rayleigh + body.mie_extinction_per_km * haze + absorber;
     return air;
 }
 
@@ -35,20 +35,18 @@ fn rayleigh_phase(cosine: f32) -> f32 { return 3.0 / (16.0 * PI) * (1.0 + cosine
 
 // Cornette and Shanks, Physically reasonable analytic expression for the single-scattering phase function, 1992.
 fn mie_phase(cosine: f32) -> f32 {
-    let g = globals.mie_extinction.w;
+    let g = body.mie_anisotropy;
     let g2 = g * g;
     let base = max(1.0 + g2 - 2.0 * g * cosine, 1e-6);
     return 3.0 / (8.0 * PI) * (1.0 - g2) * (1.0 + cosine * cosine) / ((2.0 + g2) * base * sqrt(base));
 }
 
-const DEPTH_SIZE: vec2f = vec2f(256.0, 64.0);
-
 fn texel_from_unit(x: vec2f, size: vec2f) -> vec2f { return (x * (size - 1.0) + 0.5) / size; }
 
 // Where altitude and cosine to the zenith stand in the table of optical depths.
 fn depth_uv(h_km: f32, mu: f32) -> vec2f {
-    let radius = globals.eye_km.w;
-    let top = globals.air.x;
+    let radius = body.radius_km;
+    let top = body.air_height_km;
     let h = clamp(h_km, 0.0, top);
     let rho2 = h * (2.0 * radius + h);
     let horizon2 = top * (2.0 * radius + top);
@@ -57,12 +55,12 @@ fn depth_uv(h_km: f32, mu: f32) -> vec2f {
     let way_min = top - h;
     let way_max = sqrt(rho2) + sqrt(horizon2);
     let x = vec2f((way - way_min) / max(way_max - way_min, 1e-9), sqrt(rho2 / horizon2));
-    return texel_from_unit(saturate(x), DEPTH_SIZE);
+    return texel_from_unit(saturate(x), OPTICAL_DEPTH_SIZE);
 }
 
 // Cosine of the horizon's zenith angle from an altitude.
 fn horizon_cosine(h: f32) -> f32 {
-    let radius = globals.eye_km.w;
+    let radius = body.radius_km;
     let height = max(h, 0.0);
     return -sqrt(height * (2.0 * radius + height)) / (radius + height);
 }
@@ -70,6 +68,6 @@ fn horizon_cosine(h: f32) -> f32 {
 // Share of the star's disc over the horizon of the smooth planet, where its middle is `over` the horizon (difference of
 // cosines); the mean over a stretch along which that changes by `change`.
 fn disc_share(over: f32, change: f32) -> f32 {
-    let half = max(globals.sun_dir.w, 0.0015) + 0.5 * abs(change);
+    let half = max(active_sun.radius_rad, 0.0015) + 0.5 * abs(change);
     return smoothstep(-half, half, over);
 }

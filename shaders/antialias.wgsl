@@ -6,7 +6,7 @@
 #include "math.wgsl"
 
 // rgb: what is shown, linear; a: how bright it looks
-@group(2) @binding(0) var shown: texture_2d<f32>;
+@group(1) @binding(0) var shown: texture_2d<f32>;
 
 // Steps in brightness between which a pixel's edge begins to count, and counts in full: what is weaker is the ground's texture.
 const FAINT: f32 = 0.03;

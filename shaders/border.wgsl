@@ -1,18 +1,16 @@
 // Where a place falls in the biome table: climate, moved to and fro by noise, so that neither the table's grid nor a line of equal
 // climate shows. The same noise, octaves and weights as src/terrain/border.rs, on the reference sphere.
-#include "globals.wgsl"
+#include "uniforms.wgsl"
 #include "tables.wgsl"
 
 // Cells of the table from one pixel to the next; what is finer is blended. Set before the material is asked for.
 var<private> cells_per_pixel: vec2f;
 
-const BORDER_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
-
 // From the point of the sphere under the eye to the one under a point of the ground, metres, without cancellation.
 fn way_on_sphere_m(rel_m: vec3f) -> vec3f {
-    let radius_m = globals.eye_km.w * 1000.0;
-    let up = globals.eye_up.xyz;
-    let eye_m = radius_m + globals.eye_up.w * 1000.0;
+    let radius_m = body.radius_km * 1000.0;
+    let up = body.eye_up;
+    let eye_m = radius_m + body.eye_altitude_km * 1000.0;
     let grown = 2.0 * eye_m * dot(up, rel_m) + dot(rel_m, rel_m);
     let from_center_m = sqrt(max(eye_m * eye_m + grown, 1.0));
     return radius_m / from_center_m * (rel_m - up * (grown / (from_center_m + eye_m)));
@@ -20,18 +18,18 @@ fn way_on_sphere_m(rel_m: vec3f) -> vec3f {
 
 // How far the borders are moved, in cells; octaves finer than the footprint are left out, none for a footprint of 0.
 fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
-    if globals.table.x <= 0.0 { return vec2f(0.0); }
+    if body.border_jitter_cells <= 0.0 { return vec2f(0.0); }
     var sum = vec2f(0.0);
-    var weight = globals.table.x;
+    var weight = body.border_jitter_cells;
     var place_m = way_on_sphere_m(rel_m);
-    for (var i = 0u; i < 5u; i++) {
-        let octave = globals.border[i];
-        let lod = log2(max(footprint_m, 1e-6) * 32.0 / octave.w);
+    for (var i = 0u; i < BORDER_OCTAVES; i++) {
+        let octave = body.border[i];
+        let lod = log2(max(footprint_m, 1e-6) * BORDER_TILE_SIDE / octave.period);
         let share = 1.0 - smoothstep(0.0, 3.0, lod);
         if share <= 0.0 { break; }
-        sum += weight * share * textureSampleLevel(border_tile, repeated, octave.xyz + place_m / octave.w, max(lod, 0.0)).rg;
-        place_m = BORDER_TURN * place_m;
-        weight *= 0.25;
+        sum += weight * share * textureSampleLevel(border_tile, repeated, octave.offset + place_m / octave.period, max(lod, 0.0)).rg;
+        place_m = OCTAVE_TURN * place_m;
+        weight *= BORDER_GAIN;
     }
     return sum;
 }
@@ -45,7 +43,7 @@ fn table_place(climate: vec2f, rel_m: vec3f, footprint_m: f32) -> vec2f {
 
 // How much of the next cell there is at a share of the way from one cell's middle to the next one's.
 fn border_blend(f: vec2f) -> vec2f {
-    if globals.table.y < 0.5 { return f; }
+    if body.crisp_borders == 0u { return f; }
     let width = clamp(cells_per_pixel, vec2f(1e-4), vec2f(1.0));
     return saturate((f - 0.5) / width + 0.5);
 }

@@ -12,7 +12,7 @@ struct Face {
 @group(1) @binding(0) var<uniform> face: Face;
 
 fn lattice(cell: vec3i, seed: u32) -> vec3f {
-    let bits = hash3(bitcast<vec3u>(cell) + vec3u(globals.cloud_seed.x, seed, globals.cloud_seed.x ^ 0x9e3779b9u));
+    let bits = hash3(bitcast<vec3u>(cell) + vec3u(body.cloud_seed, seed, body.cloud_seed ^ 0x9e3779b9u));
     return unit_from_hash(bits) * 2.0 - 1.0;
 }
 
@@ -47,12 +47,12 @@ fn swirl(p: vec3f, dir: vec3f, seed: u32) -> vec3f {
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let side = f32(globals.cloud_seed.y);
+    let side = f32(WEATHER_SIDE);
     let x = pixel.xy / side * 2.0 - 1.0;
     let dir = normalize(face.center.xyz + face.right.xyz * x.x + face.down.xyz * x.y);
     // Smaller systems than the map can hold are drawn as large as it can.
-    let cells = min(globals.cloud_turn.z, side * 0.2);
-    let curl = globals.cloud_turn.w;
+    let cells = min(body.cloud_systems_per_radius, side * 0.2);
+    let curl = body.cloud_curl;
     var p = dir * cells;
     // Weather systems turn, then their arms turn, then their edges fray.
     p += swirl(p * 0.7, dir, 1u) * curl * 0.55;

@@ -3,8 +3,8 @@
 
 // The layer turns about the pole with the wind.
 fn drifted(p: vec3f) -> vec3f {
-    let c = globals.cloud_turn.x;
-    let s = globals.cloud_turn.y;
+    let c = body.cloud_drift.x;
+    let s = body.cloud_drift.y;
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
@@ -13,14 +13,9 @@ fn drifted(p: vec3f) -> vec3f {
 fn cover_over(dir: vec3f) -> f32 {
     let weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
     const SOFT: f32 = 0.7;
-    let cover = saturate1((weather - 1.0 + globals.clouds.z * (1.0 + SOFT)) / SOFT);
+    let cover = saturate1((weather - 1.0 + body.cloud_coverage * (1.0 + SOFT)) / SOFT);
     return cover * cover * (3.0 - 2.0 * cover);
 }
-
-// From one band of the noise to the next finer one; the same as in globals.rs.
-const BAND_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
-const BANDS: i32 = 6;
-const PUFF_BAND: i32 = 3;
 
 // Density (0..1) where the cover is `cover`, at a point relative to the eye (km) and a height in the layer (0..1).
 // `footprint`: size in km below which nothing is resolved; there the noise is its mean and the edge widens instead.
@@ -32,52 +27,52 @@ fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f3
     var carve = 0.5;
     var strength = 1.0;
     var blurred = 1.0;
-    for (var i = 0; i < BANDS; i++) {
-        let band = globals.cloud_bands[i];
-        let lod = log2(max(footprint * 64.0 / band.w, 1e-6));
+    for (var i = 0; i < CLOUD_BANDS; i++) {
+        let band = body.cloud_bands[i];
+        let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
         // A band fades before its tile is so small that one sees it repeat.
         let share = 1.0 - smoothstep(-1.0, 2.0, lod);
         if share <= 0.0 { break; }
-        let n = textureSampleLevel(noise_tile, repeated, band.xyz + place / band.w, lod);
-        if i < PUFF_BAND {
+        let n = textureSampleLevel(noise_tile, repeated, band.offset + place / band.period, lod);
+        if i < CLOUD_PUFF_BAND {
             bend += (n.g - 0.5) * share * (0.9 - 0.1 * f32(i));
         } else {
             carve += (n.r - 0.5) * share * strength;
             strength *= 0.42;
-            if i == PUFF_BAND { blurred = 1.0 - share; }
+            if i == CLOUD_PUFF_BAND { blurred = 1.0 - share; }
         }
-        place = BAND_TURN * place;
+        place = OCTAVE_TURN * place;
     }
     // Nothing changes where all or nothing is covered.
     let cover = saturate1(wide_cover + 4.0 * bend * wide_cover * (1.0 - wide_cover));
     let n = clamp(carve - (1.0 - cover) * 0.55 * max(height - 0.25, 0.0), 0.0, 1.0);
     const WIDTH: f32 = 0.3;
     // Even a closed cover is thick here and thin there.
-    let body = 0.5 + n + 2.0 * bend * cover;
-    let sharp = saturate1((n - 1.0 + cover) / WIDTH + cover * cover * cover) * max(body, 0.25);
+    let bulk = 0.5 + n + 2.0 * bend * cover;
+    let sharp = saturate1((n - 1.0 + cover) / WIDTH + cover * cover * cover) * max(bulk, 0.25);
     // Puffs too small to see cover a share of the pixel: the density that lets through as much as they do together.
-    let opaque = 1.0 - exp(-globals.cloud_color.w);
-    let mean = -log(1.0 - cover * opaque) / globals.cloud_color.w;
+    let opaque = 1.0 - exp(-body.cloud_optical_depth);
+    let mean = -log(1.0 - cover * opaque) / body.cloud_optical_depth;
     return mix(sharp, mean, blurred);
 }
 
 // Share of direct starlight that the layer lets through to a point under (or in) it; the point relative to the eye.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
-    if globals.clouds.z <= 0.0 || h >= globals.clouds.y { return 1.0; }
-    let radius = globals.eye_km.w;
-    let middle = 0.5 * (globals.clouds.x + globals.clouds.y);
+    if body.cloud_coverage <= 0.0 || h >= body.cloud_top_km { return 1.0; }
+    let radius = body.radius_km;
+    let middle = 0.5 * (body.cloud_bottom_km + body.cloud_top_km);
     let at = max(h, middle);
     let way = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
-    let point = rel + globals.sun_dir.xyz * way;
-    let up = normalize(globals.eye_km.xyz + point);
-    let density = cloud_density(point, cover_over(up), 0.5, max(footprint, globals.clouds.w * 0.02));
-    let left = saturate1((globals.clouds.y - h) / (globals.clouds.y - globals.clouds.x));
-    return exp(-globals.cloud_color.w * density * left / max(dot(up, globals.sun_dir.xyz), 0.05));
+    let point = rel + active_sun.dir * way;
+    let up = normalize(body.eye_km + point);
+    let density = cloud_density(point, cover_over(up), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
+    let left = saturate1((body.cloud_top_km - h) / (body.cloud_top_km - body.cloud_bottom_km));
+    return exp(-body.cloud_optical_depth * density * left / max(dot(up, active_sun.dir), 0.05));
 }
 
 // Light that clouds above pass on after many scatterings, as a factor on the sky's irradiance and a share of direct light:
 // a two-stream estimate (x: what is left of the sky, y: share of direct light that arrives as skylight).
 fn overcast(shadow: f32) -> vec2f {
-    let spread = 1.0 / (1.0 + 0.12 * globals.cloud_color.w);
+    let spread = 1.0 / (1.0 + 0.12 * body.cloud_optical_depth);
     return vec2f(mix(mix(spread, 1.0, 0.35), 1.0, shadow), (1.0 - shadow) * spread);
 }

@@ -15,8 +15,8 @@ const BRIGHTNESS: f32 = 1.8;
 // Way in km after `number` steps of a march that begins in the layer. The steps are the same in all directions and grow by a constant
 // ratio: steps that depend on the way to the far end are longest along the horizon and show as a line there.
 fn grown_km(number: f32) -> f32 {
-    let ratio = globals.cloud_march.z;
-    return globals.cloud_march.y * (pow(ratio, number) - 1.0) / (ratio - 1.0);
+    let ratio = body.cloud_step_growth;
+    return body.cloud_first_step_km * (pow(ratio, number) - 1.0) / (ratio - 1.0);
 }
 
 struct March {
@@ -29,22 +29,22 @@ struct March {
 
 fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter: f32) -> March {
     var out = into;
-    let radius = globals.eye_km.w;
-    let h_eye = globals.eye_up.w;
-    let bottom = globals.clouds.x;
-    let thickness = globals.clouds.y - bottom;
-    let sun = globals.sun_dir.xyz;
-    let steps = globals.cloud_march.x;
+    let radius = body.radius_km;
+    let h_eye = body.eye_altitude_km;
+    let bottom = body.cloud_bottom_km;
+    let thickness = body.cloud_top_km - bottom;
+    let sun = active_sun.dir;
+    let steps = body.cloud_steps;
     let span = to_km - from_km;
     // Even steps from afar, growing ones within the layer.
     let bend = span / (span + from_km + 1e-6);
-    let extinction = globals.cloud_color.w / thickness;
+    let extinction = body.cloud_optical_depth / thickness;
 
     // Light that reaches the layer here; it hardly changes along the way.
     let middle = dir * (from_km + mix(0.5 * span, min(grown_km(0.4 * steps), span), bend));
-    let up = normalize(globals.eye_km.xyz + middle);
+    let up = normalize(body.eye_km + middle);
     let sun_mu = dot(up, sun);
-    let sunlight = globals.sun_irradiance.rgb * sun_transmittance(bottom + thickness * 0.7, sun_mu);
+    let sunlight = active_sun.irradiance * sun_transmittance(bottom + thickness * 0.7, sun_mu);
     let sky = sky_irradiance(bottom + thickness, sun_mu);
     let below = sunlight * max(sun_mu, 0.0) * 0.15 + sky * 0.15;
     let cosine = dot(dir, sun);
@@ -69,12 +69,12 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         if length_km <= 0.0 { break; }
         let rel = dir * t;
         let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
-        let cover = cover_over(normalize(globals.eye_km.xyz + rel));
-        let footprint = max(t * globals.eye_low_m.w, length_km * 0.3);
+        let cover = cover_over(normalize(body.eye_km + rel));
+        let footprint = max(t * frame.pixel_rad, length_km * 0.3);
         let density = cloud_density(rel, cover, height, footprint);
         if density <= 0.002 { continue; }
         // A second look towards the star shapes light and shade; from afar it looks as far as a pixel.
-        let reach = max(thickness * 0.4, t * globals.eye_low_m.w * 1.2);
+        let reach = max(thickness * 0.4, t * frame.pixel_rad * 1.2);
         let ahead_height = saturate1(height + reach * sun_mu / thickness);
         let ahead = cloud_density(rel + sun * reach, cover, ahead_height, footprint);
         let room = (1.0 - height) * thickness * to_sun;
@@ -83,7 +83,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
             + 1.5 * phases.z * exp(-0.07 * sun_depth);
         let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
-        let shine = globals.cloud_color.rgb * (sunlight * direct * (BRIGHTNESS * grazed) + ambient);
+        let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * grazed) + ambient);
         let passed = exp(-extinction * density * length_km);
         let seen = out.transmittance * (1.0 - passed);
         out.light += seen * shine;
@@ -105,12 +105,12 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let ray = pixel_ray(position.xy);
     let ray_length = length(ray);
     let dir = ray / ray_length;
-    let far = surface_distance(vec2i(position.xy), dir, ray_length);
-    let radius = globals.eye_km.w;
-    let h = globals.eye_up.w;
-    let mu = dot(dir, globals.eye_up.xyz);
-    let bottom = globals.clouds.x;
-    let top = globals.clouds.y;
+    let far = surface_distance(vec2i(position.xy), ray_length);
+    let radius = body.radius_km;
+    let h = body.eye_altitude_km;
+    let mu = dot(dir, body.eye_up);
+    let bottom = body.cloud_bottom_km;
+    let top = body.cloud_top_km;
     let inner = ray_sphere((radius + h) * mu, (h - bottom) * (2.0 * radius + h + bottom));
     let outer = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
     let meets_inner = inner.y >= inner.x;
@@ -135,11 +135,17 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     // Neighbouring pixels step a little apart, or the steps would show as terraces (interleaved gradient noise, Jimenez,
     // Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
     let jitter = fract(52.9829189 * fract(dot(floor(position.xy), vec2f(0.06711056, 0.00583715))));
+    var light = vec3f(0.0);
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
-    if first.y > first.x { state = march(state, dir, first.x, first.y, mu, jitter); }
-    if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu, jitter); }
+    for (var i = 0u; i < body.sun_count; i++) {
+        use_sun(i);
+        state = March(vec3f(0.0), 1.0, 0.0, 0.0);
+        if first.y > first.x { state = march(state, dir, first.x, first.y, mu, jitter); }
+        if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu, jitter); }
+        light += state.light;
+    }
     var out: Output;
-    out.light = vec4f(min(state.light, vec3f(60000.0)), state.transmittance);
+    out.light = vec4f(min(light, vec3f(60000.0)), state.transmittance);
     out.distance = vec4f(select(NOTHING_KM, state.distance / state.weight, state.weight > 0.0), 0.0, 0.0, 0.0);
     return out;
 }

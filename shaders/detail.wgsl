@@ -5,10 +5,6 @@
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
-// Texels along the node's side, and of the ground around on each side; must match src/lod/tile.rs.
-const DETAIL_SIDE: f32 = 129.0;
-const DETAIL_APRON: i32 = 2;
-
 // What a pixel covers of a detail tile.
 struct DetailPlace {
     // -1 without a tile

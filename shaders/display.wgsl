@@ -3,7 +3,10 @@
 #include "math.wgsl"
 
 // rgb, linear
-@group(2) @binding(0) var shown: texture_2d<f32>;
+@group(1) @binding(0) var shown: texture_2d<f32>;
+
+// Whether the target encodes sRGB by itself.
+override TARGET_ENCODES_SRGB: bool = false;
 
 fn encode_srgb(c: vec3f) -> vec3f {
     let low = c * 12.92;
@@ -20,15 +23,15 @@ fn decode_srgb(c: vec3f) -> vec3f {
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     var light = vec3f(0.0);
-    if globals.modes.y == 1u {
+    if frame.render_scale == 1.0 {
         light = textureLoad(shown, pixel, 0).rgb;
     } else {
         // Between four pixels of twice the size that shows their mean, of half the size the shares by nearness.
-        let scale = select(0.5, 2.0, globals.modes.y == 2u);
-        light = textureSampleLevel(shown, clamped, position.xy * scale / vec2f(textureDimensions(shown)), 0.0).rgb;
+        let at = position.xy * frame.render_scale / vec2f(textureDimensions(shown));
+        light = textureSampleLevel(shown, clamped, at, 0.0).rgb;
     }
     var encoded = encode_srgb(light);
-    if globals.modes.x == 0u {
+    if frame.debug_view == VIEW_SHADED {
         // Triangular noise of one step hides the 256 steps of the display.
         let bits = hash3(vec3u(vec2u(pixel), 7u));
         // None on black, which is exact.
@@ -36,6 +39,6 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         encoded += (unit_from_hash(bits) - unit_from_hash(hash3(bits + 1u))) * strength;
     }
     encoded = saturate(encoded);
-    if globals.modes.z == 1u { return vec4f(decode_srgb(encoded), 1.0); }
+    if TARGET_ENCODES_SRGB { return vec4f(decode_srgb(encoded), 1.0); }
     return vec4f(encoded, 1.0);
 }

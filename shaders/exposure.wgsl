@@ -7,10 +7,9 @@ struct Exposure {
     ev: f32,
 }
 
-@group(0) @binding(0) var<storage, read_write> bins: array<u32, BINS + 1u>;
+@group(0) @binding(0) var<storage, read_write> bins: array<u32, METER_BINS + 1u>;
 @group(0) @binding(1) var<storage, read_write> exposure: Exposure;
-// x: share of the way that is gone now
-@group(0) @binding(2) var<uniform> step: vec4f;
+@group(0) @binding(2) var<uniform> step: MeterStep;
 
 // Mean luminance that needs no correction, in stops: middle grey in sunlight.
 const NORMAL_EV: f32 = -2.5;
@@ -54,7 +53,7 @@ fn stops(bin: u32) -> f32 { return DARKEST_EV + (f32(bin) + 0.5) / BINS_PER_EV; 
 // Bin that `count` of the counted pixels exceed, no lower than the bin `first`.
 fn bin_below(count: f32, first: u32) -> u32 {
     var over = 0.0;
-    var bin = BINS - 1u;
+    var bin = METER_BINS - 1u;
     while bin > first && over + f32(bins[bin]) < count {
         over += f32(bins[bin]);
         bin--;
@@ -74,17 +73,17 @@ fn corrected(mean_ev: f32) -> f32 {
 @compute @workgroup_size(1)
 fn compute() {
     var all = 0.0;
-    for (var i = 0u; i < BINS; i++) { all += f32(bins[i]); }
+    for (var i = 0u; i < METER_BINS; i++) { all += f32(bins[i]); }
     let brightest = bin_below(GLINTS * all, 0u);
     let range_top = min(f32(brightest), -DARKEST_EV * BINS_PER_EV);
     let first = u32(max(range_top - SHADOW_EV * BINS_PER_EV, 0.0));
     var counted = 0.0;
-    for (var i = first; i < BINS; i++) { counted += f32(bins[i]); }
+    for (var i = first; i < METER_BINS; i++) { counted += f32(bins[i]); }
     // Mean of the stops between the tenth and the ninetieth percentile.
     var sum = 0.0;
     var weight = 0.0;
     var passed = 0.0;
-    for (var i = first; i < BINS; i++) {
+    for (var i = first; i < METER_BINS; i++) {
         let here = f32(bins[i]);
         let share = max(min(passed + here, 0.9 * counted) - max(passed, 0.1 * counted), 0.0);
         sum += share * stops(i);
@@ -108,7 +107,7 @@ fn compute() {
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);
     }
-    exposure.ev = mix(exposure.ev, ev, step.x);
+    exposure.ev = mix(exposure.ev, ev, step.share);
     exposure.factor = exp2(exposure.ev);
-    for (var i = 0u; i <= BINS; i++) { bins[i] = 0u; }
+    for (var i = 0u; i <= METER_BINS; i++) { bins[i] = 0u; }
 }

@@ -2,31 +2,32 @@
 #include "meter.wgsl"
 
 @group(0) @binding(0) var scene: texture_2d<f32>;
-@group(0) @binding(1) var<storage, read_write> bins: array<atomic<u32>, BINS + 1u>;
+@group(0) @binding(1) var<storage, read_write> bins: array<atomic<u32>, METER_BINS + 1u>;
+@group(0) @binding(2) var<uniform> step: MeterStep;
 
 // Snow and clouds in sunlight: least luminance, and least share of the strongest channel that the weakest has.
 const WHITE_LUMINANCE: f32 = 0.28;
 const WHITE_SHARE: f32 = 0.65;
 
-var<workgroup> here: array<atomic<u32>, BINS + 1u>;
+var<workgroup> here: array<atomic<u32>, METER_BINS + 1u>;
 
-@compute @workgroup_size(16, 16)
+@compute @workgroup_size(METER_GROUP, METER_GROUP)
 fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_index) index: u32) {
-    if index <= BINS { atomicStore(&here[index], 0u); }
+    if index <= METER_BINS { atomicStore(&here[index], 0u); }
     workgroupBarrier();
     // One pixel in so many each way is enough.
-    let pixel = at.xy * STRIDE + STRIDE / 2u;
-    if all(pixel < textureDimensions(scene)) {
-        let light = textureLoad(scene, vec2i(pixel), 0);
+    let pixel = at.xy * METER_STRIDE + METER_STRIDE / 2u;
+    if all(pixel < step.size_px) {
+        let light = textureLoad(scene, vec2i(step.origin_px + pixel), 0);
         // Colours lose themselves when their strongest channel is too bright, whatever their luminance.
         let strongest = max(light.r, max(light.g, light.b));
         let bright = mix(luminance(light.rgb), strongest, 0.6);
         let place = (log2(max(bright, 1e-12)) - DARKEST_EV) * BINS_PER_EV;
         let counts = u32(light.a * 16.0);
-        if place >= 0.0 { atomicAdd(&here[min(u32(place), BINS - 1u)], counts); }
+        if place >= 0.0 { atomicAdd(&here[min(u32(place), METER_BINS - 1u)], counts); }
         let weakest = min(light.r, min(light.g, light.b));
         if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest { atomicAdd(&here[WHITE], counts); }
     }
     workgroupBarrier();
-    if index <= BINS { atomicAdd(&bins[index], atomicLoad(&here[index])); }
+    if index <= METER_BINS { atomicAdd(&bins[index], atomicLoad(&here[index])); }
 }

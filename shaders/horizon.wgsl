@@ -4,11 +4,6 @@
 // Images side by side, one for each azimuth and the openness; each texel the tile's own value and its parent's.
 @group(3) @binding(0) var horizons: texture_2d_array<f32>;
 
-// Must match src/lod/horizon.rs, src/lod/tile.rs and src/render/horizon_pool.rs.
-const AZIMUTHS: u32 = 48u;
-const HORIZON_SIDE: f32 = 33.0;
-const IMAGES_ALONG: u32 = 7u;
-
 struct Exposed {
     // Share of the star's disc that the ground leaves of what the smooth planet would
     star: f32,
@@ -20,19 +15,19 @@ struct Exposed {
 fn star_azimuth(slope_axis: vec3f, up: vec3f) -> f32 {
     let across = abs(slope_axis).zxy;
     let out = cross(slope_axis, across);
-    let sun = globals.sun_dir.xyz;
+    let sun = active_sun.dir;
     let towards = vec3f(dot(sun, slope_axis), dot(sun, across), dot(sun, out));
     let place = vec2f(dot(up, slope_axis), dot(up, across)) / dot(up, out);
-    let bend = 1.0 + 0.7569 * place * place;
+    let bend = 1.0 + FACE_BEND * place * place;
     let step = (towards.xy - place * towards.z) / (bend * sqrt(bend));
     // Under a star in the zenith any will do.
     let angle = atan2(step.y, step.x + select(0.0, 1e-20, all(step == vec2f(0.0))));
-    return fract(angle / (2.0 * PI) + 1.0) * f32(AZIMUTHS);
+    return fract(angle / (2.0 * PI) + 1.0) * f32(HORIZON_AZIMUTHS);
 }
 
 fn horizon_image(place: vec2f, layer: i32, image: u32, far: f32) -> f32 {
-    let corner = vec2f(vec2u(image % IMAGES_ALONG, image / IMAGES_ALONG)) * HORIZON_SIDE;
-    let texel = (corner + 0.5 + saturate(place) * (HORIZON_SIDE - 1.0)) / (HORIZON_SIDE * f32(IMAGES_ALONG));
+    let corner = vec2f(vec2u(image % HORIZON_IMAGES_ALONG, image / HORIZON_IMAGES_ALONG)) * f32(TILE_SIDE);
+    let texel = (corner + 0.5 + saturate(place) * (f32(TILE_SIDE) - 1.0)) / (f32(TILE_SIDE) * f32(HORIZON_IMAGES_ALONG));
     let found = textureSampleLevel(horizons, clamped, texel, layer, 0.0).rg;
     return mix(found.x, found.y, far);
 }
@@ -40,14 +35,14 @@ fn horizon_image(place: vec2f, layer: i32, image: u32, far: f32) -> f32 {
 // Sine of the horizon's elevation: a cubic through the four nearest azimuths (Catmull and Rom, A class of local interpolating
 // splines, 1974). A straight line between two of them would cut off the peaks, and shadows would pulsate while the star moves.
 fn horizon_sine(place: vec2f, layer: i32, azimuth: f32, far: f32) -> f32 {
-    let first = u32(azimuth) + AZIMUTHS - 1u;
+    let first = u32(azimuth) + HORIZON_AZIMUTHS - 1u;
     let f = fract(azimuth);
     let outer = f * (1.0 - f) * vec2f(f - 1.0, -f) * 0.5;
     let inner = vec2f(1.0 - f, f) - 2.0 * outer + outer.yx;
-    let a = horizon_image(place, layer, first % AZIMUTHS, far);
-    let b = horizon_image(place, layer, (first + 1u) % AZIMUTHS, far);
-    let c = horizon_image(place, layer, (first + 2u) % AZIMUTHS, far);
-    let d = horizon_image(place, layer, (first + 3u) % AZIMUTHS, far);
+    let a = horizon_image(place, layer, first % HORIZON_AZIMUTHS, far);
+    let b = horizon_image(place, layer, (first + 1u) % HORIZON_AZIMUTHS, far);
+    let c = horizon_image(place, layer, (first + 2u) % HORIZON_AZIMUTHS, far);
+    let d = horizon_image(place, layer, (first + 3u) % HORIZON_AZIMUTHS, far);
     return dot(outer, vec2f(a, d)) + dot(inner, vec2f(b, c));
 }
 
@@ -58,8 +53,8 @@ fn exposed(tile: vec4f, slope_axis: vec3f, tile_place: vec2f, tile_far: f32, up:
     let layer = i32(tile.x);
     let place = tile.zw + tile_place * tile.y;
     let far = select(tile_far, 0.0, tile.y < 1.0);
-    let sky = horizon_image(place, layer, AZIMUTHS, far);
-    let sun_mu = dot(up, globals.sun_dir.xyz);
+    let sky = horizon_image(place, layer, HORIZON_AZIMUTHS, far);
+    let sun_mu = dot(up, active_sun.dir);
     let plain = disc_share(sun_mu - horizon_cosine(h), 0.0);
     if plain <= 0.0 { return Exposed(0.0, sky); }
     let over = sun_mu - horizon_sine(place, layer, star_azimuth(slope_axis, up), far);

@@ -12,10 +12,11 @@ const PLACES: array<vec2f, 4> = array<vec2f, 4>(
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let x = (pixel.xy - 0.5) / vec2f(63.0, 15.0);
+    set_lut_sun();
+    let x = (pixel.xy - 0.5) / (IRRADIANCE_SIZE - 1.0);
     let root = x.x * 2.0 - 1.0;
     let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
-    let h = x.y * x.y * globals.air.x * 0.9999;
+    let h = x.y * x.y * body.air_height_km * 0.9999;
     if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
     var sum = vec3f(0.0);
     for (var i = 0u; i < 4u; i++) {

@@ -6,10 +6,6 @@
 #include "border.wgsl"
 #include "material_pattern.wgsl"
 
-// Columns of `biome_params` beside those of the palette: the rock that biomes share, and the rules for all.
-const ROCK: i32 = 64;
-const RULES: i32 = 65;
-
 fn biome_param(id: i32, row: i32) -> vec4f { return textureLoad(biome_params, vec2i(id, row), 0); }
 
 // What decides about the ground at a pixel.
@@ -64,7 +60,7 @@ fn beach_to(edge_m: f32, height_m: f32) -> f32 {
 
 // How much of the ground is beach by height. Where a pixel is wider than a beach, its share of the land that is in the pixel.
 fn beach_by_height(site: Site) -> f32 {
-    let beach = biome_param(RULES, 0);
+    let beach = biome_param(BIOME_RULES, 0);
     if beach.x < 0.0 { return 0.0; }
     let edge_m = beach.y * (1.0 + 0.25 * site.mottle);
     let spread_m = max(site.spread_m, 0.02 * edge_m);
@@ -76,7 +72,7 @@ fn beach_by_height(site: Site) -> f32 {
 
 // How far above the middle of a pixel snow covers all of the ground (x), and how far none (y): metres.
 fn snow_heights(site: Site) -> vec2f {
-    let snow = biome_param(RULES, 1);
+    let snow = biome_param(BIOME_RULES, 1);
     if snow.x < 0.0 { return vec2f(2e9, 1e9); }
     let line_c = snow.y + 0.35 * snow.z * site.mottle;
     // As if the edge were as much softer as temperatures in the pixel differ by its slope.
@@ -88,7 +84,7 @@ fn snow_heights(site: Site) -> vec2f {
 
 // The rules for slopes of the biomes around (rows 5 of their numbers), and of beach and snow.
 fn slope_rules(cells: array<vec4f, 4>, site: Site) -> SlopeRules {
-    let covers = biome_param(RULES, 2);
+    let covers = biome_param(BIOME_RULES, 2);
     let shift = 0.04 * site.mottle;
     let from_x = vec4f(cells[0].y, cells[1].y, cells[2].y, cells[3].y) - shift;
     let to_x = vec4f(cells[0].z, cells[1].z, cells[2].z, cells[3].z) - shift;
@@ -103,17 +99,17 @@ fn biome_of(site: Site) -> i32 {
     var plain = site;
     plain.mottle = 0.0;
     let steep = slope_shares(site.steep, slope_rules(array<vec4f, 4>(rule, rule, rule, rule), plain)).cells.x;
-    if rule.x >= 0.0 && steep > 0.5 && i32(rule.x) != ROCK { id = i32(rule.x); }
+    if rule.x >= 0.0 && steep > 0.5 && i32(rule.x) != BIOME_ROCK { id = i32(rule.x); }
     let rules = covers_hard(plain);
-    if rules.x { id = i32(biome_param(RULES, 0).x); }
-    if rules.y { id = i32(biome_param(RULES, 1).x); }
+    if rules.x { id = i32(biome_param(BIOME_RULES, 0).x); }
+    if rules.y { id = i32(biome_param(BIOME_RULES, 1).x); }
     return id;
 }
 
 fn covers_hard(site: Site) -> vec2<bool> {
-    let beach = biome_param(RULES, 0);
-    let snow = biome_param(RULES, 1);
-    let slopes = biome_param(RULES, 2);
+    let beach = biome_param(BIOME_RULES, 0);
+    let snow = biome_param(BIOME_RULES, 1);
+    let slopes = biome_param(BIOME_RULES, 2);
     let is_beach = beach.x >= 0.0 && abs(site.over_sea_m) < beach.y && site.slope_cosine > 0.5 * (slopes.x + slopes.y);
     let is_snow = snow.x >= 0.0 && site.temperature_c < snow.y && site.slope_cosine > 0.5 * (slopes.z + slopes.w);
     return vec2<bool>(is_beach, is_snow);
@@ -131,10 +127,10 @@ struct Mixture {
 }
 
 fn patch_share(tile_m: f32, patches: f32, site: Site) -> f32 {
-    let lod = log2(site.footprint_m * 64.0 / tile_m);
+    let lod = log2(site.footprint_m * NOISE_TILE_SIDE / tile_m);
     let away = smoothstep(-1.0, 2.5, lod);
     if patches <= 0.0 || away >= 1.0 { return patches; }
-    let at = (globals.eye_wrap_far_m.xyz + site.rel_m) / tile_m;
+    let at = (body.eye_wrap_far_m + site.rel_m) / tile_m;
     let noise = textureSampleLevel(noise_tile, repeated, at.zxy, max(lod, 0.0)).g;
     let edge = min(0.12, min(patches, 1.0 - patches));
     return mix(smoothstep(-edge, edge, patches - noise), patches, away);
@@ -188,8 +184,8 @@ fn cells_at(table: vec2f) -> Cells {
 
 // `steep`: how much of each cell's ground is steep; `cover`: how much is beach and snow.
 fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
-    var ids: array<i32, 10>;
-    var weights: array<f32, 10>;
+    var ids: array<i32, MIXTURE_ENTRIES>;
+    var weights: array<f32, MIXTURE_ENTRIES>;
     let bare = (1.0 - cover.x) * (1.0 - cover.y);
     for (var i = 0; i < 4; i++) {
         let weight = bare * cells.shares[i];
@@ -201,16 +197,16 @@ fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
         ids[2 * i + 1] = select(cells.ids[i], i32(into), into >= 0.0);
         weights[2 * i + 1] = weight * gone;
     }
-    ids[8] = max(i32(biome_param(RULES, 0).x), 0);
+    ids[8] = max(i32(biome_param(BIOME_RULES, 0).x), 0);
     weights[8] = cover.x * (1.0 - cover.y);
-    ids[9] = max(i32(biome_param(RULES, 1).x), 0);
+    ids[9] = max(i32(biome_param(BIOME_RULES, 1).x), 0);
     weights[9] = cover.y;
     // Most often all are the same.
     for (var i = 1; i < 8; i++) {
         if ids[i] == ids[0] { weights[0] += weights[i]; weights[i] = 0.0; }
     }
     var mixture = Mixture(vec3f(0.0), 0.0, 0.0, vec2i(-1), vec2f(0.0), vec3f(0.0), vec3f(0.0));
-    for (var i = 0; i < i32(globals.misc.x); i++) {
+    for (var i = 0; i < i32(frame.mixture_entries); i++) {
         if weights[i] > 0.001 { put(&mixture, ids[i], weights[i], site); }
     }
     return mixture;
@@ -262,14 +258,14 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     patterns[0] = no_pattern();
     patterns[1] = no_pattern();
     for (var i = 0; i < 2; i++) {
-        let shown = select(i == strongest, i == 0 || share > 0.01, globals.eye_wrap_far_m.w > 0.0);
+        let shown = select(i == strongest, i == 0 || share > 0.01, frame.pattern_quality > 0.0);
         if shown { patterns[i] = pattern_of(mixture.ids[i], seen); }
     }
     let a = patterns[0];
     let b = patterns[1];
     var out: Material;
     var t = share;
-    if globals.eye_wrap_far_m.w > 0.0 { t = share_by_height(a, b, share); }
+    if frame.pattern_quality > 0.0 { t = share_by_height(a, b, share); }
     let tinted = mix(mixture.first_color * a.tint, mixture.second_color * b.tint, t);
     out.albedo = max(mixture.albedo + both * (tinted - mix(mixture.first_color, mixture.second_color, share)), vec3f(0.0));
     out.roughness = clamp(mixture.roughness + mix(a.roughness, b.roughness, t), 0.04, 1.0);

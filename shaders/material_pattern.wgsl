@@ -1,11 +1,7 @@
 // The patterns of the ground: a tiling picture for each kind, seen along three axes, at two scales that never repeat together,
 // and carried downhill where it flows. Must match src/render/material_maps.rs and biome_table.rs.
-#include "globals.wgsl"
+#include "uniforms.wgsl"
 #include "tables.wgsl"
-
-const PATTERN_STEEPEST: f32 = 1.25;
-const PATTERN_ROUGHNESS: f32 = 0.5;
-const PATTERN_SIDE: f32 = 256.0;
 
 // A piece of ground as a pixel sees it.
 struct Seen {
@@ -65,7 +61,7 @@ fn plane_shares(n: vec3f) -> vec3f {
     w = w * w * w;
     w /= w.x + w.y + w.z;
     let most = max(w.x, max(w.y, w.z));
-    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), globals.eye_wrap_far_m.w == 0.0);
+    w = select(max(w - 0.08, vec3f(0.0)), vec3f(w == vec3f(most)), frame.pattern_quality == 0.0);
     return w / (w.x + w.y + w.z);
 }
 
@@ -94,7 +90,7 @@ fn heat(seen: Seen, period_m: f32, glow: f32) -> f32 {
     for (var i = 0u; i < 2u; i++) {
         // A whole number of tiles to what the eye's place is wrapped to.
         let tiles = max(round(select(0.09, 0.021, i == 1u) * 1024.0 / period_m), 1.0);
-        let at = (globals.eye_wrap_m.xyz + seen.rel_m) * (tiles / 1024.0);
+        let at = (body.eye_wrap_m + seen.rel_m) * (tiles / 1024.0);
         sum += textureSampleLevel(noise_tile, repeated, at.yzx, max(log2(seen.footprint_m * tiles / 16.0), 0.0)).g;
     }
     // Both are spread evenly over 0 to 1.
@@ -118,12 +114,12 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let downhill = seen.n - seen.up * dot(seen.n, seen.up);
     let steep = length(downhill);
     let way_m = downhill / max(steep, 0.02) * saturate1(0.15 + 3.0 * steep) * 0.5 * size.x;
-    let turn = fract(globals.ray_forward.w * size.z / (0.5 * size.x));
+    let turn = fract(frame.time_secs * size.z / (0.5 * size.x));
 
     let planes = plane_shares(seen.n);
     // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
-    let scales = select(1u, 2u, globals.eye_wrap_far_m.w > 0.0 && lod < 7.0);
-    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, 1u << u32(globals.eye_wrap_far_m.w));
+    let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < 7.0);
+    let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, 1u << u32(frame.pattern_quality));
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
     let copies = axes * scales * steps;
     let taps = copies * select(1u, 2u, flows);
@@ -145,7 +141,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
         let is_x_longer = dot(x, x) > dot(y, y);
         let long_m = select(y, x, is_x_longer);
         let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) / f32(steps));
-        var p = flat_on(globals.eye_wrap_m.xyz + seen.rel_m - carried_m, axis);
+        var p = flat_on(body.eye_wrap_m + seen.rel_m - carried_m, axis);
         p += long_m * ((f32(step) + 0.5) / f32(steps) - 0.5);
         var period_m = size.x;
         if is_fine {

@@ -2,15 +2,9 @@
 // height and climate as the coarser mesh has them. A workgroup for each tile. The same arithmetic as src/lod/morph.rs, which says
 // what it is about.
 
-// Must match src/lod/tile.rs, and src/render/morph.rs.
-const QUADS: u32 = 32u;
-const SIDE: u32 = 33u;
-const VERTICES: u32 = 1089u;
-const VERTEX_WORDS: u32 = 13u;
-const SHOWN_WORDS: u32 = 4u;
+#include "shared.wgsl"
+
 const LANES: u32 = 64u;
-// Must match src/lod/morph.rs.
-const COARSEST_MORPHING: u32 = 4u;
 
 struct Tile {
     first_vertex: u32,
@@ -19,37 +13,25 @@ struct Tile {
     padding: vec2u,
 }
 
-struct Eye {
-    // The eye that vertices come out for, greater part and rest, metres.
-    high_m: vec4f,
-    low_m: vec4f,
-    // Spacings out to which a level always shows, and beyond which it never does; metres of distance for each metre of
-    // error; share of its distance over which a vertex comes out.
-    least: f32,
-    most: f32,
-    reach: f32,
-    width: f32,
-}
-
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
 // For each vertex: shift, metres; moisture and temperature on the level that climate counts from; height, metres.
 @group(0) @binding(1) var<storage, read_write> shown: array<f32>;
 @group(0) @binding(2) var<storage, read> tiles: array<Tile>;
-@group(0) @binding(3) var<uniform> eye: Eye;
+@group(0) @binding(3) var<uniform> eye: MorphEye;
 
 fn three(word: u32) -> vec3f { return vec3f(vertices[word], vertices[word + 1u], vertices[word + 2u]); }
 
 // How far a vertex has come out: 0 not at all, 1 in full.
 fn share_of(word: u32, spacing_m: f32) -> f32 {
-    let rel_m = (three(word) - eye.high_m.xyz) + (three(word + 4u) - eye.low_m.xyz);
+    let rel_m = (three(word) - eye.high_m) + (three(word + VERTEX_LOW) - eye.low_m);
     let distance_m = sqrt(dot(rel_m, rel_m));
-    let foreseen_m = vertices[word + 12u];
-    let begin_m = clamp(foreseen_m * eye.reach, eye.least * spacing_m, eye.most * spacing_m);
-    return saturate((begin_m - distance_m) / (begin_m * eye.width));
+    let foreseen_m = vertices[word + VERTEX_FORESEEN];
+    let begin_m = clamp(foreseen_m * eye.reach, eye.least_spacings * spacing_m, eye.most_spacings * spacing_m);
+    return saturate((begin_m - distance_m) / (begin_m * eye.width_share));
 }
 
 // Climate and height as the vertex itself has them, in the order of `shown`.
-fn own(word: u32) -> vec3f { return vec3f(vertices[word + 8u], vertices[word + 7u], vertices[word + 3u]); }
+fn own(word: u32) -> vec3f { return vec3f(vertices[word + VERTEX_MOISTURE], vertices[word + VERTEX_TEMPERATURE], vertices[word + VERTEX_HEIGHT]); }
 
 fn shown_of(word: u32) -> vec3f { return vec3f(shown[word + 1u], shown[word + 2u], shown[word + 3u]); }
 
@@ -58,16 +40,16 @@ fn show(word: u32, shift_m: f32, rest: vec3f) {
     for (var i = 0u; i < 3u; i++) { shown[word + 1u + i] = rest[i]; }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(LANES)
 fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let tile = tiles[group.x];
     let first = tile.first_vertex;
-    for (var i = lane; i < VERTICES; i += LANES) {
+    for (var i = lane; i < TILE_VERTICES; i += LANES) {
         show((first + i) * SHOWN_WORDS, 0.0, own((first + i) * VERTEX_WORDS));
     }
     for (var stride = COARSEST_MORPHING; stride > 0u; stride /= 2u) {
         storageBarrier();
-        let side = QUADS / stride + 1u;
+        let side = TILE_QUADS / stride + 1u;
         for (var i = lane; i < side * side; i += LANES) {
             let x = i % side;
             let y = i / side;
@@ -77,13 +59,13 @@ fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
             let turned = odd.x == 1u && odd.y == 1u && ((x / 2u + y / 2u) & 1u) == 1u;
             let from_x = select(x - odd.x, x + odd.x, turned);
             let to_x = select(x + odd.x, x - odd.x, turned);
-            let a = first + ((y - odd.y) * SIDE + from_x) * stride;
-            let b = first + ((y + odd.y) * SIDE + to_x) * stride;
-            let v = first + (y * SIDE + x) * stride;
+            let a = first + ((y - odd.y) * TILE_SIDE + from_x) * stride;
+            let b = first + ((y + odd.y) * TILE_SIDE + to_x) * stride;
+            let v = first + (y * TILE_SIDE + x) * stride;
             let word = v * VERTEX_WORDS;
             let share = share_of(word, tile.spacing_m * f32(stride));
             let ends_m = shown[a * SHOWN_WORDS] + shown[b * SHOWN_WORDS];
-            let shift_m = 0.5 * ends_m - (1.0 - share) * vertices[word + 11u];
+            let shift_m = 0.5 * ends_m - (1.0 - share) * vertices[word + VERTEX_DEVIATION];
             let deviation = own(word) - 0.5 * (own(a * VERTEX_WORDS) + own(b * VERTEX_WORDS));
             let rest = 0.5 * (shown_of(a * SHOWN_WORDS) + shown_of(b * SHOWN_WORDS)) + share * deviation;
             show(v * SHOWN_WORDS, shift_m, rest);

@@ -1,10 +1,7 @@
 // Natural unevenness of ground and ice: octaves of a tiling noise with mip levels. The mip level follows the pixel's
 // footprint, so that what is finer than a pixel gives exactly its mean: no shimmer, and no change of colour with distance.
-#include "globals.wgsl"
+#include "uniforms.wgsl"
 #include "tables.wgsl"
-
-// From one octave to the next; the same as in globals.rs. Turned octaves never repeat together along an axis.
-const OCTAVE_TURN: mat3x3f = mat3x3f(vec3f(0.36, -0.8, 0.48), vec3f(0.48, 0.6, 0.64), vec3f(-0.8, 0.0, 0.6));
 
 // Height of the bumps of an octave, as a share of its period.
 const BUMPS: f32 = 0.02;
@@ -12,17 +9,17 @@ const BUMPS: f32 = 0.02;
 // How much of an octave is shown: it fades before its tile is so small that one sees it repeat.
 fn octave_share(lod: f32) -> f32 { return 1.0 - smoothstep(-0.5, 3.0, lod); }
 
-fn octave_at(octave: vec4f, place: vec3f, lod: f32) -> f32 {
-    return textureSampleLevel(noise_tile, repeated, octave.xyz + place / octave.w, lod).g;
+fn octave_at(octave: Octave, place: vec3f, lod: f32) -> f32 {
+    return textureSampleLevel(noise_tile, repeated, octave.offset + place / octave.period, lod).g;
 }
 
 // About -1 to 1 with mean 0, at a point relative to the eye; `footprint_m`: width of a pixel there.
 fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
     var sum = 0.0;
     var place = rel_m;
-    for (var i = 0u; i < 7u; i++) {
-        let octave = globals.mottle[i];
-        let lod = log2(footprint_m * 64.0 / octave.w);
+    for (var i = 0u; i < MOTTLE_OCTAVES; i++) {
+        let octave = body.mottle[i];
+        let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
         sum += (octave_at(octave, place, lod) - 0.5) * share;
@@ -37,17 +34,17 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
     var rise = vec2f(0.0);
     var place = rel_m;
     var along = tangents;
-    for (var i = 0u; i < 7u; i++) {
-        let octave = globals.mottle[i];
-        let lod = log2(footprint_m * 64.0 / octave.w);
+    for (var i = 0u; i < MOTTLE_OCTAVES; i++) {
+        let octave = body.mottle[i];
+        let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
         if i >= 3u {
-            let step_m = max(octave.w / 64.0, 0.5 * footprint_m);
+            let step_m = max(octave.period / NOISE_TILE_SIDE, 0.5 * footprint_m);
             for (var axis = 0u; axis < 2u; axis++) {
                 let aside = along[axis] * step_m;
                 let risen = octave_at(octave, place + aside, lod) - octave_at(octave, place - aside, lod);
-                rise[axis] += risen * share * BUMPS * octave.w / (2.0 * step_m);
+                rise[axis] += risen * share * BUMPS * octave.period / (2.0 * step_m);
             }
         }
         place = OCTAVE_TURN * place;
@@ -61,12 +58,12 @@ fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = vec2f(0.0);
     var place = rel_m;
     for (var i = 0u; i < 4u; i++) {
-        let octave = globals.mottle[i];
-        let lod = log2(footprint_m * 64.0 / octave.w);
+        let octave = body.mottle[i];
+        let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
         if i >= 1u {
-            sum += (textureSampleLevel(noise_tile, repeated, (octave.xyz + place / octave.w).yzx, lod).rg - 0.5) * share;
+            sum += (textureSampleLevel(noise_tile, repeated, (octave.offset + place / octave.period).yzx, lod).rg - 0.5) * share;
         }
         place = OCTAVE_TURN * place;
     }

@@ -26,11 +26,12 @@ const STEPS: u32 = 14u;
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let x = (pixel.xy - 0.5) / 31.0;
+    set_lut_sun();
+    let x = (pixel.xy - 0.5) / (MULTISCATTER_SIZE - 1.0);
     let root = x.x * 2.0 - 1.0;
     let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
-    let radius = globals.eye_km.w;
-    let top = globals.air.x;
+    let radius = body.radius_km;
+    let top = body.air_height_km;
     let h = clamp(x.y * x.y * top, top * 1e-5, top * 0.9999);
     if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
     let sun_flat = sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
@@ -70,7 +71,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         if hits {
             let mus = clamp(((radius + h) * sun_mu + way * cosines) / radius, vec2f(-1.0), vec2f(1.0));
             let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0) + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
-            second += transmittance * light * globals.ground_albedo.rgb * (share / (2.0 * PI));
+            second += transmittance * light * body.ground_albedo * (share / (2.0 * PI));
         }
     }
     // Each further scattering returns the same share, so the sum is a geometric series.

@@ -5,9 +5,9 @@
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let x = (pixel.xy - 0.5) / (DEPTH_SIZE - 1.0);
-    let radius = globals.eye_km.w;
-    let top = globals.air.x;
+    let x = (pixel.xy - 0.5) / (OPTICAL_DEPTH_SIZE - 1.0);
+    let radius = body.radius_km;
+    let top = body.air_height_km;
     // The inverse of depth_uv.
     let horizon2 = top * (2.0 * radius + top);
     let rho = x.y * sqrt(horizon2);

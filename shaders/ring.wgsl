@@ -4,8 +4,8 @@
 // Mean radiance of the sky at a cosine to the zenith (0 to 1) over all azimuths, from an altitude, for unit irradiance. One march
 // serves all azimuths. `around`: points along half of the ring; the other half is its mirror image.
 fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
-    let radius = globals.eye_km.w;
-    let top = globals.air.x;
+    let radius = body.radius_km;
+    let top = body.air_height_km;
     let b = (radius + h) * mu;
     let way = max(ray_sphere(b, (h - top) * (2.0 * radius + h + top)).y, 0.0);
     let step = sqrt(way) / f32(steps);

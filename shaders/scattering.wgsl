@@ -3,8 +3,8 @@
 
 // Part of a ray within the air: from, to, in km; to <= from when there is none.
 fn way_through_air(h: f32, mu: f32, far: f32) -> vec2f {
-    let radius = globals.eye_km.w;
-    let top = globals.air.x;
+    let radius = body.radius_km;
+    let top = body.air_height_km;
     let shell = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
     return vec2f(max(shell.x, 0.0), min(shell.y, far));
 }
@@ -22,7 +22,7 @@ fn air_light(
     h: f32, up: vec3f, dir: vec3f, sun: vec3f, far: f32, steps: f32, cloud_at: f32, cloud_through: f32,
 ) -> AirLight {
     var out = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
-    let radius = globals.eye_km.w;
+    let radius = body.radius_km;
     let mu = dot(dir, up);
     let way = way_through_air(h, mu, far);
     if way.y <= way.x { return out; }
@@ -65,7 +65,7 @@ fn air_light(
 
 // The same down to the smooth ground or out into space, without clouds.
 fn scattered_from(h: f32, up: vec3f, dir: vec3f, sun: vec3f, steps: f32) -> vec3f {
-    let radius = globals.eye_km.w;
+    let radius = body.radius_km;
     let mu = dot(dir, up);
     let ground = ray_sphere((radius + h) * mu, h * (2.0 * radius + h));
     let far = select(NOTHING_KM, ground.x, mu < 0.0 && ground.x >= 0.0 && ground.y >= ground.x);

@@ -1,5 +1,5 @@
 // A triangle over the whole target, and the ray through each pixel.
-#include "globals.wgsl"
+#include "uniforms.wgsl"
 
 @vertex
 fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -7,11 +7,10 @@ fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f 
     return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 
-// From a pixel to the next one to the right (`half_picture`: `ray_right`) or below (minus `ray_up`) along a plane with normal `n`
-// through the point `rel_m`, metres.
-fn pixel_step(rel_m: vec3f, n: vec3f, half_picture: vec4f) -> vec3f {
-    let away_m = dot(rel_m, globals.ray_forward.xyz);
-    let across = half_picture.xyz * (2.0 / half_picture.w);
+// Offset in metres from the point `rel_m` of a plane with normal `n` to the point of the plane one pixel aside. `across`: step of the
+// pixel's ray, `body.pixel_right` or `body.pixel_up`.
+fn pixel_step(rel_m: vec3f, n: vec3f, across: vec3f) -> vec3f {
+    let away_m = dot(rel_m, body.view_axis);
     let ray = rel_m / away_m;
     // A plane seen nearly along itself would step to infinity.
     let towards = max(-dot(ray, n), 0.02 * length(ray));
@@ -20,7 +19,6 @@ fn pixel_step(rel_m: vec3f, n: vec3f, half_picture: vec4f) -> vec3f {
 
 // Ray through a pixel of the scene, not normalised: one unit of it is one unit of depth.
 fn pixel_ray(pixel: vec2f) -> vec3f {
-    let size = vec2f(globals.ray_right.w, globals.ray_up.w);
-    let ndc = (pixel / size) * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
-    return globals.ray_forward.xyz + globals.ray_right.xyz * ndc.x + globals.ray_up.xyz * ndc.y;
+    let ndc = (pixel - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
+    return body.ray_center + body.ray_right * ndc.x + body.ray_up * ndc.y;
 }

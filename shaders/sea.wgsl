@@ -4,9 +4,9 @@
 
 // Heights of three sets of wave groups, some hundred metres wide; the mean of their squares is 1. `footprint_m`: width of a pixel there.
 fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
-    let octave = globals.mottle[2];
-    let lod = max(log2(footprint_m * 64.0 / octave.w), 0.0);
-    let at = octave.xyz + rel_m / octave.w;
+    let octave = body.mottle[2];
+    let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
+    let at = octave.offset + rel_m / octave.period;
     let first = textureSampleLevel(noise_tile, repeated, at.zxy * 4.0, lod + 2.0).rg;
     let second = textureSampleLevel(noise_tile, repeated, at.yzx * 4.0, lod + 2.0).r;
     return saturate(vec3f(first, second) * 3.0 - 1.0) * 1.5;
@@ -23,7 +23,7 @@ struct Waves {
 // `step_x`, `step_y`: from pixel to pixel along the sea, metres. `broad`: slow noise that makes crests wander. It must change little
 // over a wavelength, or crests follow the contours of the noise like the grain of wood.
 fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -> Waves {
-    let total = globals.water_color.w;
+    let total = body.wave_slope_variance;
     var slope = vec3f(0.0);
     var seen = 0.0;
     if min(length(step_x), length(step_y)) < 20.0 {
@@ -32,14 +32,14 @@ fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -
         var twist = broad * 16.0;
         // Its gradient: bent crests lie closer together here and there, and fade where they do.
         var twist_k = vec3f(0.0);
-        let each = 0.75 * total / 16.0;
+        let each = 0.75 * total / f32(WAVES);
         // Waves come in groups: one long wave alone would be a grid of straight lines.
         let groups = wave_groups(rel_m, min(length(step_x), length(step_y)));
-        for (var i = 0u; i < 16u; i++) {
-            let wave = globals.waves[i];
-            let along = wave.xyz - up * dot(wave.xyz, up);
+        for (var i = 0u; i < WAVES; i++) {
+            let wave = body.waves[i];
+            let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
             let k = length(along);
-            let phase = dot(wave.xyz, rel_m) + wave.w + twist;
+            let phase = dot(wave.vector_per_m, rel_m) + wave.phase + twist;
             let bent_k = along + twist_k;
             let cycles = max(max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y))), max(abs(dot(along, step_x)), abs(dot(along, step_y)))) / (2.0 * PI);
             twist = 1.3 * sin(phase) + 0.4 * twist;
@@ -80,5 +80,5 @@ fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
 // Share of the sea that is frozen at a temperature, with an edge that noise breaks up.
 fn frozen(temperature_c: f32, mottle: f32, broad: f32) -> f32 {
     let broken = temperature_c + broad * 3.0 + mottle * 1.2;
-    return 1.0 - smoothstep(-0.4, 0.4, broken - globals.ice_color.w);
+    return 1.0 - smoothstep(-0.4, 0.4, broken - body.freezing_c);
 }

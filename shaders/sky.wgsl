@@ -4,7 +4,8 @@
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    let x = (pixel.xy - 0.5) / vec2f(63.0, 19.0);
+    set_lut_sun();
+    let x = (pixel.xy - 0.5) / (SKY_SIZE - 1.0);
     let root = x.x * 2.0 - 1.0;
     let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
     if all_is_dark(0.0, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }

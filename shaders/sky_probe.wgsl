@@ -12,11 +12,12 @@ struct Answer {
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> Answer {
+    set_lut_sun();
     let ray = textureLoad(rays, vec2i(i32(pixel.x), 0), 0);
     let sun = textureLoad(rays, vec2i(i32(pixel.x), 1), 0).xyz;
     var answer = Answer(vec4f(0.0), vec4f(0.0));
-    if globals.air.x > 0.0 {
-        answer.radiance = vec4f(scattered_from(ray.w, vec3f(0.0, 0.0, 1.0), ray.xyz, sun, globals.air.z), 0.0);
+    if body.air_height_km > 0.0 {
+        answer.radiance = vec4f(scattered_from(ray.w, vec3f(0.0, 0.0, 1.0), ray.xyz, sun, frame.air_steps), 0.0);
     }
     if sun.z >= horizon_cosine(ray.w) { answer.transmittance = vec4f(clear_transmittance(ray.w, sun.z), 0.0); }
     return answer;

@@ -1,27 +1,24 @@
-// What the ray through a pixel meets first: terrain (from depth) or the analytic sphere of the sea.
+// What the ray through a pixel meets first, by depth, and where it meets the sphere of the sea.
 #include "screen.wgsl"
 #include "math.wgsl"
 
 @group(2) @binding(0) var scene_color: texture_2d<f32>;
 @group(2) @binding(1) var scene_depth: texture_depth_2d;
 
-// Distance to the terrain in km along a ray of length `ray_length` at unit depth; NOTHING_KM for none.
-fn terrain_distance(pixel: vec2i, ray_length: f32) -> f32 {
+// Distance in km along a ray of length `ray_length` at unit depth; NOTHING_KM for none.
+fn surface_distance(pixel: vec2i, ray_length: f32) -> f32 {
     let depth = textureLoad(scene_depth, pixel, 0);
     if depth <= 0.0 { return NOTHING_KM; }
-    return globals.eye_high_m.w / depth * ray_length * 0.001;
+    return frame.near_m / depth * ray_length * 0.001;
 }
+
+// The inverse.
+fn depth_at(distance_km: f32, ray_length: f32) -> f32 { return frame.near_m * ray_length / (distance_km * 1000.0); }
 
 // Near and far distance to the sea's sphere, far < near for none.
 fn sea_hits(dir: vec3f) -> vec2f {
-    if globals.water_absorption.w <= 0.0 { return vec2f(1.0, -1.0); }
-    let h = globals.water.y;
-    let radius = globals.eye_km.w + globals.water.x;
-    return ray_sphere((radius + h) * dot(dir, globals.eye_up.xyz), h * (2.0 * radius + h));
-}
-
-fn surface_distance(pixel: vec2i, dir: vec3f, ray_length: f32) -> f32 {
-    let terrain = terrain_distance(pixel, ray_length);
-    let sea = sea_hits(dir);
-    return select(terrain, min(terrain, sea.x), sea.y >= sea.x && sea.x > 0.0);
+    if body.has_sea == 0u { return vec2f(1.0, -1.0); }
+    let h = body.eye_over_sea_km;
+    let radius = body.radius_km + body.sea_level_km;
+    return ray_sphere((radius + h) * dot(dir, body.eye_up), h * (2.0 * radius + h));
 }

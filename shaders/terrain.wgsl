@@ -49,9 +49,6 @@ struct Ground {
     @location(13) @interpolate(flat) horizon: vec4f,
 }
 
-// Vertices along the side of a tile; must match src/lod/tile.rs.
-const TILE_SIDE: u32 = 33u;
-
 // Octahedral normal (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
 fn from_octahedral(e: vec2f) -> vec3f {
     var v = vec3f(e, 1.0 - abs(e.x) - abs(e.y));
@@ -66,10 +63,10 @@ fn from_octahedral(e: vec2f) -> vec3f {
 fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     var out: Ground;
     // High and low parts apart: equal points give equal bits in every tile.
-    out.rel_m = (in.high_m - globals.eye_high_m.xyz) + (in.low_m - globals.eye_low_m.xyz);
+    out.rel_m = (in.high_m - body.eye_high_m) + (in.low_m - body.eye_low_m);
     out.rel_m += in.shift_m * normalize(in.high_m);
-    out.position = globals.clip_from_rel_m * vec4f(out.rel_m, 1.0);
-    let chosen_rel_m = (in.high_m - globals.chosen_eye_high_m.xyz) + (in.low_m - globals.chosen_eye_low_m.xyz);
+    out.position = body.clip_from_rel_m * vec4f(out.rel_m, 1.0);
+    let chosen_rel_m = (in.high_m - body.chosen_eye_high_m) + (in.low_m - body.chosen_eye_low_m);
     out.chosen_distance_m = length(chosen_rel_m);
     out.normal = from_octahedral(in.normal_oct);
     out.parent_normal = from_octahedral(in.parent_normal_oct);
@@ -89,7 +86,7 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
 }
 
 // From vertex to vertex of a level, metres.
-fn spacing_m(level: f32) -> f32 { return 0.5 * PI * globals.eye_km.w * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(level)); }
+fn spacing_m(level: f32) -> f32 { return 0.5 * PI * body.radius_km * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(level)); }
 
 // How far the parent has taken over at a distance.
 fn faded(range_m: vec2f, distance_m: f32) -> f32 {
@@ -152,11 +149,11 @@ struct Climate {
 
 // At a height, as src/terrain/climate.rs has it: higher ground is colder and drier, from the surface of the sea on.
 fn climate_at(in: Ground, height_m: f32) -> Climate {
-    let over_m = height_m - select(0.0, globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    let over_m = height_m - select(0.0, body.sea_level_km * 1000.0, body.has_sea != 0u);
     let above_m = max(over_m, 0.0);
-    let temperature_c = in.level_climate.y - above_m * globals.eye_wrap_m.w;
-    let row = globals.climate.x + globals.climate.y * temperature_c + globals.climate.z * over_m;
-    return Climate(temperature_c, saturate1(in.level_climate.x + above_m * globals.climate.w), saturate1(row));
+    let temperature_c = in.level_climate.y - above_m * body.lapse_c_per_m;
+    let row = body.row_offset + body.row_per_c * temperature_c + body.row_per_m * over_m;
+    return Climate(temperature_c, saturate1(in.level_climate.x + above_m * body.moisture_per_m), saturate1(row));
 }
 
 // Tilts a normal by the small bumps of the ground.
@@ -169,19 +166,19 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
 
 // What decides about the ground at a pixel. `at`: its place in the table.
 fn site_of(in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32) -> Site {
-    let over_sea_m = select(1e9, relief.height_m - globals.water.x * 1000.0, globals.water_absorption.w > 0.0);
+    let over_sea_m = select(1e9, relief.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
     // See `climate_at`.
-    let colder = select(0.0, globals.eye_wrap_m.w, over_sea_m > 0.0);
-    let drier = select(0.0, globals.climate.w, over_sea_m > 0.0);
-    let by_height = vec3f(drier, globals.climate.y * colder - globals.climate.z, -colder);
+    let colder = select(0.0, body.lapse_c_per_m, over_sea_m > 0.0);
+    let drier = select(0.0, body.moisture_per_m, over_sea_m > 0.0);
+    let by_height = vec3f(drier, body.row_per_c * colder - body.row_per_m, -colder);
     return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m, by_height, footprint_m, mottle);
 }
 
 // The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
 fn seabed(ground: Material, site: Site) -> Material {
-    if globals.water_absorption.w <= 0.0 { return ground; }
+    if body.has_sea == 0u { return ground; }
     var out = ground;
-    let beach = biome_param(RULES, 0).x;
+    let beach = biome_param(BIOME_RULES, 0).x;
     var sand = vec3f(0.36, 0.31, 0.22);
     if beach >= 0.0 { sand = biome_param(i32(beach), 0).rgb; }
     let depth_m = -site.over_sea_m;
@@ -274,7 +271,7 @@ fn spacing_color(pixels: f32) -> vec3f {
 
 // Pixels from one vertex to the next, where the ground is seen head on from the eye that the tile was chosen for.
 fn spacing_pixels(in: Ground) -> f32 {
-    return spacing_m(in.level) / max(in.chosen_distance_m * globals.chosen_eye_low_m.w, 1e-9);
+    return spacing_m(in.level) / max(in.chosen_distance_m * body.chosen_pixel_rad, 1e-9);
 }
 
 // 1 at the tile's border, over about one and a half pixels on its own side.
@@ -291,25 +288,67 @@ fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
     let edge = border(in);
     let climate = climate_at(in, in.height_m);
     let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
-    switch globals.modes.x {
-        case 1u: {
-            let span = max(globals.misc.z - globals.misc.y, 1.0);
-            return ramp((in.height_m - globals.misc.y) / span) * lit;
+    switch frame.debug_view {
+        case VIEW_HEIGHT: {
+            let span = max(body.height_range_m.y - body.height_range_m.x, 1.0);
+            return ramp((in.height_m - body.height_range_m.x) / span) * lit;
         }
-        case 2u: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
-        case 3u: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
-        case 4u: {
+        case VIEW_NORMAL: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
+        case VIEW_SLOPE: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
+        case VIEW_BIOME: {
             let site = site_of(in, relief, up, climate.temperature_c, place, 1.0, 0.0);
             return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
         }
-        case 5u: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
-        case 6u: { return moisture_color(climate.moisture) * lit; }
-        case 7u: { return level_color(in.level) * lit; }
-        case 8u: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
-        case 9u: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
-        case 10u: { return spacing_color(spacing_pixels(in)) * lit; }
+        case VIEW_TEMPERATURE: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
+        case VIEW_MOISTURE: { return moisture_color(climate.moisture) * lit; }
+        case VIEW_LOD: { return level_color(in.level) * lit; }
+        case VIEW_TILE_BORDERS: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
+        case VIEW_WIREFRAME: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        case VIEW_ERROR: { return spacing_color(spacing_pixels(in)) * lit; }
         default: { return vec3f(1.0); }
     }
+}
+
+// The ground at a pixel as light meets it.
+struct Facet {
+    n: vec3f,
+    // Normal of the pattern's tilt, and its area over that of level ground
+    tilted: vec3f,
+    area: f32,
+    // Towards the eye
+    v: vec3f,
+    up: vec3f,
+    rel_km: vec3f,
+    altitude_km: f32,
+    footprint_km: f32,
+}
+
+// Radiance that the ground reflects of the active sun and of the sky that this sun lights.
+fn lit(ground: Material, facet: Facet, from_ground: Exposed) -> vec3f {
+    let sun = active_sun.dir;
+    let n = facet.tilted;
+    let tilted_l = lit_cosine(dot(n, sun));
+    let n_v = max(dot(facet.n, facet.v), 0.0);
+    let rough = rough_diffuse(max(dot(facet.n, sun), 0.0), n_v, dot(sun, facet.v), tilted_l, ground.roughness);
+    let sun_mu = dot(facet.up, sun);
+    let sunlight = active_sun.irradiance * sun_transmittance(facet.altitude_km, sun_mu);
+    var shadow = 1.0;
+    if sun_mu > -0.1 { shadow = cloud_shadow(facet.rel_km, facet.altitude_km, sun_mu, facet.footprint_km); }
+    let sky_share = overcast(shadow);
+    shadow *= from_ground.star;
+    let sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
+    let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky;
+    // Light that the ground around reflects to a slope that does not see the whole sky.
+    let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
+    let glint = mirrored(n, facet.v, sun, ground.roughness, ground.specular);
+    return ground.albedo * (sunlight * shadow * tilted_l * rough * facet.area + (sky * open + bounce) / PI)
+        + sunlight * shadow * glint.x + sky * open * glint.y / PI;
+}
+
+// Share of the active sun and of the sky that the ground around leaves at a pixel.
+fn exposed_at(in: Ground, up: vec3f) -> Exposed {
+    let altitude_km = max(in.height_m, body.sea_level_km * 1000.0) * 0.001;
+    return exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, altitude_km);
 }
 
 // Radiance; height over the sea; how far the ground within the pixel goes above and below that.
@@ -321,25 +360,25 @@ struct Shaded {
 
 fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let rel_km = on_mesh.rel_m * 0.001;
-    let up = normalize(globals.eye_km.xyz + rel_km);
+    let up = normalize(body.eye_km + rel_km);
     // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
     // The vertices' normals bend from triangle to triangle without a step; the triangles themselves would show as stripes.
     let mesh_normal = normalize(on_mesh.normal);
-    let rel_x = pixel_step(on_mesh.rel_m, mesh_normal, globals.ray_right);
-    let rel_y = pixel_step(on_mesh.rel_m, mesh_normal, -globals.ray_up);
+    let rel_x = pixel_step(on_mesh.rel_m, mesh_normal, body.pixel_right);
+    let rel_y = pixel_step(on_mesh.rel_m, mesh_normal, body.pixel_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let at = vec3f(on_mesh.place.zw * (DETAIL_SIDE - 1.0), on_mesh.height_m);
     // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
-    let exact = globals.modes.x == 4u;
+    let exact = frame.debug_view == VIEW_BIOME;
     let share = select(1.0, 0.0, exact);
     let step = Step(share * dpdx(at), share * dpdy(at));
     let relief = relief_of(on_mesh, up, select(footprint_m, 1e-6, exact), step, select(2.0, 1.0, exact));
     var in = on_mesh;
     in.height_m = relief.height_m;
     var n = relief.normal;
-    let sea_level_m = globals.water.x * 1000.0;
+    let sea_level_m = body.sea_level_km * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if globals.modes.x != 0u && globals.modes.x != 12u { return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m); }
+    if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO { return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m); }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
@@ -349,34 +388,21 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
     let site = site_of(in, relief, up, climate.temperature_c, place, footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
-    if globals.modes.x == 12u { return Shaded(ground.albedo, over_sea_m, relief.spread_m); }
+    if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, relief.spread_m); }
     n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
     // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
     let tilt = ground.slope - n * dot(n, ground.slope);
     let area = sqrt(1.0 + dot(tilt, tilt));
-    let sun = globals.sun_dir.xyz;
-    let tilted = (n - tilt) / area;
-    let tilted_l = lit_cosine(dot(tilted, sun));
-    let rough = rough_diffuse(max(dot(n, sun), 0.0), max(dot(n, v), 0.0), dot(sun, v), tilted_l, ground.roughness);
-    n = tilted;
-
-    let sun_mu = dot(up, sun);
-    let h = max(in.height_m * 0.001, 0.0);
-    let sunlight = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu);
-    var shadow = 1.0;
-    if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
-    let sky_share = overcast(shadow);
-    shadow *= from_ground.star;
-    let diffuse = tilted_l * rough;
-    let sky = sky_irradiance(h, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
-    let open = saturate1(0.5 + 0.5 * dot(n, up) * area) * from_ground.sky;
-    // What the ground around sends back to a slope that does not see the whole sky.
-    let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
-    let glint = mirrored(n, v, sun, ground.roughness, ground.specular);
-    let radiance = ground.albedo * (sunlight * shadow * diffuse * area + (sky * open + bounce) / PI)
-        + sunlight * shadow * glint.x + sky * open * glint.y / PI + ground.glow;
-    let shown = lit_up(radiance, place, globals.sun_irradiance.rgb / PI);
+    let facet = Facet(n, (n - tilt) / area, area, v, up, rel_km, max(in.height_m * 0.001, 0.0), footprint_m * 0.001);
+    var radiance = ground.glow;
+    for (var i = 0u; i < body.sun_count; i++) {
+        use_sun(i);
+        var from_here = from_ground;
+        if i > 0u { from_here = exposed_at(on_mesh, up); }
+        radiance += lit(ground, facet, from_here);
+    }
+    let shown = lit_up(radiance, place, body.suns[0].irradiance / PI);
     return Shaded(min(shown, vec3f(60000.0)), over_sea_m, relief.spread_m);
 }
 
@@ -390,8 +416,9 @@ struct Output {
 
 @fragment
 fn fragment(in: Ground) -> Output {
-    let up = normalize(globals.eye_km.xyz + in.rel_m * 0.001);
-    let from_ground = exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, max(in.height_m, globals.water.x * 1000.0) * 0.001);
+    let up = normalize(body.eye_km + in.rel_m * 0.001);
+    use_sun(0u);
+    let from_ground = exposed_at(in, up);
     let shaded = shade(in, from_ground);
     return Output(vec4f(shaded.radiance, shaded.over_sea_m), vec4f(in.level_climate.y, 1.0 - from_ground.star, min(shaded.spread_m, 60000.0), 0.0));
 }

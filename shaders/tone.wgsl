@@ -2,28 +2,6 @@
 // each is told of.
 #include "math.wgsl"
 
-const AGX_IN: mat3x3f = mat3x3f(
-    vec3f(0.842479062253094, 0.0423282422610123, 0.0423756549057051),
-    vec3f(0.0784335999999992, 0.878468636469772, 0.0784336),
-    vec3f(0.0792237451477643, 0.0791661274605434, 0.879142973793104)
-);
-const AGX_OUT: mat3x3f = mat3x3f(
-    vec3f(1.19687900512017, -0.0528968517574562, -0.0529716355144438),
-    vec3f(-0.0980208811401368, 1.15190312990417, -0.0980434501171241),
-    vec3f(-0.0990297440797205, -0.0989611768448433, 1.15107367264116)
-);
-
-// The curve of each channel over stops about AGX_PIVOT: a line of slope AGX_SLOPE in the middle that bends towards black and white.
-const AGX_PIVOT: f32 = 0.2;
-const AGX_PIVOT_CODE: f32 = 0.5;
-const AGX_SLOPE: f32 = 0.26;
-// Of the toe at 24 stops below the pivot.
-const AGX_BLACK: f32 = 0.007;
-const AGX_TOE: f32 = 1.5;
-const AGX_SHOULDER: f32 = 6.0;
-// Factor on the difference from grey.
-const AGX_SATURATION: f32 = 0.92;
-
 // From 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
 fn bend(x: vec3f, power: f32) -> vec3f { return x / pow(1.0 + pow(x, vec3f(power)), vec3f(1.0 / power)); }
 
@@ -54,8 +32,8 @@ fn neutral(radiance: vec3f) -> vec3f {
 
 fn toned(radiance: vec3f, tone: u32) -> vec3f {
     switch tone {
-        case 0u: { return agx(radiance); }
-        case 1u: { return neutral(radiance); }
+        case TONE_AGX: { return agx(radiance); }
+        case TONE_NEUTRAL: { return neutral(radiance); }
         default: { return saturate(radiance); }
     }
 }

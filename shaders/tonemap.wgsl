@@ -12,8 +12,8 @@
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let radiance = textureLoad(hdr, vec2i(position.xy), 0).rgb;
-    if globals.modes.x != 0u { return vec4f(saturate(radiance), 1.0); }
+    if frame.debug_view != VIEW_SHADED { return vec4f(saturate(radiance), 1.0); }
     let points = textureLoad(stars, vec2i(position.xy), 0).rgb;
-    let shown = toned((radiance * globals.white.rgb * metered.x + points * points) * globals.misc.w, globals.modes.w);
+    let shown = toned((radiance * frame.white * metered.x + points * points) * frame.exposure, frame.tone);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));
 }

@@ -8,14 +8,14 @@
 
 // Light that comes out of the water: the floor through it, and what the water itself sends back. `depths_m`: least and greatest in the
 // pixel.
-fn body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
+fn water_body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
     // Snell: the way under water is steeper than over it.
     let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769) + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
-    let shallow = globals.water_absorption.rgb * min(way * depths_m.x, 1e5);
-    let deeper = globals.water_absorption.rgb * min(way * (depths_m.y - depths_m.x), 1e5);
+    let shallow = body.water_absorption_per_m * min(way * depths_m.x, 1e5);
+    let deeper = body.water_absorption_per_m * min(way * (depths_m.y - depths_m.x), 1e5);
     // Mean over all depths between.
     let left = exp(-shallow) * select((1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3)), 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
-    return floor * left + globals.water_color.rgb * downwelling / PI * (1.0 - left);
+    return floor * left + body.water_color * downwelling / PI * (1.0 - left);
 }
 
 // Deeper water has no foam.
@@ -35,72 +35,100 @@ fn foam_between(depths_m: vec2f) -> f32 {
 // `depths_m`: least and greatest depth of what is wet of the pixel; what lines the shore would sparkle if its middle told all.
 fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temperature_c: f32, star: f32) -> vec3f {
     let distance_km = length(rel_km);
-    let up = normalize(globals.eye_km.xyz + rel_km);
+    let up = normalize(body.eye_km + rel_km);
     let view_mu = clamp(-dot(up, dir), 0.0, 1.0);
-    let sun = globals.sun_dir.xyz;
-    let sun_mu = dot(up, sun);
-    let footprint_m = distance_km * 1000.0 * globals.eye_low_m.w / max(sqrt(view_mu), 0.1);
-    let h = max(globals.water.x, 0.0);
-    let sunlight = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu);
-    var shadow = 1.0;
-    if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
-    let share = overcast(shadow);
-    shadow *= star;
-    let diffused = sunlight * max(sun_mu, 0.0) * share.y;
-    let sky = sky_irradiance(h, sun_mu) * share.x + diffused;
-    let downwelling = sunlight * shadow * max(sun_mu, 0.0) + sky;
-
+    let footprint_m = distance_km * 1000.0 * frame.pixel_rad / max(sqrt(view_mu), 0.1);
+    let h = max(body.sea_level_km, 0.0);
     let rel_m = rel_km * 1000.0;
     let mottle = mottle_at(rel_m, footprint_m);
     let broad = border_jitter(rel_m, footprint_m).x;
     let ice = frozen(temperature_c, mottle, broad);
-    var water = vec3f(0.0);
+    // The sun that lights the way down through the water: the first.
+    let first_mu = max(dot(up, body.suns[0].dir), 0.0);
+    var waves = Waves(up, 0.0);
+    var fresnel = 0.0;
+    var mirror_mu = 0.0;
     if ice < 1.0 {
-        let waves = waves_at(rel_m, up, pixel_step(rel_m, up, globals.ray_right), pixel_step(rel_m, up, -globals.ray_up), border_jitter(rel_m, max(footprint_m, 15.0)).x);
-        let fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
+        waves = waves_at(rel_m, up, pixel_step(rel_m, up, body.pixel_right), pixel_step(rel_m, up, body.pixel_up), border_jitter(rel_m, max(footprint_m, 15.0)).x);
+        fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
         // Rough water mirrors a patch of sky above the exact direction.
-        let mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
-        let reflection = sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI;
-        water = body(floor, depths_m, view_mu, max(sun_mu, 0.0), downwelling) * (1.0 - fresnel) + reflection * fresnel;
-        water += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
+        mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
+    }
+    var downwelling = vec3f(0.0);
+    var mirrored_light = vec3f(0.0);
+    for (var i = 0u; i < body.sun_count; i++) {
+        use_sun(i);
+        let sun = active_sun.dir;
+        let sun_mu = dot(up, sun);
+        let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu);
+        var shadow = 1.0;
+        if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
+        let share = overcast(shadow);
+        // The ground's shadow is known for the first sun alone.
+        shadow *= select(1.0, star, i == 0u);
+        let diffused = sunlight * max(sun_mu, 0.0) * share.y;
+        downwelling += sunlight * shadow * max(sun_mu, 0.0) + sky_irradiance(h, sun_mu) * share.x + diffused;
+        if ice < 1.0 {
+            mirrored_light += (sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI) * fresnel;
+            mirrored_light += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
+        }
+    }
+    var water = vec3f(0.0);
+    if ice < 1.0 {
+        water = water_body(floor, depths_m, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
         let foam = foam_between(depths_m) * smoothstep(0.1, 0.6, mottle + 0.25);
         water = mix(water, vec3f(0.7) * downwelling / PI, foam * 0.6);
     }
-    let white = globals.ice_color.rgb * (1.0 + 0.18 * mottle) * downwelling / PI;
+    let white = body.ice_color * (1.0 + 0.18 * mottle) * downwelling / PI;
     return mix(water, white, ice);
 }
 
+struct Output {
+    // Radiance; height over the sea, metres
+    @location(0) light: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
 @fragment
-fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+fn fragment(@builtin(position) position: vec4f) -> Output {
     let pixel = vec2i(position.xy);
     let scene = textureLoad(scene_color, pixel, 0);
     let height_m = scene.a;
     let ray = pixel_ray(position.xy);
     let ray_length = length(ray);
     let dir = ray / ray_length;
-    let terrain = terrain_distance(pixel, ray_length);
+    let terrain = surface_distance(pixel, ray_length);
     let hits = sea_hits(dir);
+    let ground = Output(scene, textureLoad(scene_depth, pixel, 0));
 
-    if globals.water.y < 0.0 {
+    if body.eye_over_sea_km < 0.0 {
         // The eye is under water: everything drowns in the colour of the deep.
         let way_m = min(terrain, hits.y) * 1000.0;
-        let left = exp(-globals.water_absorption.rgb * min(way_m, 1e5));
-        let sun_mu = max(dot(globals.eye_up.xyz, globals.sun_dir.xyz), 0.0);
-        let h = max(globals.water.x, 0.0);
-        let light = globals.sun_irradiance.rgb * sun_transmittance(h, sun_mu) * sun_mu + sky_irradiance(h, sun_mu);
-        let dimmed = exp(globals.water_absorption.rgb * min(globals.water.y * 1000.0, 0.0));
-        return vec4f(scene.rgb * left + globals.water_color.rgb * light * dimmed / PI * (1.0 - left), height_m);
+        let left = exp(-body.water_absorption_per_m * min(way_m, 1e5));
+        let h = max(body.sea_level_km, 0.0);
+        var light = vec3f(0.0);
+        for (var i = 0u; i < body.sun_count; i++) {
+            use_sun(i);
+            let sun_mu = max(dot(body.eye_up, active_sun.dir), 0.0);
+            light += active_sun.irradiance * sun_transmittance(h, sun_mu) * sun_mu + sky_irradiance(h, sun_mu);
+        }
+        let dimmed = exp(body.water_absorption_per_m * min(body.eye_over_sea_km * 1000.0, 0.0));
+        return Output(vec4f(scene.rgb * left + body.water_color * light * dimmed / PI * (1.0 - left), height_m), ground.depth);
     }
-    if hits.y < hits.x || hits.x <= 0.0 { return scene; }
+    if hits.y < hits.x || hits.x <= 0.0 {
+        if terrain >= NOTHING_KM { discard; }
+        return ground;
+    }
+    let depth = max(ground.depth, depth_at(hits.x, ray_length));
     // Land is told from sea by its height, never by which of two close surfaces is nearer; only where the ray came out
     // of the sea again before it met land does the sea lie in front.
     var wet = 1.0;
     var depths_m = vec2f(1e4, 1.1e4);
     var star = 1.0;
     // Beyond the last terrain the climate of the latitude has to do.
-    let sin_lat = normalize(globals.eye_km.xyz + dir * hits.x).z;
-    var temperature_c = mix(globals.water.z, globals.water.w, sin_lat * sin_lat);
+    let sin_lat = normalize(body.eye_km + dir * hits.x).z;
+    var temperature_c = mix(body.equator_c, body.pole_c, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
         let found = textureLoad(surface, pixel, 0);
         let spread_m = max(found.b, 0.025);
@@ -108,11 +136,11 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         depths_m = max(vec2f(-height_m - spread_m, spread_m - height_m), vec2f(0.0));
         temperature_c = found.r;
         // The floor that is seen lies aside of the sea's surface; too far aside its shadow is another one.
-        let mu = dot(dir, normalize(globals.eye_km.xyz + dir * hits.x));
+        let mu = dot(dir, normalize(body.eye_km + dir * hits.x));
         let aside_km = max(terrain - hits.x, 0.0) * sqrt(max(1.0 - mu * mu, 0.0));
         star = 1.0 - found.g * (1.0 - smoothstep(1.0, 10.0, aside_km));
     }
-    if wet <= 0.0 { return scene; }
+    if wet <= 0.0 { return Output(scene, depth); }
     let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depths_m, temperature_c, star);
-    return vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m);
+    return Output(vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m), depth);
 }

@@ -1,6 +1,6 @@
-//! How sizes, angles and places are written on the command line. Each parser says what would be right.
+//! Parsers of sizes, angles and locations on the command line. Each error says what would be right.
 
-/// Largest side of a picture.
+/// Largest side of a picture, in pixels.
 const MAX_SIDE: u32 = 8192;
 
 /// A finite number from `min` to `max`.
@@ -28,11 +28,11 @@ pub(super) fn pitch(text: &str) -> Result<f64, String> {
     number(text, -90.0, 90.0)
 }
 
-pub(super) fn opening_angle(text: &str) -> Result<f64, String> {
+pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
     number(text, 1.0, 150.0)
 }
 
-/// Metres above the ground or the sea; below zero it is a depth under the sea.
+/// Altitude in metres above the ground or the sea; negative: depth under the sea.
 pub(super) fn altitude(text: &str) -> Result<f64, String> {
     match number(text, -1e5, 1e12) {
         Ok(altitude_m) if altitude_m.abs() < 0.1 => {
@@ -42,7 +42,7 @@ pub(super) fn altitude(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Above a sphere; zero is on it.
+/// Height in metres above the reference sphere.
 pub(super) fn height(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e12)
 }
@@ -60,8 +60,8 @@ pub(super) fn exposure(text: &str) -> Result<f64, String> {
 }
 
 /// `LAT,LON` in degrees.
-pub(super) fn place(text: &str) -> Result<(f64, f64), String> {
-    let (lat, lon) = text.split_once(',').ok_or("this is not a place; write LAT,LON such as 20,-45")?;
+pub(super) fn location(text: &str) -> Result<(f64, f64), String> {
+    let (lat, lon) = text.split_once(',').ok_or("this is not a location; write LAT,LON such as 20,-45")?;
     let lat = latitude(lat.trim()).map_err(|e| format!("latitude: {e}"))?;
     let lon = longitude(lon.trim()).map_err(|e| format!("longitude: {e}"))?;
     Ok((lat, lon))
@@ -85,9 +85,9 @@ mod tests {
         for wrong in ["", "x", "0x5", "5", "8193x1", "-1x5", "1x2x3", "1.5x2", "99999999999x1"] {
             assert!(size(wrong).unwrap_err().contains("1280x720"), "{wrong}");
         }
-        assert_eq!(place("-10, 30.5"), Ok((-10.0, 30.5)));
-        assert_eq!(place("91,0"), Err("latitude: 91 is out of range; use -90 to 90".to_owned()));
-        assert!(place("10").unwrap_err().contains("LAT,LON"));
+        assert_eq!(location("-10, 30.5"), Ok((-10.0, 30.5)));
+        assert_eq!(location("91,0"), Err("latitude: 91 is out of range; use -90 to 90".to_owned()));
+        assert!(location("10").unwrap_err().contains("LAT,LON"));
         assert_eq!(latitude("NaN"), Err("NaN is out of range; use -90 to 90".to_owned()));
         assert_eq!(altitude("-20"), Ok(-20.0));
         assert!(latitude("north").is_err() && altitude("0").is_err() && altitude("inf").is_err());

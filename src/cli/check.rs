@@ -18,7 +18,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         match Planet::load(file) {
             Ok(_) => print(&format!("{}: valid", file.display()))?,
             Err(error) => {
-                // As they stand, so that editors and CI find the place.
+                // Without a prefix: text editors and CI find the line by `file:line:column:`.
                 tell(&error.to_string());
                 all_valid = false;
             }

@@ -3,7 +3,7 @@
 //! The adapter is chosen by wgpu's usual environment variables (`WGPU_BACKEND`, `WGPU_ADAPTER_NAME`,
 //! `WGPU_POWER_PREF`).
 
-use crate::render::Renderer;
+use crate::render::{Renderer, read_texture};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What pictures are drawn in.
@@ -76,39 +76,12 @@ impl Gpu {
         });
         draw(&texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
 
-        // Rows in a buffer begin at multiples of 256 bytes.
-        let row_bytes = width * 4;
-        let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("picture"),
-            size: u64::from(padded_bytes) * u64::from(height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let layout =
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded_bytes), rows_per_image: Some(height) };
-        encoder.copy_texture_to_buffer(
-            texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
-            size,
-        );
-        self.queue.submit([encoder.finish()]);
-        let (send, receive) = std::sync::mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            let _ = send.send(result);
-        });
-        let failed = |error: &dyn std::fmt::Display| match self.first_error() {
-            Some(first) => format!("the GPU ({}): {first}", self.name),
-            None => format!("the GPU ({}): {error}", self.name),
-        };
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
-        receive.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
-        if let Some(first) = self.first_error() {
-            return Err(format!("the GPU ({}): {first}", self.name));
+        let texels = read_texture(&self.device, &self.queue, &texture);
+        match (self.first_error(), texels) {
+            (Some(first), _) => Err(format!("the GPU ({}): {first}", self.name)),
+            (None, Err(error)) => Err(format!("the GPU ({}): {error}", self.name)),
+            (None, Ok(texels)) => Ok(texels),
         }
-        let mapped = buffer.get_mapped_range(..).map_err(|error| failed(&error))?;
-        Ok(mapped.chunks(padded_bytes as usize).flat_map(|row| &row[..row_bytes as usize]).copied().collect())
     }
 
     fn first_error(&self) -> Option<String> {

@@ -1,8 +1,8 @@
 //! The command line: one file for each subcommand.
 //!
-//! - `args`: how sizes, angles and places are written
+//! - `args`: parsers of sizes, angles and locations
 //! - `render`, `check`, `sample`, `sky`, `new`, `bench`: the subcommands
-//! - `view`: where the camera stands unless told; `headless`: a GPU without a window
+//! - `headless`: a GPU without a window
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
 
@@ -29,7 +29,7 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// The preset to open in the editor; one that does not exist yet is made when it is saved
+    /// The preset to open in the editor; if there is no such file, saving makes it
     #[arg(value_name = "FILE.ron")]
     file: Option<PathBuf>,
 }
@@ -44,11 +44,11 @@ enum Command {
     Bench(bench::Args),
 }
 
-/// Why a subcommand did not do what it was asked.
+/// Why a subcommand failed.
 enum Failure {
-    /// Said as `error: ...`.
+    /// Printed as `error: ...`.
     Message(String),
-    /// What there is to say has been said.
+    /// Everything has been printed already.
     Told,
 }
 
@@ -61,9 +61,9 @@ impl From<String> for Failure {
 /// Runs the program with the arguments of this process.
 pub fn run() -> ExitCode {
     let filter = env_logger::Env::default().default_filter_or("error");
-    // Whoever embeds this may have a logger already.
+    // A program that embeds this one may have a logger already.
     let _ = env_logger::Builder::from_env(filter).try_init();
-    // What a decoder makes of a broken picture is told with its place in the preset; its panic is no news.
+    // A panic of a picture decoder is reported as a problem of the preset, with its line: the panic is not printed.
     let print_panic = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         if !is_contained() {
@@ -73,7 +73,7 @@ pub fn run() -> ExitCode {
     let cli = match Cli::command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help goes to standard output; a reader that has gone away is no reason to fail.
+            // Help goes to standard output. It is no failure if nobody reads it.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
@@ -100,9 +100,8 @@ pub fn run() -> ExitCode {
 
 fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
     if let Some(file) = &file {
-        // Said here rather than in a window: whoever gave a name on the command line reads the answer there.
-        // A missing picture is no reason to stay out: the editor says so and goes on without.
-        // A name without a file is a new planet's.
+        // Reported here rather than in a window: who typed a name on the command line reads the answer there. The
+        // editor itself reports a missing picture. A name without a file is that of a new planet.
         crate::editor::check_first(file)?;
     }
     Ok(crate::editor::run(file)?)
@@ -112,12 +111,12 @@ fn load(path: &Path) -> Result<Planet, Failure> {
     Planet::load(path).map_err(|error| Failure::Message(error.to_string()))
 }
 
-/// A line on standard error.
+/// Prints a line on standard error.
 fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// A line on standard output. A reader that has gone away (`tellus ... | head -1`) wants no more: that is no failure.
+/// Prints a line on standard output. It is no failure if the reader has stopped reading (`tellus ... | head -1`).
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {

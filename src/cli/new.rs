@@ -4,7 +4,7 @@ use super::{Failure, load, print};
 use crate::planet::random;
 use std::path::PathBuf;
 
-/// How far `--from` moves the numbers, as a share of their range.
+/// Change of the numbers by `--from`, as a share of their range.
 const VARIATION: f64 = 0.06;
 
 /// Write a random valid planet
@@ -13,7 +13,7 @@ pub(super) struct Args {
     /// The preset to write
     #[arg(short, long, value_name = "FILE.ron")]
     output: PathBuf,
-    /// The same seed gives the same planet [default: another one each time]
+    /// Seed: equal seeds give equal planets [default: from the clock]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Vary this planet instead of making a new one
@@ -22,7 +22,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let seed = args.seed.unwrap_or_else(seed_of_the_moment);
+    let seed = args.seed.unwrap_or_else(seed_from_clock);
     let planet = match &args.from {
         Some(from) => random::vary(&load(from)?, seed, VARIATION),
         None => random::random(seed),
@@ -31,8 +31,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     print(&format!("{}: {}, seed {seed}", args.output.display(), planet.name))
 }
 
-fn seed_of_the_moment() -> u64 {
+fn seed_from_clock() -> u64 {
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
-    // Short enough to be typed again.
+    // At most six digits: short enough to type again.
     (now.as_nanos() / 1000 % 1_000_000) as u64
 }

@@ -4,7 +4,7 @@ use super::{Failure, args, headless, load};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
-use crate::render::{DebugView, Frame, Metering, Renderer, Tone};
+use crate::render::{DebugView, Metering, Renderer, Scene, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use crate::tiles::{add_detail, build_now};
@@ -26,43 +26,49 @@ pub(super) struct Args {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = args::size)]
     size: [u32; 2],
-    /// Latitude of the camera in degrees, north positive [default: 20]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::latitude)]
+    #[arg(long, help = format!("Latitude of the camera in degrees, north positive [default: {}]", opening::OPENING_LAT_DEG), value_name = "DEG", allow_hyphen_values = true, value_parser = args::latitude)]
     lat: Option<f64>,
-    /// Longitude of the camera in degrees, east positive [default: 40 east of the star]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
+    #[arg(long, help = format!("Longitude of the camera in degrees, east positive [default: {} east of the star]", opening::OPENING_LON_FROM_STAR_DEG), value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: Option<f64>,
-    /// Height of the camera above the terrain or the sea, whichever is higher; negative: depth under the sea
-    /// [default: the whole planet in view]
+    /// Altitude of the camera above the ground or the sea, whichever is higher; negative: depth under the sea
+    /// [default: far enough to see the whole planet]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
     altitude: Option<f64>,
-    /// Where the camera looks: 0 north, 90 east
+    /// Heading of the camera in degrees: 0 north, 90 east
     #[arg(long, value_name = "DEG", default_value = "0", allow_hyphen_values = true, value_parser = args::heading)]
     heading: f64,
-    /// 0 at the horizon, -90 straight down [default: -90 from afar, -10 from near]
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::pitch)]
+    #[arg(long, help = pitch_help(), value_name = "DEG", allow_hyphen_values = true, value_parser = args::pitch)]
     pitch: Option<f64>,
-    /// Opening angle from the bottom to the top of the picture
-    #[arg(long, value_name = "DEG", default_value = "50", allow_hyphen_values = true, value_parser = args::opening_angle)]
+    /// Vertical field of view in degrees
+    #[arg(long, value_name = "DEG", default_value_t = Camera::DEFAULT_FOV_Y_RAD.to_degrees(), allow_hyphen_values = true, value_parser = args::field_of_view)]
     fov: f64,
-    /// Where the star stands overhead [default: as the preset says for that time]
-    #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::place)]
+    /// Location where the star stands overhead [default: where the preset puts it at --time]
+    #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::location)]
     sun: Option<(f64, f64)>,
-    /// Time since the start: days pass, clouds drift, waves run
+    /// Seconds since time zero: the day passes, clouds drift, waves run
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
-    /// Exposure in stops, 0 for a sunlit planet [default: as suits what there is to see]
+    /// Exposure in stops, 0 for a sunlit planet [default: metered from the picture]
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = args::exposure)]
     exposure: Option<f64>,
-    /// The curve from radiance to the picture
-    #[arg(long, value_enum, default_value_t = Tone::AgX)]
+    /// Tone curve from radiance to the picture
+    #[arg(long, value_enum, default_value_t = Tone::default())]
     tone: Tone,
-    /// How well it is drawn
+    /// Quality of the picture
     #[arg(long, value_enum, default_value_t = Quality::High)]
     quality: Quality,
-    /// What is drawn
-    #[arg(long, value_enum, default_value_t = DebugView::Shaded)]
+    /// The shaded planet, or a debug view
+    #[arg(long, value_enum, default_value_t = DebugView::default())]
     view: DebugView,
+}
+
+fn pitch_help() -> String {
+    format!(
+        "Pitch in degrees: 0 at the horizon, -90 straight down [default: {} from above {} planet radii, {} below]",
+        opening::FAR_PITCH_DEG,
+        opening::LOOK_DOWN_RADII,
+        opening::NEAR_PITCH_DEG
+    )
 }
 
 impl ValueEnum for Quality {
@@ -117,27 +123,19 @@ impl ValueEnum for DebugView {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
     let gpu = headless::Gpu::open(args.size)?;
-    let mut renderer =
-        Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
-    renderer.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
-    renderer.tone = args.tone;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let view = view(args, &planet)?;
     let mut surface = build_now(&planet, &view).map_err(|error| error.to_string())?;
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
-    let frame = Frame {
-        surface: &surface,
-        planet: &planet,
-        view,
-        frozen: None,
-        sun_dir_planet: sun.direction(),
-        time_secs: args.time,
-        exposure_ev: args.exposure.unwrap_or(0.0),
-        debug_view: args.view,
-    };
-    let pixels = gpu.picture(args.size, |target| {
-        renderer.render(&gpu.device, &gpu.queue, target, &frame).map(drop).map_err(|error| error.to_string())
-    })?;
+    let mut scene = Scene::of_planet(&planet, &surface, view, sun.direction());
+    scene.time_secs = args.time;
+    scene.debug_view = args.view;
+    scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
+    scene.post.exposure_ev = args.exposure.unwrap_or(0.0);
+    scene.post.tone = args.tone;
+    let pixels =
+        gpu.picture(args.size, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()))?;
     let [width, height] = args.size;
     let mut png = Vec::new();
     image::codecs::png::PngEncoder::new(&mut png)
@@ -156,10 +154,10 @@ fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
             let ground_m = terrain.height_m(place.direction());
             let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
             let depth_m = floor_m - ground_m;
-            // Exactly 0.1 on land.
+            // Lowest altitude: 0.1 m above the ground or the sea bed.
             let deepest_m = 0.1 - depth_m;
             if altitude_m < deepest_m {
-                // Rounded up: what is offered is allowed.
+                // Rounded up, so that the offered altitude is allowed.
                 let least_m = (deepest_m * 10.0).ceil() / 10.0;
                 let range = match depth_m > 0.2 {
                     true => format!("the sea is {depth_m:.1} m deep there; use {least_m:.1} or more"),

@@ -1,4 +1,4 @@
-//! `tellus sample`: what the surface is at one place, as the editor's picture and a game see it.
+//! `tellus sample`: height, normal, climate and biome at a location, from the evaluator that the editor and games use.
 
 use super::{Failure, args, load, print};
 use crate::sphere::LatLon;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Say what the surface is at a place
+/// Print height, slope, climate and biome at a location
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The preset
@@ -19,24 +19,30 @@ pub(super) struct Args {
     /// Longitude in degrees, east positive
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
     lon: f64,
-    /// Answer as a JSON object: height_m, slope_deg, normal, temperature_c and precipitation_mm (a year), temperature
-    /// and moisture (0 to 1, the sides of the biome table), biome, layers
+    /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
+    /// moisture (0 to 1, the axes of the biome table), biome, layers
     #[arg(long)]
     json: bool,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let terrain = Terrain::try_new(Arc::new(load(&args.file)?)).map_err(|error| error.to_string())?;
-    let sample = terrain.sample(LatLon::from_degrees(args.lat, args.lon).direction());
-    print(&if args.json { format!("{:#}", as_json(&terrain, &sample)) } else { as_text(&terrain, &sample) })
+    let dir = LatLon::from_degrees(args.lat, args.lon).direction();
+    let (sample, layers_m) = (terrain.sample(dir), terrain.layers_m(dir));
+    let answer = if args.json {
+        format!("{:#}", as_json(&terrain, &sample, &layers_m))
+    } else {
+        as_text(&terrain, &sample, &layers_m)
+    };
+    print(&answer)
 }
 
 fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
     terrain.planet().biomes.palette.get(sample.biome).map_or("", |biome| biome.name.as_str())
 }
 
-fn as_json(terrain: &Terrain, sample: &Sample) -> Value {
-    let layers = terrain.planet().layers.iter().zip(&sample.layers_m);
+fn as_json(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> Value {
+    let layers = terrain.planet().layers.iter().zip(layers_m);
     json!({
         "height_m": sample.height_m,
         "slope_deg": sample.slope_rad.to_degrees(),
@@ -50,7 +56,7 @@ fn as_json(terrain: &Terrain, sample: &Sample) -> Value {
     })
 }
 
-fn as_text(terrain: &Terrain, sample: &Sample) -> String {
+fn as_text(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> String {
     let [x, y, z] = sample.normal_planet.to_array();
     let mut lines = vec![
         format!("height       {:.3} m", sample.height_m),
@@ -60,7 +66,7 @@ fn as_text(terrain: &Terrain, sample: &Sample) -> String {
         format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
     ];
-    let layers = terrain.planet().layers.iter().zip(&sample.layers_m);
+    let layers = terrain.planet().layers.iter().zip(layers_m);
     lines.extend(layers.map(|(layer, m)| format!("layer        {:.3} m  {}", m, layer.name)));
     lines.join("\n")
 }

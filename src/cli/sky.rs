@@ -1,4 +1,4 @@
-//! `tellus sky`: what the air does to light, as physics says and as the shaders draw it.
+//! `tellus sky`: transmittance and radiance of the air, from the 64-bit reference or from the shaders.
 
 use super::{Failure, args, headless, load, print};
 use crate::atmosphere::{Air, SkyRay, reference};
@@ -8,34 +8,34 @@ use crate::render::{Renderer, SkyAnswer};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Paths of `--reference`: about one percent of noise.
+/// Paths that `--reference` traces: they leave about one percent of noise.
 const PATHS: u32 = 200_000;
 
-/// Say how much light the air scatters and lets through
+/// Print how much light the air lets through and scatters
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The preset
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
-    /// Angle from the zenith to the star
+    /// Angle from the zenith to the star, in degrees
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::zenith)]
     sun_zenith: f64,
-    /// Angle from the zenith to where one looks
+    /// Angle from the zenith to the view ray, in degrees
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::zenith)]
     view_zenith: f64,
-    /// Angle about the zenith from the star to where one looks
+    /// Angle about the zenith from the star to the view ray, in degrees
     #[arg(long, value_name = "DEG", default_value = "0", allow_hyphen_values = true, value_parser = args::heading)]
     azimuth: f64,
-    /// Height of the eye above the reference sphere, which is the ground here
+    /// Height of the eye above the reference sphere, which counts as the ground
     #[arg(long, value_name = "METRES", default_value = "2", allow_hyphen_values = true, value_parser = args::height)]
     altitude: f64,
-    /// Ask the shaders instead of the reference in 64 bits
+    /// Ask the shaders instead of the 64-bit reference
     #[arg(long, conflicts_with = "reference")]
     gpu: bool,
-    /// Trace paths through every order of scattering: slow
+    /// Trace paths through all orders of scattering; slow
     #[arg(long)]
     reference: bool,
-    /// Answer as a JSON object: transmittance to the star, radiance of the air for a star of unit irradiance
+    /// Print a JSON object: transmittance to the star, and radiance of the air under unit irradiance
     #[arg(long)]
     json: bool,
 }
@@ -69,9 +69,7 @@ fn physics(planet: &Planet, ray: SkyRay, traced: bool) -> Result<SkyAnswer, Fail
 fn shaders(planet: &Planet, ray: SkyRay) -> Result<SkyAnswer, Failure> {
     let gpu = headless::Gpu::open([1, 1])?;
     let failed = |error: &dyn std::fmt::Display| format!("the GPU ({}): {error}", gpu.name);
-    let mut renderer =
-        Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).map_err(|error| format!("the renderer: {error}"))?;
-    let answers =
-        renderer.sky(&gpu.device, &gpu.queue, planet, Quality::High, &[ray]).map_err(|error| failed(&error))?;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
+    let answers = renderer.sky(planet, Quality::High, &[ray]).map_err(|error| failed(&error))?;
     Ok(answers.first().copied().ok_or_else(|| failed(&"no answer"))?)
 }

@@ -1,46 +1,28 @@
-//! The application: shape a planet with live sliders and look at it.
+//! The editor: shape a planet with live sliders and look at it.
 //!
-//! - [`app`]: the eframe application: what happens in a frame, in which order
-//! - [`command`], [`handle`]: everything a person can tell the editor to do, and the one place that does it
-//! - [`document`], [`history`], [`describe`]: the planet being edited, undo steps, changes in words
-//! - [`files`], [`answers`], [`dialogs`], `path_field`, `file_names`, [`prompts`], [`recovery`]: opening and saving
-//!   without losing work, even in a crash
-//! - [`disk`], [`claim`]: others who write the open file, or have it open
-//! - `notices`: what the editor says by itself
-//! - [`viewport`]: the picture, the camera, the measurements
-//! - [`pictures`]: pictures of height maps, read in the background
-//! - [`bookmarks`]: views kept in the preset
-//! - [`painter`]: painting the biome table, apart from any widget; `table_files`: import and export
+//! Views read the state and send commands; handlers change the state.
+//!
+//! - [`app`]: the eframe application: the order of a frame
+//! - [`command`]: the messages from views to handlers; [`commands`]: the table of commands; [`apply`]: carries them out
+//! - [`state`]: the document, its undo steps, questions, notices, the working copy
+//! - [`handlers`]: the effects of the commands
+//! - [`files`]: file dialogs, changes on disk, other windows
+//! - [`views`]: menus, status bar, questions, windows
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
-//! - [`menus`], [`status`], [`controls`], [`performance`], [`look`]: the rest of the window
+//! - [`painter`]: painting the biome table, apart from any widget
+//! - [`viewport`]: the picture, the camera, the measurements
 
-pub mod answers;
 pub mod app;
-pub mod bookmarks;
-pub mod claim;
+pub mod apply;
 pub mod command;
-pub mod controls;
-pub mod describe;
-pub mod dialogs;
-pub mod disk;
-pub mod document;
-mod file_names;
+pub mod commands;
 pub mod files;
-pub mod handle;
-pub mod history;
-pub mod look;
-pub mod menus;
-mod notices;
+pub mod handlers;
 pub mod painter;
 pub mod panels;
-mod path_field;
-pub mod performance;
-pub mod pictures;
-pub mod prompts;
-pub mod recovery;
-pub mod status;
-mod table_files;
+pub mod state;
 pub mod viewport;
+pub mod views;
 pub mod widgets;
 
 pub use app::EditorApp;
@@ -50,7 +32,7 @@ use eframe::{egui, egui_wgpu};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What the desktop and the layout's folder know the editor by.
+/// The name of the editor for the desktop, and of the folder that keeps the layout.
 const APP_ID: &str = "tellus";
 
 /// Opens the editor's window, with a preset if one is given, and stays until it is closed.
@@ -60,7 +42,6 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
             .with_title("Tellus")
             .with_app_id(APP_ID)
             .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([720.0, 480.0])
             .with_min_inner_size([800.0, 500.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,
@@ -80,9 +61,9 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
 /// Whether the editor can begin with this file: it can be read, or a new planet can be saved under its name.
 ///
 /// # Errors
-/// What is wrong with it, and what would be right.
+/// What is wrong with the file, and what would be right.
 pub fn check_first(path: &Path) -> Result<(), String> {
-    files::first_document(path).map(drop).map_err(|error| error.to_string())
+    handlers::opening::first_document(path).map(drop).map_err(|error| error.to_string())
 }
 
 /// eframe's device, with the limits the renderer asks for.
@@ -93,7 +74,7 @@ fn wgpu_configuration() -> egui_wgpu::WgpuConfiguration {
         setup.device_descriptor = Arc::new(|adapter| wgpu::DeviceDescriptor {
             label: Some("tellus"),
             required_limits: wgpu::Limits {
-                // The window may be larger than the renderer's own textures ever are.
+                // egui draws to the whole window, which may be larger than any texture of the renderer.
                 max_texture_dimension_2d: adapter.limits().max_texture_dimension_2d,
                 ..Renderer::required_limits()
             },

@@ -5,6 +5,7 @@
 //! 0 towards growing `s` to a quarter turn towards growing `t`, the same for all tiles of a face.
 
 use super::tile::TILE_QUADS;
+use crate::sphere::cube::C_SQUARED;
 use crate::sphere::{Face, NodeId};
 use glam::DVec3;
 use half::f16;
@@ -50,14 +51,13 @@ impl HorizonTile {
 /// A step along `towards` moves the point on the flat face by its part within the face; the derivative of the face's
 /// mapping (see [`crate::sphere::cube`]) converts that to coordinates.
 pub fn face_step(face: Face, dir_planet: DVec3, towards_planet: DVec3) -> [f64; 2] {
-    const BEND: f64 = 0.87 * 0.87;
     let (axis, sign) = face.axis();
     let ((s_axis, s_sign), t_axis) = face.tangent_axes();
     let out = dir_planet[axis] * sign as f64;
     let sunk = towards_planet[axis] * sign as f64;
     let step = |axis: usize, sign: f64| {
         let q = dir_planet[axis] * sign / out;
-        let bend = 1.0 + BEND * q * q;
+        let bend = 1.0 + C_SQUARED * q * q;
         (towards_planet[axis] * sign - q * sunk) / (bend * bend.sqrt())
     };
     [step(s_axis, s_sign as f64), step(t_axis, 1.0)]

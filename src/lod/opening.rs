@@ -4,14 +4,19 @@ use super::{Camera, Quality, View};
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 
-/// The latitude over which one looks at a planet that nobody chose a place on.
-const OPENING_LAT_DEG: f64 = 20.0;
-/// How far to the east of the star one looks at it from: most of what one sees is lit, and the night shows at the rim.
-const OPENING_LON_FROM_STAR_DEG: f64 = 52.0;
+/// Latitude of the opening view.
+pub const OPENING_LAT_DEG: f64 = 20.0;
+/// Longitude of the opening view, east of the star: most of the disc is lit, and the night shows at the rim.
+pub const OPENING_LON_FROM_STAR_DEG: f64 = 52.0;
 /// Height of the opening view in radii: the whole disc fits, with some room around it.
 pub const OPENING_ALTITUDE_RADII: f64 = 1.9;
-/// Below this height in radii one looks along the ground rather than down at it.
-const LOOK_DOWN_RADII: f64 = 0.2;
+/// Altitude, in radii, below which the camera looks along the ground rather than down at it.
+pub const LOOK_DOWN_RADII: f64 = 0.2;
+
+/// Pitch of the camera above [`LOOK_DOWN_RADII`]: straight down.
+pub const FAR_PITCH_DEG: f64 = -90.0;
+/// Pitch of the camera below [`LOOK_DOWN_RADII`]: a little below the horizon.
+pub const NEAR_PITCH_DEG: f64 = -10.0;
 
 /// The place over which a planet is first seen.
 pub fn opening_place(planet: &Planet) -> LatLon {
@@ -21,7 +26,7 @@ pub fn opening_place(planet: &Planet) -> LatLon {
 
 /// Straight down from afar, a little below the horizon from near.
 pub fn default_pitch_deg(planet: &Planet, altitude_m: f64) -> f64 {
-    if altitude_m > LOOK_DOWN_RADII * planet.radius_m() { -90.0 } else { -10.0 }
+    if altitude_m > LOOK_DOWN_RADII * planet.radius_m() { FAR_PITCH_DEG } else { NEAR_PITCH_DEG }
 }
 
 /// The whole planet, seen from where most of it is lit.

@@ -1,37 +1,20 @@
-//! The air (`air.wgsl`): reads scene, depth and clouds, writes the finished radiance, and stars apart.
+//! The air of a body (`air.wgsl`): in front of everything that is drawn, with clouds at their distance. The body farthest
+//! away has stars and the discs of suns behind it.
 
-use super::RenderError;
-use super::gpu::Slot;
-use super::scene_pass::ScenePass;
-use super::targets::{HDR_FORMAT, STARS_FORMAT, Targets};
+use super::screen_pass::{Input, Output, Scope, ScreenPass, writes};
+use super::targets::Target;
 
 /// See the module.
-pub(crate) struct AirPass(ScenePass);
-
-impl AirPass {
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        globals: &wgpu::BindGroupLayout,
-        tables: &wgpu::BindGroupLayout,
-    ) -> Result<Self, RenderError> {
-        let inputs = [Slot::Unfiltered2d, Slot::Depth, Slot::Unfiltered2d, Slot::Unfiltered2d];
-        ScenePass::new(device, [globals, tables], "air.wgsl", &inputs, &[HDR_FORMAT, STARS_FORMAT]).map(Self)
-    }
-
-    /// Binds what it reads. `scene`: which of the two radiance targets holds the scene.
-    pub(crate) fn bind(&self, device: &wgpu::Device, targets: &Targets, scene: usize) -> wgpu::BindGroup {
-        self.0.bind(device, &[&targets.hdr[scene], &targets.depth, &targets.cloud_light, &targets.cloud_distance])
-    }
-
-    /// Draws it. `inputs`: what [`Self::bind`] made for this `scene`.
-    pub(crate) fn draw(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        groups: [&wgpu::BindGroup; 2],
-        inputs: &wgpu::BindGroup,
-        targets: &Targets,
-        scene: usize,
-    ) {
-        self.0.draw(encoder, groups, inputs, &[&targets.hdr[1 - scene], &targets.stars]);
-    }
-}
+pub(crate) const PASS: ScreenPass = ScreenPass {
+    shader: "air.wgsl",
+    scope: Scope::Body,
+    reads: &[
+        Input::Load(Target::BeforeAir),
+        Input::Depth(Target::Depth),
+        Input::Load(Target::CloudLight),
+        Input::Load(Target::CloudDistance),
+    ],
+    writes: &[writes(Target::AfterAir), Output { target: Target::Stars, multiplies: true }],
+    depth: None,
+    runs: |work| work.shaded,
+};

@@ -3,11 +3,11 @@
 
 use super::material_kinds;
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
-use crate::terrain::ground::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
+use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
 /// Columns of the numbers: the palette, the rock that biomes share, the rules for all.
-const ROCK: usize = MAX_BIOMES;
-const RULES: usize = MAX_BIOMES + 1;
+pub(crate) const ROCK: usize = MAX_BIOMES;
+pub(crate) const RULES: usize = MAX_BIOMES + 1;
 const COLUMNS: usize = MAX_BIOMES + 2;
 /// Numbers of one biome, four to a row.
 const ROWS: usize = 6;

@@ -1,8 +1,10 @@
 //! The weather map (`cloud_map.wgsl`): six faces of a cube, drawn once for each change of scale, curl or seed.
 
-use super::tables::WEATHER_SIDE_PX;
-use super::{RenderError, gpu};
+use super::{RenderError, gpu, shaders};
 use wgpu::util::DeviceExt;
+
+/// Texels along a face of the map.
+pub(crate) const WEATHER_SIDE: u32 = 512;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
@@ -22,31 +24,33 @@ pub(crate) struct WeatherMap {
     faces: Vec<wgpu::TextureView>,
 }
 
-/// A map with nothing in it yet.
-pub(crate) fn texture(device: &wgpu::Device) -> WeatherMap {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("weather map"),
-        size: wgpu::Extent3d { width: WEATHER_SIDE_PX, height: WEATHER_SIDE_PX, depth_or_array_layers: 6 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let cube = texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::Cube),
-        ..wgpu::TextureViewDescriptor::default()
-    });
-    let face = |layer| {
-        texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2),
-            base_array_layer: layer,
-            array_layer_count: Some(1),
+impl WeatherMap {
+    /// A map with nothing in it yet.
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("weather map"),
+            size: wgpu::Extent3d { width: WEATHER_SIDE, height: WEATHER_SIDE, depth_or_array_layers: 6 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let cube = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
             ..wgpu::TextureViewDescriptor::default()
-        })
-    };
-    WeatherMap { cube, faces: (0..6).map(face).collect() }
+        });
+        let face = |layer| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..wgpu::TextureViewDescriptor::default()
+            })
+        };
+        Self { cube, faces: (0..6).map(face).collect() }
+    }
 }
 
 /// The pipeline and the orientation of each face.
@@ -56,9 +60,18 @@ pub(crate) struct CloudMapPass {
 }
 
 impl CloudMapPass {
-    pub(crate) fn new(device: &wgpu::Device, globals: &wgpu::BindGroupLayout) -> Result<Self, RenderError> {
+    pub(crate) fn new(device: &wgpu::Device, uniforms: &wgpu::BindGroupLayout) -> Result<Self, RenderError> {
         let layout = gpu::layout(device, "cube face", &[gpu::Slot::Uniform]);
-        let pipeline = gpu::screen_pipeline(device, "cloud_map.wgsl", &[globals, &layout], &[FORMAT])?;
+        let entry = "cloud_map.wgsl";
+        let description = gpu::ScreenPipelineDescriptor {
+            entry,
+            layout: &gpu::pipeline_layout(device, entry, &[uniforms, &layout]),
+            module: &shaders::module(device, entry)?,
+            targets: &[Some(FORMAT.into())],
+            writes_depth: false,
+            encodes_srgb: false,
+        };
+        let pipeline = gpu::screen_pipeline(device, &description)?;
         let faces = FACES
             .iter()
             .map(|face| {
@@ -78,9 +91,9 @@ impl CloudMapPass {
     }
 
     /// Fills the map.
-    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, globals: &wgpu::BindGroup, map: &WeatherMap) {
+    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, uniforms: &wgpu::BindGroup, map: &WeatherMap) {
         for (view, face) in map.faces.iter().zip(&self.faces) {
-            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[globals, face], &[view]);
+            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[uniforms, face], &[view]);
         }
     }
 }

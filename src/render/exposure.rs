@@ -1,7 +1,9 @@
 //! Automatic exposure: a histogram of the finished radiance (`histogram.wgsl`) and what follows from it (`exposure.wgsl`). All of
 //! it stays on the GPU; the tone mapping reads the result from a buffer.
 
+use super::wgsl::{self, Uniform as _, uniform_struct};
 use super::{RenderError, gpu, shaders};
+use glam::UVec2;
 
 /// How [`super::Frame::exposure_ev`] is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,63 +33,88 @@ impl Metering {
 
 /// Time in which the eye goes two thirds of its way.
 const ADAPTATION_SECS: f64 = 0.35;
-/// Bytes of the histogram and its counter of white pixels; must match `meter.wgsl`.
-const HISTOGRAM_BYTES: u64 = (128 + 1) * 4;
-/// Pixels along a side that one workgroup looks at; must match `meter.wgsl`.
-const GROUP_PX: u32 = 16 * 4;
+/// Bins of the histogram.
+pub(crate) const METER_BINS: u32 = 128;
+/// One pixel in this many is counted, in each direction.
+pub(crate) const METER_STRIDE: u32 = 4;
+/// Invocations along a side of a workgroup.
+pub(crate) const METER_GROUP: u32 = 16;
+/// Bytes of the histogram and its counter of white pixels.
+const HISTOGRAM_BYTES: u64 = (METER_BINS as u64 + 1) * 4;
+/// Pixels along a side that one workgroup counts.
+const GROUP_PX: u32 = METER_GROUP * METER_STRIDE;
 
-/// Pipelines and buffers.
+uniform_struct! {
+    /// One metering.
+    MeterStep {
+        /// Left upper corner of the picture in the texture, pixels.
+        origin_px: UVec2,
+        /// Width and height of the picture, pixels.
+        size_px: UVec2,
+        /// Share of the way to the exposure wanted that is gone now.
+        share: f32,
+    }
+}
+
+/// The pipelines.
 pub(crate) struct ExposurePass {
     histogram: wgpu::ComputePipeline,
     exposure: wgpu::ComputePipeline,
-    bins: wgpu::Buffer,
-    /// Factor on radiance and its logarithm.
-    pub(crate) result: wgpu::Buffer,
-    step: wgpu::Buffer,
-    /// What `exposure` reads and writes.
-    set: wgpu::BindGroup,
 }
 
-impl ExposurePass {
-    pub(crate) fn new(device: &wgpu::Device) -> Result<Self, RenderError> {
+/// The exposure of one view.
+pub(crate) struct Exposure {
+    bins: wgpu::Buffer,
+    /// Two floats: factor on radiance, and its logarithm to base 2.
+    pub(crate) result: wgpu::Buffer,
+    step: wgpu::Buffer,
+}
+
+impl Exposure {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
         let buffer = |label, size, usage| {
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
         };
         let storage = wgpu::BufferUsages::STORAGE;
         let written = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let exposure = pipeline(device, "exposure.wgsl")?;
-        let bins = buffer("histogram", HISTOGRAM_BYTES, storage);
-        let result = buffer("exposure", 16, storage | written);
-        let step = buffer("exposure step", 16, written);
-        let set = group(device, &exposure, [&bins, &result, &step].map(wgpu::Buffer::as_entire_binding));
-        Ok(Self { histogram: pipeline(device, "histogram.wgsl")?, exposure, bins, result, step, set })
+        Self {
+            bins: buffer("histogram", HISTOGRAM_BYTES, storage),
+            result: buffer("exposure", 16, storage | written | wgpu::BufferUsages::COPY_SRC),
+            step: buffer("exposure step", MeterStep::SIZE as u64, written),
+        }
+    }
+}
+
+impl ExposurePass {
+    pub(crate) fn new(device: &wgpu::Device) -> Result<Self, RenderError> {
+        Ok(Self { histogram: pipeline(device, "histogram.wgsl")?, exposure: pipeline(device, "exposure.wgsl")? })
     }
 
-    /// Binds the radiance it is to measure.
-    pub(crate) fn bind(&self, device: &wgpu::Device, hdr: &wgpu::TextureView) -> wgpu::BindGroup {
-        group(device, &self.histogram, [wgpu::BindingResource::TextureView(hdr), self.bins.as_entire_binding()])
-    }
-
-    /// Sets the exposure for the picture that [`Self::bind`] bound, of a size in pixels.
+    /// Sets the exposure of a view by the radiance of a picture (x, y, width, height in the texture).
     pub(crate) fn draw(
         &self,
-        queue: &wgpu::Queue,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
-        input: &wgpu::BindGroup,
-        size_px: [u32; 2],
+        of: &Exposure,
+        radiance: &wgpu::TextureView,
+        viewport_px: [u32; 4],
         metering: Metering,
     ) {
         let Some(share) = metering.share() else {
-            queue.write_buffer(&self.result, 0, bytemuck::cast_slice(&[1.0_f32, 0.0, 0.0, 0.0]));
+            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[1.0_f32, 0.0, 0.0, 0.0]));
             return;
         };
-        queue.write_buffer(&self.step, 0, bytemuck::cast_slice(&[share, 0.0, 0.0, 0.0]));
+        let [x, y, width, height] = viewport_px;
+        let step = MeterStep { origin_px: UVec2::new(x, y), size_px: UVec2::new(width, height), share };
+        queue.write_buffer(&of.step, 0, &wgsl::bytes_of(&step));
+        let [bins, result, step] = [&of.bins, &of.result, &of.step].map(wgpu::Buffer::as_entire_binding);
+        let counted = [wgpu::BindingResource::TextureView(radiance), bins.clone(), step.clone()];
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&self.histogram);
-        pass.set_bind_group(0, input, &[]);
-        pass.dispatch_workgroups(size_px[0].div_ceil(GROUP_PX), size_px[1].div_ceil(GROUP_PX), 1);
+        pass.set_bind_group(0, &group(device, &self.histogram, counted), &[]);
+        pass.dispatch_workgroups(width.div_ceil(GROUP_PX), height.div_ceil(GROUP_PX), 1);
         pass.set_pipeline(&self.exposure);
-        pass.set_bind_group(0, &self.set, &[]);
+        pass.set_bind_group(0, &group(device, &self.exposure, [bins, result, step]), &[]);
         pass.dispatch_workgroups(1, 1, 1);
     }
 }

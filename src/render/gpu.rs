@@ -1,6 +1,7 @@
 //! Small helpers around wgpu that every pass uses: bind group layouts, full-screen pipelines, caught errors.
 
-use super::{RenderError, shaders};
+use super::RenderError;
+use super::targets::DEPTH_FORMAT;
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
@@ -51,18 +52,30 @@ pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
 }
 
-/// A bind group of textures, bound in their order.
-pub(crate) fn texture_group(
+/// A bind group of resources in the order of their bindings.
+pub(crate) fn group<'a>(
     device: &wgpu::Device,
     label: &str,
     layout: &wgpu::BindGroupLayout,
-    views: &[&wgpu::TextureView],
+    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
 ) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0..)
-        .zip(views)
-        .map(|(binding, view)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) })
-        .collect();
+    let entries: Vec<_> =
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+}
+
+/// The layout of a pipeline with these groups.
+pub(crate) fn pipeline_layout(
+    device: &wgpu::Device,
+    label: &str,
+    groups: &[&wgpu::BindGroupLayout],
+) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    })
 }
 
 /// A texture that is drawn into and then read.
@@ -87,44 +100,75 @@ pub(crate) fn target(
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// A pipeline that draws one triangle over the whole target.
+/// A pipeline that draws one triangle over all pixels.
+pub(crate) struct ScreenPipelineDescriptor<'a> {
+    /// Shader file.
+    pub(crate) entry: &'a str,
+    pub(crate) layout: &'a wgpu::PipelineLayout,
+    pub(crate) module: &'a wgpu::ShaderModule,
+    pub(crate) targets: &'a [Option<wgpu::ColorTargetState>],
+    /// The shader writes depth; what is nearer stays.
+    pub(crate) writes_depth: bool,
+    /// The output encodes sRGB by itself: the constant of that name in the shader.
+    pub(crate) encodes_srgb: bool,
+}
+
+/// Makes it.
 pub(crate) fn screen_pipeline(
     device: &wgpu::Device,
-    entry: &str,
-    layouts: &[&wgpu::BindGroupLayout],
-    formats: &[wgpu::TextureFormat],
+    of: &ScreenPipelineDescriptor<'_>,
 ) -> Result<wgpu::RenderPipeline, RenderError> {
-    let module = shaders::module(device, entry)?;
-    let layouts: Vec<_> = layouts.iter().copied().map(Some).collect();
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(entry),
-        bind_group_layouts: &layouts,
-        immediate_size: 0,
-    });
-    let targets: Vec<_> = formats.iter().map(|&format| Some(format.into())).collect();
-    checked(device, entry, || {
+    let constants = [("TARGET_ENCODES_SRGB", 1.0)];
+    checked(device, of.entry, || {
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(entry),
-            layout: Some(&layout),
+            label: Some(of.entry),
+            layout: Some(of.layout),
             vertex: wgpu::VertexState {
-                module: &module,
+                module: of.module,
                 entry_point: Some("screen_vertex"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &[],
             },
             fragment: Some(wgpu::FragmentState {
-                module: &module,
+                module: of.module,
                 entry_point: Some("fragment"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &targets,
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: if of.encodes_srgb { &constants } else { &[] },
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
+                targets: of.targets,
             }),
             primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
+            depth_stencil: of.writes_depth.then(|| depth_state(wgpu::CompareFunction::GreaterEqual)),
             multisample: wgpu::MultisampleState::default(),
             multiview_mask: None,
             cache: None,
         })
     })
+}
+
+/// Depth that is tested and written: reversed, so that the greater one is nearer.
+pub(crate) fn depth_state(depth_compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(depth_compare),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+/// A depth texture to draw into, cleared to infinity unless `load`.
+pub(crate) fn depth_attachment(view: &wgpu::TextureView, load: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    let load = if load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(0.0) };
+    let depth_ops = Some(wgpu::Operations { load, store: wgpu::StoreOp::Store });
+    wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }
+}
+
+/// Draws into a rectangle alone: x, y, width, height.
+pub(crate) fn set_viewport(pass: &mut wgpu::RenderPass<'_>, [x, y, width, height]: [u32; 4]) {
+    pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+    pass.set_scissor_rect(x, y, width, height);
 }
 
 /// Draws one full-screen triangle.
@@ -168,6 +212,50 @@ pub(crate) fn checked<T>(device: &wgpu::Device, name: &str, make: impl FnOnce() 
         Poll::Ready(Some(error)) => Err(RenderError::Shader(format!("shaders/{name}: {error}"))),
         Poll::Ready(None) | Poll::Pending => Ok(made),
     }
+}
+
+/// The two samplers of every pass: linear, clamped to the edge and repeated.
+pub(crate) fn samplers(device: &wgpu::Device) -> [wgpu::Sampler; 2] {
+    let sampler = |(label, mode)| {
+        device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some(label),
+            address_mode_u: mode,
+            address_mode_v: mode,
+            address_mode_w: mode,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..wgpu::SamplerDescriptor::default()
+        })
+    };
+    [("clamped", wgpu::AddressMode::ClampToEdge), ("repeated", wgpu::AddressMode::Repeat)].map(sampler)
+}
+
+/// The texels of a texture row by row; waits for the device.
+///
+/// # Errors
+/// [`RenderError::Device`]: the device does not answer.
+pub fn read_texture(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    texture: &wgpu::Texture,
+) -> Result<Vec<u8>, RenderError> {
+    let texel_bytes = texture.format().block_copy_size(None).unwrap_or(4);
+    let row_bytes = texture.width() * texel_bytes;
+    let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("texels"),
+        size: u64::from(padded_bytes) * u64::from(texture.height()),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("texels") });
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded_bytes), rows_per_image: None };
+    let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+    encoder.copy_texture_to_buffer(texture.as_image_copy(), to, texture.size());
+    queue.submit([encoder.finish()]);
+    let bytes = read(device, &buffer)?;
+    Ok(bytes.chunks(padded_bytes as usize).flat_map(|row| &row[..row_bytes as usize]).copied().collect())
 }
 
 /// The bytes of a buffer that has just been copied into; waits for the device.

@@ -5,8 +5,8 @@ use crate::lod::horizon::{COARSE_SIDE, HORIZON_IMAGES, HorizonTile};
 use crate::lod::tile::{TILE_SIDE, TILE_VERTICES};
 use half::f16;
 
-/// Images along a side of the texture; must match `horizon.wgsl`.
-const IMAGES_ALONG: usize = 7;
+/// Images along a side of the texture.
+pub(crate) const IMAGES_ALONG: usize = 7;
 const SIDE_PX: usize = IMAGES_ALONG * TILE_SIDE;
 
 /// 14 MB an array.

@@ -11,10 +11,10 @@ use super::material_noise::SIDE;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Greatest slope that is stored; must match `material_pattern.wgsl`.
-const STEEPEST: f32 = 1.25;
-/// Most that is added to a roughness, either way; must match `material_pattern.wgsl`.
-const MOST_ROUGHNESS: f32 = 0.5;
+/// Greatest slope that is stored.
+pub(crate) const PATTERN_STEEPEST: f32 = 1.25;
+/// Most that is added to a roughness, either way.
+pub(crate) const PATTERN_ROUGHNESS: f32 = 0.5;
 
 type Texels = Vec<[u8; 4]>;
 
@@ -91,7 +91,12 @@ impl Layer {
         let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
         let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
             let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
-            [signed(x, STEEPEST), signed(y, STEEPEST), signed(spot.roughness, MOST_ROUGHNESS), spot.glow]
+            [
+                signed(x, PATTERN_STEEPEST),
+                signed(y, PATTERN_STEEPEST),
+                signed(spot.roughness, PATTERN_ROUGHNESS),
+                spot.glow,
+            ]
         });
         Self { tint: levels(tint), surface: levels(surface.collect()) }
     }
@@ -154,7 +159,7 @@ fn ranks(values: &[f32]) -> Vec<f32> {
 fn slopes(heights: &[f32]) -> Vec<[f32; 2]> {
     let row = |y: usize| &heights[y % SIDE * SIDE..][..SIDE];
     let per_run = 0.5 * SIDE as f32;
-    let limited = |slope: f32| slope.clamp(-STEEPEST, STEEPEST);
+    let limited = |slope: f32| slope.clamp(-PATTERN_STEEPEST, PATTERN_STEEPEST);
     let mut slopes = Vec::with_capacity(heights.len());
     for y in 0..SIDE {
         let (below, here, above) = (row(y + SIDE - 1), row(y), row(y + 1));

@@ -2,11 +2,13 @@
 //! what they show.
 
 use super::pool::{Place, SLOTS};
+use super::scene::split_position;
+use super::wgsl::{self, Uniform as _, uniform_struct};
 use super::{RenderError, gpu, shaders};
 use crate::lod::Ranges;
 use crate::lod::range::FULL_AT;
 use crate::lod::tile::TILE_VERTICES;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// What a vertex shows: how far it is drawn above its place; moisture, row of the biome table, height and temperature.
 pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
@@ -15,6 +17,23 @@ pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
 pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Bytes of what belongs to one buffer of the pool.
 const PART_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * SHOWN_BYTES;
+
+uniform_struct! {
+    /// The eye that vertices morph for.
+    MorphEye {
+        /// Position in the planet frame, metres: greater part and rest.
+        high_m: Vec3,
+        /// Distance at which a level always shows, in vertex spacings.
+        least_spacings: f32,
+        low_m: Vec3,
+        /// Distance beyond which a level never shows, in vertex spacings.
+        most_spacings: f32,
+        /// Metres of distance for each metre of geometric error.
+        reach: f32,
+        /// Share of its distance over which a vertex morphs.
+        width_share: f32,
+    }
+}
 
 /// One tile as the shader knows it.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -85,7 +104,7 @@ pub(crate) struct Morph {
 
 impl Morph {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let eye = buffer(device, 48, wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST);
+        let eye = buffer(device, MorphEye::SIZE as u64, wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST);
         Self { layout: layout(device), eye, parts: Vec::new() }
     }
 
@@ -102,11 +121,16 @@ impl Morph {
         for vertices in &vertices[self.parts.len().min(vertices.len())..] {
             self.parts.push(Part::new(device, &self.layout, vertices, &self.eye));
         }
-        let high = eye_planet_m.as_vec3();
-        let low = (eye_planet_m - high.as_dvec3()).as_vec3();
-        let numbers = [ranges.least_spacings, ranges.most_spacings, ranges.reach, 1.0 - FULL_AT].map(|x| x as f32);
-        let eye = [high.extend(0.0).to_array(), low.extend(0.0).to_array(), numbers];
-        queue.write_buffer(&self.eye, 0, bytemuck::cast_slice(&eye));
+        let [high_m, low_m] = split_position(eye_planet_m);
+        let eye = MorphEye {
+            high_m,
+            least_spacings: ranges.least_spacings as f32,
+            low_m,
+            most_spacings: ranges.most_spacings as f32,
+            reach: ranges.reach as f32,
+            width_share: (1.0 - FULL_AT) as f32,
+        };
+        queue.write_buffer(&self.eye, 0, &wgsl::bytes_of(&eye));
         for (number, part) in self.parts.iter_mut().enumerate() {
             let jobs: Vec<Job> = tiles
                 .iter()

@@ -3,7 +3,8 @@
 
 use rayon::prelude::*;
 
-const SIDE: usize = 64;
+/// Texels along a side.
+pub(crate) const SIDE: usize = 64;
 
 /// Makes the tile and uploads it.
 pub(crate) fn upload(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {

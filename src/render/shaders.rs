@@ -3,78 +3,25 @@
 //! Every text of `shaders/` is part of the program. In debug builds the files on disk win while they are there, and
 //! `Watch` tells when one of them changed.
 
-use super::RenderError;
+use super::{RenderError, shared};
+use include_dir::{Dir, include_dir};
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 use wgpu::naga;
 
-macro_rules! embedded {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $name)))),*]
-    };
+/// The files of `shaders/` as they were when the program was built.
+static EMBEDDED: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
+
+/// The include that `shared` writes; no file.
+const SHARED: &str = "shared.wgsl";
+
+/// The files that are compiled on their own, one for each pass; all others are included by them.
+pub fn entries() -> Vec<&'static str> {
+    let is_entry = |text: &str| text.contains("\n@fragment") || text.contains("\n@compute");
+    let files = EMBEDDED.files().filter(|file| file.contents_utf8().is_some_and(is_entry));
+    files.filter_map(|file| file.path().to_str()).collect()
 }
-
-/// Every file of `shaders/` by name.
-const EMBEDDED: &[(&str, &str)] = embedded![
-    "air.wgsl",
-    "air_model.wgsl",
-    "antialias.wgsl",
-    "border.wgsl",
-    "cloud_map.wgsl",
-    "cloud_model.wgsl",
-    "clouds.wgsl",
-    "detail.wgsl",
-    "display.wgsl",
-    "exposure.wgsl",
-    "globals.wgsl",
-    "highlight.wgsl",
-    "histogram.wgsl",
-    "horizon.wgsl",
-    "irradiance.wgsl",
-    "light.wgsl",
-    "material.wgsl",
-    "material_pattern.wgsl",
-    "math.wgsl",
-    "meter.wgsl",
-    "morph.wgsl",
-    "mottle.wgsl",
-    "multiscatter.wgsl",
-    "optical_depth.wgsl",
-    "ring.wgsl",
-    "scattering.wgsl",
-    "screen.wgsl",
-    "sea.wgsl",
-    "sky.wgsl",
-    "sky_probe.wgsl",
-    "stars.wgsl",
-    "surface.wgsl",
-    "tables.wgsl",
-    "terrain.wgsl",
-    "tone.wgsl",
-    "tonemap.wgsl",
-    "water.wgsl",
-];
-
-/// The files that are compiled on their own: one for each pass. All others are included by them.
-pub const ENTRIES: &[&str] = &[
-    "air.wgsl",
-    "antialias.wgsl",
-    "cloud_map.wgsl",
-    "clouds.wgsl",
-    "display.wgsl",
-    "exposure.wgsl",
-    "histogram.wgsl",
-    "irradiance.wgsl",
-    "morph.wgsl",
-    "multiscatter.wgsl",
-    "optical_depth.wgsl",
-    "sky.wgsl",
-    "sky_probe.wgsl",
-    "terrain.wgsl",
-    "tonemap.wgsl",
-    "water.wgsl",
-];
 
 /// A shader with everything it includes, and where each of its lines comes from.
 #[derive(Debug)]
@@ -105,8 +52,11 @@ fn disk_folder() -> Option<PathBuf> {
 
 /// The text of one file: from disk in debug builds, otherwise the one that is part of the program.
 fn read(name: &str) -> Option<Cow<'static, str>> {
+    if name == SHARED {
+        return Some(Cow::Owned(shared::text()));
+    }
     let on_disk = disk_folder().and_then(|folder| std::fs::read_to_string(folder.join(name)).ok());
-    on_disk.map(Cow::Owned).or_else(|| EMBEDDED.iter().find(|(n, _)| *n == name).map(|(_, text)| Cow::Borrowed(*text)))
+    on_disk.map(Cow::Owned).or_else(|| EMBEDDED.get_file(name)?.contents_utf8().map(Cow::Borrowed))
 }
 
 /// Puts an entry file and all it includes into one text. `read` gives a file's text by name.
@@ -119,6 +69,16 @@ pub fn resolve_with(entry: &str, read: &dyn Fn(&str) -> Option<Cow<'static, str>
 /// Puts an entry file of `shaders/` and all it includes into one text.
 pub fn resolve(entry: &str) -> Result<Resolved, RenderError> {
     resolve_with(entry, &read)
+}
+
+/// WGSL for the shaders of a game whose own things stand in a body's air: `light_at` (sun and sky on a surface),
+/// `haze_before` (the air in front of a point) and the uniforms. Put the game's text behind it; it uses bind groups 0 and
+/// 1 ([`super::Renderer::body_layouts`]), so the game's own begin at 2.
+///
+/// # Errors
+/// [`RenderError::Shader`]: a file of `shaders/` was edited on disk and an include is missing.
+pub fn air_wgsl() -> Result<String, RenderError> {
+    Ok(resolve("air_api.wgsl")?.text)
 }
 
 fn append(
@@ -221,5 +181,5 @@ impl Watch {
 
 fn newest_change() -> Option<SystemTime> {
     let folder = disk_folder()?;
-    EMBEDDED.iter().filter_map(|(name, _)| std::fs::metadata(folder.join(name)).ok()?.modified().ok()).max()
+    EMBEDDED.files().filter_map(|file| std::fs::metadata(folder.join(file.path())).ok()?.modified().ok()).max()
 }

@@ -1,64 +1,132 @@
-//! The textures a frame is drawn into; made anew when the size changes.
+//! The textures that passes read and write, by name.
+//!
+//! A view owns those between the stages; the caller lends the others. All are as large as the caller's targets, so that a
+//! pixel has the same coordinates in each of them.
 
 use super::{RenderError, gpu};
+use std::collections::HashMap;
 
-/// Radiance.
-pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Reverse-Z depth.
-pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Temperature of the surface, °C (what is frozen follows the climate that a query gives), and the share of the star's light that
-/// the ground around it takes; how far the ground within a pixel goes above and below its height, metres.
-pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Stars, see `air.wgsl`.
-pub(crate) const STARS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// Distance of the clouds.
-pub(crate) const DISTANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+/// Format of radiance: linear RGB, 1 for sunlit white ground.
+pub const RADIANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Format of depth: reversed, 0 at infinity. See [`super::Matrices`].
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Two radiance targets (which may be read back) that passes read and write in turn, depth, and what the passes of the clouds and
-/// of the air leave behind.
+/// A texture of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Target {
+    /// Radiance of the ground under the sea; alpha: height over the sea, metres.
+    GroundRadiance,
+    /// Depth of the ground under the sea.
+    GroundDepth,
+    /// Of the ground at a pixel: temperature at the level of the sea in °C, share of the sun that the ground around takes,
+    /// height range within the pixel in metres.
+    GroundSurface,
+    /// Radiance of ground and sea: the caller's.
+    Radiance,
+    /// Depth of ground and sea: the caller's.
+    Depth,
+    /// Radiance of the clouds, and their transmittance.
+    CloudLight,
+    /// Distance of the clouds, km.
+    CloudDistance,
+    /// Radiance that the air of a body is laid over.
+    BeforeAir,
+    /// The same with that air.
+    AfterAir,
+    /// Stars as square roots of what a display shows. They do not follow the exposure.
+    Stars,
+    /// Radiance of the whole scene: the caller's.
+    Composite,
+    /// The picture after the tone curve, linear; alpha: perceived brightness.
+    Toned,
+    /// The same with smooth edges.
+    Smoothed,
+    /// The newest of the two above.
+    Picture,
+    /// The picture that is shown: the caller's.
+    Output,
+}
+
+impl Target {
+    /// Its format; `None` for the output, which has the caller's.
+    pub(crate) fn format(self) -> Option<wgpu::TextureFormat> {
+        Some(match self {
+            Target::GroundDepth | Target::Depth => DEPTH_FORMAT,
+            Target::CloudDistance => wgpu::TextureFormat::R32Float,
+            Target::Stars => wgpu::TextureFormat::Rgba8Unorm,
+            Target::Output => return None,
+            _ => RADIANCE_FORMAT,
+        })
+    }
+}
+
+/// A texture that a view owns: a target, or one of two radiance textures that pass the scene from body to body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Owned {
+    Target(Target),
+    Between(usize),
+}
+
+/// The textures that a view owns, made when they are first needed.
 pub(crate) struct Targets {
     pub(crate) size_px: [u32; 2],
-    pub(crate) hdr: [wgpu::TextureView; 2],
-    pub(crate) surface: wgpu::TextureView,
-    pub(crate) depth: wgpu::TextureView,
-    pub(crate) stars: wgpu::TextureView,
-    pub(crate) cloud_light: wgpu::TextureView,
-    pub(crate) cloud_distance: wgpu::TextureView,
+    textures: HashMap<Owned, wgpu::TextureView>,
 }
 
 impl Targets {
-    pub(crate) fn new(device: &wgpu::Device, size_px: [u32; 2]) -> Self {
-        Self {
-            size_px,
-            hdr: [
-                gpu::target(device, "radiance 0", size_px, HDR_FORMAT),
-                gpu::target(device, "radiance 1", size_px, HDR_FORMAT),
-            ],
-            surface: gpu::target(device, "surface", size_px, SURFACE_FORMAT),
-            depth: gpu::target(device, "depth", size_px, DEPTH_FORMAT),
-            stars: gpu::target(device, "stars", size_px, STARS_FORMAT),
-            cloud_light: gpu::target(device, "cloud light", size_px, HDR_FORMAT),
-            cloud_distance: gpu::target(device, "cloud distance", size_px, DISTANCE_FORMAT),
-        }
+    pub(crate) fn new(size_px: [u32; 2]) -> Self {
+        Self { size_px, textures: HashMap::new() }
     }
 
-    /// Where the tone mapping puts what is to be shown of the scene in that radiance target: into the other one.
-    pub(crate) fn toned(&self, scene: usize) -> &wgpu::TextureView {
-        &self.hdr[1 - scene]
+    /// Makes a texture if it is not there.
+    pub(crate) fn make(&mut self, device: &wgpu::Device, owned: Owned) {
+        let size_px = self.size_px;
+        let format = match owned {
+            Owned::Target(target) => target.format().unwrap_or(RADIANCE_FORMAT),
+            Owned::Between(_) => RADIANCE_FORMAT,
+        };
+        self.textures.entry(owned).or_insert_with(|| gpu::target(device, &format!("{owned:?}"), size_px, format));
     }
 
-    /// Where the same goes with smooth edges: the clouds are in the scene by then.
-    pub(crate) fn smoothed(&self) -> &wgpu::TextureView {
-        &self.cloud_light
+    /// A texture that was made.
+    pub(crate) fn get(&self, owned: Owned) -> Option<&wgpu::TextureView> {
+        self.textures.get(&owned)
     }
 }
 
-/// Whether a target is as large as a view says (or as the device allows, if that is less).
-pub(crate) fn check_size(target: &wgpu::TextureView, view_px: [u32; 2], limit_px: u32) -> Result<(), RenderError> {
-    let texture = target.texture();
+/// Checks a target that the caller lends.
+pub(crate) fn check(
+    name: &'static str,
+    view: &wgpu::TextureView,
+    format: Option<wgpu::TextureFormat>,
+    usage: wgpu::TextureUsages,
+) -> Result<(), RenderError> {
+    let texture = view.texture();
+    match format {
+        Some(wanted) if texture.format() != wanted => {
+            return Err(RenderError::TargetFormat { name, found: texture.format(), wanted });
+        }
+        _ => {}
+    }
+    let missing = usage - texture.usage();
+    if missing.is_empty() { Ok(()) } else { Err(RenderError::TargetUsage { name, missing }) }
+}
+
+/// Checks that a target is as large as the picture, or as the device allows if that is less.
+pub(crate) fn check_size(
+    name: &'static str,
+    view: &wgpu::TextureView,
+    picture_px: [u32; 2],
+    limit_px: u32,
+) -> Result<(), RenderError> {
+    let texture = view.texture();
     let target_px = [texture.width(), texture.height()];
-    let wanted_px = view_px.map(|side| side.clamp(1, limit_px));
+    let wanted_px = picture_px.map(|side| side.clamp(1, limit_px));
     // A view does not tell which mip level of its texture it shows.
     let fits = |level: u32| target_px.map(|side| (side >> level).max(1)) == wanted_px;
-    if (0..texture.mip_level_count()).any(fits) { Ok(()) } else { Err(RenderError::TargetSize { target_px, view_px }) }
+    if (0..texture.mip_level_count()).any(fits) {
+        Ok(())
+    } else {
+        Err(RenderError::TargetSize { name, target_px, picture_px })
+    }
 }

@@ -1,6 +1,9 @@
 //! Curves from radiance to what a display shows, to choose from; `shaders/tone.wgsl` has them for the GPU.
 
-/// How radiance becomes a picture: a setting of the view.
+use super::wgsl::Constant;
+use glam::DMat3;
+
+/// A tone curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
     /// Like film: highlights bleach, colours stay in order (the primaries of AgX by Troy Sobotka, 2022, with a
@@ -36,6 +39,22 @@ const AGX_SHOULDER: f64 = 6.0;
 const AGX_BLACK: f64 = 0.007;
 /// Factor on the difference from grey.
 const AGX_SATURATION: f64 = 0.92;
+/// The constants of the curves under their names in `tone.wgsl`.
+pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 9] {
+    let matrix = |rows: &[[f64; 3]; 3]| Box::new(DMat3::from_cols_array_2d(rows).transpose());
+    [
+        ("AGX_IN", matrix(&AGX_IN)),
+        ("AGX_OUT", matrix(&AGX_OUT)),
+        ("AGX_PIVOT", Box::new(AGX_PIVOT)),
+        ("AGX_PIVOT_CODE", Box::new(AGX_PIVOT_CODE)),
+        ("AGX_SLOPE", Box::new(AGX_SLOPE)),
+        ("AGX_TOE", Box::new(AGX_TOE)),
+        ("AGX_SHOULDER", Box::new(AGX_SHOULDER)),
+        ("AGX_BLACK", Box::new(AGX_BLACK)),
+        ("AGX_SATURATION", Box::new(AGX_SATURATION)),
+    ]
+}
+
 /// What the primaries count in a grey.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 

@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-const C_SQUARED: f64 = 0.87 * 0.87;
+pub(crate) const C_SQUARED: f64 = 0.87 * 0.87;
 
 /// One of the six faces: the axis that points out of it, positive or negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

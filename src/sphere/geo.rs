@@ -1,6 +1,7 @@
 //! Latitude and longitude, and the local frame of a place.
 
 use glam::DVec3;
+use std::f64::consts::TAU;
 
 /// A place on the globe. Latitude is -π/2 (south pole) to π/2 (north pole), longitude -π to π, east positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,4 +42,15 @@ pub fn east_north(dir_planet: DVec3) -> (DVec3, DVec3) {
     let flat = DVec3::new(-dir_planet.y, dir_planet.x, 0.0);
     let east = if flat.length_squared() > 1e-24 { flat.normalize() } else { DVec3::Y };
     (east, dir_planet.cross(east).normalize())
+}
+
+/// `count` unit directions, each of which stands for an equal area (Fibonacci grid; Swinbank and Purser 2006).
+pub fn spread(count: usize) -> impl Iterator<Item = DVec3> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    (0..count).map(move |i| {
+        let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
+        let flat = libm::sqrt(1.0 - z * z);
+        let turn = (i as f64 * GOLDEN).fract() * TAU;
+        DVec3::new(flat * libm::cos(turn), flat * libm::sin(turn), z)
+    })
 }

@@ -15,5 +15,5 @@ pub mod node;
 pub mod raster;
 
 pub use cube::Face;
-pub use geo::LatLon;
+pub use geo::{LatLon, spread};
 pub use node::{Edge, NodeId};

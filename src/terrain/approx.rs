@@ -1,19 +1,20 @@
-//! Sine, cosine and arctangent by polynomials in f32, for the hot loops: the same bits on every instruction set, which
-//! neither the platform's functions nor a vector library promise.
+//! Sine, cosine and arctangent by polynomials in f32, for the hot loops. They are bit-identical on every instruction
+//! set, which neither the platform's functions nor a vector library promise.
 //!
-//! Angles are in turns (1 is a full circle): a turn more or less is then a whole number, which f32 takes away without
-//! error. The polynomials interpolate at Chebyshev nodes; their errors, like the rounding, are about 1e-7.
+//! Angles are in turns (1 is a full circle), because f32 subtracts whole turns without rounding. The polynomials
+//! interpolate at Chebyshev nodes; approximation and rounding errors are each about 1e-7.
 
-use super::jet::{Real, Scalar};
+use super::jet::Real;
+use super::scalar::Scalar;
 use std::f64::consts::TAU;
 
-/// An angle in turns without its whole turns: -0.5 to 0.5. The angle must be below 2^22.
+/// An angle in turns reduced to -0.5 to 0.5. It must be below 2^22 in size.
 #[inline(always)]
 pub(crate) fn wrap<S: Scalar>(turns: S) -> S {
     turns - turns.whole()
 }
 
-/// A polynomial, the coefficient of the highest power last.
+/// A polynomial; `c` holds the coefficient of the highest power last.
 #[inline(always)]
 fn polynomial<S: Scalar, const N: usize>(c: [f32; N], x: S) -> S {
     let mut sum = S::from_f32(c[N - 1]);
@@ -30,18 +31,18 @@ fn sin_quarter<S: Scalar>(turns: S) -> S {
     turns * polynomial(C, turns * turns)
 }
 
-/// Sine and cosine of an angle in turns, which must be below 2^22.
+/// Sine and cosine of an angle in turns, which must be below 2^22 in size.
 #[inline(always)]
 pub(crate) fn sin_cos<S: Scalar>(turns: S) -> (S, S) {
     let quarter = S::of(0.25);
     let wrapped = wrap(turns);
     let size = wrapped.abs();
-    // Beyond a quarter turn the sine comes down again.
+    // Beyond a quarter turn the sine falls again.
     let folded = quarter - (size - quarter).abs();
     (sin_quarter(if wrapped < S::default() { -folded } else { folded }), sin_quarter(quarter - size))
 }
 
-/// The angle of a vector in turns, -0.5 to 0.5; zero, with no gradient, for the zero vector.
+/// The angle of a vector in turns, -0.5 to 0.5. The zero vector has the angle 0 and no gradient.
 #[inline(always)]
 pub(crate) fn atan2<R: Real>(y: R, x: R) -> R {
     const C: [f32; 8] = [
@@ -58,7 +59,7 @@ pub(crate) fn atan2<R: Real>(y: R, x: R) -> R {
     let (height, width) = (y.value().abs(), x.value().abs());
     let steep = height > width;
     let (small, large) = if steep { (width, height) } else { (height, width) };
-    // At the zero vector the quotient would not be a number.
+    // The quotient of the zero vector would be NaN.
     let t = small / large.max(R::S::LEAST);
     let octant = t * polynomial(C, t * t);
     let quarter = if steep { R::S::of(0.25) - octant } else { octant };

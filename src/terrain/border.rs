@@ -1,63 +1,71 @@
-//! Noise that moves the borders between biomes: where a place falls in the biome table.
+//! Border jitter: noise that moves the borders between biomes.
 //!
-//! Moisture and row choose a point of the table; noise of the place moves that point by a share of a cell, so that neither the
-//! table's grid nor a line of equal climate shows on the ground. Octaves go from a thousand kilometres (on a planet like the
-//! Earth) down to some ten metres, the finer the weaker: borders wind and fray as coasts do. `border.wgsl` does the same with
-//! the same tile and the same octaves, so that a query and a picture agree.
+//! Moisture and temperature (or height) choose a point of the biome table. Noise moves that point by a share of a cell, so
+//! that neither the table's grid nor a line of equal climate shows on the ground. The periods go from a thousand kilometres
+//! on a planet like the Earth down to some ten metres, the finer the weaker: borders wind and fray as coasts do.
+//! `border.wgsl` samples the same texture with the same octaves, so that queries and pictures agree.
 
 use crate::planet::Planet;
 use glam::{DMat3, DVec3};
 use std::sync::OnceLock;
 
-/// Octaves of the noise; the same as in `border.wgsl`.
+/// Octaves of the noise.
 pub(crate) const OCTAVES: usize = 5;
-/// Repeat of the first octave, in planet radii.
+/// Period of the first octave, in planet radii.
 const COARSEST: f64 = 1.1;
-/// How much finer each octave is than the one before, and how much weaker.
+/// Ratio of frequency and of amplitude from one octave to the next.
 const FINER: f64 = 11.0;
-const GAIN: f64 = 0.25;
-/// Texels along the tile of noise.
+pub(crate) const GAIN: f64 = 0.25;
+/// Texels along a side of the noise texture.
 pub(crate) const TILE_SIDE: usize = 32;
-/// From one octave to the next: turned octaves never repeat together along an axis. The same as in the shaders.
+/// Rotation from one octave to the next, so that octaves never repeat together along an axis.
 pub(crate) const OCTAVE_TURN: DMat3 =
     DMat3::from_cols(DVec3::new(0.36, -0.8, 0.48), DVec3::new(0.48, 0.6, 0.64), DVec3::new(-0.8, 0.0, 0.6));
 
-/// Each octave's repeat in metres, coarse to fine.
+/// Period of each octave in metres, coarse to fine.
 pub(crate) fn periods_m(radius_m: f64) -> [f64; OCTAVES] {
+    // Powers of a small whole number are exact in f64.
     std::array::from_fn(|octave| radius_m * COARSEST / FINER.powi(octave as i32))
 }
 
-/// The cell of the biome table under a unit direction, as column and row, where moisture and row (0 last to 1 first) are these.
-pub(crate) fn cell_of(planet: &Planet, dir: DVec3, moisture: f64, row: f64) -> [usize; 2] {
-    let table = &planet.biomes.table;
-    let offset = match planet.biomes.border_jitter {
-        jitter if jitter > 0.0 => offset(dir * planet.radius_m(), planet.radius_m()).map(|offset| offset * jitter),
-        _ => [0.0; 2],
-    };
-    let cell = |at: f64, cells: usize, offset: f64| {
-        let cells_f = cells as f64;
-        (at * cells_f + offset).clamp(0.0, (cells_f - 0.5).max(0.0)) as usize
-    };
-    [cell(moisture, table.columns(), offset[0]), cell(1.0 - row, table.rows().len(), offset[1])]
+/// The border jitter of a planet.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Border {
+    /// How far borders move, in cells of the biome table.
+    jitter: f64,
+    radius_m: f64,
+    periods_m: [f64; OCTAVES],
 }
 
-/// How far the borders are moved at a point of the reference sphere, in cells, for a jitter of 1.
-fn offset(place_m: DVec3, radius_m: f64) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    let (mut place_m, mut weight) = (place_m, 1.0);
-    for period_m in periods_m(radius_m) {
-        let noise = tile_at(place_m / period_m);
-        sum = [sum[0] + weight * noise[0], sum[1] + weight * noise[1]];
-        place_m = OCTAVE_TURN * place_m;
-        weight *= GAIN;
+impl Border {
+    pub(crate) fn new(planet: &Planet) -> Self {
+        let radius_m = planet.radius_m();
+        Self { jitter: planet.biomes.border_jitter, radius_m, periods_m: periods_m(radius_m) }
     }
-    sum
+
+    /// How far the borders move under a unit direction, in columns and rows.
+    pub(crate) fn offset_at(&self, dir_planet: DVec3) -> [f64; 2] {
+        if self.jitter > 0.0 { self.offset(dir_planet).map(|offset| offset * self.jitter) } else { [0.0; 2] }
+    }
+
+    /// The same for a jitter of 1.
+    fn offset(&self, dir_planet: DVec3) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        let (mut point_m, mut weight) = (dir_planet * self.radius_m, 1.0);
+        for period_m in self.periods_m {
+            let noise = tile_at(point_m / period_m);
+            sum = [sum[0] + weight * noise[0], sum[1] + weight * noise[1]];
+            point_m = OCTAVE_TURN * point_m;
+            weight *= GAIN;
+        }
+        sum
+    }
 }
 
-/// The tile at a point, in repeats: linear between texels, as a sampler of the GPU has it.
-fn tile_at(place: DVec3) -> [f64; 2] {
+/// The noise texture at a point in periods, trilinear between texels as the GPU samples it.
+fn tile_at(point: DVec3) -> [f64; 2] {
     let tile = tile();
-    let at = (place - place.floor()) * TILE_SIDE as f64 - 0.5;
+    let at = (point - point.floor()) * TILE_SIDE as f64 - 0.5;
     let low = at.floor();
     let f = at - low;
     let side = TILE_SIDE as i64;
@@ -74,7 +82,8 @@ fn tile_at(place: DVec3) -> [f64; 2] {
     sum
 }
 
-/// A cube of smooth noise that repeats without a seam, about -0.5 to 0.5 with mean 0, two independent values; x runs fastest.
+/// The noise texture: a cube of smooth noise without a seam, two independent channels of about -0.5 to 0.5 with mean
+/// 0; x runs fastest.
 pub(crate) fn tile() -> &'static [[f32; 2]] {
     static TILE: OnceLock<Vec<[f32; 2]>> = OnceLock::new();
     TILE.get_or_init(|| {
@@ -96,7 +105,7 @@ pub(crate) fn tile() -> &'static [[f32; 2]] {
     })
 }
 
-/// Smoothly interpolated values of a lattice that repeats after `cells`, -1 to 1.
+/// Smoothly interpolated values of a lattice with a period of `cells`, -1 to 1.
 fn value_noise(place: [f32; 3], cells: u32, seed: u32) -> f32 {
     let at = place.map(|x| x * cells as f32);
     let low = at.map(|x| x.floor() as u32);
@@ -114,7 +123,7 @@ fn value_noise(place: [f32; 3], cells: u32, seed: u32) -> f32 {
     2.0 * sum - 1.0
 }
 
-/// A hash of a lattice point, 0 to 1 (the mixer of murmur3).
+/// A hash of a lattice point, 0 to 1 (the finaliser of MurmurHash3).
 fn hashed([x, y, z]: [u32; 3], seed: u32) -> f32 {
     let mut h = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ z.wrapping_mul(0xC2B2_AE3D);
     h = (h ^ seed.wrapping_mul(0x27D4_EB2F)).wrapping_mul(0x85EB_CA6B);
@@ -126,11 +135,12 @@ fn hashed([x, y, z]: [u32; 3], seed: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terrain::survey::spread;
+    use crate::sphere::spread;
 
     #[test]
     fn the_noise_is_even_and_moves_borders_by_about_half_a_cell() {
-        let offsets: Vec<[f64; 2]> = spread(4000).map(|dir| offset(dir * 6.371e6, 6.371e6)).collect();
+        let border = Border::new(&Planet::default());
+        let offsets: Vec<[f64; 2]> = spread(4000).map(|dir| border.offset(dir)).collect();
         for axis in 0..2 {
             let mean = offsets.iter().map(|o| o[axis]).sum::<f64>() / offsets.len() as f64;
             let deviation = (offsets.iter().map(|o| o[axis].powi(2)).sum::<f64>() / offsets.len() as f64).sqrt();
@@ -138,15 +148,5 @@ mod tests {
             assert!((0.15..0.4).contains(&deviation), "{deviation}");
             assert!(offsets.iter().all(|o| o[axis].abs() < 1.2));
         }
-    }
-
-    #[test]
-    fn without_jitter_cells_follow_climate_alone() {
-        let mut planet = Planet::default();
-        planet.biomes.border_jitter = 0.0;
-        let (columns, rows) = (planet.biomes.table.columns(), planet.biomes.table.rows().len());
-        assert_eq!(cell_of(&planet, DVec3::X, 0.0, 1.0), [0, 0]);
-        assert_eq!(cell_of(&planet, DVec3::X, 1.0, 0.0), [columns - 1, rows - 1]);
-        assert_eq!(cell_of(&planet, DVec3::X, 0.5, 0.5), [columns / 2, rows / 2]);
     }
 }

@@ -1,4 +1,4 @@
-//! Temperature and moisture at the surface, and the place in the biome table that they make.
+//! Climate: temperature and moisture at the surface, and the row and column of the biome table that follow.
 
 use super::field::Field;
 use super::landform::Landform;
@@ -16,7 +16,7 @@ pub(crate) struct CompiledClimate {
     pub(crate) world: World,
 }
 
-/// Climate noise at a batch of points; depends on the climate's seed, region size and octaves only.
+/// Climate noise at a batch of points. It depends on the seed, region size and octaves of the climate alone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ClimateField {
     pub(crate) temperature: Vec<f64>,
@@ -27,11 +27,11 @@ pub(crate) struct ClimateField {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PointClimate {
     pub(crate) temperature_c: f64,
-    /// 0 (as cold as the table knows) to 1.
+    /// Position between the coldest (0) and the hottest (1) temperature of the biome table.
     pub(crate) temperature: f64,
-    /// 0 to 1: the table's column.
+    /// 0 to 1: the column of the biome table.
     pub(crate) moisture: f64,
-    /// 0 (last row: coldest or lowest) to 1 (first row).
+    /// Row of the biome table, from 0 (last row: coldest or lowest) to 1 (first row).
     pub(crate) row: f64,
 }
 
@@ -40,7 +40,8 @@ impl CompiledClimate {
         let climate = &planet.climate;
         let varies = climate.temperature_variation_c > 0.0 || climate.moisture_variation > 0.0;
         let noise = |kind: u64| {
-            // Apart from the layers' seeds, whose upper half is the planet's seed alone.
+            // Layers take the planet's seed for the upper half of theirs; mixing it keeps the seeds of the climate
+            // apart.
             let seed = super::noise::mix(u64::from(planet.seed)) ^ (u64::from(climate.seed) << 1) ^ kind;
             Landform::fbm(seed, planet.radius_km / climate.wavelength_km, climate.octaves)
         };
@@ -52,7 +53,7 @@ impl CompiledClimate {
         planet.water.is_some() && planet.climate.sea_moisture > 0.0
     }
 
-    /// The noises, as the key under which a field may be kept.
+    /// The noises: the key of a kept [`ClimateField`].
     pub(crate) fn noises(&self) -> Option<&[Landform; 2]> {
         self.noises.as_ref()
     }
@@ -67,21 +68,39 @@ impl CompiledClimate {
         }
     }
 
-    /// Distance from the sea in radians at each point; empty if climate does not read it, or if no map serves yet.
-    pub(crate) fn inland_rad(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
+    /// Distance to the coast of each point in radians; empty if the climate does not read it, or if no map serves yet.
+    pub(crate) fn inland_rad<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = f64> + 'a {
         let coast = self.world.coast.map().into_iter();
-        coast.flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir))).collect()
+        coast.flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir)))
     }
 }
 
-/// A distance beyond the reach of any sea.
+/// The inputs of the climate other than height, at a batch of points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClimateInputs<'a> {
+    /// Noise for temperature and moisture.
+    pub(crate) noise: [&'a [f64]; 2],
+    /// Distance to the coast as an angle; empty if the climate does not depend on it.
+    pub(crate) inland_rad: &'a [f64],
+}
+
+impl ClimateInputs<'_> {
+    /// Noise and distance to the coast of one point.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> ([f64; 2], f64) {
+        let at = |numbers: &[f64], missing: f64| numbers.get(i).copied().unwrap_or(missing);
+        ([at(self.noise[0], 0.0), at(self.noise[1], 0.0)], at(self.inland_rad, NO_SEA))
+    }
+}
+
+/// A distance beyond the reach of any coast.
 pub(crate) const NO_SEA: f64 = f64::INFINITY;
 
-/// Climate at the level of the sea: the parameters of a planet that tiles hold the results of.
+/// The climate at sea level: the climate parameters whose results tiles hold, converted for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SeaLevelClimate {
     equator_c: f64,
-    /// From the equator to a pole.
+    /// Temperature of a pole less that of the equator.
     warmer_c: f64,
     temperature_variation_c: f64,
     moisture: f64,
@@ -108,8 +127,8 @@ impl SeaLevelClimate {
         }
     }
 
-    /// Temperature in °C, and moisture that may lie beyond 0 to 1, at the latitude of a sine, with this noise for
-    /// temperature and moisture, at a distance from the sea in radians ([`NO_SEA`] where there is none).
+    /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature and
+    /// moisture, at a distance to the coast in radians ([`NO_SEA`] where there is none).
     #[inline(always)]
     pub(crate) fn at(&self, sin_lat: f64, noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
         self.lifted(sin_lat, [0.0; 2], noise, inland_rad)
@@ -128,20 +147,20 @@ impl SeaLevelClimate {
     }
 }
 
-/// How climate follows from latitude, height and noise: the parameters of a planet, as numbers.
+/// The climate parameters of a planet, converted for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rules {
     sea_level: SeaLevelClimate,
     lapse_c_per_km: f64,
     drying_per_km: f64,
-    /// From which heights count: the sea's surface.
+    /// The level that heights count from: the sea's, or 0.
     sea_m: f64,
-    /// Temperature of the table's last row, and from there to the end of the first.
+    /// Temperature at the end of the table's last row, and the span from there to the end of the first.
     coldest_c: f64,
     range_c: f64,
-    /// Whether the table's rows go by temperature, not by height.
+    /// Whether the table's rows are temperatures; else they are heights.
     by_temperature: bool,
-    /// What the last row begins with, and from there to the end of the first.
+    /// Lower end of the last row (temperature or height), and the span from there to the end of the first.
     lowest: f64,
     span: f64,
 }
@@ -165,11 +184,11 @@ impl Rules {
         }
     }
 
-    /// The climate at a place whose latitude has this sine, at this height of the ground, with this noise for
-    /// temperature and moisture, so far from the sea (as an angle; [`NO_SEA`] where there is none).
+    /// The climate at the sine of a latitude, a height of the ground, noise for temperature and moisture, and a
+    /// distance to the coast (an angle; [`NO_SEA`] where there is none).
     #[inline(always)]
     pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> PointClimate {
-        // Over a sea the surface is the sea's.
+        // Above the sea bed the surface is the sea's.
         let above_m = height_m - self.sea_m;
         let above_km = above_m.max(0.0) / 1000.0;
         let less = [self.lapse_c_per_km * above_km, self.drying_per_km * above_km];
@@ -184,7 +203,15 @@ impl Rules {
         }
     }
 
-    /// How much moisture and row change with each metre of height, where they do.
+    /// Lowest and greatest moisture and row at a point, for any noise up to `most_noise` either way and any distance
+    /// to the coast.
+    pub(crate) fn ranges(&self, sin_lat: f64, height_m: f64, most_noise: f64) -> [(f64, f64); 2] {
+        let low = self.at(sin_lat, height_m, [-most_noise; 2], NO_SEA);
+        let high = self.at(sin_lat, height_m, [most_noise; 2], 0.0);
+        [(low.moisture, high.moisture), (low.row.min(high.row), low.row.max(high.row))]
+    }
+
+    /// Derivatives of moisture and row by height; 0 where they are limited.
     pub(crate) fn by_height(&self, height_m: f64, climate: &PointClimate) -> [f64; 2] {
         let over_sea = height_m > self.sea_m;
         let inside = |x: f64| x > 0.0 && x < 1.0;
@@ -199,7 +226,7 @@ impl Rules {
     }
 }
 
-/// The climate belts at a latitude: see [`CLIMATE_BELTS`].
+/// Moisture by latitude, -1 to 1: see [`CLIMATE_BELTS`].
 #[inline(always)]
 fn belt(sin2_lat: f64) -> f64 {
     let [c0, c1, c2, c3] = CLIMATE_BELTS;

@@ -1,94 +1,22 @@
 //! Numbers that carry their gradient, so that a landform's formula is written once.
 //!
-//! A formula generic over [`Real`] is compiled for `f32` (heights alone), for [`Jet`] (heights with gradients, by
-//! forward differentiation) and for `f64` (heights to the millimetre). The value of a jet goes through the very
-//! operations of the plain `f32`: the same bits.
+//! A formula generic over [`Real`] is compiled for `f32` (values alone), for [`Jet`] (values with gradients, by
+//! forward differentiation) and for `f64` (values to the millimetre). The value of a jet takes the same operations as
+//! the plain `f32` and has the same bits.
 
-use super::noise::{CHUNK, Lane, Noise};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use super::lane::{CHUNK, Lane};
+use super::noise::Noise;
+use super::scalar::Scalar;
+use std::ops::{Add, Mul, Neg, Sub};
 
-/// The numbers that formulas are made of.
-pub(crate) trait Scalar:
-    Copy
-    + Default
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-{
-    /// The least above zero that is as precise as the others.
-    const LEAST: Self;
-    /// The nearest to a constant.
-    fn of(v: f64) -> Self;
-    /// A parameter, which is an f32 in every formula.
-    fn from_f32(v: f32) -> Self;
-    fn from_i32(v: i32) -> Self;
-    fn abs(self) -> Self;
-    fn max(self, low: Self) -> Self;
-    fn min(self, high: Self) -> Self;
-    fn clamp(self, low: Self, high: Self) -> Self;
-    fn sqrt(self) -> Self;
-    /// The nearest whole number, for numbers below 2^22.
-    fn whole(self) -> Self;
-}
-
-macro_rules! scalar {
-    ($number:ty, $rounder:expr) => {
-        impl Scalar for $number {
-            const LEAST: Self = <$number>::MIN_POSITIVE;
-            #[inline(always)]
-            fn of(v: f64) -> Self {
-                v as $number
-            }
-            #[inline(always)]
-            fn from_f32(v: f32) -> Self {
-                v.into()
-            }
-            #[inline(always)]
-            fn from_i32(v: i32) -> Self {
-                v as $number
-            }
-            #[inline(always)]
-            fn abs(self) -> Self {
-                self.abs()
-            }
-            #[inline(always)]
-            fn max(self, low: Self) -> Self {
-                self.max(low)
-            }
-            #[inline(always)]
-            fn min(self, high: Self) -> Self {
-                self.min(high)
-            }
-            #[inline(always)]
-            fn clamp(self, low: Self, high: Self) -> Self {
-                self.clamp(low, high)
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                self.sqrt()
-            }
-            #[inline(always)]
-            fn whole(self) -> Self {
-                // Adding and subtracting it leaves no room for the fraction.
-                (self + $rounder) - $rounder
-            }
-        }
-    };
-}
-scalar!(f32, 12_582_912.0);
-scalar!(f64, 6_755_399_441_055_744.0);
-
-/// A value and its gradient by the point's coordinates.
+/// A value and its gradient by the coordinates of the point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Jet {
     pub(crate) v: f32,
     pub(crate) d: [f32; 3],
 }
 
-/// Values, and with them gradients, at a chunk of points.
+/// Values and gradients at a chunk of points.
 pub(crate) struct Jets<S = f32> {
     pub(crate) value: Lane<S>,
     pub(crate) gradient: [Lane<S>; 3],
@@ -101,7 +29,7 @@ impl<S: Scalar> Default for Jets<S> {
 }
 
 impl<S: Scalar> Jets<S> {
-    /// The same number at the first `n` points.
+    /// Sets the first `n` values, with gradients of 0.
     pub(crate) fn fill(&mut self, n: usize, value: S) {
         self.value[..n].fill(value);
         for lane in &mut self.gradient {
@@ -111,7 +39,7 @@ impl<S: Scalar> Jets<S> {
 }
 
 impl Jets {
-    /// Takes over values that were found in f64; gradients stay.
+    /// Rounds the first `n` values from f64; gradients stay.
     pub(crate) fn round_from(&mut self, n: usize, wide: &Jets<f64>) {
         for (value, wide) in self.value[..n].iter_mut().zip(&wide.value) {
             *value = *wide as f32;
@@ -119,46 +47,46 @@ impl Jets {
     }
 }
 
-/// A plain number or one with its gradient.
+/// A number with or without its gradient.
 pub(crate) trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// What the number and its gradient are made of.
+    /// The scalar type of value and gradient.
     type S: Scalar;
-    /// A number whose gradient was found by hand.
+    /// A number from its value and gradient.
     fn of(v: Self::S, gradient: [Self::S; 3]) -> Self;
-    /// The number without its gradient.
+    /// The value alone.
     fn value(self) -> Self::S;
-    /// A function of this number: its value, and its derivative here.
+    /// A function of this number, from its value and its derivative here.
     fn chain(self, value: Self::S, derivative: Self::S) -> Self;
-    /// One of two, without a branch.
+    /// Selects one of two without a branch.
     fn select(condition: bool, yes: Self, no: Self) -> Self;
-    /// The `i`th of a chunk.
+    /// Reads the `i`th number of a chunk.
     fn load(jets: &Jets<Self::S>, i: usize) -> Self;
-    /// Puts it at the `i`th place of a chunk.
+    /// Writes the `i`th number of a chunk.
     fn store(self, jets: &mut Jets<Self::S>, i: usize);
     /// The noise at the `i`th point.
     fn noise(noise: &Noise<Self::S>, i: usize) -> Self;
-    /// The gradient of the noise at the `i`th point, itself with gradients; needs [`Noise::gradients`] for plain
-    /// numbers and [`Noise::curvatures`] for jets.
+    /// The gradient of the noise at the `i`th point, itself with gradients. Plain numbers need [`Noise::gradients`],
+    /// jets [`Noise::curvatures`].
     fn noise_gradient(noise: &Noise<Self::S>, i: usize) -> [Self; 3];
 
-    /// A number that is the same everywhere.
+    /// A number whose gradient is 0.
     #[inline(always)]
     fn constant(v: f32) -> Self {
         Self::of(Self::S::from_f32(v), [Self::S::default(); 3])
     }
-    /// Times a plain number.
+    /// Product with a scalar.
     #[inline(always)]
     fn times(self, k: Self::S) -> Self {
         self.chain(self.value() * k, k)
     }
-    /// Times a parameter.
+    /// Product with a parameter.
     #[inline(always)]
     fn scale(self, k: f32) -> Self {
         self.times(Self::S::from_f32(k))
     }
-    /// Plus a plain number.
+    /// Sum with a parameter.
     #[inline(always)]
     fn plus(self, k: f32) -> Self {
         self.chain(self.value() + Self::S::from_f32(k), Self::S::of(1.0))
@@ -168,13 +96,13 @@ pub(crate) trait Real:
         let one = Self::S::of(1.0);
         self.chain(self.value().abs(), if self.value() < Self::S::default() { -one } else { one })
     }
-    /// The greater of it and a plain number.
+    /// The greater of it and a parameter.
     #[inline(always)]
     fn at_least(self, low: f32) -> Self {
         let low = Self::S::from_f32(low);
         self.chain(self.value().max(low), if self.value() > low { Self::S::of(1.0) } else { Self::S::default() })
     }
-    /// The lesser of it and a plain number.
+    /// The lesser of it and a parameter.
     #[inline(always)]
     fn at_most(self, high: f32) -> Self {
         let high = Self::S::from_f32(high);
@@ -189,13 +117,13 @@ pub(crate) trait Real:
         let r = Self::S::of(1.0) / self.value();
         self.chain(r, -r * r)
     }
-    /// Square root; the derivative at zero is taken as zero.
+    /// Square root. Its derivative at 0 counts as 0.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value().sqrt();
         self.chain(root, if root > Self::S::default() { Self::S::of(0.5) / root } else { Self::S::default() })
     }
-    /// 0 at and below `from`, 1 at and above `to` (`from < to`), smooth between.
+    /// Smoothstep: 0 up to `from`, 1 from `to` on (`from < to`).
     #[inline(always)]
     fn smoothstep(self, from: f32, to: f32) -> Self {
         let of = Self::S::of;
@@ -205,7 +133,7 @@ pub(crate) trait Real:
     }
 }
 
-/// Plain numbers: what a gradient is needed for is left to the optimiser to drop.
+/// Plain numbers. The optimiser drops the derivatives.
 macro_rules! plain {
     ($number:ty) => {
         impl Real for $number {

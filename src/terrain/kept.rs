@@ -1,4 +1,5 @@
-//! The layer fields of one batch of points: those of the present planet, and a few of earlier ones, so that an undo finds its noise again.
+//! The fields that a tile keeps: those of the present planet, and some of earlier planets, so that an undo evaluates
+//! no noise.
 
 use super::field::Field;
 use super::height::CompiledLayer;
@@ -6,33 +7,34 @@ use super::landform::Landform;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Most fields of earlier planets that are remembered, besides as many as it has layers: a seed or a radius replaces all.
+/// Most fields of earlier planets, besides one for each layer: a new seed or radius replaces the fields of all layers
+/// at once.
 const MOST_PAST: usize = 8;
-/// After so long a field of an earlier planet is worth half as much.
+/// Age at which a field of an earlier planet is worth half as much.
 const HALF_WORTH: Duration = Duration::from_secs(60);
 
 #[derive(Clone, Debug)]
 struct Kept {
     landform: Arc<Landform>,
     field: Arc<Field>,
-    /// Since when a layer of the present planet has it.
+    /// Since when a layer of the present planet uses it.
     since: Option<Instant>,
-    /// How long layers of earlier planets had it, and until when.
+    /// How long layers of earlier planets used it, and until when.
     shown: Duration,
     until: Instant,
 }
 
 impl Kept {
-    /// How likely it is wanted again: what stood for long comes back by an undo; what a slider passed by in a moment, or what
-    /// was left long ago, does not.
+    /// How likely it is to be wanted again. An undo brings back a state that stood for long, rarely one that a slider
+    /// passed in a moment or that was left long ago.
     fn worth(&self, now: Instant) -> f64 {
         let age = now.duration_since(self.until);
         self.shown.as_secs_f64() / (HALF_WORTH + age).as_secs_f64()
     }
 }
 
-/// See the module. Equal landforms have equal fields, so a field is found by its landform (and the spacings at which its
-/// gradients are wanted) wherever it stands in the list.
+/// Equal landforms have equal fields, so a field is found by its landform and the spacings of its gradients, wherever
+/// the layer stands in the list.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct KeptFields(Vec<Kept>);
 
@@ -43,8 +45,8 @@ impl KeptFields {
         self.0.iter().find(fits).map(|kept| kept.field.clone())
     }
 
-    /// The points now belong to a planet of these layers, with these fields as far as they are known. Those of other layers
-    /// become the past, of which the worthiest are kept.
+    /// Makes these layers the present planet, with the fields that are known. Fields of other layers become the past,
+    /// of which the worthiest are kept.
     pub(crate) fn adopt(&mut self, layers: &[CompiledLayer], fields: &[Option<Arc<Field>>], now: Instant) {
         for (layer, field) in layers.iter().zip(fields) {
             if let Some(field) = field
@@ -62,7 +64,7 @@ impl KeptFields {
                 kept.until = now;
             }
         }
-        // The present first, then the past by its worth.
+        // The present first, then the past in order of worth.
         self.0.sort_by(|a, b| b.since.cmp(&a.since).then(b.worth(now).total_cmp(&a.worth(now))));
         let present = self.0.iter().filter(|kept| kept.since.is_some()).count();
         self.0.truncate(present + layers.len() + MOST_PAST);
@@ -73,7 +75,7 @@ impl KeptFields {
         self.0.iter().filter(|kept| kept.since.is_none()).map(move |kept| (kept.worth(now), kept.field.bytes()))
     }
 
-    /// Forgets the past that is worth less.
+    /// Forgets fields of the past below this worth.
     pub(crate) fn forget_below(&mut self, worth: f64, now: Instant) {
         self.0.retain(|kept| kept.since.is_some() || kept.worth(now) >= worth);
     }

@@ -1,7 +1,7 @@
-//! The instruction sets the noise loops are compiled for, and the choice between them at run time.
+//! The instruction sets that the evaluator's loops are compiled for, and the choice between them at run time.
 //!
-//! The same Rust source is compiled once for each set; the compiler vectorises it. The bits are
-//! equal, only the speed differs.
+//! The same Rust source is compiled once for each set and vectorised by the compiler. Results are bit-identical; only
+//! the speed differs.
 
 use std::sync::OnceLock;
 
@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(missing_docs)]
 pub enum Simd {
-    /// Whatever the target guarantees: SSE2 on x86-64, NEON on aarch64.
+    /// The target's minimum: SSE2 on x86-64, NEON on aarch64.
     Baseline,
     Sse41,
     Avx2,
@@ -17,13 +17,13 @@ pub enum Simd {
 }
 
 impl Simd {
-    /// The best this machine has.
+    /// The best set of this machine.
     pub fn detect() -> Simd {
         static BEST: OnceLock<Simd> = OnceLock::new();
         *BEST.get_or_init(|| Self::available().last().copied().unwrap_or(Simd::Baseline))
     }
 
-    /// All this machine has, slowest first.
+    /// All sets of this machine, slowest first.
     pub fn available() -> Vec<Simd> {
         #[cfg_attr(not(target_arch = "x86_64"), allow(unused_mut))]
         let mut sets = vec![Simd::Baseline];
@@ -57,38 +57,43 @@ impl Simd {
     }
 }
 
-/// Compiles `$body` (an `#[inline(always)]` function, perhaps with type arguments) once for each instruction set, and
-/// writes `$name`, which takes the set to use as its first argument. Sets that this machine lacks fall back to the
-/// baseline, so the call is always sound.
+/// Compiles `$body`, an `#[inline(always)]` function, once for each instruction set. The function written, `$name`,
+/// takes the set to use as its first argument; it may have one type parameter, which it hands to the body. Sets that
+/// this machine lacks fall back to the baseline, so the call is always sound.
 macro_rules! for_each_simd {
+    ($(#[$meta:meta])* $vis:vis fn $name:ident<$param:ident: $bound:ident>($($arg:ident: $type:ty),* $(,)?) = $body:ident) => {
+        for_each_simd!(@ [$(#[$meta])* $vis] $name [<$param: $bound>] [::<$param>] ($($arg: $type),*) [$body::<$param>]);
+    };
     ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) = $body:expr) => {
-        $(#[$meta])*
+        for_each_simd!(@ [$(#[$meta])* $vis] $name [] [] ($($arg: $type),*) [$body]);
+    };
+    (@ [$($head:tt)*] $name:ident [$($generics:tt)*] [$($turbofish:tt)*] ($($arg:ident: $type:ty),*) [$($body:tt)*]) => {
         #[allow(clippy::too_many_arguments)]
-        $vis fn $name(simd: $crate::terrain::simd::Simd, $($arg: $type),*) {
+        $($head)* fn $name $($generics)* (simd: $crate::terrain::simd::Simd, $($arg: $type),*) {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "sse4.1")]
-                fn sse41($($arg: $type),*) { $body($($arg),*) }
+                fn sse41 $($generics)* ($($arg: $type),*) { $($body)*($($arg),*) }
                 #[target_feature(enable = "avx2")]
-                fn avx2($($arg: $type),*) { $body($($arg),*) }
+                fn avx2 $($generics)* ($($arg: $type),*) { $($body)*($($arg),*) }
                 #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
-                fn avx512($($arg: $type),*) { $body($($arg),*) }
+                fn avx512 $($generics)* ($($arg: $type),*) { $($body)*($($arg),*) }
                 use $crate::terrain::simd::Simd;
                 if simd > Simd::Baseline && simd <= Simd::detect() {
-                    // SAFETY: `simd` is at most what was detected on this machine, and each set
+                    // SAFETY: `simd` is at most the set that was detected on this machine, and each set
                     // includes the ones before.
                     unsafe {
                         match simd {
-                            Simd::Sse41 => return sse41($($arg),*),
-                            Simd::Avx2 => return avx2($($arg),*),
-                            Simd::Avx512 => return avx512($($arg),*),
+                            Simd::Sse41 => return sse41 $($turbofish)* ($($arg),*),
+                            Simd::Avx2 => return avx2 $($turbofish)* ($($arg),*),
+                            Simd::Avx512 => return avx512 $($turbofish)* ($($arg),*),
                             Simd::Baseline => {}
                         }
                     }
                 }
             }
             let _ = simd;
-            $body($($arg),*)
+            $($body)*($($arg),*);
         }
     };
 }

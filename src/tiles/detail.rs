@@ -63,7 +63,7 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
         let along = |texel: usize| (texel as f64 - apron as f64) / quads as f64;
         let place = |i: usize| id.direction(along(i % side), along(i / side));
         let dirs: Vec<DVec3> = range.map(place).collect();
-        let relief = terrain.relief_at(dirs.clone(), &[spacing_rad, 0.0]);
+        let relief = terrain.slopes_at(&dirs, &[spacing_rad, 0.0]);
         texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
             let [seen, all] = [0, 1].map(|band| relief.slopes[band][i]);
             let slope = slope_basis(id.face, *dir).map(|tangent| seen.dot(tangent));

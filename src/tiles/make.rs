@@ -10,9 +10,10 @@ use crate::planet::Key;
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
-use crate::terrain::climate::ClimateField;
+use crate::terrain::climate::{ClimateField, ClimateInputs};
+use crate::terrain::evaluate::Kept;
 use crate::terrain::field::Field;
-use crate::terrain::height::{self, Heights};
+use crate::terrain::height::Heights;
 use crate::terrain::kept::KeptFields;
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
@@ -104,7 +105,7 @@ pub(crate) fn make_tile(
     let coast = terrain.world().coast.key();
     let inland_rad = match before.parts {
         Some(parts) if parts.coast == coast => parts.inland_rad.clone(),
-        _ => Arc::new(terrain.climate.inland_rad(&points.dirs)),
+        _ => Arc::new(terrain.climate.inland_rad(&points.dirs).collect()),
     };
 
     let same_heights = before.keys.heights == terrain.tile_keys().heights;
@@ -146,11 +147,12 @@ pub(crate) fn make_tile(
         Some(parts) if same_heights => (parts.heights.clone(), parts.heights_serial),
         _ => work.run(Stage::Height, || {
             profiling::scope!("height");
-            let mut heights = height::combine(&terrain.stack, simd, &points, &fields, &spacings_rad, |_, _| {});
-            if let Some(relief) = &terrain.relief {
-                let noises: Vec<Arc<Field>> = relief_fields.iter().map(|(_, field)| field.clone()).collect();
-                relief.add(&mut heights, &spacings_rad, &points, &noises, &climate, &inland_rad);
-            }
+            let mut kept = Kept {
+                layers: &fields,
+                relief: &relief_fields,
+                climate: ClimateInputs { noise: [&climate.temperature, &climate.moisture], inland_rad: &inland_rad },
+            };
+            let heights = terrain.joined(&points, &spacings_rad, &mut kept);
             (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
         }),
     };

@@ -7,7 +7,7 @@ use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::climate::{ClimateField, NO_SEA, SeaLevelClimate};
 use crate::terrain::height::Heights;
-use crate::terrain::noise::{CHUNK, Lane};
+use crate::terrain::lane::{CHUNK, Lane};
 use crate::terrain::simd::{Simd, for_each_simd};
 use glam::DVec3;
 use std::ops::Range;

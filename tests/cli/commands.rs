@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
+use tellus::lod::{Camera, opening};
 use tellus::planet::{Planet, random};
 
 const AUREL: &str = "planets/aurel.ron";
@@ -61,6 +62,22 @@ fn help_and_version_are_no_errors() {
     assert!(status == 0 && err.is_empty() && out.contains("render") && out.contains("bench"), "{out}{err}");
     let (status, out, _) = run(&["--version"]);
     assert_eq!((status, out.trim()), (0, concat!("tellus ", env!("CARGO_PKG_VERSION"))));
+}
+
+/// What the help says of the camera at the start is what the code does.
+#[test]
+fn help_states_the_defaults_of_the_code() {
+    let (status, out, _) = run(&["render", "--help"]);
+    assert_eq!(status, 0);
+    let help = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let fov_deg = Camera::DEFAULT_FOV_Y_RAD.to_degrees();
+    for default in [
+        format!("[default: {}]", opening::OPENING_LAT_DEG),
+        format!("[default: {} east of the star]", opening::OPENING_LON_FROM_STAR_DEG),
+        format!("[default: {fov_deg:.0}]"),
+    ] {
+        assert!(help.contains(&default), "{default}: {help}");
+    }
 }
 
 #[test]

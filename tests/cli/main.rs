@@ -1,6 +1,7 @@
-//! Tests of the command line, run as a process, and of the README's promises.
+//! Tests of the command line, run as a process, of the README's promises, and of the repository's own rules.
 //!
 //! - `commands`: answers, messages, exit status
+//! - `house`: the length of files and comments
 //! - `hostile`: broken and oversized files
 //! - `readme`: the README's examples, presets and pictures
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
@@ -8,4 +9,5 @@
 mod commands;
 #[cfg(unix)]
 mod hostile;
+mod house;
 mod readme;

@@ -1,11 +1,13 @@
 //! Tests of the core: presets, evaluator, level of detail, tiles. They need neither the GPU nor the user interface.
 //!
 //! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
+//! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
+mod allocations;
 mod atmosphere;
 mod heightmap;
 mod joining;

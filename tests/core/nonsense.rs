@@ -9,7 +9,7 @@ use tellus::atmosphere::Air;
 use tellus::lod::{Quality, opening};
 use tellus::planet::param::{ParamPath, Value};
 use tellus::planet::{InvalidPlanet, Planet, Table, diff, random};
-use tellus::terrain::{Revision, Terrain};
+use tellus::terrain::{Revision, Terrain, Wanted};
 use tellus::tiles::{Builder, build_now};
 
 /// Values of the type of another one, none of them reasonable.
@@ -147,15 +147,14 @@ fn every_direction_has_a_finite_answer() {
         }
         let (lo, hi) = terrain.height_bounds_near_m(scaled, 0.01);
         assert!(lo <= sample.height_m && sample.height_m <= hi);
-        let ground = terrain.grounds(&[scaled])[0];
-        assert_eq!((ground.height_m, ground.biome, ground.cell), (sample.height_m, sample.biome, sample.cell));
+        assert_eq!(terrain.samples(&[scaled], Wanted::ALL), vec![sample]);
     }
     let pole = terrain.sample(DVec3::Z);
     let nowhere = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|x| DVec3::new(x, 0.0, 1.0));
     for dir in [DVec3::ZERO, -DVec3::ZERO, DVec3::NAN, DVec3::INFINITY].into_iter().chain(nowhere) {
         assert_eq!(terrain.sample(dir), pole, "{dir}");
         assert_eq!(terrain.height_m(dir), pole.height_m);
-        assert_eq!(terrain.grounds(&[dir])[0].height_m, pole.height_m);
+        assert_eq!(terrain.samples(&[dir], Wanted::ALL), vec![pole]);
         for angle_rad in [0.0, -0.1, 0.2, 1e300, f64::NAN, f64::INFINITY] {
             let (lo, hi) = terrain.height_bounds_near_m(dir, angle_rad);
             assert!(lo <= pole.height_m && pole.height_m <= hi, "{dir} {angle_rad}: {lo} to {hi}");

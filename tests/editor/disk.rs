@@ -1,9 +1,9 @@
-//! Others who write the open file or have it open; names that do not exist yet; desktops without file dialogs.
+//! Other programs and windows on the open file; files that do not exist yet; desktops without file dialogs.
 
 use super::app::{open_file, until};
 use super::*;
 use std::path::Path;
-use tellus::editor::dialogs::{NoDialogs, ScriptedDialogs};
+use tellus::editor::files::dialogs::{NoDialogs, ScriptedDialogs};
 
 fn seeded(seed: u32) -> Planet {
     Planet { seed, ..Planet::default() }
@@ -25,7 +25,7 @@ fn is_asked(harness: &Editor) -> bool {
     harness.query_by_label("The file has changed on disk").is_some()
 }
 
-/// Makes a change of this editor's own.
+/// Changes the planet in the editor.
 fn edit(harness: &mut Editor) {
     click(harness, "Planet");
     slide(harness, "Radius of planet", 2500.0);
@@ -39,7 +39,7 @@ fn a_clean_document_follows_its_file() {
     until(&mut harness, "read again", |harness| planet(harness).seed == 2);
     assert!(!is_asked(&harness) && !harness.state().document().is_dirty());
     assert_eq!(undo_label(&harness), "Reload from disk");
-    // In place, as some text editors write.
+    // Written in place, as some text editors do.
     std::fs::write(&path, seeded(3).to_text()).unwrap();
     until(&mut harness, "read again", |harness| planet(harness).seed == 3);
 
@@ -101,7 +101,7 @@ fn a_document_with_changes_asks_whose_planet_it_is() {
     assert_eq!(Planet::load(&path).unwrap().seed, 4);
 }
 
-/// Saved before the watch could say a word.
+/// The save comes before the report of the watch.
 #[test]
 fn a_file_that_changed_is_never_written_over_in_silence() {
     let (folder, path) = saved();
@@ -120,7 +120,7 @@ fn a_file_that_changed_is_never_written_over_in_silence() {
     assert!(!harness.state().document().is_dirty());
 }
 
-/// A file that somebody lets fall into the window.
+/// A file that is dropped on the window.
 #[derive(Debug)]
 struct Dropped(PathBuf);
 
@@ -185,7 +185,7 @@ fn a_file_that_is_no_text_is_saved_over_once_that_is_wanted() {
     assert_eq!(Planet::load(&path).unwrap(), planet(&harness));
 }
 
-/// The step before the random planet leads back to the same file, which holds something else now.
+/// Undo of the random planet leads back to the same file, which holds the random planet now.
 #[test]
 fn a_file_that_a_random_planet_was_saved_over_no_longer_holds_the_planet_before() {
     let (folder, path) = saved();
@@ -231,7 +231,7 @@ fn a_file_that_is_gone_leaves_unsaved_work() {
     std::fs::remove_file(&path).unwrap();
     until(&mut harness, "told", |harness| harness.query_by_label_contains("is gone from the disk").is_some());
     assert!(harness.state().document().is_dirty());
-    // It comes and goes: the next look finds nothing once more.
+    // The file comes and goes again: the next look finds no file.
     std::fs::write(&path, "").unwrap();
     std::fs::remove_file(&path).unwrap();
     for _ in 0..40 {
@@ -257,7 +257,7 @@ fn two_windows_on_one_file_know_of_each_other() {
     edit(&mut second);
     send(&mut second, Command::Save);
     assert!(!second.state().document().is_dirty());
-    // Without an orderly end, as in a crash.
+    // Dropped without eframe's `on_exit`, as in a crash.
     drop(second);
     until(&mut first, "alone again", |harness| !told(harness));
 }
@@ -302,7 +302,7 @@ fn without_file_dialogs_a_path_is_typed() {
     assert_eq!(Planet::load(&written).unwrap(), mine);
     assert_eq!(harness.state().document().path(), Some(written.as_path()));
 
-    // What is there already is not replaced without asking.
+    // An existing file is not replaced without a question.
     seeded(7).save(folder.path().join("other.ron")).unwrap();
     send(&mut harness, Command::SaveAs);
     kind(&mut harness, folder.path().join("other.ron").to_str().unwrap());

@@ -1,6 +1,8 @@
-//! Opening, saving, what is never lost.
+//! Opening and saving without losing work.
 
+use super::app::{open_file, until};
 use super::*;
+use tellus::editor::files::dialogs::NoDialogs;
 
 #[test]
 fn saved_as_and_opened_again_it_is_the_same_planet() {
@@ -74,27 +76,13 @@ fn a_file_that_cannot_be_opened_is_explained_and_nothing_is_lost() {
 #[test]
 fn unsaved_work_outlives_a_crash() {
     let folder = tempfile::tempdir().unwrap();
-    let start = || {
-        let mut harness = Harness::builder()
-            .with_size([1024.0, 640.0])
-            .with_step_dt(1.0 / 60.0)
-            .wgpu()
-            .build_eframe(|cc| EditorApp::new(cc, None).with_recovery(folder.path()));
-        harness.run_steps(4);
-        harness
-    };
+    let start = || open_file(None, NoDialogs, folder.path());
     let mut harness = start();
     click(&mut harness, "Planet");
     slide(&mut harness, "Radius of planet", 2500.0);
     let edited = planet(&harness);
-    for _ in 0..200 {
-        harness.step();
-        if folder.path().join("recovery-0.ron").exists() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    // Dropped without the orderly end that eframe announces: a crash.
+    until(&mut harness, "a working copy", |_| folder.path().join("recovery-0.ron").exists());
+    // Dropped without eframe's `on_exit`, as in a crash.
     drop(harness);
 
     let mut harness = start();
@@ -116,16 +104,10 @@ fn a_height_map_is_chosen_undone_saved_and_missed() {
     let mut harness = editor(vec![Some(picture.clone()), Some(preset.clone()), Some(preset.clone())]);
     let height_m = |harness: &Editor| {
         let planet = (**harness.state().document().planet()).clone();
-        tellus::terrain::Terrain::try_new(planet.into()).unwrap().sample(glam::DVec3::X).layers_m[1]
+        tellus::terrain::Terrain::try_new(planet.into()).unwrap().layers_m(glam::DVec3::X)[1]
     };
     let settled = |harness: &mut Editor| {
-        for _ in 0..200 {
-            harness.run_steps(1);
-            if !harness.state().pictures().is_reading() {
-                break;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(5));
-        }
+        until(harness, "the picture is read", |harness| !harness.state().pictures().is_reading());
         harness.run_steps(2);
     };
     click(&mut harness, "Terrain");
@@ -232,35 +214,36 @@ fn changes_under_a_random_planet_are_asked_about_before_they_are_lost() {
     let paths = ["mine.ron", "rolled.ron"].map(|name| folder.path().join(name));
     let mut harness = editor(paths.clone().map(Some).to_vec());
     send(&mut harness, Command::SaveAs);
-    click(&mut harness, "Planet");
-    slide(&mut harness, "Radius of planet", 2500.0);
-    send(&mut harness, Command::RandomPlanet);
-    send(&mut harness, Command::Save);
-    assert!(!harness.state().document().is_dirty());
-    send(&mut harness, Command::New);
+    edit_and_save_a_random_planet_over_it(&mut harness);
     assert!(harness.query_by_label_contains("undo brings them back").is_some());
-    click(&mut harness, "Cancel");
-    send(&mut harness, Command::Undo);
-    assert_eq!(planet(&harness).radius_km, 2500.0);
+    cancel_and_undo_to_the_edit(&mut harness);
 }
 
-/// Work that never had a file is as dear as work that has one.
+fn edit_and_save_a_random_planet_over_it(harness: &mut Editor) {
+    click(harness, "Planet");
+    slide(harness, "Radius of planet", 2500.0);
+    send(harness, Command::RandomPlanet);
+    send(harness, Command::Save);
+    assert!(!harness.state().document().is_dirty());
+    send(harness, Command::New);
+}
+
+fn cancel_and_undo_to_the_edit(harness: &mut Editor) {
+    click(harness, "Cancel");
+    send(harness, Command::Undo);
+    assert_eq!(planet(harness).radius_km, 2500.0);
+}
+
+/// Work without a file counts as much as work with a file.
 #[test]
 fn a_planet_without_a_file_is_asked_about_before_it_is_lost_under_a_random_one() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = editor(vec![Some(folder.path().join("rolled.ron"))]);
     let name = planet(&harness).name;
-    click(&mut harness, "Planet");
-    slide(&mut harness, "Radius of planet", 2500.0);
-    send(&mut harness, Command::RandomPlanet);
-    send(&mut harness, Command::Save);
-    assert!(!harness.state().document().is_dirty());
-    send(&mut harness, Command::New);
+    edit_and_save_a_random_planet_over_it(&mut harness);
     assert!(harness.query_by_label("Lose your changes?").is_some());
-    assert!(harness.query_by_label_contains(&format!("{name} had such changes")).is_some());
-    click(&mut harness, "Cancel");
-    send(&mut harness, Command::Undo);
-    assert_eq!(planet(&harness).radius_km, 2500.0);
+    assert!(harness.query_by_label_contains(&format!("{name} had unsaved changes")).is_some());
+    cancel_and_undo_to_the_edit(&mut harness);
 }
 
 #[test]

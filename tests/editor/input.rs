@@ -115,11 +115,11 @@ fn menus_that_do_not_fit_scroll() {
 #[test]
 fn the_panel_is_as_wide_as_it_was_after_every_tab() {
     let mut harness = editor(vec![]);
-    let picture = |harness: &Editor| harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect().right();
+    let picture = |harness: &Editor| canvas(harness).right();
     click(&mut harness, "Planet");
     harness.run_steps(5);
     let before = picture(&harness);
-    for tab in ["Air", "Water", "Clouds", "Biomes", "Terrain", "Star", "Climate", "Planet"] {
+    for tab in ["Atmosphere", "Water", "Clouds", "Biomes", "Terrain", "Star", "Climate", "Planet"] {
         harness.get_by_role_and_label(Role::Button, tab).click();
         harness.run_steps(10);
         assert_eq!(picture(&harness), before, "{tab}");
@@ -132,23 +132,18 @@ fn the_panel_is_as_wide_as_it_was_after_every_tab() {
 #[test]
 fn a_rule_names_a_biome_that_there_is() {
     let mut harness = editor(vec![]);
-    harness.state_mut().send(Command::New);
-    harness.run_steps(4);
+    send(&mut harness, Command::New);
     click(&mut harness, "Biomes");
     click(&mut harness, "Tables");
     click(&mut harness, "Mars");
     let biomes = |harness: &Editor| planet(harness).biomes;
     assert!(biomes(&harness).index_of(biomes(&harness).snow_key).is_none(), "no biome was chosen yet");
-    let scroll = |harness: &mut Editor, label: &str| {
-        harness.get_by_label(label).scroll_to_me();
-        harness.run_steps(40);
-    };
-    scroll(&mut harness, "Snow of biomes");
+    scroll_to(&mut harness, "Snow of biomes");
     click(&mut harness, "Snow of biomes");
     assert!(harness.state().document().problems().is_empty(), "{:?}", harness.state().document().problems());
     assert!(biomes(&harness).index_of(biomes(&harness).snow_key).is_some());
     let steps = undo_len(&harness);
-    scroll(&mut harness, "Snow is of biomes");
+    scroll_to(&mut harness, "Snow is of biomes");
     click(&mut harness, "Snow is of biomes");
     let (dust, index) = {
         let biomes = biomes(&harness);
@@ -161,7 +156,7 @@ fn a_rule_names_a_biome_that_there_is() {
     assert_eq!(biomes(&harness).snow_key, dust);
     assert_eq!(undo_len(&harness), steps + 1);
 
-    // To drag a rule on is one step, though a biome is chosen for it.
+    // A drag that switches a rule on is one step, with the biome that is chosen for the rule.
     let steps = undo_len(&harness);
     let slider = "Beach up to of biomes";
     harness.get_by_role_and_label(Role::Slider, slider).scroll_to_me();
@@ -177,12 +172,11 @@ fn a_rule_names_a_biome_that_there_is() {
     assert!(biomes(&harness).beach_m > 0.0 && biomes(&harness).index_of(biomes(&harness).beach_key).is_some());
     assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Change beach up to of biomes".to_owned()));
 
-    // Gone, its rule goes with its cells; undo brings both back.
+    // The rule of a removed biome changes with its cells; undo restores both.
     click_biome(&mut harness, "Dust");
     let before = biomes(&harness);
     let heir = before.palette[usize::from(index == 0)].clone();
-    harness.get_by_label("Remove").scroll_to_me();
-    harness.run_steps(40);
+    scroll_to(&mut harness, "Remove");
     click(&mut harness, "Remove");
     let entries: Vec<_> = harness.query_all_by_role_and_label(Role::Button, &heir.name).collect();
     entries.last().unwrap().click();
@@ -195,8 +189,7 @@ fn a_rule_names_a_biome_that_there_is() {
 
 fn click_biome(harness: &mut Editor, name: &str) {
     let label = format!("Biome {name}");
-    harness.get_by_label(&label).scroll_to_me();
-    harness.run_steps(40);
+    scroll_to(harness, &label);
     click(harness, &label);
 }
 

@@ -1,10 +1,10 @@
-//! Drives the real editor without a window: here its panels.
+//! Tests of the real editor without a window: here its panels.
 //!
-//! - `files`: opening, saving, what is never lost
-//! - `disk`: others who write the open file or have it open; names that do not exist yet; no file dialogs
+//! - `files`: opening and saving without losing work
+//! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
 //! - `painter`: the painter of the biome table
-//! - `viewport`: the camera and what is seen through it
+//! - `viewport`: the camera and the picture
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 #[path = "../support/app.rs"]
@@ -15,19 +15,17 @@ mod input;
 mod painter;
 mod viewport;
 
-use app::{Editor, click, planet, undo_label, undo_len};
+use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, undo_label, undo_len};
 use eframe::egui;
 use eframe::egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
-use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
 use tellus::editor::viewport::camera::Mode;
 use tellus::planet::Planet;
 use tellus::render::DebugView;
 
-/// An editor in the smallest window that must hold everything; file dialogs give these answers.
+/// An editor in the smallest window that must show everything; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
     app::open([1024.0, 640.0], answers)
 }
@@ -35,11 +33,6 @@ fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
 fn slide(harness: &mut Editor, label: &str, value: f64) {
     harness.get_by_role_and_label(Role::Slider, label).set_value_accesskit(value);
     harness.run_steps(3);
-}
-
-fn send(harness: &mut Editor, command: Command) {
-    harness.state_mut().send(command);
-    harness.run_steps(4);
 }
 
 fn press(harness: &mut Editor, modifiers: egui::Modifiers, key: egui::Key) {
@@ -101,12 +94,10 @@ fn layers_are_added_edited_and_masked() {
     slide(&mut harness, &format!("Amplitude of {}", names[selected]), 4321.0);
     assert_eq!(planet(&harness).layers[selected].amplitude_m, 4321.0);
     assert_eq!(undo_label(&harness), format!("Change amplitude of {}", names[selected]));
-    harness.get_by_label("Add mask").scroll_to_me();
-    harness.run_steps(30);
+    scroll_to(&mut harness, "Add mask");
     click(&mut harness, "Add mask");
     assert_eq!(planet(&harness).layers[selected].masks.len(), 1);
-    harness.get_by_label("Remove layer").scroll_to_me();
-    harness.run_steps(30);
+    scroll_to(&mut harness, "Remove layer");
     click(&mut harness, "Remove layer");
     assert_eq!(planet(&harness).layers.len(), count + 1);
 }
@@ -118,14 +109,7 @@ fn a_layer_is_dragged_to_another_place_in_one_step() {
         |harness: &Editor| -> Vec<String> { planet(harness).layers.iter().map(|layer| layer.name.clone()).collect() };
     let before = names(&harness);
     let steps = undo_len(&harness);
-    let row = |harness: &Editor, index: usize| harness.get_by_label(&format!("Layer {}", before[index])).rect();
-    let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
-    harness.drag_at(from);
-    harness.run_steps(2);
-    harness.hover_at(to);
-    harness.run_steps(2);
-    harness.drop_at(to);
-    harness.run_steps(3);
+    drag_row_below(&mut harness, &format!("Layer {}", before[0]), &format!("Layer {}", before[2]));
     let mut expected = before.clone();
     let moved = expected.remove(0);
     expected.insert(2, moved);
@@ -148,14 +132,7 @@ fn a_curve_is_bent_by_its_points() {
     let steps = undo_len(&harness);
     let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
     let middle = rect.center();
-    harness.drag_at(middle);
-    harness.run_steps(2);
-    harness.hover_at(middle - egui::vec2(0.0, 20.0));
-    harness.run_steps(2);
-    harness.hover_at(middle - egui::vec2(0.0, 30.0));
-    harness.run_steps(2);
-    harness.drop_at(middle - egui::vec2(0.0, 30.0));
-    harness.run_steps(2);
+    drag(&mut harness, middle, middle - egui::vec2(0.0, 30.0));
     let [x, y] = curve(&harness)[1];
     assert!(x.abs() < 0.1 && (0.3..0.9).contains(&y), "{x} {y}");
     assert_eq!(undo_len(&harness), steps + 1);
@@ -210,7 +187,7 @@ fn clouds_turned_off_and_on_are_the_same_clouds() {
 #[test]
 fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
     let mut harness = editor(vec![]);
-    for tab in ["Planet", "Terrain", "Climate", "Biomes", "Water", "Air", "Clouds", "Star"] {
+    for tab in ["Planet", "Terrain", "Climate", "Biomes", "Water", "Atmosphere", "Clouds", "Star"] {
         harness.get_by_role_and_label(Role::Button, tab).click();
         harness.run_steps(3);
         harness.check_accessibility();
@@ -221,7 +198,7 @@ fn everything_has_a_name_and_nothing_is_clipped_in_a_small_window() {
     }
 }
 
-/// Steps until the picture is complete and its time is known.
+/// Steps until the picture is complete and its time is measured.
 fn wait_for_picture(harness: &mut Editor) {
     app::wait_for_picture(harness);
     std::thread::sleep(std::time::Duration::from_millis(200));
@@ -250,7 +227,7 @@ fn the_time_from_an_edit_to_its_picture_is_measured() {
     slide(&mut harness, "Brightness of star", 2.0);
     wait_for_picture(&mut harness);
     let uniform = harness.state().viewport().edit_clock.last();
-    assert!(uniform.is_some(), "an edit that rebuilds nothing");
+    assert!(uniform.is_some(), "an edit that rebuilds no tile");
     click(&mut harness, "Climate");
     slide(&mut harness, "Equator of climate", 20.0);
     for _ in 0..100 {

@@ -1,8 +1,9 @@
-//! Drives the painter of the biome table in the real editor, without a window.
+//! The painter of the biome table.
 
-use crate::app::{Editor, click, planet, undo_label, undo_len, until, wait_for_picture};
+use crate::app::{
+    Editor, canvas, click, drag_row_below, planet, point_at_planet, send, undo_label, undo_len, until, wait_for_picture,
+};
 use eframe::egui;
-use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,9 +14,8 @@ use tellus::terrain::Terrain;
 /// An editor on the biomes tab, its picture complete; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
     let mut harness = crate::app::open([1024.0, 760.0], answers);
-    // A picture that is drawn fast: neither sky nor sea.
-    harness.state_mut().send(Command::Show(tellus::render::DebugView::Biome));
-    harness.run_steps(4);
+    // A debug view is drawn fast: without sky and sea.
+    send(&mut harness, Command::Show(tellus::render::DebugView::Biome));
     click(&mut harness, "Biomes");
     wait_for_picture(&mut harness);
     harness
@@ -26,8 +26,7 @@ fn biomes(harness: &Editor) -> Biomes {
 }
 
 fn undo(harness: &mut Editor) {
-    harness.state_mut().send(Command::Undo);
-    harness.run_steps(3);
+    send(harness, Command::Undo);
 }
 
 /// The middle of a cell on screen.
@@ -131,22 +130,22 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
     let mut harness = editor(vec![]);
     let below = harness.state().viewport().eye(&planet(&harness)).1;
     let [column, row] = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(below.direction()).cell;
-    // A biome without a relief of its own, and another than lies there.
+    // A biome without biome relief, other than the one there.
     let all = biomes(&harness);
     let has_relief = |key: char| all.index_of(key).is_some_and(|index| all.palette[index].relief_m != 0.0);
     let old = all.table.key(column, row).unwrap();
     let index = all.palette.iter().position(|biome| biome.key != old && !has_relief(biome.key)).unwrap();
-    assert!(!has_relief(old), "choose another place");
+    assert!(!has_relief(old), "choose another location");
     choose(&mut harness, index);
     harness.hover_at(cell(&harness, column, row));
     wait_for_picture(&mut harness);
     let viewport = harness.state().viewport();
-    let (surface, runs, pictures) = (viewport.surface().unwrap(), viewport.table_runs().unwrap(), viewport.pictures());
+    let (surface, runs, pictures) = (viewport.surface().unwrap(), viewport.lut_runs().unwrap(), viewport.pictures());
     harness.drag_at(cell(&harness, column, row));
     harness.step();
     let viewport = harness.state().viewport();
     assert!(viewport.pictures() > pictures, "drawn in the frame of the press");
-    assert!(viewport.table_runs().unwrap().biomes > runs.biomes);
+    assert!(viewport.lut_runs().unwrap().biomes > runs.biomes);
     harness.drop_at(cell(&harness, column, row));
     wait_for_picture(&mut harness);
     let after = harness.state().viewport().surface().unwrap();
@@ -195,11 +194,8 @@ fn the_planet_and_the_table_point_at_each_other() {
     harness.run_steps(2);
     assert!(marked(&harness).is_none());
 
-    let rect = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect();
-    harness.hover_at(rect.center());
-    until(&mut harness, "the ground is known", |harness| harness.state().viewport().under_pointer().is_some());
-    let under = harness.state().viewport().under_pointer().unwrap().clone();
-    let sample = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(under.place.direction());
+    let under = point_at_planet(&mut harness);
+    let sample = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(under.location.direction());
     assert_eq!((under.cell, under.biome_index), (sample.cell, sample.biome));
     harness.run_steps(2);
     assert!(harness.query_by_label_contains("Here: ").is_some(), "the table says which cell that is");
@@ -208,10 +204,8 @@ fn the_planet_and_the_table_point_at_each_other() {
 #[test]
 fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
     let mut harness = editor(vec![]);
-    let rect = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect();
-    harness.hover_at(rect.center());
-    until(&mut harness, "the ground is known", |harness| harness.state().viewport().under_pointer().is_some());
-    let under = harness.state().viewport().under_pointer().unwrap().clone();
+    let rect = canvas(&harness);
+    let under = point_at_planet(&mut harness);
     let name = biomes(&harness).palette[under.biome_index].name.clone();
     let other = (under.biome_index + 3) % biomes(&harness).palette.len();
     choose(&mut harness, other);
@@ -236,7 +230,7 @@ fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
     let before = biomes(&harness);
     press(&mut harness, egui::Modifiers::COMMAND);
     until(&mut harness, "painted", |harness| undo_len(harness) == 1);
-    assert_eq!(undo_label(&harness), "Paint a place's climate");
+    assert_eq!(undo_label(&harness), "Paint climate of location");
     let mut expected = before.clone();
     expected.table.set_key(under.cell[0], under.cell[1], key);
     assert_eq!(biomes(&harness), expected, "that very cell and no other");
@@ -248,15 +242,8 @@ fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
 fn the_palette_is_reordered_by_dragging_and_renamed_in_place() {
     let mut harness = editor(vec![]);
     let before = biomes(&harness);
-    let row =
-        |harness: &Editor, index: usize| harness.get_by_label(&format!("Biome {}", before.palette[index].name)).rect();
-    let (from, to) = (row(&harness, 0).center(), row(&harness, 2).center_bottom() - egui::vec2(0.0, 2.0));
-    harness.drag_at(from);
-    harness.run_steps(2);
-    harness.hover_at(to);
-    harness.run_steps(2);
-    harness.drop_at(to);
-    harness.run_steps(3);
+    let row = |index: usize| format!("Biome {}", before.palette[index].name);
+    drag_row_below(&mut harness, &row(0), &row(2));
     let after = biomes(&harness);
     let keys = |biomes: &Biomes| -> String { biomes.palette.iter().take(3).map(|biome| biome.key).collect() };
     let old: Vec<char> = keys(&before).chars().collect();
@@ -275,8 +262,7 @@ fn a_ready_made_table_goes_out_as_a_picture_and_comes_back() {
     let mars = biomes(&harness);
     assert_eq!(undo_label(&harness), "Start from table: Mars");
     assert!(mars.palette.iter().any(|biome| biome.name == "Dust"));
-    harness.state_mut().send(Command::ExportTable);
-    harness.run_steps(4);
+    send(&mut harness, Command::ExportTable);
     let picture = image::open(&path).unwrap();
     assert_eq!((picture.width() as usize, picture.height() as usize), (mars.table.columns(), mars.table.rows().len()));
 
@@ -284,27 +270,25 @@ fn a_ready_made_table_goes_out_as_a_picture_and_comes_back() {
     click(&mut harness, "Rectangle");
     stroke(&mut harness, &[(0, 0), (15, 11)]);
     assert_eq!(count(&biomes(&harness), key), 16 * 12);
-    harness.state_mut().send(Command::ImportTable);
-    harness.run_steps(4);
+    send(&mut harness, Command::ImportTable);
     assert_eq!(biomes(&harness), mars);
     assert_eq!(undo_label(&harness), "Import biome table");
 
     std::fs::write(&path, b"no picture").unwrap();
     let mut harness = editor(vec![Some(path)]);
-    harness.state_mut().send(Command::ImportTable);
-    harness.run_steps(4);
+    send(&mut harness, Command::ImportTable);
     assert!(harness.query_by_label("The biome table could not be imported").is_some());
 }
 
-/// The panel as it looks; goldens by Mesa's software driver, made anew with `UPDATE_SNAPSHOTS=1`. The planet beside it is left out: tests
-/// of its own compare it.
+/// A golden picture of the panel, drawn by Mesa's software driver and made again with `UPDATE_SNAPSHOTS=1`. Other tests
+/// compare the planet beside it.
 #[test]
 fn the_painter_looks_as_it_did() {
     let mut harness = editor(vec![]);
     choose(&mut harness, 3);
     wait_for_picture(&mut harness);
     let picture = harness.render().unwrap();
-    // What lies left of the panel is the planet; below, the status bar says how long things took.
+    // Without the planet to the left, and without the times in the status bar below.
     let (left, height) = (picture.width() * 61 / 100, picture.height() * 94 / 100);
     let panel = image::imageops::crop_imm(&picture, left, 0, picture.width() - left, height).to_image();
     let options = egui_kittest::SnapshotOptions::new().threshold(1.0).max_failed_pixels(200);

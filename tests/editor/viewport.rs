@@ -1,4 +1,4 @@
-//! The camera and what is seen through it.
+//! The camera and the picture.
 
 use super::*;
 
@@ -6,7 +6,7 @@ use super::*;
 fn a_drag_with_shift_turns_the_star_in_one_step() {
     let mut harness = editor(vec![]);
     let before = planet(&harness).star;
-    let center = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect().center();
+    let center = canvas(&harness).center();
     let button = |pressed, pos| egui::Event::PointerButton {
         pos,
         button: egui::PointerButton::Primary,
@@ -26,10 +26,10 @@ fn a_drag_with_shift_turns_the_star_in_one_step() {
     assert_eq!(undo_len(&harness), 1);
 }
 
-/// Frames to a second where one travels: so few that tests are quick.
+/// Frames a second of tests that travel: few, so that the tests are quick.
 const FRAMES_PER_SEC: f32 = 15.0;
 
-/// An editor to travel in, with a picture that is drawn fast: neither sky nor sea.
+/// An editor for travelling. Its debug view is drawn fast: without sky and sea.
 fn plain_editor(answers: Vec<Option<PathBuf>>) -> Editor {
     let mut harness = app::open_at_rate([1024.0, 640.0], answers, FRAMES_PER_SEC);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::Num8);
@@ -160,6 +160,9 @@ fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
     wait_for_camera(&mut harness);
     send(&mut harness, Command::AddBookmark);
     assert_eq!(names(&harness), ["View 1", "View 2"]);
+    click(&mut harness, "Planet");
+    assert!(harness.query_by_label("Name of planet").is_some());
+    assert!(harness.query_by_label_contains("Heading").is_none(), "bookmarks are no parameters of the planet");
     press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Num1);
     assert!(harness.state().viewport().is_moving(), "a flight, not a jump");
     wait_for_camera(&mut harness);
@@ -205,7 +208,7 @@ fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
 fn every_key_stands_in_the_list_of_controls() {
     let mut harness = editor(vec![]);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F1);
-    for text in ["Walk; slower uphill", "Keep this view in the preset", "Show where tiles meet"] {
+    for text in ["Walk; slower uphill", "Keep this view in the preset", "Show the borders of the tiles"] {
         assert!(harness.query_by_label(text).is_some(), "{text}");
     }
     press(&mut harness, egui::Modifiers::SHIFT, egui::Key::Questionmark);
@@ -216,18 +219,9 @@ fn every_key_stands_in_the_list_of_controls() {
 #[test]
 fn what_lies_under_the_pointer_is_told_without_holding_up_the_picture() {
     let mut harness = plain_editor(vec![]);
-    let rect = harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect();
-    harness.hover_at(rect.center());
-    for _ in 0..200 {
-        harness.step();
-        if harness.state().viewport().under_pointer().is_some() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    let viewport = harness.state().viewport();
-    let below = viewport.eye(&planet(&harness)).1;
-    let under = viewport.under_pointer().unwrap().place;
+    let rect = canvas(&harness);
+    let under = app::point_at_planet(&mut harness).location;
+    let below = harness.state().viewport().eye(&planet(&harness)).1;
     assert!(under.direction().distance(below.direction()) < 0.02, "{under:?} {below:?}");
     harness.hover_at(egui::pos2(rect.center().x, rect.bottom() + 10.0));
     harness.run_steps(3);

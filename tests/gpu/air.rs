@@ -11,7 +11,7 @@ use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use tellus::lod::{Quality, View};
 use tellus::planet::param::{Domain, ValueMut};
 use tellus::planet::{Atmosphere, Fbm, Layer, Planet, STARTING_AIRS, Shape};
-use tellus::render::{Frame, Metering, Tone, white_balance};
+use tellus::render::{Metering, Tone, white_balance};
 use tellus::sphere::LatLon;
 use tellus::tiles::build_now;
 
@@ -21,8 +21,7 @@ const SIZE_PX: [u32; 2] = [160, 100];
 fn gpu() -> MutexGuard<'static, Gpu> {
     static GPU: LazyLock<Mutex<Gpu>> = LazyLock::new(|| Mutex::new(Gpu::new()));
     let mut gpu = GPU.lock().unwrap_or_else(PoisonError::into_inner);
-    (gpu.renderer.metering, gpu.renderer.tone, gpu.renderer.smooth_edges) =
-        (Metering::default(), Tone::default(), true);
+    (gpu.post.metering, gpu.post.tone, gpu.post.smooth_edges) = (Metering::default(), Tone::default(), true);
     gpu
 }
 
@@ -82,7 +81,7 @@ fn against_golden(name: &str, drawn: &[u8]) -> Option<String> {
 #[test]
 fn airs_look_as_they_did_and_sunsets_are_red_on_earth_and_blue_on_mars() {
     let mut gpu = gpu();
-    gpu.renderer.metering = Metering::Instant;
+    gpu.post.metering = Metering::Instant;
     let mut problems = Vec::new();
     for (name, planet) in planets() {
         let planet = Arc::new(planet);
@@ -112,7 +111,7 @@ fn airs_look_as_they_did_and_sunsets_are_red_on_earth_and_blue_on_mars() {
 
 /// Mean of a part of the newest frame's radiance.
 fn mean_radiance(gpu: &Gpu, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> [f64; 3] {
-    let ([width, _], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let ([width, _], pixels) = gpu.renderer.radiance().unwrap();
     let mut sum = [0.0; 3];
     for y in rows.clone() {
         for pixel in &pixels[y * width as usize..][columns.clone()] {
@@ -138,7 +137,7 @@ fn a_climb_to_space_has_no_jump() {
         let view = View { camera, size_px: [96, 60], quality: Quality::Medium };
         let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
         gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(20.0, 50.0).direction()));
-        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+        let (_, pixels) = gpu.renderer.radiance().unwrap();
         if let Some(last) = &last {
             let light = |p: &[f32; 3]| f64::from(p[0] + p[1] + p[2]);
             // Stars are points that move.
@@ -211,7 +210,7 @@ fn whatever_the_air_every_radiance_is_a_number() {
         let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
         let mut gpu = gpu.borrow_mut();
         gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(8.0, sun_lon).direction()));
-        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+        let (_, pixels) = gpu.renderer.radiance().unwrap();
         prop_assert!(!pixels.is_empty());
         for (i, pixel) in pixels.iter().enumerate() {
             prop_assert!(pixel.iter().all(|c| c.is_finite() && *c >= 0.0), "pixel {} is {:?}", i, pixel);
@@ -230,13 +229,15 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
     let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
     let surface = surface_of(&planet, &view);
     let (white, mut compared) = (white_balance(&planet), 0);
-    gpu.renderer.smooth_edges = false;
+    gpu.post.smooth_edges = false;
     for tone in Tone::ALL {
-        gpu.renderer.tone = tone;
+        gpu.post.tone = tone;
         for (east, exposure_ev) in [(25.0, 0.0), (70.0, 3.0), (85.0, -1.0)] {
             let sun = LatLon::from_degrees(5.0, 10.0 + east).direction();
-            let drawn = gpu.draw(&Frame { exposure_ev, ..frame_of(&surface, &planet, view, sun) });
-            let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+            let mut scene = frame_of(&surface, &planet, view, sun);
+            scene.post.exposure_ev = exposure_ev;
+            let drawn = gpu.draw(&scene);
+            let (_, pixels) = gpu.renderer.radiance().unwrap();
             for (pixel, shown) in pixels.iter().zip(drawn.chunks(4)) {
                 let wanted = tone.shown([0, 1, 2].map(|k| f64::from(pixel[k]) * white[k] * exposure_ev.exp2()));
                 for k in 0..3 {
@@ -255,7 +256,7 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
 
 /// Luminance of each row of the newest frame's radiance: the mean over the row's middle third.
 fn row_luminance(gpu: &Gpu) -> Vec<f64> {
-    let ([width, _], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let ([width, _], pixels) = gpu.renderer.radiance().unwrap();
     let third = width as usize / 3;
     let light = |p: &[f32; 3]| 0.2126 * f64::from(p[0]) + 0.7152 * f64::from(p[1]) + 0.0722 * f64::from(p[2]);
     let rows = pixels.chunks(width as usize);
@@ -309,7 +310,7 @@ fn the_glare_of_the_star_has_no_edge() {
     // The star stands at the left edge of the middle row.
     let sun = camera.ray_dir_planet(-0.97, 0.0, view.aspect());
     gpu.draw(&frame_of(&surface, &planet, view, sun));
-    let ([width, _], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let ([width, _], pixels) = gpu.renderer.radiance().unwrap();
     let row: Vec<f64> = pixels[12 * width as usize..][..width as usize].iter().map(|p| f64::from(p[1])).collect();
     let first = row.iter().rposition(|light| *light > 0.02).unwrap();
     let after: Vec<f64> = row[first..].iter().copied().take_while(|light| *light > 1e-4).collect();
@@ -323,7 +324,7 @@ fn the_glare_of_the_star_has_no_edge() {
 #[test]
 fn the_night_sky_has_stars_and_is_not_flat() {
     let mut gpu = gpu();
-    gpu.renderer.metering = Metering::Instant;
+    gpu.post.metering = Metering::Instant;
     let (_, planet) = planets()[0].clone();
     let planet = Arc::new(planet);
     let camera = camera(&planet, 5.0, 10.0, 2.0, 90.0, 30.0);

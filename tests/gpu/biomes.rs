@@ -1,14 +1,14 @@
 //! A biome is the same wherever one asks: `Terrain::sample`, and the picture that shows biomes by themselves.
 
-use crate::support::{Gpu, camera_over, frame_of, surface_of};
+use crate::support::{Gpu, camera_over, debug, frame_of, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, TableBlend, shipped};
-use tellus::render::{DebugView, Frame};
+use tellus::render::DebugView;
 use tellus::sphere::LatLon;
+use tellus::sphere::spread;
 use tellus::terrain::Terrain;
-use tellus::terrain::survey::spread;
 use tellus::tiles::build_now;
 
 /// Points asked for on each planet, over all poses.
@@ -81,7 +81,7 @@ fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pose: &Pose, points
     let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::Medium };
     let surface = surface_of(planet, &view);
     let frame = frame_of(&surface, planet, view, camera.position_planet_m);
-    let picture = gpu.draw(&Frame { debug_view: DebugView::Biome, ..frame });
+    let picture = gpu.draw(&debug(frame, DebugView::Biome));
     let palette: Vec<[u8; 3]> = planet.biomes.palette.iter().map(|biome| srgb(biome.color)).collect();
     let pixel = |x: usize, y: usize| biome_of(&palette, &picture[(y * SIDE_PX + x) * 4..][..3]);
     let mut counts = [0; 3];
@@ -174,7 +174,7 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
     }
     let mut gpu = Gpu::new();
     // Edges are counted as they are.
-    gpu.renderer.smooth_edges = false;
+    gpu.post.smooth_edges = false;
     let mut edges = |blend| {
         ball.biomes.blend = blend;
         let planet = Arc::new(ball.clone());

@@ -1,14 +1,14 @@
 //! A region has the same colour from orbit as on the ground: pictures of one place, each four times as fine as the one before.
 
-use crate::support::{Gpu, frame_of, surface_of};
+use crate::support::{Gpu, debug, frame_of, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::shipped;
-use tellus::render::{DebugView, Frame};
+use tellus::render::DebugView;
 use tellus::sphere::LatLon;
+use tellus::sphere::spread;
 use tellus::terrain::Terrain;
-use tellus::terrain::survey::spread;
 
 /// Pixels along a side of each picture, and how much finer each is than the one before.
 const SIDE_PX: usize = 384;
@@ -32,9 +32,9 @@ fn albedo(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<
     let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::Medium };
     let surface = surface_of(planet, &view);
     let plain = frame_of(&surface, planet, view, camera.position_planet_m);
-    let frame = Frame { debug_view: DebugView::Albedo, ..plain };
+    let frame = debug(plain, DebugView::Albedo);
     gpu.draw_only(&frame, 1);
-    let (size_px, colors) = gpu.renderer.radiance(&gpu.device, &gpu.queue).unwrap();
+    let (size_px, colors) = gpu.renderer.radiance().unwrap();
     assert_eq!(size_px, [SIDE_PX as u32; 2]);
     colors.into_iter().map(|color| color.map(f64::from)).collect()
 }

@@ -6,7 +6,7 @@ use glam::DQuat;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Fbm, Layer, Planet, Shape, Star};
-use tellus::render::{DebugView, Frame};
+use tellus::render::Scene;
 use tellus::sphere::LatLon;
 use tellus::tiles::{Surface, add_detail, build_now};
 
@@ -16,7 +16,7 @@ const MOVING_PX: [u32; 2] = [56, 36];
 /// How much larger the reference is drawn.
 const FINER: u32 = 4;
 
-struct Scene {
+struct Case {
     name: &'static str,
     planet: Arc<Planet>,
     camera: Camera,
@@ -31,7 +31,7 @@ fn without_star(planet: &Planet) -> Arc<Planet> {
     Arc::new(Planet { star: Star::default(), ..planet.clone() })
 }
 
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Case> {
     let mut smooth = earth();
     smooth.star.brightness = STAR_BRIGHTNESS;
     smooth.clouds = None;
@@ -52,7 +52,7 @@ fn scenes() -> Vec<Scene> {
     wet.layers = vec![layer("Islands", 12.0, 3, 400.0)];
     let [bare, rough, wet] = [bare, rough, wet].map(Arc::new);
     let radius_m = bare.radius_m();
-    let scene = |name, planet: &Arc<Planet>, (lat, lon, altitude_m, heading, pitch), sun| Scene {
+    let scene = |name, planet: &Arc<Planet>, (lat, lon, altitude_m, heading, pitch), sun| Case {
         name,
         planet: planet.clone(),
         camera: camera(&without_star(planet), lat, lon, altitude_m, heading, pitch),
@@ -89,37 +89,33 @@ fn luma(pixel: &[u8]) -> f64 {
 }
 
 fn frame<'a>(
-    scene: &'a Scene,
+    scene: &'a Case,
     surface: &'a Surface,
     camera: Camera,
     chosen: View,
     finer: u32,
     quality: Quality,
-) -> Frame<'a> {
-    Frame {
-        surface,
-        planet: &scene.planet,
-        view: View { camera, size_px: chosen.size_px.map(|side| side * finer), quality },
-        frozen: Some(chosen),
-        sun_dir_planet: LatLon::from_degrees(scene.sun.0, scene.sun.1).direction(),
-        time_secs: 0.0,
-        exposure_ev: -STAR_BRIGHTNESS.log2(),
-        debug_view: DebugView::Shaded,
-    }
+) -> Scene<'a> {
+    let view = View { camera, size_px: chosen.size_px.map(|side| side * finer), quality };
+    let sun_dir_planet = LatLon::from_degrees(scene.sun.0, scene.sun.1).direction();
+    let mut drawn = Scene::of_planet(&scene.planet, surface, view, sun_dir_planet);
+    drawn.post.exposure_ev = -STAR_BRIGHTNESS.log2();
+    drawn.bodies[0].frozen = Some(chosen);
+    drawn
 }
 
-fn drawn(gpu: &mut Gpu, frame: &Frame<'_>, smooth_edges: bool) -> Picture {
-    gpu.renderer.smooth_edges = smooth_edges;
+fn drawn(gpu: &mut Gpu, frame: &Scene<'_>, smooth_edges: bool) -> Picture {
+    gpu.post.smooth_edges = smooth_edges;
     let values = gpu.draw(frame).chunks(4).map(|p| encoded(luma(p))).collect();
     Picture { values }
 }
 
 /// The picture a perfect display would show: each pixel the mean of many; and how much those differ.
-fn reference(gpu: &mut Gpu, frame: &Frame<'_>) -> (Picture, Vec<f64>) {
-    gpu.renderer.smooth_edges = false;
+fn reference(gpu: &mut Gpu, frame: &Scene<'_>) -> (Picture, Vec<f64>) {
+    gpu.post.smooth_edges = false;
     let fine = gpu.draw(frame);
-    let (finer, wide) = (FINER as usize, frame.view.size_px[0] as usize);
-    let [width, height] = frame.view.size_px.map(|side| (side / FINER) as usize);
+    let (finer, wide) = (FINER as usize, frame.size_px[0] as usize);
+    let [width, height] = frame.size_px.map(|side| (side / FINER) as usize);
     let (mut values, mut ranges) = (Vec::new(), Vec::new());
     for y in 0..height {
         for x in 0..width {
@@ -146,7 +142,7 @@ fn mean_and_p95(mut all: Vec<f64>) -> (f64, f64) {
     (mean, all.get(all.len() * 95 / 100).copied().unwrap_or(0.0))
 }
 
-fn surface(scene: &Scene, size_px: [u32; 2]) -> (Surface, View) {
+fn surface(scene: &Case, size_px: [u32; 2]) -> (Surface, View) {
     let view = View { camera: scene.camera, size_px, quality: Quality::Medium };
     let mut surface = build_now(&without_star(&scene.planet), &view).unwrap();
     add_detail(&mut surface, &view);

@@ -1,14 +1,14 @@
 //! Level of detail in pictures: no hole, no pop, mountains beyond the horizon.
 
 use crate::support::dice::Dice;
-use crate::support::{Gpu, camera_over, frame_of, lights, settled};
+use crate::support::{Gpu, camera_over, debug, frame_of, lights, settled};
 use glam::DVec3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tellus::lod::morph::shifts_m;
 use tellus::lod::range::SHADED_AT;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Fbm, Layer, Planet, Shape, Water, random, shipped};
-use tellus::render::{DebugView, Frame};
+use tellus::render::{DebugView, Scene};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 use tellus::tiles::{Builder, Surface, build_now};
@@ -23,7 +23,7 @@ fn gpu() -> MutexGuard<'static, Option<Gpu>> {
     gpu
 }
 
-fn draw(frame: &Frame<'_>) -> Vec<u8> {
+fn draw(frame: &Scene<'_>) -> Vec<u8> {
     gpu().as_mut().unwrap().draw(frame)
 }
 
@@ -80,7 +80,7 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
         let camera = camera_over(&terrain, place, altitude_m, [heading, pitch.max(-1.55)]);
         let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
         let surface = build_now(&planet, &view).unwrap();
-        let coverage = Frame { debug_view: DebugView::Coverage, ..frame_of(&surface, &planet, view, DVec3::X) };
+        let coverage = debug(frame_of(&surface, &planet, view, DVec3::X), DebugView::Coverage);
         let picture = draw(&coverage);
         let holes = holes(&view, &terrain, &picture, dice);
         assert_eq!(holes, 0, "{} from {altitude_m} m, {:?}", planet.name, place.to_degrees());
@@ -145,8 +145,7 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
             continue;
         }
         for (most, debug_view) in most.iter_mut().zip([DebugView::Shaded, DebugView::Normal]) {
-            let draw =
-                |surface: &Surface| draw(&Frame { debug_view, ..frame_of(surface, &planet, view(step), sun_dir()) });
+            let draw = |surface: &Surface| draw(&debug(frame_of(surface, &planet, view(step), sun_dir()), debug_view));
             most[0] = most[0].max(difference(&draw(&before), &draw(&after)));
             let unclear = !is_gentle(*most);
             if unclear {
@@ -282,7 +281,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     let camera = Camera::looking(eye, forward, up, 6_f64.to_radians());
     let view = View { camera, size_px: [192, 128], quality: Quality::Medium };
     let surface = build_now(&planet, &view).unwrap();
-    let picture = draw(&Frame { debug_view: DebugView::Coverage, ..frame_of(&surface, &planet, view, DVec3::X) });
+    let picture = draw(&debug(frame_of(&surface, &planet, view, DVec3::X), DebugView::Coverage));
     let light = lights(&picture);
     // Column by column: how high what lies behind the sea's horizon stands in the picture.
     let tan_y = (camera.fov_y_rad * 0.5).tan();
@@ -335,7 +334,7 @@ fn normals_change_from_a_level_to_the_next_as_the_vertices_have_them() {
     let view = View { camera, size_px: [480, 320], quality: Quality::Medium };
     // Without detail tiles: what is shown comes from the vertices alone.
     let surface = build_now(&planet, &view).unwrap();
-    let picture = draw(&Frame { debug_view: DebugView::Normal, ..frame_of(&surface, &planet, view, sun_dir()) });
+    let picture = draw(&debug(frame_of(&surface, &planet, view, sun_dir()), DebugView::Normal));
     let (eye, turn) = (camera.position_planet_m, camera.planet_from_view.inverse());
     let tan_y = (camera.fov_y_rad * 0.5).tan();
     // How far a pixel is from the blend, from the tile's own normal and from its parent's; where they differ, on the way.

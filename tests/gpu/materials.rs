@@ -1,9 +1,9 @@
 //! Biomes as materials, drawn: colour from near and far, and the biome of a query against the one in the picture.
 
-use crate::support::{Gpu, SIZE_PX, camera, frame, surface};
+use crate::support::{Gpu, SIZE_PX, camera, frame, surface, view_of};
 use std::sync::Arc;
 use tellus::planet::{Biome, Biomes, Detail, Planet, Steep, Table};
-use tellus::render::{DebugView, Frame};
+use tellus::render::DebugView;
 
 const PLACE: (f64, f64) = (37.0, 20.0);
 
@@ -109,8 +109,11 @@ fn lava_glows_and_flows() {
     let camera = camera(&planet, PLACE.0, PLACE.1, 4.0, 0.0, -60.0);
     let surface = surface(&planet, &camera);
     let night = (-PLACE.0, PLACE.1 + 180.0);
-    let mut draw =
-        |planet: &Planet, time_secs: f64| gpu.draw(&Frame { time_secs, ..frame(&surface, planet, camera, night) });
+    let mut draw = |planet: &Planet, time_secs: f64| {
+        let mut scene = frame(&surface, planet, camera, night);
+        scene.time_secs = time_secs;
+        gpu.draw(&scene)
+    };
     let first = draw(&planet, 0.0);
     let red = first.chunks(4).filter(|p| p[0] > 60 && p[0] > p[2]).count();
     assert!(red > 500, "{red} pixels glow");
@@ -156,7 +159,7 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
         let at = |x: usize, y: usize| -> [u8; 3] { std::array::from_fn(|c| picture[(y * 320 + x) * 4 + c]) };
         for (x, y) in (8..180).step_by(16).flat_map(|y| (8..320).step_by(16).map(move |x| (x, y))) {
             let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
-            let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), frame.view.aspect());
+            let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), view_of(&frame).aspect());
             let Some(away_m) = surface.terrain.raycast(camera.position_planet_m, dir) else { continue };
             let sample = surface.terrain.sample(camera.position_planet_m + dir * away_m);
             if planet.sea_level_m().is_some_and(|sea_m| sample.height_m < sea_m) {
@@ -184,7 +187,7 @@ fn report_what_patterns_cost() {
         let surface = surface(&planet, &camera);
         for quality in tellus::lod::Quality::ALL {
             let mut frame = frame(&surface, &planet, camera, PLACE);
-            frame.view.quality = quality;
+            frame.quality = quality;
             gpu.draw_only(&frame, 2);
             let best = (0..8).map(|_| {
                 let begun = std::time::Instant::now();

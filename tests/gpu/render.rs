@@ -1,12 +1,13 @@
 //! The renderer on a real (software) adapter.
 
 use crate::support::edits::{every_edit, full_planet};
-use crate::support::{Gpu, camera, earth, frame, inside_disc, lights, surface};
+use crate::support::{Gpu, camera, debug, earth, frame, frame_of, inside_disc, lights, surface, view_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Fbm, Layer, Planet, Shape};
-use tellus::render::{DebugView, Frame, Metering, RenderError};
+use tellus::render::{BodyId, DebugView, Metering, RenderError};
+use tellus::sphere::LatLon;
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
 const POSES: [(f64, f64, f64); 8] = [
@@ -29,7 +30,7 @@ fn every_pose_is_lit_and_drawn_twice_the_same() {
             let camera = camera(&planet, 10.0, 10.0, altitude_m, 40.0, pitch);
             let surface = surface(&planet, &camera);
             let mut frame = frame(&surface, &planet, camera, (12.0, sun_lon));
-            frame.view.quality = quality;
+            frame.quality = quality;
             let picture = gpu.draw(&frame);
             assert_eq!(picture, gpu.draw(&frame), "{altitude_m} m, {quality:?}");
             // A pixel that is not a number comes out black, and so would every one that it is averaged with.
@@ -49,11 +50,11 @@ fn a_target_of_another_size_is_refused() {
     let camera = camera(&planet, 10.0, 10.0, 13e6, 0.0, -90.0);
     let surface = surface(&planet, &camera);
     let frame = frame(&surface, &planet, camera, (12.0, 0.0));
-    let [width, height] = frame.view.size_px;
+    let [width, height] = frame.size_px;
     for target_px in [[width * 2, height * 2], [width + 1, height], [width, height - 1]] {
         match gpu.draw_into(&frame, target_px) {
-            Err(RenderError::TargetSize { target_px: target, view_px: view }) => {
-                assert_eq!((target, view), (target_px, frame.view.size_px));
+            Err(RenderError::TargetSize { target_px: target, picture_px, .. }) => {
+                assert_eq!((target, picture_px), (target_px, frame.size_px));
             }
             other => panic!("{target_px:?}: {other:?}"),
         }
@@ -120,7 +121,7 @@ fn the_night_side_of_a_moon_is_black() {
     let moon = Arc::new(Planet { water: None, atmosphere: None, clouds: None, ..earth() });
     let mut gpu = Gpu::new();
     // Or a star beside the limb would be part of it.
-    gpu.renderer.smooth_edges = false;
+    gpu.post.smooth_edges = false;
     let camera = camera(&moon, 0.0, 0.0, 13e6, 0.0, -90.0);
     let surface = surface(&moon, &camera);
     let night = frame(&surface, &moon, camera, (0.0, 180.0));
@@ -146,7 +147,7 @@ fn the_sea_lies_where_the_ground_is_below_its_level() {
     let (mut seas, mut lands) = (0, 0);
     for (x, y) in (50..130).step_by(4).flat_map(|y| (120..200).step_by(4).map(move |x| (x, y))) {
         let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
-        let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), frame.view.aspect());
+        let dir = camera.ray_dir_planet(ndc(x, 320), -ndc(y, 180), view_of(&frame).aspect());
         let Some(away_m) = surface.terrain.raycast(camera.position_planet_m, dir) else { continue };
         let height_m = surface.terrain.height_m(camera.position_planet_m + dir * away_m);
         let [red, _, blue] = [0, 1, 2].map(|c| picture[(y * 320 + x) * 4 + c]);
@@ -169,7 +170,7 @@ fn exposure_lights_dusk_and_lets_night_be_read() {
     let camera = camera(&planet, 0.0, 0.0, 200.0, 90.0, -8.0);
     let surface = surface(&planet, &camera);
     let mut mean = |sun_lon: f64, metering: Metering| {
-        gpu.renderer.metering = metering;
+        gpu.post.metering = metering;
         let light = lights(&gpu.draw(&frame(&surface, &planet, camera, (0.0, sun_lon))));
         f64::from(light.iter().sum::<u32>()) / light.len() as f64 / 3.0
     };
@@ -200,11 +201,10 @@ fn at_night_the_ground_is_lit_by_the_sky() {
         let surface = surface(&planet, &camera);
         let night = frame(&surface, &planet, camera, (0.0, 150.0));
         let is_ground: Vec<bool> = {
-            let seen =
-                gpu.draw(&Frame { debug_view: DebugView::Coverage, ..frame(&surface, &planet, camera, (0.0, 0.0)) });
+            let seen = gpu.draw(&debug(frame(&surface, &planet, camera, (0.0, 0.0)), DebugView::Coverage));
             lights(&seen).iter().map(|light| *light > 0).collect()
         };
-        gpu.renderer.metering = Metering::Instant;
+        gpu.post.metering = Metering::Instant;
         let light = lights(&gpu.draw(&night));
         let median = |of: bool| {
             let mut all: Vec<u32> =
@@ -215,9 +215,9 @@ fn at_night_the_ground_is_lit_by_the_sky() {
         let (ground, sky) = (median(true), median(false));
         assert!((6..60).contains(&ground) && sky > ground + ground / 4 && sky < 90, "ground {ground}, sky {sky}");
         // A star beside a ridge would be part of it.
-        (gpu.renderer.metering, gpu.renderer.smooth_edges) = (Metering::Manual, false);
+        (gpu.post.metering, gpu.post.smooth_edges) = (Metering::Manual, false);
         let by_day = lights(&gpu.draw(&night));
-        gpu.renderer.smooth_edges = true;
+        gpu.post.smooth_edges = true;
         let most = by_day.iter().zip(&is_ground).filter(|(_, ground)| **ground).map(|(l, _)| *l).max().unwrap_or(0);
         assert!(most < 12, "exposed for the day the night is black, not {most}");
     }
@@ -233,10 +233,12 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     let view = View { camera, size_px: [32, 18], quality: Quality::Low };
     let mut draw = |planet: &Planet| {
         // Clouds that have drifted for a while, and the planet turned: the wind and the length of the day show.
-        let sun = planet.star.place(1000.0).to_degrees();
-        let before = gpu.renderer.table_runs();
-        gpu.draw_only(&Frame { time_secs: 1000.0, view, ..frame(&surface, planet, camera, sun) }, 1);
-        let after = gpu.renderer.table_runs();
+        let sun = planet.star.place(1000.0).direction();
+        let mut scene = frame_of(&surface, planet, view, sun);
+        scene.time_secs = 1000.0;
+        let before = gpu.renderer.lut_runs(BodyId::default());
+        gpu.draw_only(&scene, 1);
+        let after = gpu.renderer.lut_runs(BodyId::default());
         [
             after.uniforms - before.uniforms,
             after.biomes - before.biomes,
@@ -271,7 +273,7 @@ fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
     let tile_bytes = (surface.leaves[0].tile.vertices.len() * size_of::<tellus::lod::Vertex>()) as u64;
     let (mut done, mut rounds, mut before) = (false, 0, 0);
     while !done {
-        done = gpu.renderer.upload(&gpu.device, &gpu.queue, &surface, 5 * tile_bytes);
+        done = gpu.renderer.upload(BodyId::default(), &surface, 5 * tile_bytes);
         let bytes = gpu.renderer.uploaded_bytes() - before;
         assert!(done || (bytes > 0 && bytes <= 5 * tile_bytes), "{bytes}");
         (before, rounds) = (before + bytes, rounds + 1);
@@ -297,7 +299,7 @@ fn brightest(picture: &[u8], inside: &[bool], share: f64) -> [u8; 3] {
 fn a_thin_crescent_keeps_its_colours() {
     let planet = Arc::new(Planet { clouds: None, ..earth() });
     let mut gpu = Gpu::new();
-    gpu.renderer.metering = Metering::Instant;
+    gpu.post.metering = Metering::Instant;
     let camera = camera(&planet, 10.0, 30.0, 12e6, 0.0, -90.0);
     let surface = surface(&planet, &camera);
     let frame = frame(&surface, &planet, camera, (10.0, 185.0));
@@ -320,7 +322,7 @@ fn ground_under_a_low_star_has_neither_fireflies_nor_blots() {
         let view = View { camera, size_px: [480, 300], quality };
         let surface = crate::support::surface_of(&planet, &view);
         gpu.draw_only(&crate::support::frame_of(&surface, &planet, view, sun), 1);
-        let ([width, height], pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+        let ([width, height], pixels) = gpu.renderer.radiance().expect("radiance");
         let ground = &pixels[(width * height * 55 / 100) as usize..];
         let mut light: Vec<f32> = ground.iter().map(|p| p[0] + p[1] + p[2]).collect();
         light.sort_by(f32::total_cmp);
@@ -340,8 +342,8 @@ fn the_horizon_is_no_line_inside_clouds() {
     let camera = camera(&planet, 5.0, -5.0, 5000.0, 90.0, -2.0);
     let surface = surface(&planet, &camera);
     let view = View { camera, size_px: [64, 360], quality: Quality::Medium };
-    gpu.draw_only(&Frame { view, ..frame(&surface, &planet, camera, (5.0, 50.0)) }, 1);
-    let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+    gpu.draw_only(&frame_of(&surface, &planet, view, LatLon::from_degrees(5.0, 50.0).direction()), 1);
+    let (_, pixels) = gpu.renderer.radiance().expect("radiance");
     let rows: Vec<f32> = pixels.chunks(64).map(|row| row.iter().map(|p| p[1]).sum::<f32>() / 64.0).collect();
     // A line differs from what lies ten rows above and below it.
     for (i, at) in rows.windows(21).enumerate() {
@@ -357,13 +359,13 @@ fn waves_make_no_moire() {
     let water = tellus::planet::Water { level_m: 2000.0, ..tellus::planet::Water::default() };
     let planet = Arc::new(Planet { clouds: None, layers: Vec::new(), water: Some(water), ..earth() });
     let mut gpu = Gpu::new();
-    gpu.renderer.smooth_edges = false;
+    gpu.post.smooth_edges = false;
     let camera = camera(&planet, 15.0, 38.4, 1000.0, 60.0, -10.0);
     let surface = surface(&planet, &camera);
     let mut radiance = |size_px: [u32; 2]| {
         let view = View { camera, size_px, quality: Quality::Medium };
-        gpu.draw_only(&Frame { view, ..frame(&surface, &planet, camera, (15.0, 85.0)) }, 1);
-        let (_, pixels) = gpu.renderer.radiance(&gpu.device, &gpu.queue).expect("radiance");
+        gpu.draw_only(&frame_of(&surface, &planet, view, LatLon::from_degrees(15.0, 85.0).direction()), 1);
+        let (_, pixels) = gpu.renderer.radiance().expect("radiance");
         // As bright as the eye has it: glints do not decide.
         pixels.iter().map(|p| p[1].min(1.0).sqrt()).collect::<Vec<_>>()
     };

@@ -5,7 +5,7 @@ use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Culling, Quality, View};
 use tellus::planet::{Planet, shipped};
-use tellus::render::Frame;
+use tellus::render::Scene;
 use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
 use tellus::tiles::{Builder, Leaf, Surface, lowest_radius_m};
@@ -28,8 +28,10 @@ fn view(planet: &Arc<Planet>, lat_deg: f64, lon_deg: f64, altitude_m: f64, pitch
     View { camera, size_px: SIZE_PX, quality: Quality::Medium }
 }
 
-fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
-    Frame { exposure_ev: 2.0, ..frame_of(surface, planet, view, sun_dir_planet) }
+fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Scene<'a> {
+    let mut scene = frame_of(surface, planet, view, sun_dir_planet);
+    scene.post.exposure_ev = 2.0;
+    scene
 }
 
 /// What rays from the ground to the star say of a picture, of the pixels that are not next to a change: how many are in shadow and how

@@ -43,7 +43,7 @@ fn the_shaders_agree_with_the_physics() {
     for (file, planet) in planets() {
         let rays = rays(&planet, 500);
         let air = Air::try_new(&planet).unwrap();
-        let answers = gpu.renderer.sky(&gpu.device, &gpu.queue, &planet, Quality::High, &rays).unwrap();
+        let answers = gpu.renderer.sky(&planet, Quality::High, &rays).unwrap();
         for (ray, answer) in rays.iter().zip(&answers) {
             let differs = |found: [f64; 3], expected: [f64; 3], floor: f64| {
                 found.iter().zip(expected).any(|(found, expected)| (found - expected).abs() > 0.02 * expected + floor)

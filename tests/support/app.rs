@@ -1,46 +1,52 @@
-//! The real editor without a window, and what its tests do with it.
+//! The real editor without a window, and the steps of its tests.
 #![allow(dead_code, unreachable_pub, clippy::panic)]
 
 use eframe::egui;
+use eframe::egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
-use tellus::editor::dialogs::{FileDialogs, ScriptedDialogs};
+use tellus::editor::command::Command;
+use tellus::editor::files::dialogs::{FileDialogs, ScriptedDialogs};
+use tellus::editor::viewport::pointer::UnderPointer;
 use tellus::planet::Planet;
 
 pub type Editor = Harness<'static, EditorApp>;
 
-/// An editor in a window of a size, a few frames old; file dialogs give these answers.
+/// An editor in a window of this size, after a few frames; file dialogs give these answers.
 pub fn open(size: [f32; 2], answers: Vec<Option<PathBuf>>) -> Editor {
     open_at_rate(size, answers, 60.0)
 }
 
-/// The same with so many frames to a second.
+/// An editor with this number of frames a second.
 pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec: f32) -> Editor {
-    let mut harness = Harness::builder()
-        .with_size(egui::Vec2::from(size))
-        .with_step_dt(1.0 / frames_per_sec)
-        .wgpu()
-        .build_eframe(|cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers))));
-    harness.run_steps(4);
-    harness
+    start(size, frames_per_sec, move |cc| {
+        EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
+    })
 }
 
-/// An editor that begins with a file, asks for others through these dialogs, and keeps what it must in a folder.
+/// An editor that starts with a file, asks through these dialogs, and keeps its working copy in a folder.
 pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recovery: &Path) -> Editor {
     let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
-    let mut harness = Harness::builder()
-        .with_size([1024.0, 640.0])
-        .with_step_dt(1.0 / 60.0)
-        .wgpu()
-        .build_eframe(move |cc| EditorApp::new(cc, file).with_dialogs(Box::new(dialogs)).with_recovery(&recovery));
+    start([1024.0, 640.0], 60.0, move |cc| {
+        EditorApp::new(cc, file).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
+    })
+}
+
+fn start(
+    size: [f32; 2],
+    frames_per_sec: f32,
+    app: impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp,
+) -> Editor {
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec).wgpu();
+    let mut harness = builder.build_eframe(app);
     harness.run_steps(4);
     harness
 }
 
-/// Steps until something holds.
+/// Steps until a condition holds.
 pub fn until(harness: &mut Editor, what: &str, holds: impl Fn(&Editor) -> bool) {
     const PATIENCE: Duration = Duration::from_secs(120);
     let begun = Instant::now();
@@ -73,6 +79,47 @@ pub fn undo_label(harness: &Editor) -> String {
 
 pub fn undo_len(harness: &Editor) -> usize {
     harness.state().document().history().undo_len()
+}
+
+/// Drags from one point of the window to another.
+pub fn drag(harness: &mut Editor, from: egui::Pos2, to: egui::Pos2) {
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(to);
+    harness.run_steps(2);
+    harness.drop_at(to);
+    harness.run_steps(3);
+}
+
+/// Drags the row of a list with the first label to below the row with the second.
+pub fn drag_row_below(harness: &mut Editor, row: &str, other: &str) {
+    let from = harness.get_by_label(row).rect().center();
+    let to = harness.get_by_label(other).rect().center_bottom() - egui::vec2(0.0, 2.0);
+    drag(harness, from, to);
+}
+
+/// Asks for a command, and steps until it is carried out.
+pub fn send(harness: &mut Editor, command: Command) {
+    harness.state_mut().send(command);
+    harness.run_steps(4);
+}
+
+/// Scrolls to the widget with this label.
+pub fn scroll_to(harness: &mut Editor, label: &str) {
+    harness.get_by_label(label).scroll_to_me();
+    harness.run_steps(40);
+}
+
+/// Moves the pointer to the middle of the picture. Gives the ground there.
+pub fn point_at_planet(harness: &mut Editor) -> UnderPointer {
+    harness.hover_at(canvas(harness).center());
+    until(harness, "the ground is known", |harness| harness.state().viewport().under_pointer().is_some());
+    harness.state().viewport().under_pointer().cloned().unwrap_or_else(|| panic!("the ground is known"))
+}
+
+/// The picture of the planet on screen.
+pub fn canvas(harness: &Editor) -> egui::Rect {
+    harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect()
 }
 
 pub fn click(harness: &mut Editor, label: &str) {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
-use tellus::render::{DebugView, Frame, FrameStats, RenderError, Renderer};
+use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 use tellus::tiles::{Builder, Surface, add_detail, build_now};
@@ -77,6 +77,8 @@ pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub renderer: Renderer,
+    /// Of every scene but for its exposure.
+    pub post: Post,
 }
 
 pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -91,66 +93,55 @@ impl Gpu {
             ..wgpu::DeviceDescriptor::default()
         }))
         .expect("a device");
-        let renderer = Renderer::new(&device, &queue, FORMAT).unwrap_or_else(|error| panic!("{error}"));
+        let renderer = Renderer::new(&device, &queue).unwrap_or_else(|error| panic!("{error}"));
         let info = adapter.get_info();
-        Self { adapter: format!("{} ({})", info.name, info.driver_info), device, queue, renderer }
+        let adapter = format!("{} ({})", info.name, info.driver_info);
+        Self { adapter, device, queue, renderer, post: Post::default() }
     }
 
-    fn picture(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
-        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    pub fn texture(&self, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
         self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
-            size,
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         })
     }
 
-    /// Draws a frame so many times and waits.
-    pub fn draw_only(&mut self, frame: &Frame<'_>, times: usize) {
-        let texture = self.picture(frame.view.size_px);
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    fn render(&mut self, scene: &Scene<'_>, texture: &wgpu::Texture) -> Result<FrameStats, RenderError> {
+        let mut scene = scene.clone();
+        let exposure_ev = scene.post.exposure_ev;
+        scene.post = self.post;
+        scene.post.exposure_ev = exposure_ev;
+        self.renderer.render(&texture.create_view(&wgpu::TextureViewDescriptor::default()), &scene)
+    }
+
+    /// Draws a scene so many times and waits.
+    pub fn draw_only(&mut self, scene: &Scene<'_>, times: usize) {
+        let texture = self.texture(scene.size_px, FORMAT);
         for _ in 0..times {
-            self.renderer.render(&self.device, &self.queue, &view, frame).unwrap();
+            self.render(scene, &texture).unwrap();
             self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
         }
     }
 
-    /// Draws a frame into a target of any size.
-    pub fn draw_into(&mut self, frame: &Frame<'_>, target_px: [u32; 2]) -> Result<FrameStats, RenderError> {
-        let view = self.picture(target_px).create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.render(&self.device, &self.queue, &view, frame)
+    /// Draws a scene into a target of any size.
+    pub fn draw_into(&mut self, scene: &Scene<'_>, target_px: [u32; 2]) -> Result<FrameStats, RenderError> {
+        let texture = self.texture(target_px, FORMAT);
+        self.render(scene, &texture)
     }
 
-    /// Draws a frame and reads it back, RGBA.
-    pub fn draw(&mut self, frame: &Frame<'_>) -> Vec<u8> {
-        let [width, height] = frame.view.size_px;
-        let texture = self.picture(frame.view.size_px);
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.renderer.render(&self.device, &self.queue, &view, frame).unwrap();
-        let row = (width * 4).next_multiple_of(256);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read back"),
-            size: u64::from(row * height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
-        encoder.copy_texture_to_buffer(
-            texture.as_image_copy(),
-            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
-            texture.size(),
-        );
-        self.queue.submit([encoder.finish()]);
-        buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
-        let mapped = buffer.slice(..).get_mapped_range().expect("mapped");
-        mapped.chunks(row as usize).flat_map(|line| line[..width as usize * 4].to_vec()).collect()
+    /// Draws a scene and reads it back, RGBA.
+    pub fn draw(&mut self, scene: &Scene<'_>) -> Vec<u8> {
+        let texture = self.texture(scene.size_px, FORMAT);
+        self.render(scene, &texture).unwrap();
+        read_texture(&self.device, &self.queue, &texture).unwrap()
     }
 }
 
@@ -169,24 +160,26 @@ pub fn camera_over(terrain: &Terrain, place: LatLon, altitude_m: f64, [heading, 
     Camera::over(place, radius_m, heading, pitch, Camera::DEFAULT_FOV_Y_RAD)
 }
 
-/// A frame with the sun over a place.
-pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: (f64, f64)) -> Frame<'a> {
+/// A scene with the sun over a place.
+pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: (f64, f64)) -> Scene<'a> {
     let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
     frame_of(surface, planet, view, LatLon::from_degrees(sun.0, sun.1).direction())
 }
 
-/// A frame of a view.
-pub fn frame_of<'a>(surface: &'a Surface, planet: &'a Planet, view: View, sun_dir_planet: DVec3) -> Frame<'a> {
-    Frame {
-        surface,
-        planet,
-        view,
-        frozen: None,
-        sun_dir_planet,
-        time_secs: 0.0,
-        exposure_ev: 0.0,
-        debug_view: DebugView::Shaded,
-    }
+/// A scene of a view.
+pub fn frame_of<'a>(surface: &'a Surface, planet: &'a Planet, view: View, sun_dir_planet: DVec3) -> Scene<'a> {
+    Scene::of_planet(planet, surface, view, sun_dir_planet)
+}
+
+/// A scene that shows a debug view.
+pub fn debug(mut scene: Scene<'_>, debug_view: DebugView) -> Scene<'_> {
+    scene.debug_view = debug_view;
+    scene
+}
+
+/// The view of a scene's one body.
+pub fn view_of(scene: &Scene<'_>) -> View {
+    scene.view_of(scene.bodies[0].position_m, scene.bodies[0].scene_from_body)
 }
 
 /// Red, green and blue of each pixel, summed.
@@ -195,15 +188,16 @@ pub fn lights(picture: &[u8]) -> Vec<u32> {
 }
 
 /// Whether the middle of each pixel of the picture lies well within the planet's disc.
-pub fn inside_disc(frame: &Frame<'_>, lowest_m: f64) -> Vec<bool> {
-    let [width, height] = frame.view.size_px;
-    let eye = frame.view.camera.position_planet_m;
-    let radius_m = frame.planet.radius_m() + lowest_m;
+pub fn inside_disc(frame: &Scene<'_>, lowest_m: f64) -> Vec<bool> {
+    let [width, height] = frame.size_px;
+    let view = view_of(frame);
+    let eye = view.camera.position_planet_m;
+    let radius_m = frame.bodies[0].planet.radius_m() + lowest_m;
     (0..height)
         .flat_map(|y| (0..width).map(move |x| (x, y)))
         .map(|(x, y)| {
             let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
-            let dir = frame.view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), frame.view.aspect());
+            let dir = view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect());
             let closest = eye - dir * eye.dot(dir);
             eye.dot(dir) < 0.0 && closest.length() < radius_m * 0.999
         })

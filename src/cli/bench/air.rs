@@ -1,10 +1,10 @@
 //! What an edit of the air costs on the GPU: a small frame with new tables against the same frame without.
 
-use super::super::headless::{self, Gpu};
+use super::super::headless::Gpu;
 use super::{median, repeat};
 use crate::lod::{Quality, opening};
 use crate::planet::Planet;
-use crate::render::{DebugView, Frame, Renderer};
+use crate::render::{Renderer, Scene};
 use crate::tiles::build_now;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ const SIZE_PX: [u32; 2] = [16, 16];
 /// `tables_ms`: median of what making the tables of the air adds to a frame, drawing waited for. Nothing without a GPU or air.
 pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
     let gpu = Gpu::open(SIZE_PX).ok()?;
-    let mut renderer = Renderer::new(&gpu.device, &gpu.queue, headless::FORMAT).ok()?;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).ok()?;
     let view = opening::opening_view(planet, SIZE_PX, Quality::Low);
     let surface = build_now(planet, &view).ok()?;
     let mut planet = Planet::clone(planet);
@@ -25,19 +25,10 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
             if let Some(air) = planet.atmosphere.as_mut().filter(|_| change) {
                 air.mie_anisotropy = if air.mie_anisotropy > 0.7 { 0.65 } else { 0.75 };
             }
-            let frame = Frame {
-                surface: &surface,
-                planet: &planet,
-                view,
-                frozen: None,
-                sun_dir_planet: planet.star.place(0.0).direction(),
-                time_secs: 0.0,
-                exposure_ev: 0.0,
-                debug_view: DebugView::Shaded,
-            };
+            let scene = Scene::of_planet(&planet, &surface, view, planet.star.place(0.0).direction());
             // What goes wrong here goes wrong for every figure of the GPU.
             let _ = gpu.picture(SIZE_PX, |target| {
-                renderer.render(&gpu.device, &gpu.queue, target, &frame).map(drop).map_err(|error| error.to_string())
+                renderer.render(target, &scene).map(drop).map_err(|error| error.to_string())
             });
         })
     };

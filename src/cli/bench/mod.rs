@@ -2,11 +2,13 @@
 //!
 //! - [`noise`]: million points a second, against fastnoise-lite
 //! - [`edits`]: time from an edit to the finished tiles
-//! - [`air`]: time that new tables of the air take on the GPU
+//! - [`queries`]: time of heights, samples and rays
+//! - [`air`]: time that new LUTs of the air take on the GPU
 
 mod air;
 mod edits;
 mod noise;
+mod queries;
 
 use super::{Failure, headless, print};
 use crate::lod::{Quality, View, opening};
@@ -57,6 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         "adapter": headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name),
         "noise": noise::measure(),
         "rebuild": rebuilds,
+        "queries": queries::measure(default)?,
         "edits": edits::measure(default),
         "air": air::measure(default),
         "heaviest": planets[heaviest].0,

@@ -1,11 +1,11 @@
 //! Painting the biome table, apart from any widget.
 //!
-//! - [`tools`]: brush, line, rectangle, fill: what a gesture makes of a table
-//! - [`survey`]: where the planet lies in its table, found on a thread of its own
-//! - [`table_png`]: the table as a picture, one pixel for each cell
+//! - [`tools`]: brush, line, rectangle, fill
+//! - [`survey`]: the share of land in each cell, found on another thread
+//! - [`table_png`]: the table as a picture with one pixel for each cell
 
-/// Whether these keys make a click pick a biome in the table, and paint the climate of a place on the planet. Not Alt,
-/// with which many desktops move windows.
+/// Whether these keys are the chord with which a click picks a biome in the table, and paints the climate under it on
+/// the planet. It is not Alt, with which many desktops move windows.
 pub fn is_chord(modifiers: eframe::egui::Modifiers) -> bool {
     modifiers.command
 }

@@ -1,32 +1,33 @@
-//! How much of the planet's land lies in each cell of the biome table, and how much of it each biome has: a survey at directions
-//! that stand for equal areas, on a thread of its own. It asks the terrain that everything else asks.
+//! The shares of the planet's land in each cell of the biome table and in each biome: samples of the evaluator at
+//! directions of equal areas, on another thread.
 
 use crate::planet::Planet;
-use crate::terrain::Terrain;
-use crate::terrain::survey::spread;
+use crate::sphere::spread;
+use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Directions asked for: shares are good to about a tenth of a percent.
+/// Number of directions: the error of a share is about a tenth of a percent.
 const DIRECTIONS: usize = 24_576;
 
-/// What was found. Shares are of the land, or of everything where there is no sea; each list adds up to 1, or to 0 without land.
+/// The result. Shares are of the land, or of the whole surface of a planet without a sea. Each list adds up to 1, or to
+/// 0 without land.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
     columns: usize,
     /// Share of each cell, row by row.
     cells: Vec<f64>,
-    /// Share of each biome of the palette, after the rules for steep ground, beaches and snow.
+    /// Share of each biome of the palette, after the surface rules (steep ground, beaches, snow).
     pub biomes: Vec<f64>,
-    /// Share of the whole surface that lies under the sea.
+    /// Share of the whole surface under the sea.
     pub sea: f64,
-    /// The greatest share of a cell.
+    /// The largest share of a cell.
     pub most: f64,
 }
 
 impl Survey {
-    /// Asks a terrain.
+    /// Surveys a terrain.
     pub fn of(terrain: &Terrain) -> Self {
         let planet = terrain.planet();
         let dirs: Vec<DVec3> = spread(DIRECTIONS).collect();
@@ -34,7 +35,8 @@ impl Survey {
         let columns = planet.biomes.table.columns();
         let mut cells = vec![0.0; columns * planet.biomes.table.rows().len()];
         let mut biomes = vec![0.0; planet.biomes.palette.len()];
-        let grounds = terrain.grounds(&dirs);
+        let mut grounds = vec![Sample::default(); DIRECTIONS];
+        terrain.samples_into(&dirs, Wanted::HEIGHT.and_biome(), &mut grounds, &mut Scratch::default());
         let land = grounds.iter().filter(|ground| ground.height_m >= sea_m);
         let count = land.clone().count();
         let share = 1.0 / count.max(1) as f64;
@@ -51,14 +53,14 @@ impl Survey {
         Self { columns, cells, biomes, sea: 1.0 - count as f64 / DIRECTIONS as f64, most }
     }
 
-    /// Share of a cell; none outside of the table that was surveyed.
+    /// Share of a cell; 0 outside the surveyed table.
     pub fn cell(&self, column: usize, row: usize) -> f64 {
         let inside = column < self.columns;
         self.cells.get(row * self.columns + column).copied().filter(|_| inside).unwrap_or(0.0)
     }
 }
 
-/// Asks and remembers the newest answer.
+/// Surveys planets on another thread, and keeps the newest result.
 pub struct Surveyor {
     terrains: Sender<Arc<Terrain>>,
     answers: Receiver<Survey>,
@@ -67,7 +69,7 @@ pub struct Surveyor {
 }
 
 impl Surveyor {
-    /// Starts the thread; `wake` is called from it with each answer. It ends with the surveyor.
+    /// Starts the thread, which calls `wake` after each survey and ends with the surveyor.
     pub fn new(wake: impl Fn() + Send + 'static) -> Self {
         let (terrains, asked) = channel::<Arc<Terrain>>();
         let (answered, answers) = channel();
@@ -81,15 +83,15 @@ impl Surveyor {
                 wake();
             }
         });
-        // Without a thread there are no figures, and nothing else breaks.
+        // Without the thread there are no shares, and nothing else breaks.
         debug_assert!(spawned.is_ok());
         Self { terrains, answers, asked: None, survey: None }
     }
 
-    /// Asks about a terrain, unless the newest question was about the same ground or its world maps are not final yet.
+    /// Asks for a survey of a terrain, unless the newest request was for equal ground, or its world maps are not final yet.
     pub fn ask(&mut self, terrain: &Arc<Terrain>) {
         if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(|asked| same_ground(asked, terrain)) {
-            // Without a thread there is nobody to ask.
+            // Fails only if the thread could not be started.
             let _ = self.terrains.send(terrain.clone());
             self.asked = Some(terrain.clone());
         }
@@ -98,7 +100,7 @@ impl Surveyor {
         }
     }
 
-    /// The newest answer; perhaps about an earlier revision.
+    /// The newest result; it may be of an earlier revision.
     pub fn survey(&self) -> Option<&Survey> {
         self.survey.as_ref()
     }

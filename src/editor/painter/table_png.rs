@@ -1,4 +1,5 @@
-//! The biome table as a PNG: one pixel for each cell in its biome's colour, and back by the nearest colour of the palette.
+//! The biome table as a PNG: one pixel for each cell, in the colour of its biome. An import takes the nearest colour of
+//! the palette.
 
 use crate::planet::{Biomes, Table};
 use image::{ImageFormat, ImageReader, Rgba, RgbaImage};
@@ -7,16 +8,16 @@ use std::io::Cursor;
 /// A table read from a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Imported {
-    /// The table; transparent pixels left what was at their climate.
+    /// The table. A transparent pixel keeps the biome that had its climate.
     pub table: Table,
-    /// How many pixels had a colour that no biome has.
+    /// Number of pixels with a colour of no biome.
     pub inexact: usize,
 }
 
 /// The picture of a table.
 ///
 /// # Errors
-/// Why it could not be encoded.
+/// Why the picture could not be encoded.
 pub fn encode(biomes: &Biomes) -> Result<Vec<u8>, String> {
     let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
     let picture = RgbaImage::from_fn(columns as u32, rows as u32, |x, y| {
@@ -29,7 +30,7 @@ pub fn encode(biomes: &Biomes) -> Result<Vec<u8>, String> {
     Ok(bytes.into_inner())
 }
 
-/// Names of biomes that a picture cannot tell apart, because they have the same colour.
+/// Pairs of biomes that have the same colour, so that a picture cannot tell them apart: their names.
 pub fn look_alikes(biomes: &Biomes) -> Vec<(String, String)> {
     let colors: Vec<[u8; 3]> = biomes.palette.iter().map(|biome| srgb(biome.color)).collect();
     let first = |index: usize| colors[..index].iter().position(|color| *color == colors[index]);
@@ -37,14 +38,14 @@ pub fn look_alikes(biomes: &Biomes) -> Vec<(String, String)> {
     (0..colors.len()).filter_map(|index| first(index).map(|first| (name(first), name(index)))).collect()
 }
 
-/// The table of a picture: as large as that, over the palette as it is.
+/// The table of a picture: a cell for each pixel, over the palette of `biomes`.
 ///
 /// # Errors
 /// What is wrong with the picture, and what would be right.
 pub fn decode(bytes: &[u8], biomes: &Biomes) -> Result<Imported, String> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let sides = Table::MIN_SIDE as u32..=Table::MAX_SIDE as u32;
-    // The size first: a picture of gigabytes is never read.
+    // The size comes first, so that a huge picture is never decoded.
     let read_size = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png).into_dimensions();
     let (width, height) = read_size.map_err(|error| format!("this is no PNG that can be read: {error}"))?;
     if !sides.contains(&width) || !sides.contains(&height) {
@@ -81,7 +82,7 @@ pub fn decode(bytes: &[u8], biomes: &Biomes) -> Result<Imported, String> {
     Ok(Imported { table, inexact })
 }
 
-/// How different two colours look: their distance in Oklab (Ottosson, A perceptual color space for image processing, 2020).
+/// The square of the distance of two colours in Oklab (Ottosson, A perceptual color space for image processing, 2020).
 fn difference(a: [u8; 3], b: [u8; 3]) -> f64 {
     let oklab = |color: [u8; 3]| {
         let [r, g, b] = color.map(|c| {

@@ -1,13 +1,13 @@
-//! The painter's tools as plain functions on a table of keys. Positions are in cells: (0, 0) is the upper left corner of the table,
-//! (0.5, 0.5) the middle of its first cell.
+//! The painter's tools as functions on a biome table. Positions are in cells: (0, 0) is the upper left corner of the
+//! table, (0.5, 0.5) the middle of its first cell.
 //!
-//! A table holds keys, so a soft brush cannot mix: it covers a cell by some share, and the cell is painted when that share exceeds
-//! the cell's own threshold, a number that stays the same for a whole stroke. An edge is thus dithered, however long one dwells,
-//! and another stroke dithers it differently.
+//! A table holds keys, which a soft brush cannot mix. The brush covers a share of each cell, and paints the cell if
+//! that share exceeds the cell's threshold. The thresholds are fixed during a stroke, so that a soft edge is dithered
+//! however long the pointer stays; the next stroke has other thresholds.
 
 use crate::planet::Table;
 
-/// What the pointer does to the table.
+/// A tool for the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Tool {
@@ -24,7 +24,7 @@ impl Tool {
     /// All of them, in the order shown.
     pub const ALL: [Tool; 6] = [Tool::Brush, Tool::Line, Tool::Rectangle, Tool::Fill, Tool::Pick, Tool::Select];
 
-    /// The name a person reads.
+    /// The name on its button.
     pub fn label(self) -> &'static str {
         match self {
             Tool::Brush => "Brush",
@@ -36,7 +36,7 @@ impl Tool {
         }
     }
 
-    /// What it does.
+    /// Its effect.
     pub fn tooltip(self) -> &'static str {
         match self {
             Tool::Brush => "Paint by dragging. Shift and click draws a straight line from the last stroke.",
@@ -51,7 +51,7 @@ impl Tool {
         }
     }
 
-    /// What its undo step is called.
+    /// The name of its undo step.
     pub fn step(self) -> &'static str {
         match self {
             Tool::Line => "Draw line",
@@ -65,8 +65,8 @@ impl Tool {
 /// Column and row.
 pub type Cell = [usize; 2];
 
-/// A place in the table, in cells.
-pub type Place = [f32; 2];
+/// A position in the table, in cells.
+pub type CellPos = [f32; 2];
 
 /// A block of cells, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,9 +92,9 @@ impl Block {
 /// The brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brush {
-    /// Cells across.
+    /// Diameter in cells.
     pub size: usize,
-    /// From 0 (a hard edge) to 1 (soft from the middle on).
+    /// Width of the soft edge, from 0 (a hard edge) to 1 (soft from the middle on).
     pub softness: f32,
 }
 
@@ -105,13 +105,13 @@ impl Default for Brush {
 }
 
 impl Brush {
-    /// Most cells across.
+    /// Largest diameter in cells.
     pub const LARGEST: usize = 16;
 
-    /// How much of a cell a dab at a place covers, 0 to 1.
-    fn coverage(&self, at: Place, [column, row]: Cell) -> f32 {
+    /// The share of a cell that a dab covers, 0 to 1.
+    fn coverage(&self, at: CellPos, [column, row]: Cell) -> f32 {
         let radius = self.size as f32 * 0.5;
-        // Odd brushes sit on cells, even ones on the corners between them.
+        // A brush of odd size is centred on a cell, one of even size on a corner between cells.
         let snap = |x: f32| if self.size % 2 == 1 { x.floor() + 0.5 } else { x.round() };
         let away = (column as f32 + 0.5 - snap(at[0])).hypot(row as f32 + 0.5 - snap(at[1]));
         if away > radius + 0.01 {
@@ -125,7 +125,7 @@ impl Brush {
     }
 }
 
-/// A gesture under way: the table before it, and where it has been.
+/// A gesture under way: the table before it, and the cells that it has covered.
 #[derive(Clone, Debug)]
 pub struct Gesture {
     tool: Tool,
@@ -133,23 +133,23 @@ pub struct Gesture {
     brush: Brush,
     within: Option<Block>,
     before: Table,
-    from: Place,
-    to: Place,
-    /// For each cell the most that any dab of the stroke covered of it.
+    from: CellPos,
+    to: CellPos,
+    /// For each cell, the largest share that a dab of the stroke covered.
     covered: Vec<f32>,
-    /// Which stroke it is: thresholds differ from stroke to stroke.
+    /// Number of the stroke, which sets the thresholds.
     number: u32,
 }
 
 impl Gesture {
-    /// Begins at a place: paints with `key`, within a selection if there is one.
+    /// Begins at a position. Paints `key`, within a selection if there is one.
     pub fn new(
         tool: Tool,
         key: char,
         brush: Brush,
         within: Option<Block>,
         table: &Table,
-        at: Place,
+        at: CellPos,
         number: u32,
     ) -> Self {
         let covered = vec![0.0; table.columns() * table.rows().len()];
@@ -158,23 +158,23 @@ impl Gesture {
         gesture
     }
 
-    /// The tool that makes it.
+    /// The tool of the gesture.
     pub fn tool(&self) -> Tool {
         self.tool
     }
 
-    /// Where it is now.
-    pub fn place(&self) -> Place {
+    /// The position now.
+    pub fn at(&self) -> CellPos {
         self.to
     }
 
-    /// The cells between its begin and its end.
+    /// The block between the cells of its begin and its end.
     pub fn block(&self) -> Block {
         Block::between(cell_at(&self.before, self.from), cell_at(&self.before, self.to))
     }
 
-    /// Goes on to a place. `constrained`: the key that makes lines straight and outlines of rectangles is held.
-    pub fn go_to(&mut self, at: Place, constrained: bool) {
+    /// Goes on to a position. `constrained`: Shift is held, which makes lines straight, and outlines of rectangles.
+    pub fn go_to(&mut self, at: CellPos, constrained: bool) {
         match self.tool {
             Tool::Brush => self.cover(self.to, at),
             Tool::Line => {
@@ -187,7 +187,7 @@ impl Gesture {
         self.to = at;
     }
 
-    /// The table as the gesture leaves it.
+    /// The table after the gesture.
     pub fn table(&self, constrained: bool) -> Table {
         let mut table = self.before.clone();
         for cell in self.cells(constrained) {
@@ -196,7 +196,7 @@ impl Gesture {
         table
     }
 
-    /// The cells that it paints.
+    /// The cells that the gesture paints.
     pub fn cells(&self, constrained: bool) -> Vec<Cell> {
         let block = self.block();
         let key = |[column, row]: Cell| self.before.key(column, row);
@@ -222,8 +222,8 @@ impl Gesture {
         }
     }
 
-    /// Dabs along a way.
-    fn cover(&mut self, from: Place, to: Place) {
+    /// Covers cells by dabs along a line, three for each cell of its length.
+    fn cover(&mut self, from: CellPos, to: CellPos) {
         let length = (to[0] - from[0]).hypot(to[1] - from[1]);
         let dabs = (length * 3.0).ceil().max(1.0);
         for i in 0..=dabs as usize {
@@ -236,8 +236,8 @@ impl Gesture {
     }
 }
 
-/// The cell at a place; beside the table the nearest one.
-pub fn cell_at(table: &Table, [x, y]: Place) -> Cell {
+/// The cell at a position; beside the table, the nearest cell.
+pub fn cell_at(table: &Table, [x, y]: CellPos) -> Cell {
     let index = |x: f32, cells: usize| (x.max(0.0) as usize).min(cells.saturating_sub(1));
     [index(x, table.columns()), index(y, table.rows().len())]
 }
@@ -248,14 +248,14 @@ fn all_cells(table: &Table) -> impl Iterator<Item = Cell> + use<> {
 }
 
 /// The end of a line from `from` towards `to` at a multiple of 45°.
-fn straight(from: Place, to: Place) -> Place {
+fn straight(from: CellPos, to: CellPos) -> CellPos {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let most = dx.abs().max(dy.abs());
     let step = |d: f32| if d.abs() > 0.414 * most { most * d.signum() } else { 0.0 };
     [from[0] + step(dx), from[1] + step(dy)]
 }
 
-/// All cells that can be reached from one over cells of the same biome, side by side.
+/// The cells of one biome that are connected to `from` by their sides.
 fn flood(table: &Table, from: Cell, within: Option<Block>) -> Vec<Cell> {
     let columns = table.columns();
     let keys: Vec<Vec<char>> = table.rows().iter().map(|row| row.chars().collect()).collect();
@@ -276,7 +276,8 @@ fn flood(table: &Table, from: Cell, within: Option<Block>) -> Vec<Cell> {
     found
 }
 
-/// What must be covered of a cell for it to be painted: 0 to below 1, for each cell and stroke another number.
+/// The share of a cell that must be exceeded to paint it: a hash of cell and stroke, from 0 to below 1. The multipliers
+/// are those of xxHash32 and MurmurHash3.
 fn threshold([column, row]: Cell, stroke: u32) -> f32 {
     let mut h = (column as u32).wrapping_mul(0x9E37_79B1) ^ (row as u32).wrapping_mul(0x85EB_CA77);
     h = (h ^ stroke.wrapping_mul(0xC2B2_AE3D)).wrapping_mul(0x27D4_EB2F);
@@ -292,7 +293,7 @@ mod tests {
         table.rows().join("/")
     }
 
-    fn gesture(tool: Tool, brush: Brush, table: &Table, at: Place) -> Gesture {
+    fn gesture(tool: Tool, brush: Brush, table: &Table, at: CellPos) -> Gesture {
         Gesture::new(tool, 'x', brush, None, table, at, 1)
     }
 

@@ -1,4 +1,4 @@
-//! The picture of the biome table: cells, how much land lies in each, what the tool would paint, what is lit up.
+//! The picture of the biome table: cells, the share of land in each, the preview of the tool, the selection.
 
 use crate::editor::painter::survey::Survey;
 use crate::editor::painter::tools::{Block, Cell};
@@ -6,24 +6,25 @@ use crate::editor::widgets::{color32, ink_on};
 use crate::planet::Biomes;
 use eframe::egui::{self, Color32, Pos2, Rect, Stroke, StrokeKind, Vec2};
 
-/// Where the table is on screen.
+/// The table on screen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Canvas {
     pub(super) rect: Rect,
     cell: Vec2,
 }
 
-/// What is drawn over the cells.
+/// Marks over the cells.
 #[derive(Default)]
 pub(super) struct Overlay<'a> {
-    /// Land in each cell, if it is to be shown.
+    /// The share of land in each cell, if shown.
     pub(super) survey: Option<&'a Survey>,
-    /// What the tool would paint, and in which colour.
+    /// The cells that the tool would paint.
     pub(super) preview: Vec<Cell>,
+    /// The colour that the tool would paint.
     pub(super) color: Color32,
     pub(super) selection: Option<Block>,
-    /// The cell of the place under the pointer on the planet.
-    pub(super) place: Option<Cell>,
+    /// The cell of the climate under the pointer on the planet.
+    pub(super) here: Option<Cell>,
 }
 
 impl Canvas {
@@ -32,8 +33,8 @@ impl Canvas {
         Self { rect, cell: egui::vec2(rect.width() / columns as f32, rect.height() / rows as f32) }
     }
 
-    /// A point of the window, in cells.
-    pub(super) fn place(&self, pos: Pos2) -> [f32; 2] {
+    /// A point of the window in cells.
+    pub(super) fn in_cells(&self, pos: Pos2) -> [f32; 2] {
         let at = (pos - self.rect.min) / self.cell;
         [at.x, at.y]
     }
@@ -50,7 +51,7 @@ impl Canvas {
     pub(super) fn paint(&self, ui: &egui::Ui, biomes: &Biomes, overlay: &Overlay<'_>) {
         let painter = ui.painter_at(self.rect.expand(2.0));
         let side = self.cell.min_elem();
-        // Large cells stand apart, so that one can count them; small ones would drown in gaps.
+        // Gaps make large cells countable; small cells would vanish between them.
         let gap = if side >= 9.0 { 0.5 } else { 0.0 };
         for (row, keys) in biomes.table.rows().iter().enumerate() {
             for (column, key) in keys.chars().enumerate() {
@@ -60,7 +61,7 @@ impl Canvas {
                 painter.rect_filled(rect.shrink(gap), 0.0, color);
                 let share = overlay.survey.map_or(0.0, |survey| survey.cell(column, row) / survey.most.max(1e-12));
                 if share > 0.0 {
-                    // The dot's area goes with the land's.
+                    // The area of the dot is proportional to the share of land.
                     let radius = (0.42 * side * share.sqrt() as f32).max(0.7);
                     painter.circle_filled(rect.center(), radius, ink_on(color).gamma_multiply(0.55));
                 }
@@ -79,13 +80,13 @@ impl Canvas {
         if let Some(selection) = overlay.selection {
             outline(&painter, self.block(selection), Color32::WHITE);
         }
-        if let Some(cell) = overlay.place {
+        if let Some(cell) = overlay.here {
             outline(&painter, self.cell(cell).expand(1.0), Color32::from_rgb(255, 196, 40));
         }
     }
 }
 
-/// Seen on every colour: a bright line between dark ones.
+/// A bright line between dark ones: visible on every colour.
 fn outline(painter: &egui::Painter, rect: Rect, color: Color32) {
     painter.rect_stroke(rect, 0.0, Stroke::new(3.5, Color32::from_black_alpha(200)), StrokeKind::Middle);
     painter.rect_stroke(rect, 0.0, Stroke::new(1.5, color), StrokeKind::Middle);

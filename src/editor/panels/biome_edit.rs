@@ -1,8 +1,8 @@
-//! What is done to the palette and the biome table as a whole. Every key in the table stays one of the palette.
+//! Edits of the palette and the biome table. Every key in the table stays a key of the palette.
 
 use crate::planet::{Biome, Biomes, MAX_BIOMES, Table, TableRows};
 
-/// Adds a biome with a key nobody uses; gives its place, or None when there are too many.
+/// Adds a biome with a free key. Gives its index, or None if the palette is full.
 pub fn add(biomes: &mut Biomes) -> Option<usize> {
     if biomes.palette.len() >= MAX_BIOMES {
         return None;
@@ -14,7 +14,7 @@ pub fn add(biomes: &mut Biomes) -> Option<usize> {
     Some(biomes.palette.len() - 1)
 }
 
-/// Removes a biome; its cells become those of `replacement`. The last one stays.
+/// Removes a biome; its cells become those of `replacement`. The last biome stays.
 pub fn remove(biomes: &mut Biomes, index: usize, replacement: usize) -> bool {
     let (Some(old), Some(new)) = (biomes.palette.get(index), biomes.palette.get(replacement)) else { return false };
     if index == replacement {
@@ -26,10 +26,10 @@ pub fn remove(biomes: &mut Biomes, index: usize, replacement: usize) -> bool {
     true
 }
 
-/// Gives a biome another key, in the table and in the rules, too.
+/// Gives a biome another key, in the table and in the surface rules too.
 ///
 /// # Errors
-/// Why it cannot have that key; then nothing changes.
+/// Why the biome cannot have that key; nothing changes then.
 pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> Result<(), String> {
     if !key.is_ascii_graphic() || matches!(key, '"' | '\\') {
         return Err(format!("{key:?} cannot be a key; use a letter, a digit or a punctuation mark"));
@@ -43,7 +43,7 @@ pub fn rekey(biomes: &mut Biomes, index: usize, key: char) -> Result<(), String>
     Ok(())
 }
 
-/// The table in another size: each cell takes the biome that was at its climate.
+/// The table with another number of cells: each cell takes the biome that had its climate.
 pub fn resized(table: &Table, columns: usize, rows: usize) -> Table {
     let columns = columns.clamp(Table::MIN_SIDE, Table::MAX_SIDE);
     let rows = rows.clamp(Table::MIN_SIDE, Table::MAX_SIDE);
@@ -79,7 +79,7 @@ pub fn cell_range(biomes: &Biomes, column: usize, row: usize) -> String {
     )
 }
 
-/// Moves a biome into the gap before the one that stands at `gap` (or behind the last); gives the new place of `selected`.
+/// Moves a biome into the gap before index `gap`, or behind the last biome. Gives the new index of `selected`.
 pub fn move_to_gap(biomes: &mut Biomes, index: usize, gap: usize, selected: usize) -> usize {
     if index >= biomes.palette.len() || gap > biomes.palette.len() {
         return selected;

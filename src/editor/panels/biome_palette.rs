@@ -1,26 +1,31 @@
-//! The palette: biomes to paint with, how much land each has; add, rename, recolour, reorder, remove.
+//! The palette: the biomes with their shares of the land; add, rename, recolour, reorder, remove.
 
 use super::{Draft, biome_edit};
+use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::param_row::color_button;
 use crate::editor::widgets::{color32, ink_on, menu_button};
 use crate::planet::MAX_BIOMES;
 use eframe::egui::{self, AtomExt};
 
-/// A row of the palette that is dragged.
+/// Least share of the sea that is named: less would read 0.0 %.
+const SEA_SHOWN: f64 = 0.0005;
+
+/// Index of the row that is dragged.
+#[derive(Clone, Copy)]
 struct Dragged(usize);
 
-/// Live state of the palette.
+/// The selection and half-typed texts.
 #[derive(Default)]
 pub struct PaletteState {
-    /// Index of the biome that is painted with.
+    /// Index of the biome to paint.
     pub selected: usize,
-    /// The row whose name is being typed.
+    /// The row whose name is being typed, and the text.
     renaming: Option<(usize, String)>,
-    /// Why a key that was typed is not the biome's.
+    /// Why a typed key was refused.
     pub(super) refused: Option<(usize, String)>,
 }
 
-/// Shows the palette; gives the biome under the pointer.
+/// Shows the palette. Gives the index of the biome under the pointer.
 pub fn show(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) -> Option<usize> {
     toolbar(ui, state, draft);
     let shares: Vec<f64> = draft.survey.map(|survey| survey.biomes.clone()).unwrap_or_default();
@@ -55,7 +60,8 @@ pub fn show(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
                 if response.hovered() {
                     hovered = Some(index);
                 }
-                moved = moved.or(dragged(ui, &response, index));
+                moved =
+                    moved.or(dragged_row(ui, &response, index, Dragged(index)).map(|(Dragged(from), gap)| (from, gap)));
                 let tooltip = "Share of the land. Drag to change the order, double-click to rename.";
                 response.on_hover_text(tooltip).accessible_name(format!("Biome {name}"));
             });
@@ -68,7 +74,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
     hovered
 }
 
-/// A share as a person reads it: none, a trace, or with as many digits as matter.
+/// A share in percent: "–" for none, "< 0.1 %", or with the digits that matter.
 fn percent(share: f64) -> String {
     match share * 100.0 {
         0.0 => "–".to_owned(),
@@ -81,9 +87,8 @@ fn percent(share: f64) -> String {
 fn toolbar(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) {
     ui.horizontal(|ui| {
         ui.strong("Palette");
-        // Always there: were it to come when the survey is done, the buttons behind it would be others to a click
-        // under way.
-        let sea = draft.survey.filter(|survey| survey.sea > 0.0005);
+        // Always there: if it appeared with the survey, the buttons behind it would move under the pointer.
+        let sea = draft.survey.filter(|survey| survey.sea > SEA_SHOWN);
         ui.weak(sea.map_or_else(String::new, |survey| format!("of the land; {} is sea", percent(survey.sea))));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let biomes = &mut draft.planet.biomes;
@@ -131,16 +136,4 @@ fn rename_field(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'
         response.request_focus();
     }
     state.renaming = Some((index, name));
-}
-
-/// A row that is dragged, or has been dropped: which, and into which gap.
-fn dragged(ui: &egui::Ui, row: &egui::Response, index: usize) -> Option<(usize, usize)> {
-    row.dnd_set_drag_payload(Dragged(index));
-    let from = row.dnd_hover_payload::<Dragged>()?.0;
-    let pointer = ui.ctx().pointer_interact_pos()?;
-    let below = pointer.y > row.rect.center().y;
-    let y = if below { row.rect.bottom() + 1.0 } else { row.rect.top() - 1.0 };
-    ui.painter().hline(row.rect.x_range(), y, ui.visuals().selection.stroke);
-    row.dnd_release_payload::<Dragged>()?;
-    Some((from, index + usize::from(below)))
 }

@@ -1,9 +1,9 @@
-//! The biome table under the pointer and the keys: gestures become strokes, letters choose biomes.
+//! The biome table as a widget: gestures paint strokes, letters choose biomes.
 
 use super::biome_canvas::{Canvas, Overlay};
 use crate::editor::painter::is_chord;
 use crate::editor::painter::survey::Survey;
-use crate::editor::painter::tools::{Block, Brush, Cell, Gesture, Place, Tool, cell_at};
+use crate::editor::painter::tools::{Block, Brush, Cell, CellPos, Gesture, Tool, cell_at};
 use crate::editor::widgets::{color32, keys_are_taken};
 use crate::planet::{Biomes, Table, TableRows};
 use crate::render::MarkedCells;
@@ -14,51 +14,51 @@ pub(super) fn id() -> egui::Id {
     egui::Id::unique("biome table")
 }
 
-/// Live state of the painter. No part of the document.
+/// The tool, the brush and the gesture under way. Not part of the document.
 #[derive(Default)]
 pub struct PainterState {
-    /// What the pointer does.
+    /// The tool in hand.
     pub tool: Tool,
     /// The brush.
     pub brush: Brush,
-    /// Where tools paint, if not everywhere; it lights up on the planet.
+    /// The cells within which tools paint, if not all; their ground lights up on the planet.
     pub selection: Option<Block>,
     gesture: Option<Gesture>,
-    /// Whether the gesture began in an earlier frame: the pointer's way in this one belongs to it.
+    /// Whether the gesture began in an earlier frame: the pointer's path in this frame belongs to it.
     moves: bool,
     strokes: u32,
-    /// Where the last stroke ended: Shift draws a line from there.
-    last_end: Option<Place>,
-    /// The cell under the pointer when the table was painted, or changed by an undo: what is new is not covered by
-    /// light and previews until the pointer goes on.
+    /// End of the last stroke: Shift draws a line from there.
+    last_end: Option<CellPos>,
+    /// The cell under the pointer when the table was painted, or changed by an undo. Highlights and previews do not
+    /// cover the new cells until the pointer moves to another cell.
     quiet: Option<Cell>,
-    /// The table as it was left.
+    /// The table at the end of the last frame.
     left: Option<Table>,
 }
 
-/// What happened to the table in this frame.
+/// What the user did with the table in this frame.
 #[derive(Clone, Debug, Default)]
 pub struct TableOutput {
-    /// Name of the undo step, if cells changed: a stroke is under way.
+    /// Name of the undo step, if a stroke is under way.
     pub painted: Option<&'static str>,
     /// The biome that was picked.
     pub picked: Option<usize>,
     /// The cell under the pointer.
     pub hovered: Option<Cell>,
-    /// Cells to light up on the planet.
+    /// Cells whose ground lights up on the planet.
     pub marked: Option<MarkedCells>,
 }
 
-/// What is shown beside the table itself.
+/// What is shown over the table.
 pub struct Shown<'a> {
-    /// Land in each cell, if it is to be shown.
+    /// The share of land in each cell, if shown.
     pub survey: Option<&'a Survey>,
-    /// The cell of the place under the pointer on the planet.
-    pub place: Option<Cell>,
+    /// The cell of the climate under the pointer on the planet.
+    pub here: Option<Cell>,
 }
 
 impl PainterState {
-    /// Shows the table; `selected` is the biome that is painted with.
+    /// Shows the table; `selected` is the index of the biome to paint.
     pub fn show(&mut self, ui: &mut egui::Ui, biomes: &mut Biomes, selected: usize, shown: &Shown<'_>) -> TableOutput {
         let mut output = TableOutput::default();
         let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
@@ -83,7 +83,7 @@ impl PainterState {
         let changed_elsewhere = self.left.as_ref().is_some_and(|left| *left != biomes.table);
         self.keys(ui, &response, biomes, &mut output);
         self.pointer(ui, &response, &canvas, biomes, selected, &mut output);
-        let hovered = response.hover_pos().filter(|pos| rect.contains(*pos)).map(|pos| canvas.place(pos));
+        let hovered = response.hover_pos().filter(|pos| rect.contains(*pos)).map(|pos| canvas.in_cells(pos));
         output.hovered = hovered.map(|at| cell_at(&biomes.table, at));
 
         if changed_elsewhere {
@@ -105,7 +105,7 @@ impl PainterState {
             preview: if paints { preview } else { Vec::new() },
             color,
             selection,
-            place: shown.place,
+            here: shown.here,
         };
         canvas.paint(ui, biomes, &overlay);
         ui.horizontal(|ui| {
@@ -118,7 +118,7 @@ impl PainterState {
     }
 
     /// The cells that a press here would paint.
-    fn preview(&self, ui: &egui::Ui, biomes: &Biomes, selected: usize, at: Place) -> Vec<Cell> {
+    fn preview(&self, ui: &egui::Ui, biomes: &Biomes, selected: usize, at: CellPos) -> Vec<Cell> {
         let Some(biome) = biomes.palette.get(selected) else { return Vec::new() };
         let modifiers = ui.input(|i| i.modifiers);
         if matches!(self.tool, Tool::Pick | Tool::Select) || is_chord(modifiers) {
@@ -132,7 +132,8 @@ impl PainterState {
         gesture.cells(modifiers.shift)
     }
 
-    /// What lights up: nothing under a stroke, so that its ground is seen; what the pointer is on; else the selection.
+    /// The cells that light up: none during a stroke, so that its ground is visible; those under the pointer; or else
+    /// the selection.
     fn marked(&self, biomes: &Biomes, hovered: Option<Cell>, preview: &[Cell]) -> Option<MarkedCells> {
         let (columns, rows) = (biomes.table.columns(), biomes.table.rows().len());
         let stroke = self.gesture.as_ref().is_some_and(|gesture| gesture.tool() != Tool::Select);
@@ -150,7 +151,7 @@ impl PainterState {
         if response.contains_pointer() && !ui.ctx().text_edit_focused() && !ui.input(|i| i.pointer.any_down()) {
             response.request_focus();
         }
-        // Keys are for the menu that is open.
+        // An open menu takes the keys.
         if !response.has_focus() || keys_are_taken(ui.ctx()) {
             return;
         }
@@ -185,13 +186,13 @@ impl PainterState {
     ) {
         let (modifiers, origin, down, secondary) =
             ui.input(|i| (i.modifiers, i.pointer.press_origin(), i.pointer.primary_down(), i.pointer.secondary_down()));
-        // A frame may see the button let go far from where the last one saw it: the stroke goes there all the same.
+        // The pointer may have left the table when the button is released: the stroke still goes there.
         let still = self.gesture.is_some().then(|| ui.input(|i| i.pointer.interact_pos())).flatten();
         let Some(pos) = response.interact_pointer_pos().or(still) else {
             self.end();
             return;
         };
-        let at = canvas.place(pos);
+        let at = canvas.in_cells(pos);
         let held = response.is_pointer_button_down_on();
         let primary = (held && down) || response.clicked() || (self.gesture.is_some() && !secondary);
         let picks = self.tool == Tool::Pick || is_chord(modifiers);
@@ -203,25 +204,25 @@ impl PainterState {
         if primary && let Some(biome) = biomes.palette.get(selected) {
             let mut gesture = self.gesture.take().unwrap_or_else(|| {
                 self.strokes = self.strokes.wrapping_add(1);
-                let begin = canvas.place(origin.filter(|_| down).unwrap_or(pos));
+                let begin = canvas.in_cells(origin.filter(|_| down).unwrap_or(pos));
                 let line_from = self.last_end.filter(|_| self.tool == Tool::Brush && modifiers.shift);
                 let from = line_from.unwrap_or(begin);
-                // The preview showed the stroke that comes now.
+                // The number of the preview: the stroke paints the cells of the preview.
                 let number = self.strokes - 1;
                 Gesture::new(self.tool, biome.key, self.brush, self.selection, &biomes.table, from, number)
             });
-            // A fill belongs to where it began: what it has filled would be other ground.
+            // A fill keeps its first cell: the cell under the pointer is filled already.
             if gesture.tool() != Tool::Fill {
-                // All of the way since the last frame, not its end alone.
-                let way = ui.input(|i| {
+                // The whole path since the last frame, not its end alone.
+                let path = ui.input(|i| {
                     let moved = i.events.iter().filter_map(|event| match event {
                         egui::Event::PointerMoved(pos) if self.moves => Some(*pos),
                         _ => None,
                     });
                     moved.collect::<Vec<_>>()
                 });
-                for pos in way {
-                    gesture.go_to(canvas.place(pos), modifiers.shift);
+                for pos in path {
+                    gesture.go_to(canvas.in_cells(pos), modifiers.shift);
                 }
                 gesture.go_to(at, modifiers.shift);
             }
@@ -247,7 +248,7 @@ impl PainterState {
     fn end(&mut self) {
         self.moves = false;
         if let Some(gesture) = self.gesture.take() {
-            self.last_end = Some(gesture.place());
+            self.last_end = Some(gesture.at());
         }
     }
 }

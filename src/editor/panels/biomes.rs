@@ -1,9 +1,10 @@
-//! The biomes tab: the painter of the table, the palette, the selected biome, and what the table's axes mean.
+//! The biomes tab: the biome table with its tools, the palette, the selected biome, and the axes of the table.
 
 use super::biome_palette::PaletteState;
 use super::biome_table::{PainterState, Shown, TableOutput};
 use super::{Draft, biome_edit, biome_palette, biome_table};
 use crate::editor::command::Command;
+use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, PainterLink};
@@ -17,18 +18,18 @@ use crate::render::MarkedCells;
 use eframe::egui;
 use std::sync::Arc;
 
-/// Fewest cells on a side that the painter makes; a preset may hold fewer.
+/// Least number of columns and rows that the painter offers; a preset may have fewer.
 const LEAST_CELLS: usize = 8;
 
-/// Live state of the tab.
+/// Tools, selections and highlights.
 pub struct BiomesState {
-    /// The palette and the biome that is painted with.
+    /// The palette, with the biome to paint.
     pub palette: PaletteState,
     /// The tools.
     pub painter: PainterState,
-    /// Whether what the pointer is on lights up on the planet.
+    /// Whether the ground of the cells under the pointer lights up on the planet.
     lights_up: bool,
-    /// Whether dots show how much land lies in each cell.
+    /// Whether dots show the share of land in each cell.
     shows_land: bool,
     marked: Option<Arc<MarkedCells>>,
 }
@@ -51,12 +52,13 @@ pub fn has_keys(ctx: &egui::Context) -> bool {
 }
 
 impl BiomesState {
-    /// What the painter has to do with the picture of the planet.
+    /// What the tab shows on the planet, and which clicks it takes.
     pub fn link(&self) -> PainterLink {
         PainterLink { marked: self.marked.clone(), paints: true, picks: self.painter.tool == Tool::Pick }
     }
 
-    /// A click on the planet: chooses the biome there, or paints the cell of its climate. Gives the name of the edit.
+    /// A click on the planet: chooses the biome there, or paints the cell of the climate there. Gives the name of the
+    /// edit.
     pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
         match click {
             Click::Pick => {
@@ -67,14 +69,14 @@ impl BiomesState {
                 let key = planet.biomes.palette.get(self.palette.selected)?.key;
                 let [column, row] = under.cell;
                 planet.biomes.table.set_key(column, row, key);
-                Some("Paint a place's climate".to_owned())
+                Some("Paint climate of location".to_owned())
             }
         }
     }
 
     fn light_up(&mut self, marked: Option<MarkedCells>) {
         let marked = marked.filter(|marked| self.lights_up && marked.count() > 0);
-        // The same cells stay the same picture.
+        // Equal cells keep their allocation, so that the picture stays the same.
         if self.marked.as_deref() != marked.as_ref() {
             self.marked = marked.map(Arc::new);
         }
@@ -136,14 +138,15 @@ fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
             let softness = egui::DragValue::new(&mut percent).fixed_decimals(0).speed(1.0);
             let softness = softness.prefix("Soft ").suffix(" %");
             let allowed = Allowed::numbers(Unit::None, 0.0, 100.0).marked(" %");
-            let tooltip = "How much of the brush is a soft edge: there it paints single cells, fewer outwards";
+            let tooltip = "Width of the soft edge of the brush: there it paints single cells, fewer outwards";
             let field = typed_field(ui, None, softness, allowed, &shown, now);
             if field.on_hover_text(tooltip).accessible_name("Brush softness").changed() {
                 brush.softness = (percent / 100.0) as f32;
             }
         }
-        ui.toggle_value(&mut state.shows_land, "Land").on_hover_text("Dots show how much land lies in each cell");
-        let tooltip = "What the pointer is on, or the selection, lights up on the planet, without its clouds";
+        ui.toggle_value(&mut state.shows_land, "Land").on_hover_text("Dots show the share of land in each cell");
+        let tooltip =
+            "The ground of the cells under the pointer, or of the selection, lights up on the planet, without clouds";
         ui.toggle_value(&mut state.lights_up, "Light up").on_hover_text(tooltip);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             menu_button(ui, "Tables", |ui| tables(ui, state, draft));
@@ -164,9 +167,9 @@ fn tables(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
         }
     }
     ui.separator();
-    for command in [Command::ImportTable, Command::ExportTable] {
-        if ui.button(command.label()).on_hover_text(command.tooltip()).clicked() {
-            draft.commands.push(command);
+    for row in [Command::ImportTable, Command::ExportTable].into_iter().filter_map(commands::row) {
+        if ui.button(row.label).on_hover_text(row.tooltip).clicked() {
+            draft.commands.send(row.command);
             ui.close();
         }
     }
@@ -174,7 +177,7 @@ fn tables(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
 
 fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> TableOutput {
     let under = draft.under_pointer;
-    let shown = Shown { survey: draft.survey.filter(|_| state.shows_land), place: under.map(|under| under.cell) };
+    let shown = Shown { survey: draft.survey.filter(|_| state.shows_land), here: under.map(|under| under.cell) };
     let output = state.painter.show(ui, &mut draft.planet.biomes, state.palette.selected, &shown);
     if let Some(label) = output.painted {
         draft.name_edit(label);
@@ -189,8 +192,8 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> T
         let name = biome.map_or("No biome", |biome| biome.name.as_str());
         format!("{name}: {}", biome_edit::cell_range(biomes, column, row))
     };
-    // The line is always there, so that nothing jumps when the pointer comes and goes.
-    let text = match (output.hovered, shown.place) {
+    // The line is always there, so that nothing moves when the pointer comes and goes.
+    let text = match (output.hovered, shown.here) {
         (Some(cell), _) => {
             let land = draft.survey.map_or(0.0, |survey| survey.cell(cell[0], cell[1])) * 100.0;
             format!("{}; {land:.1} % of the land", described(cell))
@@ -215,7 +218,7 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
     let Some(biome) = draft.planet.biomes.palette.get_mut(index) else { return };
     let name = biome.name.clone();
     let mut key = biome.key;
-    // The key stands in the table too, so it is changed through both.
+    // The table holds the key too, so that a change goes through both.
     if let Some(param) = Biome::PARAMS.iter().find(|param| param.name == "key") {
         let path = base.join("key");
         let default = Value::Letter(biome.key);

@@ -1,9 +1,9 @@
-//! What is done to the list of layers as a whole. Names stay unique, and masks follow the layers they refer to.
+//! Edits of the list of layers. Names stay unique, and masks follow the layers they refer to.
 
 use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
 
-/// Adds a layer of a kind (an index into [`Shape::NAMES`]) behind `after`; gives its place, or None
-/// when there are too many.
+/// Adds a layer of a landform (an index into [`Shape::NAMES`]) behind index `after`. Gives its index, or None if there
+/// are too many.
 pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
     let shape = Shape::of_kind(kind)?;
     let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));
@@ -11,14 +11,14 @@ pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) ->
     insert(planet, Layer { name, seed, amplitude_m, shape, ..Layer::default() }, after)
 }
 
-/// Adds a copy behind the layer; gives its place.
+/// Adds a copy behind the layer. Gives its index.
 pub fn duplicate(planet: &mut Planet, index: usize) -> Option<usize> {
     let mut layer = planet.layers.get(index)?.clone();
     layer.name = unique_name(planet, &layer.name);
     insert(planet, layer, Some(index))
 }
 
-/// Removes a layer, and every mask that refers to it.
+/// Removes a layer and every mask that refers to it.
 pub fn remove(planet: &mut Planet, index: usize) {
     if index < planet.layers.len() {
         let removed = planet.layers.remove(index);
@@ -28,7 +28,7 @@ pub fn remove(planet: &mut Planet, index: usize) {
     }
 }
 
-/// Renames a layer, and lets masks follow. A name that is empty or taken changes nothing.
+/// Renames a layer, also in the masks that refer to it. A name that is empty or taken changes nothing.
 pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
     let taken = planet.layers.iter().enumerate().any(|(i, layer)| i != index && layer.name == name);
     let Some(layer) = planet.layers.get_mut(index) else { return false };
@@ -44,7 +44,7 @@ pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
     true
 }
 
-/// Moves a layer up (`-1`) or down (`1`); gives its new place.
+/// Moves a layer up (`-1`) or down (`1`). Gives its new index.
 pub fn shift(planet: &mut Planet, index: usize, by: isize) -> usize {
     match index.checked_add_signed(by) {
         Some(to) if to < planet.layers.len() && index < planet.layers.len() => {
@@ -55,7 +55,7 @@ pub fn shift(planet: &mut Planet, index: usize, by: isize) -> usize {
     }
 }
 
-/// Moves a layer into the gap before the layer that stands at `gap` (or behind the last); gives its new place.
+/// Moves a layer into the gap before index `gap`, or behind the last layer. Gives its new index.
 pub fn move_to_gap(planet: &mut Planet, index: usize, gap: usize) -> usize {
     if index >= planet.layers.len() || gap > planet.layers.len() {
         return index;
@@ -75,7 +75,7 @@ fn insert(planet: &mut Planet, layer: Layer, after: Option<usize>) -> Option<usi
     Some(at)
 }
 
-/// The name, or the name with the first number that makes it unique.
+/// The name, or the name with the first number that no layer has.
 fn unique_name(planet: &Planet, name: &str) -> String {
     let free = |name: &String| planet.layers.iter().all(|layer| layer.name != *name);
     let stem: String = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end().chars().take(40).collect();

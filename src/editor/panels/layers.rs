@@ -1,6 +1,8 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
 use super::{Draft, layer_edit, masks};
+use crate::editor::command::Action;
+use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
@@ -10,12 +12,17 @@ use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Shape};
 use eframe::egui::{self, AtomExt};
 
-/// Live state of the tab.
+/// Index of the row that is dragged.
+#[derive(Clone, Copy)]
+struct Dragged(usize);
+
+/// The selection and half-typed texts.
 #[derive(Default)]
 pub struct LayersState {
     /// Index of the selected layer.
     pub selected: usize,
-    /// A name being typed: it is taken over when the field is left, so that masks never meet half a name.
+    /// Index of a layer and the name that is being typed. The layer gets the name when the field loses the focus, so
+    /// that no mask refers to half a name.
     typed_name: Option<(usize, String)>,
 }
 
@@ -28,7 +35,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     if state.selected < draft.planet.layers.len() {
         selected(ui, state, draft);
     } else {
-        ui.weak("There are no layers yet: the planet is a smooth ball. Add one above.");
+        ui.weak("There are no layers yet: the planet is a smooth sphere. Add one above.");
     }
 }
 
@@ -80,7 +87,7 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             ui.add(egui::Checkbox::without_text(&mut layer.enabled))
-                .on_hover_text("Whether the layer takes part; switched off it can still serve as a mask")
+                .on_hover_text("Whether the layer changes the height; off, it can still be a mask")
                 .accessible_name(format!("Enabled of {}", layer.name));
             let change_m = changes_m.and_then(|changes| changes.get(index)).filter(|_| layer.enabled);
             let details = egui::RichText::new(details(layer, change_m.copied())).weak().small();
@@ -96,7 +103,7 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             if response.clicked() {
                 state.selected = index;
             }
-            moved = moved.or(dragged(ui, &response, index));
+            moved = moved.or(dragged_row(ui, &response, index, Dragged(index)).map(|(Dragged(from), gap)| (from, gap)));
             response.on_hover_text("Drag to change the order").accessible_name(format!("Layer {}", layer.name));
         });
     }
@@ -109,7 +116,7 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     }
 }
 
-/// Blend and kind of a layer, or, while the pointer is over the ground, what the layer changes there.
+/// Blend mode and landform of a layer; while the pointer is over the ground, the layer's change of the height there.
 fn details(layer: &Layer, change_m: Option<f64>) -> String {
     if let Some(change_m) = change_m {
         let sign = if change_m < 0.0 { "−" } else { "+" };
@@ -118,18 +125,6 @@ fn details(layer: &Layer, change_m: Option<f64>) -> String {
     let kind = layer.shape.names().get(layer.shape.index()).copied().unwrap_or_default();
     let blend = layer.blend.names().get(layer.blend.index()).copied().unwrap_or_default();
     format!("{blend} · {kind}")
-}
-
-/// A layer that is dragged, or has been dropped: over which row of the list, and into which gap.
-fn dragged(ui: &egui::Ui, row: &egui::Response, index: usize) -> Option<(usize, usize)> {
-    row.dnd_set_drag_payload(index);
-    let from = *row.dnd_hover_payload::<usize>()?;
-    let pointer = ui.ctx().pointer_interact_pos()?;
-    let below = pointer.y > row.rect.center().y;
-    let y = if below { row.rect.bottom() + 1.0 } else { row.rect.top() - 1.0 };
-    ui.painter().hline(row.rect.x_range(), y, ui.visuals().selection.stroke);
-    row.dnd_release_payload::<usize>()?;
-    Some((from, index + usize::from(below)))
 }
 
 fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
@@ -143,7 +138,8 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems, biomes: &[] };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
     let mut default = Layer { shape, ..Layer::default() };
-    draft.browse = params_grid(ui, &grid, layer, &mut default);
+    let browse = params_grid(ui, &grid, layer, &mut default);
+    draft.commands.extend(browse.map(Action::Browse));
     ui.add_space(6.0);
     if let Some(label) = masks::show(ui, index, layer, &names, problems) {
         draft.name_edit(label);

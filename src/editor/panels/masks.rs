@@ -1,4 +1,4 @@
-//! The masks of a layer: where it acts.
+//! The masks of a layer: they limit where it acts.
 
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
@@ -7,7 +7,7 @@ use crate::planet::param::{Choice, ParamPath, Segment};
 use crate::planet::{HeightMask, Layer, LayerMask, MAX_MASKS, Mask};
 use eframe::egui;
 
-/// Shows the masks of the layer at `index`; gives the label of an edit that is more than a parameter.
+/// Shows the masks of the layer at `index`. Gives the name of an edit that adds or removes a mask.
 pub fn show(
     ui: &mut egui::Ui,
     index: usize,
@@ -21,7 +21,7 @@ pub fn show(
         ui.strong("Masks");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let button = ui.add_enabled(layer.masks.len() < MAX_MASKS, egui::Button::new("Add mask"));
-            if button.on_hover_text("Let this layer act only in some places").clicked() {
+            if button.on_hover_text("Limit where this layer acts").clicked() {
                 layer.masks.push(match others.first() {
                     Some(other) => Mask::Layer(LayerMask { layer: (*other).clone(), ..LayerMask::default() }),
                     None => Mask::Height(HeightMask::default()),

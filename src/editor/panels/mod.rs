@@ -1,11 +1,12 @@
 //! The side panel: one tab for each part of the planet.
 //!
-//! Panels change a draft of the planet; the application turns a changed draft into an undo step.
+//! Panels change a draft of the planet; the application makes an undo step of a changed draft. [`PANELS`] lists the
+//! tabs: a new panel is a file and a row there.
 //!
-//! - [`parts`]: planet, star, climate, and the parts a planet may lack
-//! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers; what is done to them
-//! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the painter of the biome table: the tab, the
-//!   table under the pointer, its picture, the palette, what is done to them
+//! - [`parts`]: planet, star, climate, and the optional parts
+//! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
+//! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
+//!   table under the pointer, its picture, the palette, edits of both
 
 pub mod biome_canvas;
 pub mod biome_edit;
@@ -17,66 +18,66 @@ pub mod layers;
 pub mod masks;
 pub mod parts;
 
-use crate::editor::command::Command;
+use crate::editor::command::Commands;
 use crate::editor::painter::survey::Survey;
+use crate::editor::viewport::PainterLink;
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::planet::Planet;
 use crate::planet::param::ParamPath;
 use eframe::egui;
 
-/// A part of the planet, as a tab.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Tab {
-    Planet,
-    Star,
-    #[default]
-    Terrain,
-    Climate,
-    Biomes,
-    Water,
-    Atmosphere,
-    Clouds,
+/// A tab of the side panel.
+pub struct Panel {
+    /// The name of the tab.
+    pub label: &'static str,
+    /// Whether the tab paints the biome table.
+    pub paints: bool,
+    show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
 }
 
-impl Tab {
-    /// All of them, in the order shown.
-    pub const ALL: [Tab; 8] =
-        [Tab::Planet, Tab::Terrain, Tab::Climate, Tab::Biomes, Tab::Water, Tab::Atmosphere, Tab::Clouds, Tab::Star];
+impl Panel {
+    const fn new(label: &'static str, show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>)) -> Self {
+        Self { label, paints: false, show }
+    }
 
-    /// The name a person reads.
-    pub fn label(self) -> &'static str {
-        match self {
-            Tab::Planet => "Planet",
-            Tab::Star => "Star",
-            Tab::Terrain => "Terrain",
-            Tab::Climate => "Climate",
-            Tab::Biomes => "Biomes",
-            Tab::Water => "Water",
-            Tab::Atmosphere => "Air",
-            Tab::Clouds => "Clouds",
-        }
+    const fn painting(self) -> Self {
+        Self { paints: true, ..self }
     }
 }
 
-/// The planet under the panels' hands.
+/// The tabs, in the order shown.
+pub static PANELS: [Panel; 8] = [
+    Panel::new("Planet", |ui, _, draft| parts::planet(ui, draft)),
+    Panel::new("Terrain", |ui, state, draft| layers::show(ui, &mut state.layers, draft)),
+    Panel::new("Climate", |ui, _, draft| parts::climate(ui, draft)),
+    Panel::new("Biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft)).painting(),
+    Panel::new("Water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
+    Panel::new("Atmosphere", |ui, state, draft| parts::atmosphere(ui, &mut state.turned_off, draft)),
+    Panel::new("Clouds", |ui, state, draft| parts::clouds(ui, &mut state.turned_off, draft)),
+    Panel::new("Star", |ui, _, draft| parts::star(ui, draft)),
+];
+
+/// Index of the tab that is open at the start: the terrain.
+const FIRST_TAB: usize = 1;
+
+/// The planet as the panels change it.
 pub struct Draft<'a> {
-    /// Changed freely; what differs from the document becomes an edit.
+    /// A copy of the document's planet. If it differs from the document after the frame, it becomes an edit.
     pub planet: &'a mut Planet,
-    /// What to call the edit; None names it after what changed.
+    /// The name of the edit; None names it after the changed parameters.
     pub label: Option<String>,
-    /// The parameter for which a file is to be chosen.
-    pub browse: Option<ParamPath>,
     /// Everything wrong with the document's planet.
     pub problems: &'a [(ParamPath, String)],
     /// The ground under the pointer.
     pub under_pointer: Option<&'a UnderPointer>,
-    /// Where the planet lies in its biome table.
+    /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
-    /// What is asked for beside edits.
-    pub commands: Vec<Command>,
-    /// Longitude of the eye, and seconds since time zero.
-    pub here: (f64, f64),
+    /// The commands of the panels, beside edits.
+    pub commands: &'a mut Commands,
+    /// Longitude of the eye, in degrees.
+    pub eye_lon_deg: f64,
+    /// Seconds since time zero.
+    pub time_secs: f64,
 }
 
 impl Draft<'_> {
@@ -86,55 +87,69 @@ impl Draft<'_> {
     }
 }
 
-/// Live state of the panels: selections and half-typed names. Not part of the document.
-#[derive(Default)]
+/// Selections and half-typed names. Not part of the document.
 pub struct PanelState {
-    /// The tab on top.
-    pub tab: Tab,
-    /// The layers tab.
-    pub layers: layers::LayersState,
+    tab: usize,
+    document_number: u64,
+    layers: layers::LayersState,
     /// The biomes tab.
     pub biomes: biomes::BiomesState,
-    /// Parts that were turned off.
-    pub remembered: parts::Remembered,
+    turned_off: parts::TurnedOff,
+}
+
+impl Default for PanelState {
+    fn default() -> Self {
+        Self {
+            tab: FIRST_TAB,
+            document_number: 0,
+            layers: layers::LayersState::default(),
+            biomes: biomes::BiomesState::default(),
+            turned_off: parts::TurnedOff::default(),
+        }
+    }
 }
 
 impl PanelState {
-    /// Forgets what belonged to another document.
-    pub fn new_document(&mut self) {
-        *self = Self { tab: self.tab, ..Self::default() };
+    /// Forgets selections and texts if they belong to another document than the one of this number.
+    pub fn keep_to_document(&mut self, document_number: u64) {
+        if self.document_number != document_number {
+            *self = Self { tab: self.tab, document_number, ..Self::default() };
+        }
     }
 
-    /// Shows the tabs and the one on top.
+    /// Whether the open tab paints the biome table.
+    pub fn paints(&self) -> bool {
+        PANELS.get(self.tab).is_some_and(|panel| panel.paints)
+    }
+
+    /// What the open tab shows on the planet, and which clicks it takes.
+    pub fn painter_link(&self) -> PainterLink {
+        if self.paints() { self.biomes.link() } else { PainterLink::default() }
+    }
+
+    /// Shows the tabs and the open one.
     pub fn show(&mut self, ui: &mut egui::Ui, draft: &mut Draft<'_>) {
         self.tabs(ui);
         ui.separator();
-        egui::ScrollArea::vertical().id_salt(self.tab.label()).auto_shrink([false, false]).show(ui, |ui| {
+        let Some(panel) = PANELS.get(self.tab) else { return };
+        egui::ScrollArea::vertical().id_salt(panel.label).auto_shrink([false, false]).show(ui, |ui| {
             // Room for the scroll bar, so that it never covers a control.
             ui.set_max_width(ui.available_width() - 10.0);
             ui.add_space(2.0);
-            match self.tab {
-                Tab::Planet => parts::planet(ui, draft),
-                Tab::Star => parts::star(ui, draft),
-                Tab::Terrain => layers::show(ui, &mut self.layers, draft),
-                Tab::Climate => parts::climate(ui, draft),
-                Tab::Biomes => biomes::show(ui, &mut self.biomes, draft),
-                Tab::Water => parts::water(ui, &mut self.remembered, draft),
-                Tab::Atmosphere => parts::atmosphere(ui, &mut self.remembered, draft),
-                Tab::Clouds => parts::clouds(ui, &mut self.remembered, draft),
-            }
+            (panel.show)(ui, self, draft);
             ui.add_space(8.0);
         });
     }
 
     fn tabs(&mut self, ui: &mut egui::Ui) {
+        const COLUMNS: usize = 4;
         ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
-        let columns = 4;
-        let width = (ui.available_width() - 4.0 * (columns - 1) as f32) / columns as f32;
-        for row in Tab::ALL.chunks(columns) {
+        let width = (ui.available_width() - 4.0 * (COLUMNS - 1) as f32) / COLUMNS as f32;
+        for (row, panels) in PANELS.chunks(COLUMNS).enumerate() {
             ui.horizontal(|ui| {
-                for &tab in row {
-                    let button = egui::Button::selectable(self.tab == tab, tab.label());
+                for (column, panel) in panels.iter().enumerate() {
+                    let tab = row * COLUMNS + column;
+                    let button = egui::Button::selectable(self.tab == tab, panel.label);
                     if ui.add_sized([width, 22.0], button).clicked() {
                         self.tab = tab;
                     }

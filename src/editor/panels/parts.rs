@@ -1,4 +1,4 @@
-//! The parts that are nothing but parameters: planet, star, climate, and those a planet may lack.
+//! The panels of the parts that are lists of parameters: planet, star, climate, and the optional parts.
 
 use super::Draft;
 use crate::editor::widgets::menu_button;
@@ -11,17 +11,17 @@ use crate::planet::{
 };
 use eframe::egui;
 
-/// Parts that were turned off, with the values they had.
+/// Optional parts that were turned off, with their last values.
 #[derive(Default)]
-pub struct Remembered {
+pub struct TurnedOff {
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
 }
 
-/// Name, seed, radius.
+/// The planet's own parameters: name, seed, radius. The other parts have panels of their own, and the editor's notes
+/// none.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    // Parts have panels of their own.
     let skip: Vec<&str> = Planet::PARTS.iter().map(|part| part.name).collect();
     let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());
@@ -45,14 +45,14 @@ pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     ui.weak("Shift and drag on the planet turns the star.");
 }
 
-/// The star's place by the hour where one looks from, and by the season.
+/// The location under the star, by the hour below the eye and by the season.
 fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    let (lon_deg, time_secs) = draft.here;
+    let (lon_deg, time_secs) = (draft.eye_lon_deg, draft.time_secs);
     let star = &mut draft.planet.star;
     labelled_row(ui, "Hour here", |ui, label| {
         let mut hour = (star.hour(lon_deg, time_secs) * 100.0).round() / 100.0;
         let response = plain_field(ui, &mut hour, 0.02, 4, Allowed::numbers(Unit::Hours, 0.0, 24.0)).labelled_by(label);
-        if response.on_hover_text("Of a day of 24 where the camera is; sets the star's longitude").changed() {
+        if response.on_hover_text("The hour of a day of 24 below the camera; sets the star's longitude").changed() {
             star.set_hour(hour, lon_deg, time_secs);
         }
     });
@@ -68,7 +68,7 @@ fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     });
 }
 
-/// What scatters, as one colour and a strength: another way to set red, green and blue.
+/// A scattering coefficient as a colour and a strength: another way to set red, green and blue.
 fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
     let strength = per_km.iter().copied().fold(0.0, f64::max);
     let share = |c: &f64| if strength > 0.0 { (c / strength) as f32 } else { 1.0 };
@@ -78,29 +78,29 @@ fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
         let button = ui.color_edit_button_rgb(&mut color).labelled_by(label);
         let allowed = Allowed::numbers(Unit::PerKilometre, 0.0, 2.0);
         let drag = plain_field(ui, &mut changed, strength.max(1e-4) * 0.01, 4, allowed).labelled_by(label);
-        let told = "The same as the three coefficients: what the strongest colour scatters, and how strong the others are to it";
+        let told = "The three coefficients in another form: the largest one, and a colour for their ratio";
         if button.on_hover_text(told).changed() || drag.on_hover_text(told).changed() {
             let most = color.iter().copied().fold(1e-6, f32::max);
-            // Five digits: more would only clutter the file.
+            // Five digits keep the preset readable.
             let tidy = |x: f64| format!("{x:.4e}").parse().unwrap_or(x);
             *per_km = color.map(|c| tidy(f64::from(c / most) * changed).clamp(0.0, 2.0));
         }
     });
 }
 
-/// Temperature and moisture.
+/// The climate.
 pub fn climate(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     whole(ui, "climate", &mut draft.planet.climate, &mut Climate::default(), draft.problems);
 }
 
-/// The sea, if there is one.
-pub fn water(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
-    let label = optional(ui, "water", &mut draft.planet.water, &mut remembered.water, draft.problems);
+/// The sea, if the planet has one.
+pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 
-/// The air, if there is any.
-pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
+/// The atmosphere, if the planet has one.
+pub fn atmosphere(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
     menu_button(ui, "Start from …", |ui| {
         for air in STARTING_AIRS {
             if ui.button(air.name).on_hover_text(air.note).clicked() {
@@ -115,14 +115,14 @@ pub fn atmosphere(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Dr
         scatterer(ui, "Mie", &mut air.mie_scattering_per_km);
     }
     ui.add_space(4.0);
-    let (part, kept) = (&mut draft.planet.atmosphere, &mut remembered.atmosphere);
+    let (part, kept) = (&mut draft.planet.atmosphere, &mut turned_off.atmosphere);
     let label = optional(ui, "atmosphere", part, kept, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 
-/// The clouds, if there are any.
-pub fn clouds(ui: &mut egui::Ui, remembered: &mut Remembered, draft: &mut Draft<'_>) {
-    let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut remembered.clouds, draft.problems);
+/// The clouds, if the planet has any.
+pub fn clouds(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut turned_off.clouds, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 
@@ -137,12 +137,13 @@ fn whole(
     params_grid(ui, &Grid { base, owner: field, skip: &[], problems, biomes: &[] }, part, default);
 }
 
-/// A part with a switch. Turned off and on again, it has the values it had. Gives the label of a switching.
+/// A part with a switch. A part that is turned off and on again keeps its values. Gives the name of the edit if the
+/// switch was used.
 fn optional<T: Params + Default + Clone>(
     ui: &mut egui::Ui,
     field: &'static str,
     part: &mut Option<T>,
-    remembered: &mut Option<T>,
+    kept: &mut Option<T>,
     problems: &[(ParamPath, String)],
 ) -> Option<String> {
     let mut label = None;
@@ -153,9 +154,9 @@ fn optional<T: Params + Default + Clone>(
     };
     if ui.checkbox(&mut on, text).changed() {
         if on {
-            *part = Some(remembered.clone().unwrap_or_default());
+            *part = Some(kept.clone().unwrap_or_default());
         } else {
-            *remembered = part.take();
+            *kept = part.take();
         }
         label = Some(format!("Turn {field} {}", if on { "on" } else { "off" }));
     }

@@ -1,40 +1,40 @@
-//! Exposure that follows what there is to see, as an eye would: pictures go on for a moment after the last change.
+//! Exposure that adapts gradually, as an eye does: drawing goes on for a moment after the last change.
 
 use crate::render::Metering;
 use std::time::{Duration, Instant};
 
-/// How long after a change exposure goes on adapting.
+/// Time after a change in which the exposure adapts.
 const LASTS: Duration = Duration::from_millis(1500);
-/// From one picture to the next meanwhile.
+/// Time from one picture to the next meanwhile.
 pub const PAUSE: Duration = Duration::from_millis(16);
 
-/// When things changed last.
+/// When the picture last changed, and was last drawn.
 pub struct Adaptation {
-    by_eye: bool,
+    gradual: bool,
     changed: Option<Instant>,
     drawn: Option<Instant>,
 }
 
 impl Adaptation {
-    /// `by_eye`: bit by bit; otherwise at once.
-    pub fn new(by_eye: bool) -> Self {
-        Self { by_eye, changed: None, drawn: None }
+    /// `gradual`: over some pictures; otherwise at once.
+    pub fn new(gradual: bool) -> Self {
+        Self { gradual, changed: None, drawn: None }
     }
 
-    /// Whether there is more to come although nothing else changes.
+    /// Whether the exposure still adapts.
     pub fn is_under_way(&self) -> bool {
-        self.by_eye && self.changed.is_some_and(|changed| changed.elapsed() < LASTS)
+        self.gradual && self.changed.is_some_and(|changed| changed.elapsed() < LASTS)
     }
 
-    /// How the picture that is drawn now is to be metered; `changed`: it shows something new.
+    /// The metering of the picture that is drawn now. `changed`: the picture differs from the one before.
     pub fn metering(&mut self, automatic: bool, changed: bool) -> Metering {
         let now = Instant::now();
         if changed {
             self.changed = Some(now);
         }
-        // Nothing has been seen yet that the eye could have adapted to.
+        // The first picture has no exposure before it to adapt from.
         let before = self.drawn.replace(now);
-        match before.filter(|_| self.by_eye) {
+        match before.filter(|_| self.gradual) {
             _ if !automatic => Metering::Manual,
             Some(before) => Metering::Adapting { secs: (now - before).as_secs_f64().min(0.1) },
             None => Metering::Instant,

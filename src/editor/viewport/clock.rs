@@ -1,4 +1,4 @@
-//! How long things take, measured truthfully: from an edit to its picture, and from frame to frame.
+//! Measured times: from an edit to its picture on screen, and from frame to frame.
 
 use super::timeline::{Drawing, Timeline};
 use crate::planet::Planet;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-/// Edits whose pictures may be outstanding at once; older ones are given up.
+/// Most edits that wait for their pictures; older ones are dropped.
 const MAX_PENDING: usize = 64;
 
 struct Edit {
@@ -17,19 +17,19 @@ struct Edit {
     at: Instant,
 }
 
-/// Measures from the start of the frame in which an edit was made until the GPU has finished the first frame that shows
-/// the complete surface of that edit.
+/// Measures from the start of the frame of an edit until the GPU has finished the first frame that shows the complete
+/// surface of that edit.
 #[derive(Default)]
 pub struct EditClock {
     pending: VecDeque<Edit>,
-    /// Drawn in this frame, not yet presented.
+    /// The edit whose picture was drawn in this frame and is not presented yet.
     drawn: Option<(Instant, Timeline)>,
     finished: Option<Receiver<Timeline>>,
     last: Option<Timeline>,
 }
 
 impl EditClock {
-    /// An edit made in the frame that began at `frame_start` leads to `planet`.
+    /// Notes an edit in the frame that began at `frame_start`; `planet` is its result.
     pub fn edited(&mut self, planet: &Arc<Planet>, frame_start: Instant) {
         if self.pending.back().is_some_and(|edit| Arc::ptr_eq(&edit.planet, planet)) {
             return;
@@ -40,7 +40,7 @@ impl EditClock {
         }
     }
 
-    /// A frame has been drawn.
+    /// Notes that a picture has been drawn.
     pub fn drawn(&mut self, surface: &Surface, planet: &Arc<Planet>, drawing: &Drawing) {
         if !surface.complete {
             return;
@@ -57,8 +57,8 @@ impl EditClock {
         }
     }
 
-    /// A new frame begins, so the one before has been handed to the screen: waits on another thread until the GPU is
-    /// done with it, then calls `wake`.
+    /// Notes that a frame begins, so that the one before has been presented. Another thread waits until the GPU has
+    /// finished it, then calls `wake`.
     pub fn frame_began(&mut self, device: &wgpu::Device, wake: impl FnOnce() + Send + 'static) {
         if let Some(receiver) = &self.finished {
             match receiver.try_recv() {
@@ -77,7 +77,7 @@ impl EditClock {
             std::thread::spawn(move || {
                 if device.poll(wgpu::PollType::wait_indefinitely()).is_ok() {
                     timeline.finish(edited_at.elapsed());
-                    // The receiver is gone when the editor closed meanwhile.
+                    // The receiver is gone if the editor has closed.
                     let _ = sender.send(timeline);
                 }
                 wake();
@@ -85,7 +85,7 @@ impl EditClock {
         }
     }
 
-    /// Whether a picture was drawn whose presentation is to be measured, so that another frame is due.
+    /// Whether the picture of an edit was drawn and is not presented yet: the next frame completes the measurement.
     pub fn wants_frame(&self) -> bool {
         self.drawn.is_some()
     }
@@ -95,7 +95,7 @@ impl EditClock {
         self.last.as_ref().map(|timeline| timeline.total)
     }
 
-    /// Where its time went.
+    /// Its parts.
     pub fn timeline(&self) -> Option<&Timeline> {
         self.last.as_ref()
     }
@@ -107,7 +107,7 @@ pub(super) fn same_tiles(terrain: &Terrain, planet: &Arc<Planet>) -> bool {
     revision.is_ok_and(|revision| !revision.keys().changes_since(terrain.keys()).touches_tiles())
 }
 
-/// The time from frame to frame while frames follow each other.
+/// The time from frame to frame while frames follow each other without a pause.
 #[derive(Default)]
 pub struct FrameMeter {
     last: Option<Instant>,
@@ -115,10 +115,10 @@ pub struct FrameMeter {
 }
 
 impl FrameMeter {
-    /// Frames farther apart than this are not a movement.
+    /// Longest time between two frames of one movement.
     const IDLE_SECS: f64 = 0.4;
 
-    /// A frame has been drawn.
+    /// Notes that a picture has been drawn.
     pub fn drawn(&mut self) {
         let now = Instant::now();
         let interval_secs = self.last.map(|last| (now - last).as_secs_f64());

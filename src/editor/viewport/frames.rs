@@ -1,22 +1,22 @@
-//! How long the window's own thread took for each frame: whether it stays responsive whatever is being built.
+//! How long the window's thread took for each frame: whether the window stays responsive while tiles are built.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Frames remembered.
+/// Most frames that are kept.
 const MOST: usize = 600;
 
-/// One frame.
+/// The times of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTime {
-    /// From the start of the frame to the start of the next: with egui's painting, the wait for the screen, and however
-    /// long nothing had to be drawn.
+    /// From the start of the frame to the start of the next. Includes egui's painting, the wait for the screen, and the
+    /// time in which nothing had to be drawn.
     pub whole: Duration,
-    /// What the editor itself took.
+    /// Time of the editor's own code.
     pub editor: Duration,
-    /// What of that went into uploading tiles.
+    /// Part of [`Self::editor`] that uploaded tiles.
     pub upload: Duration,
-    /// What of that went into encoding and submitting the picture.
+    /// Part of [`Self::editor`] that encoded and submitted the picture.
     pub draw: Duration,
 }
 
@@ -29,7 +29,7 @@ pub struct FrameLog {
 }
 
 impl FrameLog {
-    /// A frame begins; the one before has been shown.
+    /// Notes that a frame begins, so that the one before has been shown.
     pub fn begin(&mut self, now: Instant) {
         if let Some(begun) = self.begun.replace(now) {
             let frame = FrameTime { whole: now.duration_since(begun), ..self.current };
@@ -42,7 +42,7 @@ impl FrameLog {
         self.current = FrameTime::default();
     }
 
-    /// The editor has done its part of the frame.
+    /// Notes that the editor's code has finished with the frame.
     pub fn end(&mut self) {
         self.current.editor = self.begun.map_or(Duration::ZERO, |begun| begun.elapsed());
     }
@@ -62,7 +62,7 @@ impl FrameLog {
         self.frames.iter()
     }
 
-    /// The longest of the frames by a measure, and what 95 of 100 do not exceed.
+    /// The longest of the frames by a measure, and the 95th percentile.
     pub fn worst(&self, measure: impl Fn(&FrameTime) -> Duration) -> (Duration, Duration) {
         let mut times: Vec<Duration> = self.frames.iter().map(measure).collect();
         times.sort_unstable();

@@ -1,4 +1,4 @@
-//! The ground under the camera: the evaluator of the surface on screen, or a bare ball until there is one.
+//! The ground under the camera: the evaluator of the surface on screen, or a sphere until there is one.
 
 use super::camera::Ground;
 use crate::planet::Planet;
@@ -12,7 +12,7 @@ pub struct PlanetGround<'a> {
 }
 
 impl<'a> PlanetGround<'a> {
-    /// The terrain's own planet wins over `planet`, which may be newer than what is on screen.
+    /// Uses the terrain's own planet if there is a terrain: `planet` may be newer than the picture on screen.
     pub fn new(planet: &'a Planet, terrain: Option<&'a Terrain>) -> Self {
         Self { planet: terrain.map_or(planet, |terrain| terrain.planet()), terrain }
     }

@@ -1,30 +1,31 @@
-//! What the pointer and the keys do to the cameras and to the sun.
+//! Pointer and keys: how they move the cameras and the sun.
 
 use super::camera::orbit::turn_sun;
 use super::camera::{Cameras, Controls, Ground, Mode};
+use super::pointer::in_view;
 use crate::editor::painter::is_chord;
 use crate::editor::widgets::keys_are_taken;
 use crate::planet::Planet;
 use eframe::egui;
 
-/// Label of the undo step of a drag of the sun.
+/// Name of the undo step of a drag of the sun.
 pub const SUN_STEP: &str = "Turn the sun";
 
-/// What a drag does, decided when it starts.
+/// The effect of a drag, decided when it starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Drag {
-    /// Nothing is dragged.
+    /// No drag.
     #[default]
     None,
-    /// The ground is held, or the view.
+    /// Holds the ground, or turns the view.
     Globe,
-    /// The head turns.
-    Head,
-    /// The sun turns.
+    /// Turns the view.
+    View,
+    /// Turns the sun.
     Sun,
 }
 
-/// Turns this frame's input into movement. Gives whether another frame is due, and the planet with the sun turned.
+/// Moves the cameras and the sun of `planet` by the input of this frame.
 pub fn handle(
     ui: &egui::Ui,
     response: &egui::Response,
@@ -35,11 +36,7 @@ pub fn handle(
 ) -> Moved {
     let rect = response.rect;
     let aspect = f64::from(rect.width() / rect.height());
-    let to_view = |pos: egui::Pos2| {
-        let x = (pos.x - rect.center().x) / (0.5 * rect.width());
-        let y = (rect.center().y - pos.y) / (0.5 * rect.height());
-        (f64::from(x), f64::from(y))
-    };
+    let to_view = |pos: egui::Pos2| in_view(rect, pos);
     let mut moved = Moved::default();
 
     if response.clicked() || response.drag_started() {
@@ -48,7 +45,7 @@ pub fn handle(
     if response.drag_started() {
         let (shift, origin) = ui.input(|i| (i.modifiers.shift, i.pointer.press_origin()));
         *drag = if response.drag_started_by(egui::PointerButton::Secondary) {
-            Drag::Head
+            Drag::View
         } else if response.drag_started_by(egui::PointerButton::Middle) || shift {
             Drag::Sun
         } else {
@@ -69,14 +66,14 @@ pub fn handle(
                     cameras.drag(to_view(pos), (right, up), aspect, ground);
                 }
             }
-            Drag::Head if delta != egui::Vec2::ZERO => cameras.look(-right, -up, ground),
+            Drag::View if delta != egui::Vec2::ZERO => cameras.look(-right, -up, ground),
             Drag::Sun if delta != egui::Vec2::ZERO => {
                 let sun = planet.star.place(time_secs).direction();
                 let (lat_deg, lon_deg) = turn_sun(sun, &cameras.camera(ground), right, up).to_degrees();
                 planet.star.set_place(lat_deg, lon_deg, time_secs);
                 moved.sun = true;
             }
-            Drag::Head | Drag::Sun => {}
+            Drag::View | Drag::Sun => {}
         }
     }
     if response.drag_stopped() {
@@ -99,7 +96,7 @@ pub fn handle(
         }
     }
     let focused = ui.memory(egui::Memory::focused);
-    // Keys are for the picture unless somebody types, moves through the panels with them, or has a menu open.
+    // The keys go to the picture unless another widget has the focus or a menu is open.
     let controls = if focused.is_none_or(|id| id == response.id) && !keys_are_taken(ui.ctx()) {
         keys(ui, response.id, cameras, ground)
     } else {
@@ -110,17 +107,17 @@ pub fn handle(
     moved
 }
 
-/// What [`handle`] did.
+/// The effect of [`handle`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moved {
-    /// Something goes on moving by itself: another frame is due.
+    /// The camera goes on moving: another frame is due.
     pub animating: bool,
-    /// The sun was turned: an edit of the planet.
+    /// The sun was turned, which is an edit of the planet.
     pub sun: bool,
 }
 
-/// What the keys ask for. Arrow keys travel like WASD around the planet, with Shift they turn the head;
-/// otherwise they always do.
+/// The movement that the keys ask for. In orbit the arrow keys travel like WASD, and turn the view with Shift; in the
+/// other modes they always turn the view.
 fn keys(ui: &egui::Ui, id: egui::Id, cameras: &mut Cameras, ground: &dyn Ground) -> Controls {
     use egui::Key;
     let filter = egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };

@@ -1,10 +1,10 @@
-//! The frustum of a frozen view, drawn as lines over the picture that another view sees.
+//! The frustum of a frozen view, drawn as lines over the picture of another view.
 
 use crate::lod::View;
 use eframe::egui::{Color32, Painter, Pos2, Rect, Stroke, pos2};
 use glam::DVec3;
 
-/// Draws from the frozen eye to where the corners of its picture meet the planet's reference sphere or its horizon.
+/// Draws lines from the frozen eye through the corners of its picture, to the reference sphere or the horizon.
 pub(super) fn paint(painter: &Painter, rect: Rect, frozen: &View, seen: &View, radius_m: f64) {
     let eye = frozen.camera.position_planet_m;
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
@@ -26,17 +26,17 @@ fn reach_m(eye: DVec3, dir: DVec3, radius_m: f64) -> f64 {
     let along = -eye.dot(dir);
     let tangent_sq = eye.length_squared() - radius_m * radius_m;
     let discriminant = along * along - tangent_sq;
-    // Near the ground the horizon is near too; a little of the frustum shows all the same.
+    // Near the ground the horizon is near too: the least length keeps the frustum visible.
     let horizon_m = tangent_sq.max(0.0).sqrt().max(1e-4 * radius_m);
     if along > 0.0 && discriminant >= 0.0 && tangent_sq > 0.0 { along - discriminant.sqrt() } else { horizon_m }
 }
 
-/// The part of a line ahead of the eye, as points of the picture from -1 to 1.
+/// The part of a line in front of the eye, as points of the picture from -1 to 1.
 fn project(view: &View, from: DVec3, to: DVec3) -> Option<[(f64, f64); 2]> {
     let camera = &view.camera;
     let in_view = |point: DVec3| camera.planet_from_view.inverse() * (point - camera.position_planet_m);
     let (mut a, mut b) = (in_view(from), in_view(to));
-    // In front of a plane a little ahead of the eye.
+    // Clipped at a plane just in front of the eye.
     let near_m = 1e-6 * (a.length() + b.length()) + 1e-3;
     if a.z > -near_m && b.z > -near_m {
         return None;
@@ -52,7 +52,7 @@ fn project(view: &View, from: DVec3, to: DVec3) -> Option<[(f64, f64); 2]> {
 }
 
 fn in_rect(rect: Rect, (x, y): (f64, f64)) -> Pos2 {
-    // Far outside, f32 would no longer tell a line's direction.
+    // Far outside the picture, f32 would lose the direction of the line.
     let (x, y) = (x.clamp(-1e4, 1e4) as f32, y.clamp(-1e4, 1e4) as f32);
     pos2(rect.center().x + x * 0.5 * rect.width(), rect.center().y - y * 0.5 * rect.height())
 }

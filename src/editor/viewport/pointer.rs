@@ -1,32 +1,33 @@
-//! What lies under the pointer, found on a thread of its own: a ray that grazes a heavy planet takes
-//! longer than a picture may.
+//! The ground under the pointer. It is found on another thread: a ray cast at a grazing angle can take longer than a
+//! frame.
 
 use crate::lod::View;
 use crate::sphere::LatLon;
 use crate::tiles::Surface;
+use eframe::egui;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// What lies under the pointer.
+/// The ground under the pointer.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct UnderPointer {
-    pub place: LatLon,
+    pub location: LatLon,
     pub height_m: f64,
     pub temperature_c: f64,
     pub moisture: f64,
     pub biome: String,
     /// Column and row of the biome table.
     pub cell: [usize; 2],
-    /// The biome's place in the palette.
+    /// Index of the biome in the palette.
     pub biome_index: usize,
     /// Angle of the ground against the horizontal.
     pub slope_deg: f64,
-    /// What each layer changes there.
+    /// Change of the height by each layer, in metres.
     pub layers_m: Vec<f64>,
 }
 
-/// One question: a point of the picture (`x`, `y` from -1 to 1, right and up) of a surface as seen from a view.
+/// A question: a point of the picture (`x`, `y` from -1 to 1, right and up), the view, and its surface.
 #[derive(Clone)]
 struct Question {
     number: u64,
@@ -42,26 +43,26 @@ impl Question {
     }
 }
 
-/// Asks and remembers the newest answer.
+/// Asks for the ground at a point of the picture, and keeps the newest answer.
 pub struct Probe {
     questions: Sender<Question>,
     answers: Receiver<(u64, Option<UnderPointer>)>,
     asked: Option<Question>,
     /// Number of the next question.
     next: u64,
-    /// Answers to earlier questions than this are about a pointer that has left.
+    /// Answers to questions before this number are stale: the pointer has left since.
     first: u64,
     answer: Option<UnderPointer>,
 }
 
 impl Probe {
-    /// Starts the thread; `wake` is called from it with each answer. It ends with the probe.
+    /// Starts the thread, which calls `wake` after each answer and ends with the probe.
     pub fn new(wake: impl Fn() + Send + 'static) -> Self {
         let (questions, asked) = channel::<Question>();
         let (answered, answers) = channel();
         let spawned = std::thread::Builder::new().name("tellus-pointer".to_owned()).spawn(move || {
             while let Ok(question) = asked.recv() {
-                // Only the newest matters.
+                // Only the newest question matters.
                 let question = asked.try_iter().last().unwrap_or(question);
                 if answered.send((question.number, look(&question))).is_err() {
                     return;
@@ -74,13 +75,13 @@ impl Probe {
         Self { questions, answers, asked: None, next: 0, first: 0, answer: None }
     }
 
-    /// Asks for a point of the picture, unless that is what was asked last.
+    /// Asks for a point of the picture, unless the last question was equal.
     pub fn ask(&mut self, x: f64, y: f64, view: &View, surface: &Arc<Surface>) {
         let question = Question { number: self.next, x, y, view: *view, surface: surface.clone() };
         if !self.asked.as_ref().is_some_and(|asked| asked.same_as(&question)) {
             self.next += 1;
             self.asked = Some(question.clone());
-            // Without a thread there is nobody to ask.
+            // Fails only if the thread could not be started.
             let _ = self.questions.send(question);
         }
         let first = self.first;
@@ -89,23 +90,29 @@ impl Probe {
         }
     }
 
-    /// The answer to the question that was asked last, once: what is there, or None where there is only sky.
+    /// The answer to the last question, once: the ground there, or an inner None where there is only sky.
     pub fn take(&mut self) -> Option<Option<UnderPointer>> {
         let first = self.first;
         let newest = self.answers.try_iter().filter(|(number, _)| *number >= first).last().map(|(_, answer)| answer);
-        // It may have come while the question was still being asked.
+        // The answer may have come already in `ask`.
         newest.or_else(|| self.answer.take().map(Some))
     }
 
-    /// The pointer is not over the picture.
+    /// Drops the question and its answer: the pointer is not over the picture.
     pub fn leave(&mut self) {
         (self.asked, self.answer, self.first) = (None, None, self.next);
     }
 
-    /// The newest answer: what is there, if the pointer is over the globe.
+    /// The newest answer: the ground, if the pointer is over the globe.
     pub fn answer(&self) -> Option<&UnderPointer> {
         self.answer.as_ref()
     }
+}
+
+/// A point of the window in view coordinates: -1 to 1, right and up.
+pub(super) fn in_view(rect: egui::Rect, pos: egui::Pos2) -> (f64, f64) {
+    let (x, y) = ((pos.x - rect.center().x) / (0.5 * rect.width()), (rect.center().y - pos.y) / (0.5 * rect.height()));
+    (f64::from(x), f64::from(y))
 }
 
 fn look(question: &Question) -> Option<UnderPointer> {
@@ -117,7 +124,7 @@ fn look(question: &Question) -> Option<UnderPointer> {
     let sample = surface.terrain.sample(dir);
     let palette = &surface.terrain.planet().biomes.palette;
     Some(UnderPointer {
-        place: LatLon::from_direction(dir),
+        location: LatLon::from_direction(dir),
         height_m: sample.height_m,
         temperature_c: sample.temperature_c,
         moisture: sample.moisture,
@@ -125,6 +132,6 @@ fn look(question: &Question) -> Option<UnderPointer> {
         cell: sample.cell,
         biome_index: sample.biome,
         slope_deg: sample.slope_rad.to_degrees(),
-        layers_m: sample.layers_m,
+        layers_m: surface.terrain.layers_m(dir),
     })
 }

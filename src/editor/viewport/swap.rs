@@ -1,15 +1,15 @@
-//! The surface on screen, and the one that takes its place once all of its tiles are on the GPU.
+//! The surface on screen, and the next one, which replaces it once all of its tiles are on the GPU.
 //!
-//! An upload that has begun is brought to its end even when newer surfaces are there: otherwise a slider that is held
-//! could put off every swap for ever.
+//! An upload that has begun is finished even if newer surfaces are complete: otherwise a slider that is held could put
+//! off every swap.
 
 use crate::tiles::Surface;
 use std::sync::Arc;
 
-/// Most bytes of tiles that one frame uploads: some milliseconds' worth.
+/// Most bytes of tiles that one frame uploads: a few milliseconds on a software adapter.
 pub const UPLOAD_BUDGET_BYTES: u64 = 6 << 20;
 
-/// See the module.
+/// The two surfaces.
 #[derive(Default)]
 pub struct Swap {
     shown: Option<Arc<Surface>>,
@@ -22,8 +22,7 @@ impl Swap {
         self.shown.as_ref()
     }
 
-    /// Moves on by a frame's worth. `upload` uploads some tiles of a surface and tells whether
-    /// that was the last of them.
+    /// Uploads one frame's share. `upload` uploads some tiles of a surface and gives whether all are uploaded.
     pub fn advance(&mut self, newest: Option<Arc<Surface>>, upload: impl FnOnce(&Surface) -> bool) {
         let is_shown = |surface: &Arc<Surface>| self.shown.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, surface));
         if self.incoming.is_none() {
@@ -34,12 +33,12 @@ impl Swap {
         }
     }
 
-    /// Whether an upload has begun that is not at its end.
+    /// Whether an upload is under way.
     pub fn is_uploading(&self) -> bool {
         self.incoming.is_some()
     }
 
-    /// Whether another surface is on its way to the screen.
+    /// Whether another surface is to be shown: being uploaded, or built already.
     pub fn is_under_way(&self, newest: Option<&Arc<Surface>>) -> bool {
         let is_shown = |surface| self.shown.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, surface));
         self.incoming.is_some() || newest.is_some_and(|surface| !is_shown(surface))

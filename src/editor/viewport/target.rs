@@ -1,4 +1,4 @@
-//! The offscreen texture that the planet is drawn into and egui shows.
+//! The offscreen texture into which the planet is drawn, and which egui shows.
 //!
 //! egui blends in gamma space and samples its textures without decoding them, so the texture is `Rgba8Unorm` and holds
 //! gamma-encoded values: the renderer's shader applies the gamma itself for that format.
@@ -18,7 +18,7 @@ pub struct Target {
 }
 
 impl Target {
-    /// A target of this size, none of it zero.
+    /// A target of this size in pixels; no side is zero.
     pub fn new(render_state: &RenderState, size_px: [u32; 2]) -> Self {
         let view = make_view(&render_state.device, size_px);
         let id = render_state.renderer.write().register_native_texture(
@@ -29,7 +29,7 @@ impl Target {
         Self { id, view, size_px, render_state: render_state.clone() }
     }
 
-    /// Takes on another size; whether anything happened.
+    /// Changes the size. Gives whether it was another.
     pub fn resize(&mut self, size_px: [u32; 2]) -> bool {
         if self.size_px == size_px {
             return false;
@@ -45,12 +45,12 @@ impl Target {
         true
     }
 
-    /// What egui calls it.
+    /// The texture for egui.
     pub fn id(&self) -> TextureId {
         self.id
     }
 
-    /// What the renderer draws into.
+    /// The texture for the renderer.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.view
     }

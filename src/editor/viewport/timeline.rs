@@ -1,45 +1,45 @@
-//! Where the time of an edit went, from the frame in which it was made to the picture on the screen.
+//! The parts of the time from an edit to its picture on screen.
 
 use crate::planet::param::Stage;
 use crate::tiles::{BuildStats, Surface};
 use std::time::{Duration, Instant};
 
-/// One thing that was done; times in seconds from the edit.
+/// A part of the work; times in seconds since the edit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What a person reads.
+    /// Its name in the performance window.
     pub label: &'static str,
-    /// When it first began.
+    /// Start of its first run.
     pub begin_secs: f64,
-    /// When it last ended.
+    /// End of its last run.
     pub end_secs: f64,
-    /// How long it ran, summed over all threads.
+    /// Run time, summed over all threads.
     pub busy_secs: f64,
-    /// How often it ran.
+    /// Number of runs.
     pub runs: usize,
 }
 
-/// One edit.
+/// The work for an edit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timeline {
-    /// What was done, in order.
+    /// The parts, in order.
     pub steps: Vec<Step>,
-    /// From the edit until the GPU was done with its picture.
+    /// From the edit until the GPU has finished its picture.
     pub total: Duration,
-    /// What the tiles took; nothing if none were touched.
+    /// Figures of the build; zero if no tile was rebuilt.
     pub build: BuildStats,
-    /// Tiles that were taken as they were.
+    /// Tiles that were reused.
     pub tiles_reused: usize,
     /// Bytes of tiles uploaded.
     pub uploaded_bytes: u64,
 }
 
-/// A stretch of time.
+/// A span of time.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// When it began.
+    /// Its start.
     pub begin: Instant,
-    /// When it ended.
+    /// Its end.
     pub end: Instant,
 }
 
@@ -50,20 +50,20 @@ impl Span {
     }
 }
 
-/// What drawing a picture took on the thread of the window.
+/// The work of the window's thread for a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawing {
-    /// Uploading tiles, over one or more frames.
+    /// The upload of tiles, over one or more frames.
     pub upload: Option<Span>,
     /// Bytes uploaded.
     pub uploaded_bytes: u64,
-    /// Encoding and submitting the frame.
+    /// The encoding and submission of the frame.
     pub draw: Span,
 }
 
 impl Timeline {
-    /// An edit made at `edited_at` that is now drawn; `surface` if its tiles were made for this edit.
-    /// The total is not known yet.
+    /// The timeline of an edit at `edited_at` whose picture has just been drawn, without its total. `surface`: the
+    /// surface, if its tiles were built for this edit.
     pub fn new(edited_at: Instant, surface: Option<&Surface>, drawing: &Drawing) -> Self {
         let mut timeline = Timeline { uploaded_bytes: drawing.uploaded_bytes, ..Timeline::default() };
         let secs = |at: Instant| at.saturating_duration_since(edited_at).as_secs_f64();
@@ -100,7 +100,7 @@ impl Timeline {
         timeline
     }
 
-    /// The GPU is done with the picture.
+    /// Adds the presentation; `total` is the time until the GPU has finished the picture.
     pub fn finish(&mut self, total: Duration) {
         let begin_secs = self.steps.last().map_or(0.0, |draw| draw.end_secs);
         let end_secs = total.as_secs_f64();

@@ -1,4 +1,4 @@
-//! A curve through points, edited by hand: drag a point, double-click to add one, right-click one to remove it.
+//! A curve through points: drag a point, double-click to add one, right-click to remove one.
 
 use super::number::format_digits;
 use crate::planet::param::{Curve, MAX_CURVE_POINTS, Unit};
@@ -6,24 +6,24 @@ use crate::terrain::curve_at;
 use eframe::egui::{self, Pos2, Rect};
 
 const HEIGHT: f32 = 132.0;
-/// How near the pointer must be to a point to take it.
+/// Greatest distance of the pointer to take a point, in egui points.
 const REACH: f32 = 10.0;
 const DIGITS: i32 = 3;
 
-/// What the editor has to know of the curve.
+/// The curve to edit.
 pub struct CurveEdit<'a> {
     /// Its accessible name.
     pub name: &'a str,
     /// Unit of both axes.
     pub unit: Unit,
-    /// No coordinate lies farther from zero.
+    /// Greatest absolute value of a coordinate.
     pub most: f64,
-    /// The least distance between the places of two points.
+    /// Least distance between two points along the first axis.
     pub least_step: f64,
 }
 
 impl CurveEdit<'_> {
-    /// A straight curve to begin with, which changes nothing.
+    /// A straight curve, which changes nothing.
     pub fn straight(&self) -> Curve {
         let end = if self.most > 100.0 { 0.1 * self.most } else { 1.0_f64.min(self.most) };
         vec![[-end, -end], [0.0, 0.0], [end, end]]
@@ -34,7 +34,7 @@ impl CurveEdit<'_> {
         let size = egui::vec2(ui.available_width(), HEIGHT);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         let held_id = response.id.with("held");
-        // A drag keeps the scale it began with, or the point would run away from the pointer.
+        // A drag keeps the scale of its begin: else the point would move away from the pointer.
         let span_id = response.id.with("span");
         let kept = ui.data(|data| data.get_temp::<f64>(span_id)).filter(|_| response.dragged());
         let plot = Plot { rect: rect.shrink(4.0), span: kept.unwrap_or_else(|| self.span(curve)) };
@@ -58,7 +58,7 @@ impl CurveEdit<'_> {
             && let Some(index) = near
         {
             curve.remove(index);
-            // One point alone is no curve.
+            // A curve has at least two points.
             if curve.len() < 2 {
                 curve.clear();
             }
@@ -76,13 +76,13 @@ impl CurveEdit<'_> {
             .accessible_name(self.name);
     }
 
-    /// How far the axes reach: what the points need, and never less than is of use.
+    /// Range of the axes: that of the points, and never too small to use.
     fn span(&self, curve: &Curve) -> f64 {
         let least = if self.most > 100.0 { 0.2 * self.most } else { 1.2 };
         curve.iter().flatten().fold(least.min(self.most), |span, v| span.max(v.abs() * 1.1)).min(self.most)
     }
 
-    /// A number short enough to read.
+    /// A number rounded for reading.
     fn rounded(v: f64, span: f64) -> f64 {
         let unit = 10.0_f64.powf((span * 0.004).log10().floor());
         (v / unit).round() * unit
@@ -142,10 +142,10 @@ impl CurveEdit<'_> {
     }
 }
 
-/// Where values stand on the screen.
+/// Maps values to the screen and back.
 struct Plot {
     rect: Rect,
-    /// Both axes go from minus this to this.
+    /// Both axes run from minus this to this.
     span: f64,
 }
 

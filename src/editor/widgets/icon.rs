@@ -1,9 +1,9 @@
-//! Small drawn icons: no font has to have them, and they are sharp at every scale.
+//! Small icons, drawn as lines: they need no font, and are sharp at every scale.
 
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 use std::f32::consts::TAU;
 
-/// What an icon shows.
+/// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Icon {
@@ -17,7 +17,7 @@ pub enum Icon {
     Remove,
 }
 
-/// A button that shows an icon and is called `name`.
+/// A button with an icon; `name` is its accessible name.
 pub fn icon_button(ui: &mut egui::Ui, icon: Icon, name: &str, tooltip: &str) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), egui::Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));

@@ -1,12 +1,14 @@
-//! Widgets that know parameters but no part of the planet by name.
+//! Widgets. They know parameters, but no part of the planet by name.
 //!
-//! - [`param_row`]: one parameter as a row: label, slider, number, reset
+//! - [`param_row`]: a parameter as a row: label, slider, number, reset
 //! - [`params_grid`]: all parameters of a part
 //! - [`curve_edit`]: a curve through points
+//! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
-//! - [`number`]: numbers as text, with units; [`typed`]: fields that say why they refuse a number
+//! - [`number`]: numbers as text, with units; [`typed`]: number fields that say why they refuse a text
 
 pub mod curve_edit;
+pub mod drag_row;
 pub mod icon;
 pub mod number;
 pub mod param_row;
@@ -17,46 +19,46 @@ use crate::planet::param::ParamPath;
 use eframe::egui;
 use std::hash::{BuildHasher, RandomState};
 
-/// A linear colour as egui wants it.
+/// A linear colour as an egui colour.
 pub fn color32(linear: [f64; 3]) -> egui::Color32 {
     egui::Rgba::from_rgb(linear[0] as f32, linear[1] as f32, linear[2] as f32).into()
 }
 
-/// Black or white, whichever is readable on a colour.
+/// Black or white: the one that is readable on a colour.
 pub fn ink_on(color: egui::Color32) -> egui::Color32 {
     if color.intensity() > 0.5 { egui::Color32::BLACK } else { egui::Color32::WHITE }
 }
 
-/// A seed nobody chose. The standard library keys its hash maps at random; that is random enough for a landscape.
+/// A random seed, from the random keys of the standard library's hash maps.
 pub fn random_seed() -> u64 {
     RandomState::new().hash_one(std::time::SystemTime::now().elapsed().ok())
 }
 
-/// Whether keys belong to a menu, a list or a question that is open, rather than to what lies below.
+/// Whether an open menu, list or question takes the keys.
 pub fn keys_are_taken(ctx: &egui::Context) -> bool {
     egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
 }
 
-/// A button that opens a menu, which scrolls where the window has no room for all of it.
+/// A button that opens a menu. The menu scrolls if the window has no room for all of it.
 pub fn menu_button<'a, R>(
     ui: &mut egui::Ui,
     title: impl egui::IntoAtoms<'a>,
     content: impl FnOnce(&mut egui::Ui) -> R,
 ) -> egui::InnerResponse<Option<R>> {
     let (window, top) = (ui.ctx().content_rect(), ui.cursor().top());
-    // Above or below the button, and as much again for the button and the menu's frame.
+    // The larger room, above or below the button, less the frame of the menu.
     let below = window.bottom() - top - ui.spacing().interact_size.y;
     let room = (below.max(top - window.top()) - 32.0).max(80.0);
     ui.menu_button(title, |ui| {
-        // The bar stands beside the entries, not over their keys.
+        // Room for the scroll bar beside the shortcuts of the entries.
         let beside = egui::Frame::new().inner_margin(egui::Margin { right: 10, ..egui::Margin::ZERO });
-        // As high as the window allows: by itself a menu scrolls from 400 points on.
+        // As high as the window allows: without a height, egui scrolls a menu from 400 points on.
         let area = egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room);
         area.show(ui, |ui| beside.show(ui, content).inner).inner
     })
 }
 
-/// The first thing wrong with the parameter at `path`, if anything is.
+/// The first problem of the parameter at `path`.
 pub fn problem_at<'a>(problems: &'a [(ParamPath, String)], path: &ParamPath) -> Option<&'a str> {
     problems.iter().find(|(at, _)| at == path).map(|(_, message)| message.as_str())
 }

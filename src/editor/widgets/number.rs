@@ -1,4 +1,4 @@
-//! Numbers as a person writes them: short, and with a unit if they like.
+//! Numbers as text: short, with an optional unit.
 
 use crate::planet::param::Unit;
 
@@ -20,17 +20,17 @@ pub fn format_digits(value: f64, digits: i32) -> String {
     if text.is_empty() || text == "-0" || text == "0" { format!("{value:e}") } else { text.to_owned() }
 }
 
-/// Reads a number, with or without a unit that can be turned into `unit`: `"1.5 km"` is 1500 for metres.
+/// Reads a number with an optional unit, and converts it to `unit`: `"1.5 km"` is 1500 for metres.
 ///
 /// # Errors
-/// Why it is none.
+/// Why the text is no such number.
 pub fn read_number(typed: &str, unit: Unit) -> Result<f64, String> {
     let typed = typed.trim();
     let text: String = typed.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
     if text.is_empty() {
         return Err("nothing was typed".to_owned());
     }
-    // The number is the longest start of the text that is one: "1e3m" is 1000 m.
+    // The longest prefix that is a number: "1e3m" is 1000 m.
     let (number, rest) = text
         .char_indices()
         .map(|(i, c)| i + c.len_utf8())
@@ -57,7 +57,7 @@ pub fn read_number(typed: &str, unit: Unit) -> Result<f64, String> {
     if value.is_finite() { Ok(value) } else { Err(format!("{typed:?} is not a finite number")) }
 }
 
-/// The unit as it follows a number.
+/// The unit as a suffix of a number.
 pub fn suffix(unit: Unit) -> String {
     match unit.symbol() {
         "" => String::new(),
@@ -79,6 +79,11 @@ fn round_to(value: f64, decimals: usize) -> String {
     // Adding zero turns "-0" into "0".
     let scale = 10f64.powi(decimals as i32);
     format!("{:.decimals$}", (value * scale).round() / scale + 0.0)
+}
+
+/// Megabytes of 2^20 bytes.
+pub fn megabytes(bytes: u64) -> f64 {
+    bytes as f64 / f64::from(1 << 20)
 }
 
 #[cfg(test)]

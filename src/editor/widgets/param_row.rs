@@ -1,7 +1,7 @@
-//! One parameter as a row: label, the control its domain asks for, and a reset button when it differs from the default.
+//! A parameter as a row: label, a control for its domain, and a reset button if the value differs from the default.
 //!
-//! The row knows the parameter by its [`Param`] alone. Its widgets carry accessible names such as "Amplitude of
-//! Continents"; the number beside a slider is called "Amplitude of Continents as a number".
+//! The row knows the parameter by its [`Param`] alone. Its widgets have accessible names such as "Amplitude of
+//! Continents"; that of the number beside a slider is "Amplitude of Continents as a number".
 
 use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
@@ -11,29 +11,29 @@ use super::typed::{Allowed, typed_field};
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
-/// What a row has to know beside the parameter.
+/// The parameter of a row.
 pub struct Row<'a> {
-    /// What the parameter is.
+    /// Its description.
     pub param: &'static Param,
-    /// Where it stands in the file.
+    /// Its path in the file.
     pub path: &'a ParamPath,
-    /// Whose it is: "Continents", "climate".
+    /// Its owner: "Continents", "climate".
     pub owner: &'a str,
     /// Its default, if it has one.
     pub default: Option<&'a Value>,
     /// What is wrong with its value.
     pub problem: Option<&'a str>,
-    /// Key and name of each biome of the palette, to choose from.
+    /// Key and name of each biome of the palette, for a parameter that refers to one.
     pub biomes: &'a [(char, String)],
 }
 
 const RESET_WIDTH: f32 = 20.0;
 const NUMBER_WIDTH: f32 = 86.0;
-/// Significant digits shown in a number field, and in each of three beside each other.
+/// Significant digits of a number field, and of each of three fields side by side.
 const NUMBER_DIGITS: i32 = 5;
 const TRIPLE_DIGITS: i32 = 4;
 
-/// Shows the row; whether a file is to be chosen for it.
+/// Shows the row. Gives whether the user wants to choose a file.
 pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> bool {
     let mut browse = false;
     ui.push_id(row.path.to_string(), |ui| {
@@ -75,17 +75,17 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
     browse
 }
 
-/// What the reset button goes back to. What a biome is called by default is no biome of every palette.
+/// The value that the reset button restores. A key has none: not every palette has the default key.
 fn resets_to<'a>(row: &Row<'a>) -> Option<&'a Value> {
     row.default.filter(|_| row.param.domain != Domain::BiomeKey)
 }
 
-/// Width of the labels where so much is there for a row.
+/// Width of the labels in a row of this width.
 fn label_width(total: f32) -> f32 {
     (total * 0.34).clamp(84.0, 150.0)
 }
 
-/// A row of other widgets, in line with those of parameters. They get the label's id, which names them.
+/// A row of other widgets, aligned with the rows of parameters. The label's id gives them their accessible names.
 pub fn labelled_row(ui: &mut egui::Ui, text: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -103,7 +103,7 @@ fn name(row: &Row<'_>) -> String {
     format!("{} of {}", row.param.label, row.owner)
 }
 
-/// The parameter's name; its tooltip explains it and its context menu copies and resets.
+/// The name of the parameter. Its tooltip explains the parameter; its context menu copies and resets the value.
 fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32) {
     let color = if row.problem.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
     let text = egui::RichText::new(row.param.label).color(color);
@@ -164,14 +164,14 @@ fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
     }
 }
 
-/// Whether a file is to be chosen.
+/// Shows the control of the parameter's domain. Gives whether the user wants to choose a file.
 fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     let name = name(row);
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
-            // A range that begins at zero needs a smallest step; a hundred-thousandth of the range is
-            // finer than anyone can see.
+            // A logarithmic range that begins at zero needs a least value: a hundred-thousandth of the range is
+            // finer than a pixel of the slider.
             add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-5));
             number_field(ui, &name, row.param, v, min, max, logarithmic);
         }
@@ -180,7 +180,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
             count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number"));
         }
         (Domain::Seed, ValueMut::Count(v)) => {
-            // As wide as the longest number, so that the dice stay under the pointer.
+            // As wide as the longest number, so that the dice button stays under the pointer.
             count_field(ui, v, 1.0, Allowed::whole(0, u32::MAX)).accessible_name(&name);
             if icon_button(ui, Icon::Dice, &format!("Random {name}"), "A random seed").clicked() {
                 **v = random_seed() as u32;
@@ -188,7 +188,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
         }
         (Domain::Color, ValueMut::Triple(v)) => color_button(ui, &name, v),
         (Domain::Triple { .. }, ValueMut::Triple(_)) => {
-            // Three numbers have a line of their own below.
+            // The three numbers are on a line of their own below.
             ui.weak(row.param.unit.symbol());
         }
         (Domain::BiomeKey, ValueMut::Letter(key)) => biome_box(ui, &name, key, row.biomes),
@@ -212,7 +212,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
             ui.add(edit).accessible_name(&name);
         }
         (Domain::Curve { .. }, ValueMut::Curve(curve)) => {
-            // The curve itself stands below the row, over its whole width.
+            // The curve itself is below the row, over its whole width.
             if !curve.is_empty() {
                 ui.weak(format!("{} points", curve.len()));
             } else if ui.button("Bend").on_hover_text(row.param.doc).accessible_name(format!("Bend {name}")).clicked()
@@ -228,7 +228,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     false
 }
 
-/// A path, and a button that asks for another; whether it was clicked.
+/// A path, and a button to choose another. Gives whether the button was clicked.
 fn file_field(ui: &mut egui::Ui, name: &str, path: &mut String, max_chars: usize) -> bool {
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
         let browse = ui.button("Browse…").on_hover_text("Choose a file").clicked();
@@ -271,8 +271,8 @@ fn count_field(ui: &mut egui::Ui, value: &mut u32, speed: f64, allowed: Allowed<
     typed_field(ui, Some(size), number, allowed, &shown, now)
 }
 
-/// Reads and writes a number. Writing what would look the same is no edit: a field that was only visited must not round
-/// a loaded value to the digits it shows.
+/// A field for a number. A number that looks like the old one is no edit: a visit to the field must not round a loaded
+/// value to the digits shown.
 fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ {
     move |new| {
         if let Some(new) = new
@@ -285,7 +285,7 @@ fn get_set(value: &mut f64, digits: i32) -> impl FnMut(Option<f64>) -> f64 + '_ 
     }
 }
 
-/// Three numbers side by side over the whole width: shared with the label they would be too narrow to be read.
+/// Three numbers side by side over the whole width: beside the label they would be too narrow.
 fn triple(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut [f64; 3], max: f64) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -311,7 +311,7 @@ pub fn color_button(ui: &mut egui::Ui, name: &str, value: &mut [f64; 3]) {
     let mut rgb = value.map(|component| component as f32);
     let response = ui.color_edit_button_rgb(&mut rgb).accessible_name(name);
     if response.changed() {
-        // Four decimals are finer than any screen, and read better in the file.
+        // Four decimals are finer than 8 bits, and keep the preset readable.
         *value = rgb.map(|component| (f64::from(component.clamp(0.0, 1.0)) * 1e4).round() / 1e4);
     }
 }
@@ -335,7 +335,7 @@ fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
     }
 }
 
-/// The biomes of the palette, by name. A key that no biome has is none of them.
+/// The biomes of the palette, by name. A key of no biome shows as "None".
 fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[(char, String)]) {
     let chosen = biomes.iter().find(|(other, _)| other == key);
     egui::ComboBox::from_id_salt("biome")

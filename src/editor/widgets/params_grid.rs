@@ -1,26 +1,26 @@
-//! All parameters of a part, one row each, in the order of the file: a new parameter shows up by itself.
+//! All parameters of a part, a row for each, in the order of the file. New parameters need no code here.
 
 use super::param_row::{Row, param_row};
 use super::problem_at;
 use crate::planet::param::{ParamPath, Params, Segment, Value};
 use eframe::egui;
 
-/// What is shown of a part, and how it is called.
+/// The part to show.
 pub struct Grid<'a> {
-    /// Where the part stands in the planet.
+    /// The path of the part in the planet.
     pub base: ParamPath,
-    /// Whose parameters they are, in accessible names: "Continents", "climate".
+    /// The owner of the parameters in accessible names: "Continents", "climate".
     pub owner: &'a str,
-    /// Fields that are shown elsewhere.
+    /// Fields that are not shown.
     pub skip: &'a [&'a str],
     /// Everything wrong with the planet.
     pub problems: &'a [(ParamPath, String)],
-    /// Key and name of each biome of the palette, where parameters name one.
+    /// Key and name of each biome of the palette, if a parameter refers to one.
     pub biomes: &'a [(char, String)],
 }
 
-/// Shows the parameters of `part`; `default` is what their reset buttons go back to. Gives the one for
-/// which a file is to be chosen.
+/// Shows the parameters of `part`; their reset buttons restore the values of `default`. Gives the path of the parameter
+/// for which the user wants to choose a file.
 pub fn params_grid(
     ui: &mut egui::Ui,
     grid: &Grid<'_>,
@@ -36,7 +36,7 @@ pub fn params_grid(
         {
             return;
         }
-        // Some parameters stand at the path of the part itself, such as the kind of a shape.
+        // The path alone does not tell: the kind of a landform has the path of the part itself.
         let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
         let problem = problem_at(grid.problems, path);
         let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes };

@@ -1,14 +1,14 @@
-//! Number fields that say why they refuse what was typed.
+//! Number fields that say why they refuse a text.
 //!
-//! egui's own take what they can read, move it into the range, and go back to the old number where they can read
-//! nothing. Here what is out of range is refused, too, and the reason stands below the field until somebody goes on.
+//! egui's own fields clamp a number to the range, and silently restore the old number if they cannot read the text.
+//! These fields refuse both, and show the reason below the field for some seconds.
 
 use super::number::{format_digits, read_number, suffix};
 use crate::planet::param::Unit;
 use eframe::egui;
 use std::cell::RefCell;
 
-/// Seconds that one has to read the reason.
+/// Seconds for which the reason is shown.
 const SHOWN_SECS: f64 = 10.0;
 
 /// The numbers that a field takes.
@@ -16,18 +16,18 @@ const SHOWN_SECS: f64 = 10.0;
 pub struct Allowed<'a> {
     /// Unit of the number.
     pub unit: Unit,
-    /// What stands behind the number where it has no unit: " %".
+    /// The suffix of a number without a unit: " %".
     pub mark: &'a str,
-    /// Smallest.
+    /// Smallest number.
     pub min: f64,
-    /// Largest.
+    /// Largest number.
     pub max: f64,
-    /// Whether it must be a whole number.
+    /// Whether the number must be whole.
     pub whole: bool,
 }
 
 impl Allowed<'static> {
-    /// Numbers in a unit.
+    /// Numbers with a unit.
     pub const fn numbers(unit: Unit, min: f64, max: f64) -> Self {
         Self { unit, mark: "", min, max, whole: false }
     }
@@ -39,12 +39,12 @@ impl Allowed<'static> {
 }
 
 impl<'a> Allowed<'a> {
-    /// The same with a mark behind the number.
+    /// The same numbers with a suffix.
     pub const fn marked(self, mark: &'a str) -> Self {
         Self { mark, ..self }
     }
 
-    /// What stands behind the number.
+    /// The suffix of the number.
     fn end(&self) -> String {
         if self.mark.is_empty() { suffix(self.unit) } else { self.mark.to_owned() }
     }
@@ -53,7 +53,7 @@ impl<'a> Allowed<'a> {
         format!("{} to {}{}", self.min, self.max, self.end())
     }
 
-    /// The number, or why it is none of these.
+    /// The number of a text, or why it is not allowed.
     pub fn read(&self, text: &str) -> Result<f64, String> {
         let text = text.trim();
         let bare = text.strip_suffix(self.mark.trim()).unwrap_or(text);
@@ -68,7 +68,7 @@ impl<'a> Allowed<'a> {
     }
 }
 
-/// What was refused last, and where.
+/// The text that was refused last, and its field.
 #[derive(Clone)]
 struct Refusal {
     field: egui::Id,
@@ -80,8 +80,8 @@ fn place() -> egui::Id {
     egui::Id::unique("refused number")
 }
 
-/// Shows a field of this size, or as large as it needs. `shown` is the text that the field shows for its value: to
-/// leave it as it is changes nothing.
+/// Shows a field of this size, or as large as it needs. `shown` is the text of the field for its value: a field that
+/// still holds this text changes nothing.
 pub fn typed_field(
     ui: &mut egui::Ui,
     size: Option<egui::Vec2>,
@@ -99,7 +99,7 @@ pub fn typed_field(
         *refused.borrow_mut() = read.as_ref().err().cloned();
         read.ok()
     };
-    // The range is that of dragging; a value that was loaded is not moved into it by looking at it.
+    // The range holds for dragging alone: to show a loaded value must not clamp it.
     let number = number
         .range(allowed.min..=allowed.max)
         .clamp_existing_to_range(false)
@@ -117,7 +117,7 @@ pub fn typed_field(
     response
 }
 
-/// A field for a plain number that shows this many digits.
+/// A field for a number that shows this many significant digits.
 pub fn plain_field(
     ui: &mut egui::Ui,
     value: &mut f64,
@@ -134,14 +134,14 @@ pub fn plain_field(
     typed_field(ui, None, number, allowed, &shown, now)
 }
 
-/// Says below a field why it has refused what was typed there.
+/// Shows below a field why it has refused a text.
 fn tell(ui: &egui::Ui, field: &egui::Response) {
     let Some(refusal) = ui.data(|data| data.get_temp::<Refusal>(place())).filter(|refusal| refusal.field == field.id)
     else {
         return;
     };
     let left_secs = SHOWN_SECS - (ui.input(|input| input.time) - refusal.since_secs);
-    // Another try, or a drag: it has been read.
+    // The user types or drags again: the reason has been read.
     if left_secs <= 0.0 || field.gained_focus() || field.changed() || field.dragged() {
         ui.data_mut(|data| data.remove::<Refusal>(place()));
         return;

@@ -1,11 +1,11 @@
-//! How low and how high the ground can be, by interval arithmetic: each layer's noise may be anywhere in its range,
-//! whatever the others do.
+//! The range of heights by interval arithmetic: each layer's noise may be anywhere in its range, independently of the
+//! others.
 
 use super::{CompiledLayer, CompiledMask, Edge, LayerStack, Source, Steps};
 use crate::planet::Blend;
 use glam::DVec3;
 
-/// All numbers between two.
+/// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Interval {
     lo: f64,
@@ -16,18 +16,18 @@ impl Interval {
     const ZERO: Interval = Interval { lo: 0.0, hi: 0.0 };
     const UNIT: Interval = Interval { lo: 0.0, hi: 1.0 };
 
-    /// The smallest that holds them all.
+    /// The smallest interval that holds all values.
     fn of(values: &[f64]) -> Self {
         let (lo, hi) = values.iter().fold((f64::MAX, f64::MIN), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
         Self { lo, hi }
     }
 
-    /// What a rising function makes of it.
+    /// The image under a rising function.
     fn map(self, function: impl Fn(f64) -> f64) -> Self {
         Self { lo: function(self.lo), hi: function(self.hi) }
     }
 
-    /// What a function that rises with both makes of two.
+    /// The image of two intervals under a function that rises with both.
     fn with(self, other: Self, function: impl Fn(f64, f64) -> f64) -> Self {
         Self { lo: function(self.lo, other.lo), hi: function(self.hi, other.hi) }
     }
@@ -36,23 +36,23 @@ impl Interval {
         Self::of(&[self.lo * o.lo, self.lo * o.hi, self.hi * o.lo, self.hi * o.hi])
     }
 
-    /// A little wider, for what rounding does.
+    /// A little wider, for rounding.
     fn widened(self) -> Self {
         let by = 1e-9 * self.lo.abs().max(self.hi.abs());
         Self { lo: self.lo - by, hi: self.hi + by }
     }
 }
 
-/// What is asked about: all directions within an angle of one, or the whole planet.
+/// The directions within an angle of one; `None` is the whole planet.
 type Near = Option<(DVec3, f64)>;
 
-/// Places wider than this are not split.
+/// Discs wider than this are not split.
 const WIDEST_SPLIT_RAD: f64 = 0.1;
 
-/// The middles and angles of places that together cover all within an angle of a direction: a hexagon of hexagons, two
-/// around the one in the middle.
+/// Centres and angles of 19 discs that together cover a disc: a hexagon of hexagons, two rings around the central
+/// one.
 fn parts(dir_planet: DVec3, angle_rad: f64) -> impl Iterator<Item = (DVec3, f64)> {
-    // Circles around the hexagons; the nearest gap is sqrt(13) of their radii away. A little more for the sphere.
+    // The discs around the hexagons. The nearest gap is sqrt(13) of their radii away; 2% more for the sphere.
     let radius_rad = angle_rad / 3.6 * 1.02;
     let step_rad = angle_rad / 3.6 * 3.0_f64.sqrt();
     let (a, b) = dir_planet.any_orthonormal_pair();
@@ -75,7 +75,7 @@ impl LayerStack {
         if angle_rad > WIDEST_SPLIT_RAD {
             return self.bounds(Some((dir_planet, angle_rad)));
         }
-        // What bounds leave open grows with the square of the angle: smaller places, taken together, are known better.
+        // The looseness of bounds grows with the square of the angle, so smaller discs together are tighter.
         let parts =
             parts(dir_planet, angle_rad).map(|(dir_planet, angle_rad)| self.bounds(Some((dir_planet, angle_rad))));
         parts.fold((f64::MAX, f64::MIN), |(lo, hi), (low, high)| (lo.min(low), hi.max(high)))
@@ -88,7 +88,7 @@ impl LayerStack {
                 product.with(self.mask(mask, height, near), |a, b| a * b)
             });
             let target = layer.joined(height, near);
-            // For any mask, low heights come from low ones; between its ends they go straight.
+            // For any mask, low heights come from low ones; between the ends of the mask they are linear.
             let share = |mask: f64| height.with(target, |h, t| h * (1.0 - mask) + t * mask);
             let (least, most) = (share(mask.lo), share(mask.hi));
             height = Interval { lo: least.lo.min(most.lo), hi: least.hi.max(most.hi) }.widened();
@@ -136,7 +136,7 @@ impl CompiledLayer {
         Interval { lo, hi }.widened()
     }
 
-    /// What its blend makes of the height below.
+    /// The target of its blend with the height below.
     fn joined(&self, height: Interval, near: Near) -> Interval {
         let mut noise = match &self.steps {
             Some(steps) => steps.range(height, self.noise(near)),
@@ -164,11 +164,11 @@ impl CompiledLayer {
 }
 
 impl Steps {
-    /// How far the ground between two heights is from its step, in steps: see `lanes::cut`.
+    /// The distance of the ground from its step, in steps: see `steps::cut`.
     fn range(&self, height: Interval, waves: Interval) -> Interval {
         let place = height.with(waves, |height, wave| height / self.height_m + self.waviness * wave);
         let half = 0.5 * self.sharpness;
-        // At most half a step either way, whatever the waves.
+        // At most half a step either way, whatever the waviness.
         if !(place.hi - place.lo < 1.0 && place.lo.abs().max(place.hi.abs()) < 1e9) {
             return Interval { lo: -half, hi: half };
         }
@@ -179,7 +179,7 @@ impl Steps {
             let s = ((t - start) * per_riser).clamp(0.0, 1.0);
             self.sharpness * (s * s * (3.0 - 2.0 * s) - t)
         };
-        // It turns where the riser is as steep as the ground.
+        // The extremes lie where the riser is as steep as the ground.
         let turn = (0.25 - 1.0 / (6.0 * per_riser)).max(0.0).sqrt();
         let turns = [0.5 - turn, 0.5 + turn].map(|s| start + s / per_riser);
         let whole = [place.lo.floor(), place.lo.floor() + 1.0];

@@ -1,11 +1,11 @@
-//! Curves through points: monotone cubic interpolation (Fritsch and Carlson 1980), straight beyond the ends.
+//! Curves through points: monotone cubic interpolation (Fritsch and Carlson 1980), linear beyond the ends.
 //!
-//! Between two points the curve never leaves the range of their values, so that it has no wiggles that nobody drew.
+//! Between two points the curve stays within the range of their values, so that it has no wiggles.
 
 use super::lanes::{CHUNK, Lane};
 use crate::terrain::simd::for_each_simd;
 
-/// What a curve makes of a number; one without points leaves it as it is.
+/// The value of a curve at `x`. A curve without points is the identity.
 pub fn curve_at(points: &[[f64; 2]], x: f64) -> f64 {
     CompiledCurve::new(points).map_or(x, |curve| curve.at(x).0)
 }
@@ -13,11 +13,11 @@ pub fn curve_at(points: &[[f64; 2]], x: f64) -> f64 {
 /// A curve, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CompiledCurve {
-    /// From left to right; the first also holds to the left of where it starts.
+    /// From left to right; the first also holds to the left of its start.
     pieces: Vec<Piece>,
 }
 
-/// A cubic: `y + t (c1 + t (c2 + t c3))` with `t` counted from `x`, where the piece starts.
+/// A cubic `y + t (c1 + t (c2 + t c3))` with `t` counted from its start, `x`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     x: f64,
@@ -36,7 +36,7 @@ impl Piece {
 }
 
 impl CompiledCurve {
-    /// `None` for a curve that changes nothing: without points, or with points that are no curve.
+    /// `None` for a curve that changes nothing: without points, or with points out of order.
     pub(super) fn new(points: &[[f64; 2]]) -> Option<Self> {
         let rises = |pair: &[[f64; 2]]| pair[1][0] > pair[0][0];
         let [[first_x, first_y], .., [last_x, last_y]] = *points else { return None };
@@ -62,7 +62,7 @@ impl CompiledCurve {
         piece.map_or((x, 1.0), |piece| piece.at(x))
     }
 
-    /// Lowest and greatest value between two places.
+    /// Lowest and greatest value between two positions.
     pub(super) fn range(&self, lo: f64, hi: f64) -> (f64, f64) {
         let inner = self.pieces.iter().filter(|piece| piece.x > lo && piece.x < hi).map(|piece| piece.y);
         inner.chain([self.at(lo).0, self.at(hi).0]).fold((f64::MAX, f64::MIN), |(lo, hi), y| (lo.min(y), hi.max(y)))
@@ -89,7 +89,7 @@ fn slopes(secants: &[f64]) -> Vec<f64> {
     slopes
 }
 
-/// The place of each number on the curve, and the derivative there.
+/// The value and derivative of the curve at each number.
 #[inline(always)]
 fn bend_body(n: usize, curve: &CompiledCurve, x: &Lane<f64>, y: &mut Lane<f64>, slope: &mut Lane<f64>) {
     let (mut lowest, mut greatest) = (f64::MAX, f64::MIN);
@@ -98,7 +98,7 @@ fn bend_body(n: usize, curve: &CompiledCurve, x: &Lane<f64>, y: &mut Lane<f64>, 
         greatest = if *x > greatest { *x } else { greatest };
     }
     for (number, piece) in curve.pieces.iter().enumerate() {
-        // Later pieces take over from where they start. Numbers that lie together need few of them.
+        // A later piece replaces the earlier ones from its start on. Numbers that lie close together need few pieces.
         let from = if number == 0 { f64::MIN } else { piece.x };
         let is_passed = curve.pieces.get(number + 1).is_some_and(|next| next.x <= lowest);
         if from > greatest || is_passed {

@@ -1,8 +1,8 @@
 //! Joins the layers at a batch of points, chunk by chunk.
 //!
-//! A joined height depends on the height below, on the layer's noise and on what its masks look at. Its partial
-//! derivatives by these are found once for each point, and mix the gradients of each band. A mask by slope counts as
-//! the same all around a point: how fast the slope itself changes would take second derivatives of everything below.
+//! A joined height depends on the height below, on the layer's noise and on the sources of its masks. Its partial
+//! derivatives by these are found once for each point and mix the gradients of every band. A slope mask counts as
+//! constant around a point: the derivative of the slope would take second derivatives of everything below.
 
 use super::lanes::{self, Masking, Output, Shaped};
 use super::lanes::{CHUNK, Lane};
@@ -16,7 +16,7 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Heights at a batch of points, with the gradients by the unit direction (metres per radian along the surface, once
+/// Heights at a batch of points, with gradients by the unit direction (metres per radian along the ground, once
 /// projected onto the tangent plane).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Heights {
@@ -32,48 +32,104 @@ impl Heights {
         lanes::range(simd, &self.height_m, (&mut lowest_m, &mut greatest_m));
         (lowest_m, greatest_m)
     }
+
+    /// Makes room for a batch without giving memory back, so that nothing is allocated for the next batch.
+    fn clear(&mut self, points: usize, bands: usize) {
+        self.height_m.clear();
+        self.height_m.reserve(points);
+        self.gradients.resize_with(bands.max(self.gradients.len()), Default::default);
+        self.gradients.iter_mut().flatten().for_each(Vec::clear);
+        self.gradients[..bands].iter_mut().flatten().for_each(|component| component.reserve(points));
+    }
 }
 
-/// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at
-/// `spacings_rad` and at what its slopes need; `each(layer, heights_m)` is told the heights of a chunk of points
-/// after each layer that is on.
+/// The fields of the layers at one batch of points: kept ones, or ones evaluated when they are asked for.
+pub(crate) trait LayerFields {
+    /// Makes sure that the field of a layer is there wherever `mask` is not 0; without a mask, at all points. A source
+    /// that evaluates fields here is only used for batches of one chunk.
+    fn prepare(&mut self, layer: usize, mask: Option<&[f64]>);
+
+    /// The field of a layer that was prepared. Where the mask was 0 its numbers mean nothing.
+    fn field(&self, layer: usize) -> Option<&Field>;
+}
+
+/// Fields that are there already.
+pub(crate) struct Kept<'a>(pub(crate) &'a [Option<Arc<Field>>]);
+
+impl LayerFields for Kept<'_> {
+    fn prepare(&mut self, _layer: usize, _mask: Option<&[f64]>) {}
+
+    fn field(&self, layer: usize) -> Option<&Field> {
+        self.0.get(layer)?.as_deref()
+    }
+}
+
+/// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at `spacings_rad` and at
+/// the spacings of its slope masks; `each(layer, heights_m)` is told the heights of a chunk after each enabled layer.
 pub(crate) fn combine(
     stack: &LayerStack,
     simd: Simd,
     points: &Points,
     fields: &[Option<Arc<Field>>],
     spacings_rad: &[f64],
-    mut each: impl FnMut(usize, &[f64]),
+    each: impl FnMut(usize, &[f64]),
 ) -> Heights {
     thread_local! {
         static SCRATCH: RefCell<Box<Scratch>> = RefCell::default();
     }
-    let wanted = spacings_rad.iter().map(|&spacing_rad| Band { spacing_rad, until: usize::MAX });
-    let bands: Vec<Band> = wanted.chain(stack.slope_bands.iter().copied()).take(MAX_BANDS).collect();
-    let n = points.len();
-    let mut heights = Heights {
-        height_m: Vec::with_capacity(n),
-        gradients: spacings_rad.iter().map(|_| [(); 3].map(|()| Vec::with_capacity(n))).collect(),
-    };
+    let mut heights = Heights::default();
     SCRATCH.with_borrow_mut(|scratch| {
+        let batch = Batch { stack, simd, points, spacings_rad };
+        batch.join(&mut Kept(fields), scratch, &mut heights, each);
+    });
+    heights
+}
+
+/// A batch of points whose layers are to be joined.
+#[derive(Clone, Copy)]
+pub(crate) struct Batch<'a> {
+    pub(crate) stack: &'a LayerStack,
+    pub(crate) simd: Simd,
+    pub(crate) points: &'a Points,
+    /// One gradient is wanted for each.
+    pub(crate) spacings_rad: &'a [f64],
+}
+
+impl Batch<'_> {
+    /// As [`combine`], with fields from any source and memory that is used again.
+    pub(crate) fn join(
+        &self,
+        fields: &mut impl LayerFields,
+        scratch: &mut Scratch,
+        heights: &mut Heights,
+        mut each: impl FnMut(usize, &[f64]),
+    ) {
+        let wanted = self.spacings_rad.iter().map(|&spacing_rad| Band { spacing_rad, until: usize::MAX });
+        let mut bands = [Band { spacing_rad: 0.0, until: 0 }; MAX_BANDS];
+        let mut count = 0;
+        for (slot, band) in bands.iter_mut().zip(wanted.chain(self.stack.slope_bands.iter().copied())) {
+            *slot = band;
+            count += 1;
+        }
+        let n = self.points.len();
+        heights.clear(n, self.spacings_rad.len());
         for start in (0..n).step_by(CHUNK) {
             let range = start..(start + CHUNK).min(n);
-            let chunk = Chunk { stack, simd, points, fields, bands: &bands, shown: spacings_rad.len(), range };
-            chunk.join(scratch, &mut each);
+            let chunk = Chunk { batch: *self, bands: &bands[..count], shown: self.spacings_rad.len(), range };
+            chunk.join(fields, scratch, &mut each);
             chunk.finish(scratch);
             heights.height_m.extend_from_slice(&scratch.height[..chunk.len()]);
-            for (components, lanes) in heights.gradients.iter_mut().zip(&scratch.gradients) {
+            for (components, lanes) in heights.gradients.iter_mut().zip(&scratch.gradients).take(chunk.shown) {
                 for (component, lane) in components.iter_mut().zip(lanes) {
                     component.extend_from_slice(&lane[..chunk.len()]);
                 }
             }
         }
-    });
-    heights
+    }
 }
 
-/// Room to work in, used again and again.
-struct Scratch {
+/// Memory for one chunk, used again and again.
+pub(crate) struct Scratch {
     height: Lane<f64>,
     /// Of the height so far, one for each band.
     gradients: [[Lane<f32>; 3]; MAX_BANDS],
@@ -81,10 +137,10 @@ struct Scratch {
     shaped: Shaped,
     output: Output,
     masking: Masking,
-    /// What a mask looks at, where that is not kept elsewhere; the derivative of a curve.
+    /// The source of a mask that is stored nowhere else; the derivative of a curve.
     source: Lane<f64>,
     bent: Lane<f64>,
-    /// What a band shows of steps.
+    /// The share of steps that a band shows.
     seen: Lane<f32>,
     dirs: [Lane<f64>; 3],
 }
@@ -111,14 +167,11 @@ impl Default for Scratch {
     }
 }
 
-/// Some of the points, and what there is of them.
+/// Some of the points of a batch.
 struct Chunk<'a> {
-    stack: &'a LayerStack,
-    simd: Simd,
-    points: &'a Points,
-    fields: &'a [Option<Arc<Field>>],
+    batch: Batch<'a>,
     bands: &'a [Band],
-    /// So many of them, the first, are asked for; the rest are what masks look at.
+    /// How many of the bands, the first, are asked for; the others serve slope masks.
     shown: usize,
     range: Range<usize>,
 }
@@ -135,27 +188,25 @@ impl Chunk<'_> {
     }
 
     /// Heights and gradients after all layers.
-    fn join(&self, scratch: &mut Scratch, each: &mut impl FnMut(usize, &[f64])) {
-        let n = self.len();
+    fn join(&self, fields: &mut impl LayerFields, scratch: &mut Scratch, each: &mut impl FnMut(usize, &[f64])) {
+        let (n, stack) = (self.len(), self.batch.stack);
         scratch.height[..n].fill(0.0);
         for lane in scratch.gradients.iter_mut().take(self.bands.len()).flatten() {
             lane[..n].fill(0.0);
         }
-        if self.stack.looks_at_directions() {
-            for (i, dir) in self.points.dirs[self.range.clone()].iter().enumerate() {
+        if stack.looks_at_directions {
+            for (i, dir) in self.batch.points.dirs[self.range.clone()].iter().enumerate() {
                 (scratch.dirs[0][i], scratch.dirs[1][i], scratch.dirs[2][i]) = (dir.x, dir.y, dir.z);
             }
         }
-        for (index, layer) in self.stack.layers.iter().enumerate() {
-            if let (true, Some(field)) = (layer.enabled, &self.fields[index]) {
-                self.add_layer(index, layer, field, scratch);
-                each(index, &scratch.height[..n]);
-            }
+        for (index, layer) in stack.layers.iter().enumerate().filter(|(_, layer)| layer.enabled) {
+            self.add_layer(index, layer, fields, scratch);
+            each(index, &scratch.height[..n]);
         }
     }
 
-    fn add_layer(&self, index: usize, layer: &CompiledLayer, field: &Field, scratch: &mut Scratch) {
-        let (simd, n) = (self.simd, self.len());
+    fn add_layer(&self, index: usize, layer: &CompiledLayer, fields: &mut impl LayerFields, scratch: &mut Scratch) {
+        let (simd, n) = (self.batch.simd, self.len());
         let bands = || self.bands.iter().enumerate().filter(|(_, band)| band.until > index);
         let reshaped = layer.steps.is_some() || layer.curve.is_some();
         // The gradient of a plain sum needs no derivatives at each point.
@@ -167,10 +218,14 @@ impl Chunk<'_> {
         };
         let slopes = scale.is_none() && bands().next().is_some();
 
+        if !self.mask(layer, slopes, fields, scratch) {
+            return;
+        }
+        fields.prepare(index, (!layer.masks.is_empty()).then_some(&scratch.masking.mask[..n]));
+        let Some(field) = fields.field(index) else { return };
         if reshaped {
             self.reshape(layer, field, slopes, scratch);
         }
-        self.mask(layer, slopes, scratch);
         let Scratch { height, gradients, noise, shaped, output, masking, seen, dirs, .. } = scratch;
         let noise: &[f64] = if reshaped { &noise[..n] } else { &field.value[self.range.clone()] };
         lanes::blend(simd, slopes, n, &layer.blend, height, noise, output);
@@ -212,7 +267,7 @@ impl Chunk<'_> {
                 for (mask, by_source) in layer.masks.iter().zip(&masking.by_source) {
                     match mask.source {
                         Source::Layer(layer) => {
-                            let source = self.fields[layer].as_ref().and_then(|field| self.gradient(field, band));
+                            let source = fields.field(layer).and_then(|field| self.gradient(field, band));
                             if let Some(source) = source {
                                 lanes::add_source(simd, n, by_source, &source, gradient);
                             }
@@ -227,7 +282,7 @@ impl Chunk<'_> {
 
     /// The layer's noise as terraces and the curve leave it.
     fn reshape(&self, layer: &CompiledLayer, field: &Field, slopes: bool, scratch: &mut Scratch) {
-        let (simd, n) = (self.simd, self.len());
+        let (simd, n) = (self.batch.simd, self.len());
         let Scratch { height, noise, shaped, source, bent, .. } = scratch;
         noise[..n].copy_from_slice(&field.value[self.range.clone()]);
         match &layer.steps {
@@ -244,21 +299,27 @@ impl Chunk<'_> {
         }
     }
 
-    /// The product of the layer's masks.
-    fn mask(&self, layer: &CompiledLayer, slopes: bool, scratch: &mut Scratch) {
-        let (simd, n) = (self.simd, self.len());
+    /// The product of the layer's masks. False if the layer changes nothing here, because the product is 0 everywhere:
+    /// then its noise is not needed, nor the sources of the masks that remain.
+    fn mask(&self, layer: &CompiledLayer, slopes: bool, fields: &mut impl LayerFields, scratch: &mut Scratch) -> bool {
+        let (simd, n) = (self.batch.simd, self.len());
         let Scratch { height, gradients, masking, source, dirs, .. } = scratch;
+        // Adding 0 would turn a height of -0 into one of 0.
+        let keeps_bits = height[..n].iter().all(|h| *h != 0.0 || h.is_sign_positive());
         masking.mask[..n].fill(1.0);
         for (number, CompiledMask { source: looks_at, edge }) in layer.masks.iter().enumerate() {
             let source: &[f64] = match *looks_at {
-                Source::Layer(layer) => match &self.fields[layer] {
-                    Some(field) => &field.value[self.range.clone()],
-                    None => continue,
-                },
+                Source::Layer(layer) => {
+                    fields.prepare(layer, None);
+                    match fields.field(layer) {
+                        Some(field) => &field.value[self.range.clone()],
+                        None => continue,
+                    }
+                }
                 Source::Height => &height[..n],
                 Source::Slope { spacing_rad } => {
                     let band = self.bands.iter().rposition(|band| band.spacing_rad == spacing_rad).unwrap_or(0);
-                    lanes::steepness(simd, n, self.stack.radius_m, dirs, &gradients[band], source);
+                    lanes::steepness(simd, n, self.batch.stack.radius_m, dirs, &gradients[band], source);
                     &source[..n]
                 }
                 Source::Latitude { both: false } => &dirs[2][..n],
@@ -270,21 +331,25 @@ impl Chunk<'_> {
                 }
             };
             lanes::mask(simd, slopes, n, edge, number, source, masking);
+            if keeps_bits && masking.mask[..n].iter().all(|mask| *mask == 0.0) {
+                return false;
+            }
         }
+        true
     }
 
     /// The curve over all, and limits.
     fn finish(&self, scratch: &mut Scratch) {
-        let (simd, n) = (self.simd, self.len());
+        let (simd, n) = (self.batch.simd, self.len());
         let Scratch { height, gradients, source: slope, bent, .. } = scratch;
-        match &self.stack.height_curve {
+        match &self.batch.stack.height_curve {
             Some(curve) => {
                 curve::bend(simd, n, curve, height, bent, slope);
                 height[..n].copy_from_slice(&bent[..n]);
             }
             None => slope[..n].fill(1.0),
         }
-        lanes::limit(simd, n, self.stack.limits_m(), height, slope);
+        lanes::limit(simd, n, self.batch.stack.limits_m(), height, slope);
         for gradient in gradients.iter_mut().take(self.shown) {
             lanes::finish(simd, n, slope, gradient);
         }

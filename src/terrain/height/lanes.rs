@@ -1,21 +1,20 @@
-//! The loops that join layers: each does one thing to a chunk of points.
+//! The loops that join layers, each a single step for a chunk of points.
 //!
-//! Heights are in f64. Slopes are the partial derivatives by which gradients are mixed afterwards, all bands alike, in
-//! f32; loops with `SLOPES` unset leave them out for queries that want heights alone.
+//! Heights are f64. Partial derivatives, which mix the gradients of all bands afterwards, are f32; loops without
+//! `SLOPES` leave them out, for queries of heights alone.
 
 use super::{Blend, Edge};
 use crate::planet::MAX_MASKS;
 
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// Points worked on at a time. A whole tile: what little is done with each number waits for memory more than anything,
-/// and long runs are fetched ahead.
+/// Points worked on at a time: a whole tile. The loops are bound by memory, and long runs are prefetched.
 pub(super) const CHUNK: usize = 1152;
 
 /// One number for each point of a chunk.
 pub(super) type Lane<T> = [T; CHUNK];
 
-/// Compiles a loop for each instruction set, once with slopes and once without; `slopes` says which is wanted.
+/// Compiles a loop for each instruction set, with and without slopes; `slopes` selects one at run time.
 macro_rules! joining {
     (fn $name:ident($($arg:ident: $type:ty),*) = $body:ident) => {
         #[allow(clippy::too_many_arguments)]
@@ -28,18 +27,18 @@ macro_rules! joining {
 }
 pub(super) use joining;
 
-/// What a layer makes of its own noise and of the height below it, before masks.
+/// A layer's target height before masks, from its noise and the height below.
 pub(super) struct Output {
-    /// The height that the blend gives.
+    /// The height that the blend makes.
     pub(super) target: Lane<f64>,
     /// Its derivatives by the height below and by the noise.
     pub(super) by_height: Lane<f32>,
     pub(super) by_noise: Lane<f32>,
-    /// As much of the derivative by the height below as comes of steps cut into it.
+    /// The part of the derivative by the height below that comes from terraces.
     pub(super) by_steps: Lane<f32>,
 }
 
-/// How the noise that counts depends on the layer's own noise and on the height below, where it was reshaped.
+/// Derivatives of the reshaped noise by the layer's own noise and by the height below.
 pub(super) struct Shaped {
     pub(super) by_noise: Lane<f64>,
     pub(super) by_height: Lane<f64>,
@@ -72,13 +71,13 @@ fn each<const SLOPES: bool>(
     }
 }
 
-/// Joins the noise `v` to the height below: `h + v * amplitude_m` and so on.
+/// Blends the noise `v` with the height below.
 #[inline(always)]
 fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], output: &mut Output) {
     let (a, bias) = (blend.amplitude_m, blend.bias);
-    // The sum with zero makes the height of a layer without amplitude 0 and never -0.
+    // Adding 0 makes the height of a layer without amplitude 0, never -0.
     let scaled = |v: f64| (v + bias) * a + 0.0;
-    // Polynomial smooth maximum: beyond `soft` apart it is the greater.
+    // Polynomial smooth maximum; beyond `soft` apart it is the maximum.
     let soft = blend.softness_m;
     let share = |y: f64, h: f64| (0.5 + 0.5 * (y - h) / soft).clamp(0.0, 1.0);
     use crate::planet::Blend as Kind;
@@ -109,7 +108,7 @@ fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, n
 }
 joining!(fn blend(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], output: &mut Output) = blend_body);
 
-/// Multiplies the masks so far by a smoothstep of `source`; it is the `number`th.
+/// Multiplies the masks so far by the `number`th: a smoothstep of `source`.
 #[inline(always)]
 fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) {
     let span = edge.to - edge.from;
@@ -136,7 +135,7 @@ fn mask_body<const SLOPES: bool>(n: usize, edge: &Edge, number: usize, source: &
 }
 joining!(fn mask(n: usize, edge: &Edge, number: usize, source: &[f64], masking: &mut Masking) = mask_body);
 
-/// Goes from the height below as far to the blended one as the masks let it; slopes become those of the joined height.
+/// Moves the height from the height below towards the target by the mask; derivatives become those of the result.
 #[inline(always)]
 fn join_body<const SLOPES: bool>(
     n: usize,
@@ -146,7 +145,7 @@ fn join_body<const SLOPES: bool>(
     height: &mut Lane<f64>,
 ) {
     let Output { target, by_height, by_noise, .. } = output;
-    // From here on the change, not the target.
+    // From here on `target` holds the change.
     let change = target;
     for i in 0..n.min(CHUNK) {
         change[i] -= height[i];
@@ -167,7 +166,7 @@ fn join_body<const SLOPES: bool>(
 }
 joining!(fn join(n: usize, masks: usize, masking: &mut Masking, output: &mut Output, height: &mut Lane<f64>) = join_body);
 
-/// The gradient of the joined height in one band, from those of the height below and of the layer's noise.
+/// The gradient of the joined height in one band, from the gradients of the height below and of the noise.
 #[inline(always)]
 fn mix_body(n: usize, output: &Output, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) {
     for (gradient, noise) in gradient.iter_mut().zip(noise) {
@@ -178,7 +177,7 @@ fn mix_body(n: usize, output: &Output, noise: &[&[f32]; 3], gradient: &mut [Lane
 }
 for_each_simd!(pub(super) fn mix(n: usize, output: &Output, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) = mix_body);
 
-/// Adds the gradient of a mask's source, as far as the height depends on it.
+/// Adds the gradient of a mask's source times the derivative by it.
 #[inline(always)]
 fn add_source_body(n: usize, slope: &Lane<f32>, source: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) {
     for (gradient, source) in gradient.iter_mut().zip(source) {
@@ -209,7 +208,7 @@ fn add_body(n: usize, more: &Lane<f32>, sum: &mut Lane<f32>) {
 }
 for_each_simd!(pub(super) fn add(n: usize, more: &Lane<f32>, sum: &mut Lane<f32>) = add_body);
 
-/// Turns a slope by the size of the latitude's sine into one by the sine itself.
+/// Turns a derivative by the absolute value of the latitude's sine into one by the sine.
 #[inline(always)]
 fn mirror_body(n: usize, sine: &Lane<f64>, slope: &mut Lane<f32>) {
     for i in 0..n.min(CHUNK) {
@@ -218,7 +217,7 @@ fn mirror_body(n: usize, sine: &Lane<f64>, slope: &mut Lane<f32>) {
 }
 for_each_simd!(pub(super) fn mirror(n: usize, sine: &Lane<f64>, slope: &mut Lane<f32>) = mirror_body);
 
-/// The chain rule where the noise that counts depends on the layer's own noise and on the height below.
+/// The chain rule for noise that was reshaped.
 #[inline(always)]
 fn through_body(n: usize, shaped: &Shaped, output: &mut Output) {
     for i in 0..n.min(CHUNK) {
@@ -229,7 +228,7 @@ fn through_body(n: usize, shaped: &Shaped, output: &mut Output) {
 }
 for_each_simd!(pub(super) fn through(n: usize, shaped: &Shaped, output: &mut Output) = through_body);
 
-/// The slopes of something reshaped once more, by a function of this derivative.
+/// Multiplies the derivatives of reshaped noise by that of one more function.
 #[inline(always)]
 fn reshape_body(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) {
     for (i, d) in derivative.iter().enumerate().take(n.min(CHUNK)) {
@@ -239,7 +238,7 @@ fn reshape_body(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) {
 }
 for_each_simd!(pub(super) fn reshape(n: usize, derivative: &Lane<f64>, shaped: &mut Shaped) = reshape_body);
 
-/// The sine of the ground's slope from the gradient of its height by the unit direction.
+/// The sine of the slope, from the gradient of the height by the unit direction.
 #[inline(always)]
 fn steepness_body(n: usize, radius_m: f64, dirs: &[Lane<f64>; 3], gradient: &[Lane<f32>; 3], sine: &mut Lane<f64>) {
     let per_square = 1.0 / (radius_m * radius_m);
@@ -249,14 +248,14 @@ fn steepness_body(n: usize, radius_m: f64, dirs: &[Lane<f64>; 3], gradient: &[La
         let up = g[0] * x[i] + g[1] * y[i] + g[2] * z[i];
         let t = [g[0] - up * x[i], g[1] - up * y[i], g[2] - up * z[i]];
         let square = (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) * per_square;
-        // A gradient that overflowed is as steep as can be.
+        // A gradient that overflowed counts as vertical.
         let square = if square < 1e30 { square } else { 1e30 };
         sine[i] = (square / (1.0 + square)).sqrt();
     }
 }
 for_each_simd!(pub(super) fn steepness(n: usize, radius_m: f64, dirs: &[Lane<f64>; 3], gradient: &[Lane<f32>; 3], sine: &mut Lane<f64>) = steepness_body);
 
-/// Keeps heights within limits; `slope` becomes 0 where they were not.
+/// Limits heights; `slope` becomes 0 where a limit holds.
 #[inline(always)]
 fn limit_body(n: usize, limits_m: (f64, f64), height: &mut Lane<f64>, slope: &mut Lane<f64>) {
     let (lowest, highest) = limits_m;
@@ -269,7 +268,7 @@ fn limit_body(n: usize, limits_m: (f64, f64), height: &mut Lane<f64>, slope: &mu
 }
 for_each_simd!(pub(super) fn limit(n: usize, limits_m: (f64, f64), height: &mut Lane<f64>, slope: &mut Lane<f64>) = limit_body);
 
-/// Multiplies a gradient; where it overflowed or the slope is 0, the ground counts as flat.
+/// Multiplies a gradient by the slope. Where it overflowed or the slope is 0, the ground counts as level.
 #[inline(always)]
 fn finish_body(n: usize, slope: &Lane<f64>, gradient: &mut [Lane<f32>; 3]) {
     for lane in gradient {
@@ -284,7 +283,7 @@ for_each_simd!(pub(super) fn finish(n: usize, slope: &Lane<f64>, gradient: &mut 
 /// Lowest and greatest of some numbers.
 #[inline(always)]
 fn range_body(values: &[f64], (lowest, greatest): (&mut f64, &mut f64)) {
-    // Many at once, for one after the other takes its time.
+    // 32 running bounds at once, because a single one would wait for each comparison.
     let (mut lo, mut hi) = ([f64::MAX; 32], [f64::MIN; 32]);
     for some in values.chunks(32) {
         for ((v, lo), hi) in some.iter().zip(&mut lo).zip(&mut hi) {

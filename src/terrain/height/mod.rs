@@ -1,15 +1,13 @@
-//! From layer fields to height: amplitude, bias, curves, blends and masks, with the gradient carried
-//! along by the chain rule.
+//! From layer fields to height: amplitude, bias, curves, blends and masks, with gradients by the chain rule.
 //!
-//! - [`LayerStack`]: the layers of a planet, ready to be joined
+//! - [`LayerStack`]: the layers of a planet, compiled
 //! - `join`: heights at a batch of points, chunk by chunk; `lanes`: its loops
 //! - `steps`: terraces
 //! - `curve`: curves through points
-//! - `bounds`: how low and how high the ground can be
+//! - `bounds`: the range of heights
 //!
-//! No noise is evaluated here; an edit of an amplitude, a blend or a mask runs this stage alone. Only a mask by
-//! slope asks for more: the gradients of the layers before it, as points `over_m` apart would show them,
-//! whatever tile or query asks.
+//! No noise is evaluated here: an edit of an amplitude, a blend or a mask runs this stage alone. A slope mask needs
+//! more: the gradients of the layers before it at the spacing `over_m`, whatever tile or query asks.
 
 mod bounds;
 mod curve;
@@ -18,32 +16,37 @@ mod lanes;
 mod steps;
 
 pub use curve::curve_at;
-pub(crate) use join::{Heights, combine};
+pub(crate) use join::{Batch, Heights, LayerFields, Scratch, combine};
 
+use super::field::Spacings;
 use super::landform::Landform;
 use crate::planet::{self, Key, Layer, MAX_MASKS, Mask, Planet, Shape};
 use curve::CompiledCurve;
 use std::fmt;
 use std::sync::Arc;
 
-/// The layers of a planet and what is done with them together.
+/// The layers of a planet, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LayerStack {
     pub(crate) layers: Vec<CompiledLayer>,
-    /// The distances over which masks measure slopes.
+    /// The spacings over which slope masks measure.
     slope_bands: Vec<Band>,
     height_curve: Option<CompiledCurve>,
+    /// Whether a layer reads the direction itself: terraces, and masks by slope or latitude.
+    looks_at_directions: bool,
     radius_m: f64,
 }
 
-/// A layer, ready to be evaluated and joined.
+/// A layer, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CompiledLayer {
-    /// Its noise; equal shapes have equal fields, so this is the key under which a field is kept.
+    /// Its noise. Equal landforms have equal fields, so this is the key of a kept field.
     pub(crate) landform: Arc<Landform>,
-    /// Whether its field is needed: it is on, or a layer that is on is masked by it.
+    /// Whether its field is needed: it is enabled, or an enabled layer is masked by it.
     pub(crate) needed: bool,
-    /// Spacings at which gradients of its field are needed for slopes.
+    /// Whether an enabled layer is masked by it.
+    pub(crate) masks_others: bool,
+    /// Spacings of the gradients that slope masks need of its field.
     slope_spacings_rad: Vec<f64>,
     enabled: bool,
     steps: Option<Steps>,
@@ -52,15 +55,15 @@ pub(crate) struct CompiledLayer {
     masks: Vec<CompiledMask>,
 }
 
-/// Gradients as points so far apart can show them.
+/// The gradients of one spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Band {
     spacing_rad: f64,
-    /// They are needed of the height that the layers before this one make.
+    /// They are needed up to this layer.
     until: usize,
 }
 
-/// How a layer's noise joins the height below it.
+/// How a layer joins the height below it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Blend {
     kind: planet::Blend,
@@ -77,27 +80,27 @@ struct Steps {
     waviness: f64,
 }
 
-/// A smooth step of something.
+/// A smoothstep of a source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct CompiledMask {
     source: Source,
     edge: Edge,
 }
 
-/// What a mask looks at.
+/// What a mask is a function of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Source {
     /// The noise of a layer.
     Layer(usize),
     /// The height so far, metres.
     Height,
-    /// The sine of the slope so far, at this spacing.
+    /// The sine of the slope so far, measured over this spacing.
     Slope { spacing_rad: f64 },
-    /// The sine of the latitude, without its sign if both hemispheres are alike.
+    /// The sine of the latitude; its absolute value if both hemispheres are alike.
     Latitude { both: bool },
 }
 
-/// From 0 at `from` to 1 at `to`; the ends may stand either way round.
+/// From 0 at `from` to 1 at `to`, which may be the lesser.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Edge {
     from: f64,
@@ -105,17 +108,18 @@ struct Edge {
     invert: bool,
 }
 
-/// Steps and soft corners below this size are none.
+/// Smallest height of a step and of a soft corner.
 const LEAST_M: f64 = 1e-3;
 
 impl LayerStack {
-    /// Compiles the layers of a valid planet; masks that name no layer are left out.
+    /// Compiles the layers of a valid planet. Masks that name no layer are left out.
     pub(crate) fn new(planet: &Planet) -> Self {
         let layers = planet.layers.iter().map(|layer| CompiledLayer::new(planet, layer)).collect();
         let (height_curve, radius_m) = (CompiledCurve::new(&planet.height_curve), planet.radius_m());
-        let mut stack = Self { layers, slope_bands: Vec::new(), height_curve, radius_m };
+        let mut stack = Self { layers, slope_bands: Vec::new(), height_curve, looks_at_directions: false, radius_m };
         stack.find_slope_bands();
         stack.find_needed();
+        stack.looks_at_directions = stack.layers.iter().any(CompiledLayer::looks_at_directions);
         stack
     }
 
@@ -131,7 +135,7 @@ impl LayerStack {
         (layers, self.slope_bands.clone(), self.height_curve.clone(), self.radius_m)
     }
 
-    /// For each distance over which slopes are measured, the layers that make the ground it is measured on.
+    /// Finds the spacings of slope masks, and the layers below the last mask of each.
     fn find_slope_bands(&mut self) {
         for (until, layer) in self.layers.iter().enumerate().filter(|(_, layer)| layer.enabled) {
             for mask in &layer.masks {
@@ -144,7 +148,7 @@ impl LayerStack {
         }
     }
 
-    /// Which fields are needed, and at which spacings their gradients are.
+    /// Finds which fields are needed, and the spacings of their gradients.
     fn find_needed(&mut self) {
         for index in 0..self.layers.len() {
             let layer = &self.layers[index];
@@ -159,6 +163,7 @@ impl LayerStack {
             for needed in needed {
                 let layer = &mut self.layers[needed];
                 layer.needed = true;
+                layer.masks_others |= needed != index;
                 for band in self.slope_bands.iter().filter(|band| band.until > index) {
                     if !layer.slope_spacings_rad.contains(&band.spacing_rad) {
                         layer.slope_spacings_rad.push(band.spacing_rad);
@@ -168,14 +173,7 @@ impl LayerStack {
         }
     }
 
-    /// Whether a layer needs to know where on the planet it is.
-    fn looks_at_directions(&self) -> bool {
-        let mask = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
-        let looks = |layer: &CompiledLayer| layer.steps.is_some() || layer.masks.iter().any(mask);
-        self.layers.iter().any(|layer| layer.enabled && looks(layer))
-    }
-
-    /// Lowest and greatest height that the planet may have, so that no sum of layers turns it inside out: nine tenths
+    /// Lowest and greatest height that a planet may have, so that no sum of layers turns it inside out: nine tenths
     /// of the way to the centre, ten radii out.
     pub(crate) fn limits_m(&self) -> (f64, f64) {
         (-0.9 * self.radius_m, 10.0 * self.radius_m)
@@ -195,6 +193,7 @@ impl CompiledLayer {
         Self {
             landform: Arc::new(Landform::new(&layer.shape, seed, planet.radius_km, planet.precision.into())),
             needed: false,
+            masks_others: false,
             slope_spacings_rad: Vec::new(),
             enabled: layer.enabled,
             steps,
@@ -213,16 +212,21 @@ impl CompiledLayer {
         Key::of(&(&self.landform, &self.slope_spacings_rad))
     }
 
-    /// The spacings at which gradients of its field are needed when these are asked for.
-    pub(crate) fn spacings_rad(&self, asked_rad: &[f64]) -> Vec<f64> {
+    fn looks_at_directions(&self) -> bool {
+        let mask = |mask: &CompiledMask| matches!(mask.source, Source::Slope { .. } | Source::Latitude { .. });
+        self.enabled && (self.steps.is_some() || self.masks.iter().any(mask))
+    }
+
+    /// The spacings of the gradients of its field: those asked for, and those of slope masks.
+    pub(crate) fn spacings_rad(&self, asked_rad: &[f64]) -> Spacings {
         let more = self.slope_spacings_rad.iter().filter(|spacing| !asked_rad.contains(spacing));
-        asked_rad.iter().chain(more).copied().collect()
+        Spacings::new(asked_rad.iter().chain(more).copied())
     }
 }
 
 impl CompiledMask {
     fn new(planet: &Planet, mask: &Mask) -> Option<Self> {
-        // Sines of angles rise evenly enough with them, and need no arc functions at each point.
+        // The sine rises evenly enough with the angle, and needs no arc function at each point.
         let sine = |degrees: f64| libm::sin(degrees.to_radians());
         let (source, from, to, invert) = match mask {
             Mask::Layer(mask) => {

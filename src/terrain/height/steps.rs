@@ -1,8 +1,8 @@
-//! Terraces: steps cut into the height below, and what can be seen of them.
+//! Terraces: steps cut into the height below, and how much of them a spacing shows.
 //!
-//! On a steep wall steps lie side by side more closely than the points that are to show them. What single points then find
-//! is chance (a wall would look like a string of beads), so in gradients for points so far apart steps give way to the
-//! ground that they were cut into, which has the steps' mean slope. Heights are what they are.
+//! On a steep wall steps lie closer together than the points that are shaded. The steps that single points then meet
+//! are chance (a wall would look like a string of beads). So in gradients the steps fade into the ground that they
+//! were cut from, which has their mean slope. Heights keep the steps.
 
 use super::Steps;
 use super::lanes::{CHUNK, Lane, Output, Shaped, joining};
@@ -11,13 +11,13 @@ use crate::terrain::simd::{Simd, for_each_simd};
 /// Adding and subtracting this rounds an f64 below 2^51 to a whole number.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Points from a step to the next at which nothing is left of steps; from twice as many on they show in full.
+/// Points per step at which steps have faded; from twice as many on they show in full.
 const LEAST_POINTS: f32 = 2.5;
 
-/// Cuts the height below into steps: `noise` becomes the way from there to its step, in steps.
+/// Cuts the height below into steps: `noise` becomes the vector from there to the step, in steps.
 ///
-/// A step's tread is flat around its own height, with a riser half-way to the next: `S(t) - t`, where `t` is the place
-/// between two treads and `S` a smoothstep across the riser.
+/// The tread of a step is level at its own height, with a riser half-way to the next: `S(t) - t`, where `t` is the
+/// position between two treads and `S` a smoothstep across the riser.
 #[inline(always)]
 fn cut_body<const SLOPES: bool>(
     n: usize,
@@ -42,8 +42,8 @@ fn cut_body<const SLOPES: bool>(
 }
 joining!(fn cut(n: usize, steps: &Steps, height: &Lane<f64>, noise: &mut Lane<f64>, shaped: &mut Shaped) = cut_body);
 
-/// The share of steps that points `spacing_rad` apart can show, where the ground below has such a gradient and the noise
-/// that moves the steps such another, both as those points show them.
+/// The share of steps that points `spacing_rad` apart show, from the gradients of the height below and of the
+/// waviness noise at that spacing.
 #[inline(always)]
 fn seen_body(
     n: usize,
@@ -54,7 +54,7 @@ fn seen_body(
     share: &mut Lane<f32>,
 ) {
     let (per_metre, per_noise) = ((1.0 / steps.height_m) as f32, steps.waviness as f32);
-    // Against a division by zero; steps are then as wide as the planet.
+    // Avoids a division by zero: steps are then as wide as the planet.
     let (scale, least) = ((f64::from(LEAST_POINTS) * spacing_rad) as f32, 1e-20);
     let [n0, n1, n2] = noise;
     let n = n.min(n0.len()).min(n1.len()).min(n2.len()).min(CHUNK);
@@ -73,7 +73,7 @@ fn seen_body(
 }
 for_each_simd!(pub(super) fn seen(n: usize, how: (&Steps, f64), dirs: &[Lane<f64>; 3], below: &[Lane<f32>; 3], noise: &[&[f32]; 3], share: &mut Lane<f32>) = seen_body);
 
-/// As `lanes::mix`, with such a share of the steps.
+/// As `lanes::mix`, with this share of the steps.
 #[inline(always)]
 fn mix_body(n: usize, share: &Lane<f32>, output: &Output, noise: &[&[f32]; 3], gradient: &mut [Lane<f32>; 3]) {
     for (gradient, noise) in gradient.iter_mut().zip(noise) {
@@ -94,16 +94,17 @@ mod tests {
 
     const SPACINGS_M: [f64; 5] = [0.0, 50.0, 400.0, 800.0, 3200.0];
 
-    /// The height of a point and the slope that each of the spacings shows there.
+    /// The height of a point and its slope at each spacing.
     type Place = (f64, [DVec3; 5]);
 
     /// Points of a path.
     fn walk(layers: Vec<Layer>) -> Vec<Place> {
         let planet = Planet { layers, ..Planet::default() };
         let (count, radius_m) = (3000, planet.radius_m());
-        let dirs = (0..count).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
+        let dirs: Vec<DVec3> =
+            (0..count).map(|i| DVec3::new(0.4, f64::from(i) * 7.0 / radius_m, 0.7).normalize()).collect();
         let spacings = SPACINGS_M.map(|spacing_m| spacing_m / radius_m);
-        let relief = Terrain::try_new(Arc::new(planet)).unwrap().relief_at(dirs, &spacings);
+        let relief = Terrain::try_new(Arc::new(planet)).unwrap().slopes_at(&dirs, &spacings);
         let slopes = |i: usize| std::array::from_fn(|band| relief.slopes[band][i]);
         (0..relief.height_m.len()).map(|i| (relief.height_m[i], slopes(i))).collect()
     }
@@ -129,13 +130,13 @@ mod tests {
             cut.iter().zip(against).map(apart).collect::<Vec<_>>()
         };
         let most = |all: Vec<f64>| all.into_iter().fold(0.0, f64::max);
-        // Near enough all is seen as it is, and from afar nothing; heights are of no spacing.
+        // Near enough, all steps show; from afar, none. Heights do not depend on the spacing.
         assert!(most(off(0, &plain, 0)) > 1.0 * steepest);
         assert_eq!(most(off(1, &cut, 0)), 0.0);
         let (near, between, far) = (most(off(2, &plain, 2)), most(off(3, &plain, 3)), most(off(4, &plain, 4)));
         assert!(far < between && between < near, "{far} {between} {near}");
         assert!(far < 0.05 * steepest, "{far} of {steepest}");
-        // Where it is so steep that steps are finer than the points, nothing is left; and it comes in without a jump.
+        // Where steps are finer than the points, none is left; and they fade in without a jump.
         for (at, (plain, cut)) in plain.iter().zip(&cut).enumerate() {
             let per_step = 100.0 / (plain.1[0].length() + 1e-9) / SPACINGS_M[3];
             assert!(per_step > 0.8 || plain.1[3].distance(cut.1[3]) < 1e-5, "{at}: {per_step}");
@@ -144,7 +145,7 @@ mod tests {
         assert!(jump < 0.05 * steepest, "{jump} of {steepest}");
     }
 
-    /// What a mask by slope looks at makes heights, so it does not depend on what is asked for beside them.
+    /// Masks make heights, so the gradient that a slope mask reads does not depend on the gradients asked for.
     #[test]
     fn a_mask_by_slope_counts_the_steps_whatever_is_asked() {
         let masks = vec![Mask::Slope(SlopeMask { from_deg: 5.0, to_deg: 20.0, over_m: 3200.0, invert: false })];

@@ -1,37 +1,37 @@
-//! Billow noise: each octave folded at zero into creases and rounded above them, `1 - (1 - |n|)^2`: what `ridged` is
-//! upside down, without its feedback. The creases are a little rounded too, as by sediment; sharp ones
-//! would be drawn as saw teeth.
+//! Billow noise: octaves folded at zero into creases and rounded above, `1 - (1 - |n|)^2`; `ridged` upside down,
+//! without its feedback. Creases are rounded a little, as by sediment: sharp ones would be drawn as saw teeth.
 
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point};
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise};
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::Noise;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Points for each lattice cell from which on an octave shows in full: hills are half as long as waves.
+/// Points per lattice cell at which an octave shows in full: hills are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.07;
 
-/// Noise below which a crease is round.
+/// Noise value below which a crease is round.
 const CREASE: f32 = 0.05;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Billow {
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
 }
 
 impl Billow {
     pub(super) fn new(params: &planet::Billow, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Billow { wavelength_km, octaves, gain, lacunarity } = *params;
         let octaves = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity);
-        Self { exact: arithmetic.exact_of(&octaves, REST), octaves }
+        Self { f64_octaves: arithmetic.f64_octaves(&octaves, REST), octaves }
     }
 }
 
@@ -41,7 +41,7 @@ impl Evaluate for Billow {
     }
 
     fn bounds(&self) -> (f64, f64) {
-        // The weights sum to 1 but for their rounding.
+        // The weights sum to 1 up to rounding.
         (-1.0 - 1e-5, 1.0 + 1e-5)
     }
 
@@ -61,8 +61,8 @@ impl Evaluate for Billow {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [hill, ..], wide, .. } = scratch;
-        let Wide { noise: exact_noise, jets: [exact_hill, ..] } = wide;
+        let Scratch { sums, noise, jets: [hill, ..], in_f64, .. } = scratch;
+        let Scratch64 { noise: noise64, jets: [hill64, ..], .. } = in_f64;
         let n = chunk.len();
         let mut share = 0.0;
         for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
@@ -72,23 +72,23 @@ impl Evaluate for Billow {
                 break;
             }
             share += f64::from(*weight);
-            if k < chunk.exact(self.exact) {
-                exact_noise.values(chunk.simd, chunk.skewed, octave);
-                round_exact(chunk.simd, n, exact_noise, exact_hill);
-                sums.add_exact(chunk, &exact_hill.value, f64::from(*weight));
+            if k < chunk.f64_octaves(self.f64_octaves) {
+                noise64.values(chunk.simd, chunk.skewed, octave);
+                round::<f64>(chunk.simd, n, noise64, hill64);
+                sums.add_f64(chunk, &hill64.value, f64::from(*weight));
                 if !fades.is_unseen() {
                     noise.gradients(chunk.simd, chunk.skewed, octave);
-                    round_gradients(chunk.simd, n, noise, hill);
+                    round::<Jet>(chunk.simd, n, noise, hill);
                     sums.add_gradients(chunk, &hill.gradient, *weight, &fades);
                 }
                 continue;
             }
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
-                round_values(chunk.simd, n, noise, hill);
+                round::<f32>(chunk.simd, n, noise, hill);
             } else {
                 noise.gradients(chunk.simd, chunk.skewed, octave);
-                round_gradients(chunk.simd, n, noise, hill);
+                round::<Jet>(chunk.simd, n, noise, hill);
             }
             sums.add(chunk, &hill.value, &hill.gradient, *weight, &fades);
         }
@@ -105,6 +105,4 @@ fn round_body<R: Real>(n: usize, noise: &Noise<R::S>, hill: &mut Jets<R::S>) {
         (R::constant(1.0) - off_top.square()).store(hill, i);
     }
 }
-for_each_simd!(fn round_values(n: usize, noise: &Noise, hill: &mut Jets) = round_body::<f32>);
-for_each_simd!(fn round_exact(n: usize, noise: &Noise<f64>, hill: &mut Jets<f64>) = round_body::<f64>);
-for_each_simd!(fn round_gradients(n: usize, noise: &Noise, hill: &mut Jets) = round_body::<Jet>);
+for_each_simd!(fn round<R: Real>(n: usize, noise: &Noise<R::S>, hill: &mut Jets<R::S>) = round_body);

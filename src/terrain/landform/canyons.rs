@@ -1,35 +1,35 @@
 //! Valleys: the zero lines of warped noise, made into channels.
 //!
-//! A point's distance from the line is about `|n| / |grad n|`, along the ground; dividing by the gradient is what keeps
-//! the width the same everywhere. Each octave is a finer net of valleys, which runs dry with distance from the coarser
-//! ones, so that it reads as their tributaries. Where the gradient is wanted too, second derivatives make it exact.
+//! A point's distance from the line is about `|n| / |grad n|` along the ground; dividing by the gradient keeps the
+//! width of a valley constant. Each octave is a finer net of valleys. It fades with distance from the coarser valleys
+//! and so looks like their tributaries. Gradients take second derivatives of the noise.
 
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point, Varying};
-use super::warp::{ExactJacobian, Warp};
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
+use super::warp::Warp;
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
-use crate::terrain::field::EXACT;
+use crate::terrain::field::ALL_OCTAVES;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise};
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::Noise;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.02;
 
-/// Points across a valley's wall from which on it shows in full.
+/// Points across a valley wall at which it shows in full.
 const LEAST_POINTS: f64 = 2.5;
 
-/// Added to the gradient (by the lattice), so that a valley widens no further than this where the noise is level.
+/// Added to the gradient (by the lattice): limits the width of a valley where the noise is level.
 const LEAST_GRADIENT: f32 = 0.5;
 
-/// Tributaries run dry between these distances from the valley they lead to, in its wavelengths.
+/// Distances from a valley between which its tributaries fade, in its wavelengths.
 const WET: f32 = 0.08;
 const DRY: f32 = 0.4;
 
-/// The meanders' wavelength and displacement (at `meander` 1) against the distance between
-/// valleys; octaves of meanders.
+/// Wavelength and displacement (at `meander` 1) of the meanders in distances between valleys, and their octaves.
 const MEANDER_WAVELENGTH: f64 = 0.5;
 const MEANDER_REACH: f64 = 0.3;
 const MEANDER_OCTAVES: u32 = 2;
@@ -38,17 +38,17 @@ const MEANDER_OCTAVES: u32 = 2;
 pub(crate) struct Canyons {
     warp: Warp,
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     channel: Channel,
-    /// Width of a valley's wall against the wavelength.
+    /// Width of a valley wall in wavelengths.
     wall: f64,
 }
 
-/// The form of a valley.
+/// The cross-section of a valley.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Channel {
-    /// Half widths to a wavelength.
+    /// Half widths per wavelength.
     narrowness: f32,
     /// Share of the width that is flat.
     floor: f32,
@@ -63,7 +63,7 @@ impl Canyons {
         let octaves = series(seed, frequency, octaves, gain, lacunarity);
         Self {
             warp: Warp::new(seed, frequency / MEANDER_WAVELENGTH, MEANDER_OCTAVES, reach),
-            exact: arithmetic.exact_of(&octaves, REST),
+            f64_octaves: arithmetic.f64_octaves(&octaves, REST),
             octaves,
             channel: Channel { narrowness: (2.0 / width) as f32, floor: steepness as f32 },
             wall: 0.5 * width * (1.0 - steepness),
@@ -108,25 +108,29 @@ impl Evaluate for Canyons {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, displaced, jets: [carved, uncut, wet, px, py, pz, ..], wide } = scratch;
-        let Wide { noise: exact_noise, jets: [exact_carved, exact_uncut, exact_wet, ex, ey, ez, ..] } = wide;
+        let Scratch { sums, noise, displaced, jets: [carved, uncut, wet, px, py, pz, ..], in_f64, .. } = scratch;
+        let Scratch64 { noise: noise64, jets: [carved64, uncut64, wet64, ex, ey, ez, ..], jacobian, .. } = in_f64;
         let n = chunk.len();
         let Some(largest) = self.octaves.first() else { return };
-        place(chunk, [px, py, pz]);
+        chunk.directions([px, py, pz]);
         let dir = [&*px, &*py, &*pz];
         uncut.fill(n, 1.0);
         wet.fill(n, 1.0);
         let fades_of = |octave: &Weighted| chunk.fades(self.wall / octave.octave.frequency, LEAST_POINTS);
-        // The distance needs the gradient, whether or not its own is seen.
-        let exact = Chunk { spacings_rad: EXACT, ..*chunk };
-        self.warp.displace(&exact, !fades_of(largest).is_unseen(), noise, displaced);
+        let f64_octaves = chunk.f64_octaves(self.f64_octaves);
+        let unseen = fades_of(largest).is_unseen();
+        // In f32, distances need the Jacobian of every octave, whatever the bands show.
+        let needs_f32 = !unseen || f64_octaves < self.octaves.len();
+        let warped = Chunk { spacings_rad: if needs_f32 { ALL_OCTAVES } else { &[] }, ..*chunk };
+        self.warp.displace(&warped, !unseen, noise, displaced);
         let there = displaced.points(n);
-        let exact = chunk.exact(self.exact);
-        let jacobian = (exact > 0).then(|| ExactJacobian::new(&self.warp, chunk, exact_noise));
-        exact_uncut.fill(n, 1.0);
-        exact_wet.fill(n, 1.0);
-        place_exact(chunk, [ex, ey, ez]);
-        let exact_dir = [&*ex, &*ey, &*ez];
+        if f64_octaves > 0 {
+            jacobian.find(&self.warp, chunk, noise64);
+        }
+        uncut64.fill(n, 1.0);
+        wet64.fill(n, 1.0);
+        chunk.directions_f64([ex, ey, ez]);
+        let dir64 = [&*ex, &*ey, &*ez];
         for (k, weighted) in self.octaves.iter().enumerate() {
             let Weighted { octave, weight } = weighted;
             let (depth, scale) = (weight / largest.weight, (1.0 / octave.frequency) as f32);
@@ -134,37 +138,38 @@ impl Evaluate for Canyons {
             if chunk.skips(&fades) {
                 break;
             }
-            let jacobian = jacobian.as_ref().filter(|_| k < exact);
-            if let Some(jacobian) = jacobian {
-                exact_noise.gradients(chunk.simd, there, octave);
-                jacobian.pull_back(chunk, exact_noise);
-                let state = [&mut *exact_uncut, &mut *exact_wet, &mut *exact_carved];
-                carve_exact(chunk.simd, n, exact_noise, scale, depth, self.channel, exact_dir, state);
-                sums.add_exact(chunk, &exact_carved.value, -1.0);
+            let is_f64 = k < f64_octaves;
+            if is_f64 {
+                noise64.gradients(chunk.simd, there, octave);
+                jacobian.pull_back(chunk, noise64);
+                let state = [&mut *uncut64, &mut *wet64, &mut *carved64];
+                carve::<f64>(chunk.simd, n, noise64, scale, depth, self.channel, dir64, state);
+                sums.add_f64(chunk, &carved64.value, -1.0);
                 if fades.is_unseen() {
-                    uncut.round_from(n, exact_uncut);
-                    wet.round_from(n, exact_wet);
+                    uncut.round_from(n, uncut64);
+                    wet.round_from(n, wet64);
                     continue;
                 }
             }
-            // Lines must lie where they are to the millimetre, though they are hundreds of kilometres apart.
+            // Zero lines must be right to a millimetre, though they are hundreds of kilometres apart.
             let mut value = [0.0; CHUNK];
-            noise.add_exact(chunk.simd, there, octave, 1.0, &mut value);
-            if fades.is_unseen() {
+            noise.add_f64(chunk.simd, there, octave, 1.0, &mut value);
+            let carve = if fades.is_unseen() {
                 noise.gradients(chunk.simd, there, octave);
-                displaced.pull_back_noise(chunk, false, noise);
-                noise.value = value.map(|v| v as f32);
-                carve_values(chunk.simd, n, noise, scale, depth, self.channel, dir, [uncut, wet, carved]);
+                carve::<f32>
             } else {
                 noise.curvatures(chunk.simd, there, octave);
-                displaced.pull_back_noise(chunk, true, noise);
-                noise.value = value.map(|v| v as f32);
-                carve_gradients(chunk.simd, n, noise, scale, depth, self.channel, dir, [uncut, wet, carved]);
+                carve::<Jet>
+            };
+            displaced.pull_back_noise(chunk, !fades.is_unseen(), noise);
+            for (rounded, value) in noise.value.iter_mut().zip(value).take(n) {
+                *rounded = value as f32;
             }
-            if jacobian.is_some() {
+            carve(chunk.simd, n, noise, scale, depth, self.channel, dir, [uncut, wet, carved]);
+            if is_f64 {
                 sums.add_gradients(chunk, &carved.gradient, -1.0, &fades);
-                uncut.round_from(n, exact_uncut);
-                wet.round_from(n, exact_wet);
+                uncut.round_from(n, uncut64);
+                wet.round_from(n, wet64);
             } else {
                 sums.add(chunk, &carved.value, &carved.gradient, -1.0, &fades);
             }
@@ -172,8 +177,8 @@ impl Evaluate for Canyons {
     }
 }
 
-/// Carves an octave of valleys, at most `depth` deep, out of what coarser ones have left: `uncut`, the share of the
-/// rock; `wet`, how near they are. `scale` is the octave's cell in radii.
+/// Carves one octave of valleys, at most `depth` deep. `state` is the share of rock that coarser octaves left, the
+/// nearness of their valleys, and the depth carved now. `scale` is a lattice cell in radii.
 #[inline(always)]
 fn carve_body<R: Real>(
     n: usize,
@@ -201,6 +206,4 @@ fn carve_body<R: Real>(
         (R::load(wet, i) * (R::constant(1.0) - distance.smoothstep(WET, DRY))).store(wet, i);
     }
 }
-for_each_simd!(fn carve_values(n: usize, noise: &Noise, scale: f32, depth: f32, channel: Channel, dir: [&Jets; 3], state: [&mut Jets; 3]) = carve_body::<f32>);
-for_each_simd!(fn carve_exact(n: usize, noise: &Noise<f64>, scale: f32, depth: f32, channel: Channel, dir: [&Jets<f64>; 3], state: [&mut Jets<f64>; 3]) = carve_body::<f64>);
-for_each_simd!(fn carve_gradients(n: usize, noise: &Noise, scale: f32, depth: f32, channel: Channel, dir: [&Jets; 3], state: [&mut Jets; 3]) = carve_body::<Jet>);
+for_each_simd!(fn carve<R: Real>(n: usize, noise: &Noise<R::S>, scale: f32, depth: f32, channel: Channel, dir: [&Jets<R::S>; 3], state: [&mut Jets<R::S>; 3]) = carve_body);

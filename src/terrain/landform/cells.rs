@@ -1,39 +1,41 @@
-//! Cells (Worley 1996): the ground is shared out between jittered centres in space, each point to the nearest.
+//! Cells (Worley 1996): jittered centres in space, each with the ground that is nearest to it.
 //!
-//! Distances are squared and in cells. The difference of the squared distances to two centres is linear across the
-//! border between them, so slopes and cracks are straight and need no root.
+//! Distances are squared and in lattice cells. The difference of the squared distances to two centres is linear
+//! across the border between them, so that slopes and cracks are straight and need no root.
 //!
-//! Which cells to search: with centres at most [`JITTER`] from their cells' middles along each axis, the eight cells
-//! nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells beyond [`neighbourhood`]
-//! lie at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which makes sqrt([`HORIZON`]) =
-//! 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
+//! Which lattice cells to search: with centres at most [`JITTER`] from the middle of their cell along each axis, the
+//! eight cells nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells outside
+//! [`neighbourhood`] are at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which is
+//! sqrt([`HORIZON`]) = 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
 
 mod near;
 
 use super::octaves::{Weighted, series};
 use super::places::{Places, neighbour, unit};
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
+use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
 use crate::planet::{self, CellStyle};
-use crate::terrain::jet::{Jet, Jets, Real, Scalar};
-use crate::terrain::noise::{self, CHUNK, Octave};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::scalar::Scalar;
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Octave};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use near::Near;
 
-/// Most that a centre stands from its cell's middle along each axis, in cells.
+/// Greatest distance of a centre from the middle of its cell along each axis, in cells.
 const JITTER: f32 = 0.395;
-/// Square of the distance within which all centres are known: 2 (1.5 - JITTER)^2.
+/// Square of the distance within which all centres are found: 2 (1.5 - JITTER)^2.
 const HORIZON: f32 = 2.442;
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.12;
-/// Points for each border's width, or for half a dome, from which on they show in full.
+/// Points per border width, or per half dome, at which they show in full.
 const LEAST_POINTS: f64 = 1.2;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells {
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     style: CellStyle,
     jitter: f32,
     width: f32,
@@ -44,7 +46,7 @@ impl Cells {
         let planet::Cells { cell_km, style, width, jitter, octaves, gain, lacunarity } = *params;
         let octaves = series(seed, radius_km / cell_km, octaves, gain, lacunarity);
         Self {
-            exact: arithmetic.exact_of(&octaves, REST),
+            f64_octaves: arithmetic.f64_octaves(&octaves, REST),
             octaves,
             style,
             jitter: JITTER * jitter as f32,
@@ -76,55 +78,26 @@ impl Evaluate for Cells {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, jets: [first, second, steepness, shares, levels, height, ..], wide, .. } = scratch;
-        let (simd, n) = (chunk.simd, chunk.len());
+        let Scratch { sums, jets, places, in_f64, .. } = scratch;
         let width = if self.style == CellStyle::Bumps { 0.5 } else { f64::from(self.width) };
-        let mut places = <Places>::default();
         for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
             let fades = chunk.fades(width / octave.frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
-            let exact = k < chunk.exact(self.exact);
-            if exact {
-                self.evaluate_exact(chunk, octave, wide);
-                sums.add_exact(chunk, &wide.jets[0].value, f64::from(*weight));
+            let is_f64 = k < chunk.f64_octaves(self.f64_octaves);
+            if is_f64 {
+                let Scratch64 { jets, places, .. } = in_f64;
+                let height = self.octave::<f64>(chunk, octave, places, jets);
+                sums.add_f64(chunk, &height.value, f64::from(*weight));
                 if unseen {
                     continue;
                 }
             }
-            let (seed, frequency) = (octave.seed, octave.frequency as f32);
-            places.find(simd, chunk.skewed, octave);
-            first.fill(n, f32::MAX);
-            second.fill(n, f32::MAX);
-            let meet = if unseen { meet_values } else { meet_gradients };
-            for step in neighbourhood() {
-                meet(simd, n, &places, step, seed, self.jitter, first, second);
-            }
-            match self.style {
-                CellStyle::Plates => {
-                    let begin = if unseen { begin_values } else { begin_gradients };
-                    let share = if unseen { share_values } else { share_gradients };
-                    let level = if unseen { level_values } else { level_gradients };
-                    begin(simd, n, self.width, first, steepness);
-                    shares.fill(n, 0.0);
-                    levels.fill(n, 0.0);
-                    for step in neighbourhood() {
-                        share(simd, n, &places, step, seed, self.jitter, first, steepness, shares, levels);
-                    }
-                    level(simd, n, frequency, shares, levels, height);
-                }
-                CellStyle::Cracks => {
-                    let crack = if unseen { crack_values } else { crack_gradients };
-                    crack(simd, n, frequency, self.width, first, second, height);
-                }
-                CellStyle::Bumps => {
-                    let swell = if unseen { swell_values } else { swell_gradients };
-                    swell(simd, n, frequency, first, height);
-                }
-            }
-            if exact {
+            let evaluate = if unseen { Self::octave::<f32> } else { Self::octave::<Jet> };
+            let height = evaluate(self, chunk, octave, places, jets);
+            if is_f64 {
                 sums.add_gradients(chunk, &height.gradient, *weight, &fades);
             } else {
                 sums.add(chunk, &height.value, &height.gradient, *weight, &fades);
@@ -134,41 +107,47 @@ impl Evaluate for Cells {
 }
 
 impl Cells {
-    /// One octave in f64: its values are those of the first of the jets.
-    fn evaluate_exact(&self, chunk: &Chunk<'_>, octave: &Octave, wide: &mut Wide) {
-        let [height, first, second, steepness, shares, levels, ..] = &mut wide.jets;
+    /// The height of one octave.
+    fn octave<'j, R: Real>(
+        &self,
+        chunk: &Chunk<'_>,
+        octave: &Octave,
+        places: &mut Places<R::S>,
+        jets: &'j mut [Jets<R::S>; JETS],
+    ) -> &'j Jets<R::S> {
+        let [first, second, steepness, shares, levels, height, ..] = jets;
         let (simd, n, seed, frequency) = (chunk.simd, chunk.len(), octave.seed, octave.frequency as f32);
-        let mut places = Places::<f64>::default();
-        places.find_exact(simd, chunk.skewed, octave);
-        first.fill(n, f64::MAX);
-        second.fill(n, f64::MAX);
+        places.find(simd, chunk.skewed, octave);
+        first.fill(n, R::S::MOST);
+        second.fill(n, R::S::MOST);
         for step in neighbourhood() {
-            meet_exact(simd, n, &places, step, seed, self.jitter, first, second);
+            meet::<R>(simd, n, places, step, seed, self.jitter, first, second);
         }
         match self.style {
             CellStyle::Plates => {
-                begin_exact(simd, n, self.width, first, steepness);
-                shares.fill(n, 0.0);
-                levels.fill(n, 0.0);
+                begin::<R>(simd, n, self.width, first, steepness);
+                shares.fill(n, R::S::default());
+                levels.fill(n, R::S::default());
                 for step in neighbourhood() {
-                    share_exact(simd, n, &places, step, seed, self.jitter, first, steepness, shares, levels);
+                    share::<R>(simd, n, places, step, seed, self.jitter, first, steepness, shares, levels);
                 }
-                level_exact(simd, n, frequency, shares, levels, height);
+                level::<R>(simd, n, frequency, shares, levels, height);
             }
-            CellStyle::Cracks => crack_exact(simd, n, frequency, self.width, first, second, height),
-            CellStyle::Bumps => swell_exact(simd, n, frequency, first, height),
+            CellStyle::Cracks => crack::<R>(simd, n, frequency, self.width, first, second, height),
+            CellStyle::Bumps => swell::<R>(simd, n, frequency, first, height),
         }
+        height
     }
 }
 
-/// The cells that must be searched, in steps towards the nearer side: all around a point, and one further along one
-/// axis at a time on its nearer side.
+/// The cells to search, in steps towards the nearer side: all around a point, and one further along one axis on its
+/// nearer side.
 fn neighbourhood() -> impl Iterator<Item = [i32; 3]> {
     let all = (0..64).map(|k| [(k & 3) - 1, ((k >> 2) & 3) - 1, (k >> 4) - 1]);
     all.filter(|step| step.iter().filter(|s| **s == 2).count() <= 1)
 }
 
-/// The square of the distance to the centre of a cell, and random bits of that cell.
+/// The squared distance to the centre of a cell, and the hash of that cell.
 #[inline(always)]
 fn centre<R: Real>(places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, i: usize) -> (R, u32) {
     let (cell, from) = neighbour(places, step, i);
@@ -200,23 +179,19 @@ fn meet_body<R: Real>(
         R::select(farther.value() < two.value(), farther, two).store(second, i);
     }
 }
-for_each_simd!(fn meet_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<f32>);
-for_each_simd!(fn meet_exact(n: usize, places: &Places<f64>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<f64>, second: &mut Jets<f64>) = meet_body::<f64>);
-for_each_simd!(fn meet_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets, second: &mut Jets) = meet_body::<Jet>);
+for_each_simd!(fn meet<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<R::S>, second: &mut Jets<R::S>) = meet_body);
 
-/// How quickly a plate's share falls off beyond its border; never so slowly that centres beyond
-/// the horizon would count.
+/// The steepness with which a plate's share falls off beyond its border: never so low that centres beyond the horizon
+/// would count.
 #[inline(always)]
 fn begin_body<R: Real>(n: usize, width: f32, first: &Jets<R::S>, steepness: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
         (-R::load(first, i)).plus(HORIZON).at_most(width).recip().store(steepness, i);
     }
 }
-for_each_simd!(fn begin_values(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<f32>);
-for_each_simd!(fn begin_exact(n: usize, width: f32, first: &Jets<f64>, steepness: &mut Jets<f64>) = begin_body::<f64>);
-for_each_simd!(fn begin_gradients(n: usize, width: f32, first: &Jets, steepness: &mut Jets) = begin_body::<Jet>);
+for_each_simd!(fn begin<R: Real>(n: usize, width: f32, first: &Jets<R::S>, steepness: &mut Jets<R::S>) = begin_body);
 
-/// Adds the share that the plate of a cell has in the ground at each point, and its level as much.
+/// Adds the share of a cell's plate at each point, and its level times the share.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 fn share_body<R: Real>(
@@ -239,11 +214,9 @@ fn share_body<R: Real>(
         (R::load(levels, i) + share.scale(level)).store(levels, i);
     }
 }
-for_each_simd!(fn share_values(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &Jets, steepness: &Jets, shares: &mut Jets, levels: &mut Jets) = share_body::<f32>);
-for_each_simd!(fn share_exact(n: usize, places: &Places<f64>, step: [i32; 3], seed: u32, jitter: f32, first: &Jets<f64>, steepness: &Jets<f64>, shares: &mut Jets<f64>, levels: &mut Jets<f64>) = share_body::<f64>);
-for_each_simd!(fn share_gradients(n: usize, places: &Places, step: [i32; 3], seed: u32, jitter: f32, first: &Jets, steepness: &Jets, shares: &mut Jets, levels: &mut Jets) = share_body::<Jet>);
+for_each_simd!(fn share<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &Jets<R::S>, steepness: &Jets<R::S>, shares: &mut Jets<R::S>, levels: &mut Jets<R::S>) = share_body);
 
-/// The mean level of the plates by their shares; the nearest plate's share is one, so the sum is never zero.
+/// The mean level of the plates, weighted by their shares. The nearest plate's share is 1, so the sum is never 0.
 #[inline(always)]
 fn level_body<R: Real>(n: usize, frequency: f32, shares: &Jets<R::S>, levels: &Jets<R::S>, height: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
@@ -251,9 +224,7 @@ fn level_body<R: Real>(n: usize, frequency: f32, shares: &Jets<R::S>, levels: &J
         level.chain(level.value(), R::S::from_f32(frequency)).store(height, i);
     }
 }
-for_each_simd!(fn level_values(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) = level_body::<f32>);
-for_each_simd!(fn level_exact(n: usize, frequency: f32, shares: &Jets<f64>, levels: &Jets<f64>, height: &mut Jets<f64>) = level_body::<f64>);
-for_each_simd!(fn level_gradients(n: usize, frequency: f32, shares: &Jets, levels: &Jets, height: &mut Jets) = level_body::<Jet>);
+for_each_simd!(fn level<R: Real>(n: usize, frequency: f32, shares: &Jets<R::S>, levels: &Jets<R::S>, height: &mut Jets<R::S>) = level_body);
 
 /// Cracks along the borders.
 #[inline(always)]
@@ -270,9 +241,7 @@ fn crack_body<R: Real>(
         crack.chain(crack.value(), R::S::from_f32(frequency)).store(height, i);
     }
 }
-for_each_simd!(fn crack_values(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) = crack_body::<f32>);
-for_each_simd!(fn crack_exact(n: usize, frequency: f32, width: f32, first: &Jets<f64>, second: &Jets<f64>, height: &mut Jets<f64>) = crack_body::<f64>);
-for_each_simd!(fn crack_gradients(n: usize, frequency: f32, width: f32, first: &Jets, second: &Jets, height: &mut Jets) = crack_body::<Jet>);
+for_each_simd!(fn crack<R: Real>(n: usize, frequency: f32, width: f32, first: &Jets<R::S>, second: &Jets<R::S>, height: &mut Jets<R::S>) = crack_body);
 
 /// Domes around the centres.
 #[inline(always)]
@@ -282,9 +251,7 @@ fn swell_body<R: Real>(n: usize, frequency: f32, first: &Jets<R::S>, height: &mu
         dome.chain(dome.value(), R::S::from_f32(frequency)).store(height, i);
     }
 }
-for_each_simd!(fn swell_values(n: usize, frequency: f32, first: &Jets, height: &mut Jets) = swell_body::<f32>);
-for_each_simd!(fn swell_exact(n: usize, frequency: f32, first: &Jets<f64>, height: &mut Jets<f64>) = swell_body::<f64>);
-for_each_simd!(fn swell_gradients(n: usize, frequency: f32, first: &Jets, height: &mut Jets) = swell_body::<Jet>);
+for_each_simd!(fn swell<R: Real>(n: usize, frequency: f32, first: &Jets<R::S>, height: &mut Jets<R::S>) = swell_body);
 
 #[cfg(test)]
 mod tests {

@@ -1,8 +1,8 @@
-//! Continents and oceans: warped fractal noise put through a hypsometric curve, which gives each part of the globe its
+//! Continents and oceans: warped fractal noise mapped by a hypsometric curve, which gives each part of the globe its
 //! share of the surface: abyssal plain, continental rise and slope, shelf, coastal plain, interior.
 //!
-//! A globe holds few continents, so the shares of the bare noise differ much from seed to seed. The curve is therefore
-//! laid through quantiles of this very noise, taken at points spread evenly over the sphere when it is compiled.
+//! A globe holds few continents, so the shares of the noise itself differ much from seed to seed. The curve is
+//! therefore fitted to quantiles of this very noise, measured at compilation at points spread evenly over the sphere.
 
 use super::curve::Curve;
 use super::fbm::{LEAST_POINTS, add_octaves};
@@ -11,22 +11,23 @@ use super::varying::{Around, Point};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::noise::CHUNK;
+use crate::terrain::lane::CHUNK;
 use crate::terrain::points::Points;
 use crate::terrain::simd::Simd;
 use glam::DVec3;
 
-/// Points at which the noise is measured.
-const SURVEY: usize = 8 * CHUNK;
+/// Points at which the noise is measured. Presets in use depend on it.
+const SURVEY: usize = 2048;
 
-/// The warp's coarsest wavelength against that of the continents, and how many octaves it has.
+/// The coarsest wavelength of the warp in wavelengths of the continents, and its octaves.
 const WARP_WAVELENGTH: f64 = 0.5;
 const WARP_OCTAVES: u32 = 4;
 
-/// How many of the coarsest octaves are warped. In finer ones the warp would show as a grain, drawn out all one way.
+/// How many octaves, the coarsest, are warped. In finer ones the warp would show as grain in one direction.
 const WARPED_OCTAVES: usize = 4;
 
-/// Weight of the octaves that f32 is enough for: the profile is several times steeper than the noise.
+/// Greatest total weight of the octaves that are evaluated in f32. The profile is several times steeper than the
+/// noise.
 const REST: f64 = 0.03;
 
 /// Height of the edge of the shelf.
@@ -36,8 +37,8 @@ const SHELF_EDGE: f64 = -0.05;
 pub(crate) struct Continents {
     warp: Warp,
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     curve: Curve,
 }
 
@@ -48,7 +49,7 @@ impl Continents {
         let octaves = series(seed, frequency, octaves, gain, lacunarity);
         let mut continents = Self {
             warp: Warp::new(seed, frequency / WARP_WAVELENGTH, WARP_OCTAVES, warp / frequency),
-            exact: arithmetic.exact_of(&octaves, REST),
+            f64_octaves: arithmetic.f64_octaves(&octaves, REST),
             octaves,
             curve: Curve::new(&[]),
         };
@@ -56,7 +57,7 @@ impl Continents {
         continents
     }
 
-    /// The noise before the curve, in order, at points spread evenly over the sphere.
+    /// The noise before the curve at points spread evenly over the sphere, sorted.
     fn survey(&self) -> Vec<f64> {
         let points = Points::new(spread(SURVEY));
         let mut scratch = Box::<Scratch>::default();
@@ -65,7 +66,7 @@ impl Continents {
             let range = start..(start + CHUNK).min(SURVEY);
             let n = range.len();
             let chunk = Chunk {
-                // The same bits on every set.
+                // Every set has the same bits.
                 simd: Simd::detect(),
                 skewed: [&points.x[range.clone()], &points.y[range.clone()], &points.z[range.clone()]],
                 dirs: &points.dirs[range],
@@ -83,14 +84,14 @@ impl Continents {
     fn add_noise(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, displaced, .. } = scratch;
         let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
-        self.warp.add_octaves(coarse, self.exact, chunk, noise, displaced, sums);
-        add_octaves(fine, self.exact.saturating_sub(coarse.len()), chunk, LEAST_POINTS, noise, sums);
+        self.warp.add_octaves(coarse, self.f64_octaves, chunk, noise, displaced, sums);
+        add_octaves(fine, self.f64_octaves.saturating_sub(coarse.len()), chunk, LEAST_POINTS, noise, sums);
     }
 }
 
 /// Directions spread evenly over the sphere: a Fibonacci lattice.
 fn spread(count: usize) -> Vec<DVec3> {
-    // Turns by the golden angle.
+    // The golden angle.
     const TURN_RAD: f64 = 2.399_963_229_728_653;
     (0..count)
         .map(|i| {
@@ -102,7 +103,7 @@ fn spread(count: usize) -> Vec<DVec3> {
         .collect()
 }
 
-/// Knots of the curve: noise and height. `land` is a share of the surface, `shelf` one of the sea floor.
+/// Knots of the curve: noise and height. `land` is a share of the surface, `shelf` a share of the sea floor.
 fn hypsometry(sorted: &[f64], land: f64, shelf: f64) -> Vec<(f64, f64)> {
     let sea = 1.0 - land;
     // Continental slope and rise.
@@ -119,7 +120,7 @@ fn hypsometry(sorted: &[f64], land: f64, shelf: f64) -> Vec<(f64, f64)> {
         (sea + land * 0.9, 0.5),
         (1.0, 1.0),
     ];
-    // Quantiles may coincide where the noise has no octave to tell points apart; knots must not.
+    // Quantiles may coincide where the octaves are too coarse to tell points apart; knots must not.
     let mut last = f64::MIN;
     knots
         .iter()
@@ -130,7 +131,7 @@ fn hypsometry(sorted: &[f64], land: f64, shelf: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// The value below which a share of the sorted values lies.
+/// The value below which this share of the sorted values lies.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = (share * sorted.len() as f64 - 0.5).clamp(0.0, (sorted.len() - 1) as f64);
     let below = place as usize;
@@ -151,7 +152,7 @@ impl Evaluate for Continents {
         let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
         let around = Around { dir_planet, angle_rad };
         let (low, high) = (self.warp.near(around).0.sum(coarse) + Point::new(around).sum(fine)).range();
-        // The curve only rises.
+        // The curve rises everywhere.
         (self.curve.at(low).0 - 1e-9, self.curve.at(high).0 + 1e-9)
     }
 

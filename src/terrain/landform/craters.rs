@@ -1,63 +1,67 @@
 //! Craters of many sizes: bowls with a raised rim, scattered without storing any.
 //!
-//! Space is cut into cells; each holds one jittered centre. Only centres near the sphere's surface count, the fainter
-//! the farther they lie off it. Jitter, reach and thickness are chosen so that a crater can only be felt in the eight
-//! cells nearest to a point: whatever point asks, it looks at every crater that reaches it.
+//! Space is divided into cells with one jittered centre each. Only centres near the sphere's surface make a crater,
+//! fainter with distance from the surface. Jitter, reach and thickness are limited so that a crater lies within the
+//! eight cells nearest to any point that it reaches.
 //!
-//! The widest craters may have the flat floor and the central peak of large impacts, and each crater its own age: worn
-//! ones are shallow dishes without a rim. Numbers may follow the power law that moons show.
+//! The widest craters may have the flat floor and central peak of large impacts. Each crater has its own age: worn
+//! ones are shallow dishes without a rim. Counts may follow a power law, as on moons.
 
 mod near;
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::{Arithmetic, Chunk, Evaluate, Scratch};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
-use crate::terrain::jet::{Jet, Jets, Real, Scalar};
-use crate::terrain::noise::{self, CHUNK, Octave};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::scalar::Scalar;
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Octave};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Weight of the sizes that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.56;
-/// Most radius of a crater, in cells.
+/// Greatest radius of a crater, in cells.
 const RADIUS: f32 = 0.45;
-/// Most reach of the ejecta, in crater radii.
+/// Greatest reach of the ejecta, in crater radii.
 const REACH: f32 = 1.6;
 /// Radius of the central peak, in crater radii.
 const PEAK: f32 = 0.28;
-/// Radius of the dish that a crater wears down to, in crater radii, and its depth.
+/// Radius (in crater radii) and depth of the dish that a crater wears down to.
 const DISH: f32 = 1.3;
 const DISH_DEPTH: f32 = 0.7;
-/// How much of its depth a crater loses with age.
+/// Share of its depth that a crater loses with age.
 const FILLED: f32 = 0.75;
-/// Centres up to this far off the surface count, in cells. sqrt((RADIUS * REACH)^2 + THICKNESS^2) + 0.2 (jitter) < 1.
+/// Greatest distance of a centre from the surface, in cells. sqrt((RADIUS * REACH)^2 + THICKNESS^2) + 0.2 (jitter) <
+/// 1.
 const THICKNESS: f32 = 0.34;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Craters {
     sizes: Vec<Size>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
 }
 
 /// The craters of one octave.
 #[derive(Clone, Debug, PartialEq)]
 struct Size {
-    /// One lattice, whose layers show as bands where they lie along the ground; or two, one in the gaps of the other.
+    /// One lattice, or two with one in the gaps of the other: the layers of a single lattice show as bands where they
+    /// are parallel to the ground.
     lattices: Vec<Octave>,
     weight: f32,
     mould: Mould,
 }
 
-/// What the craters of one octave are like.
+/// The form of the craters of one octave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Mould {
     /// Share of cells that hold a crater.
     density: f32,
-    /// Whether the sizes within the octave follow a power law: the widest over this one is then
-    /// `1 + a u + b u^2`, with `u` random.
+    /// Whether sizes within the octave follow a power law: the ratio of the widest to a crater is then `1 + a u + b
+    /// u^2`, with `u` random and `spread` = [a, b].
     power: bool,
     spread: [f32; 2],
     rim: f32,
@@ -73,11 +77,12 @@ impl Craters {
         let planet::Craters { diameter_km, octaves, gain, lacunarity, power, density, .. } = *params;
         // The widest crater is 0.9 cells across.
         let octaves = series(seed, 0.9 * radius_km / diameter_km, octaves, gain, lacunarity);
-        // Cells of equal density make the power 2; any other comes from the densities, until every cell is full.
+        // Equal densities in all octaves make a power of 2; other powers change the density from octave to octave,
+        // until every cell is full.
         let excess = if power > 0.0 { power - 2.0 } else { 0.0 };
         let sizes = octaves.into_iter().enumerate().map(|(i, Weighted { octave, weight })| {
             let density = (density * libm::pow(lacunarity, excess * i as f64)).min(1.0);
-            // Large impacts collapse: all of it at half the widest diameter, none at a tenth.
+            // Large impacts collapse: fully at half the widest diameter, not at all at a tenth.
             let collapse = ((libm::pow(lacunarity, -(i as f64)) - 0.1) / 0.4).clamp(0.0, 1.0);
             let gaps = Octave {
                 offset: octave.offset.map(|offset| offset + 0.5),
@@ -88,7 +93,7 @@ impl Craters {
             Size { lattices, weight, mould: Mould::new(params, density, collapse) }
         });
         let sizes: Vec<Size> = sizes.collect();
-        Self { exact: arithmetic.exact(sizes.iter().map(|size| size.weight), REST), sizes }
+        Self { f64_octaves: arithmetic.f64_count(sizes.iter().map(|size| size.weight), REST), sizes }
     }
 }
 
@@ -104,7 +109,7 @@ impl Mould {
 
     fn new(params: &planet::Craters, density: f64, collapse: f64) -> Self {
         let planet::Craters { lacunarity, power, rim, ejecta, floor, peak, age, fresh, .. } = *params;
-        // The inverse of the cumulative count, met at its ends and its middle.
+        // Matches the inverse of the cumulative count at its ends and its middle.
         let middle = libm::pow(0.5 + 0.5 * libm::pow(lacunarity, power), 1.0 / power.max(0.01));
         let spread = [4.0 * middle - lacunarity - 3.0, 2.0 * lacunarity - 4.0 * middle + 2.0];
         Self {
@@ -120,12 +125,12 @@ impl Mould {
         }
     }
 
-    /// Height (-1, the floor, to the rim) and slope of a crater at so many radii from its middle.
-    /// `random` is from 0 to 1.
+    /// Height (-1 at the floor, up to the rim) and slope of a crater at a distance from its middle in radii. `random`
+    /// is 0 to 1.
     #[inline(always)]
     fn profile<S: Scalar>(self, r: S, random: f32) -> (S, S) {
         let (of, zero, one, two) = (S::from_f32, S::of(0.0), S::of(1.0), S::of(2.0));
-        // A flat floor and a bowl up to the rim, then ejecta that run out.
+        // A flat floor and a bowl up to the rim, then ejecta that thin out.
         let inside = r < one;
         let widen = of(1.0 / (1.0 - self.floor));
         let bowl = ((r - of(self.floor)) * widen).max(zero);
@@ -166,53 +171,51 @@ impl Evaluate for Craters {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, jets: [craters, ..], wide, .. } = scratch;
-        let n = chunk.len();
-        let mut places = <Places>::default();
-        for (k, Size { lattices, weight, mould }) in self.sizes.iter().enumerate() {
-            let frequency = lattices[0].frequency;
-            let fades = chunk.fades(1.0 / frequency, LEAST_POINTS);
+        let Scratch { sums, jets: [craters, ..], places, in_f64, .. } = scratch;
+        for (k, size) in self.sizes.iter().enumerate() {
+            let weight = size.weight;
+            let fades = chunk.fades(1.0 / size.lattices[0].frequency, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
-            let exact = k < chunk.exact(self.exact);
-            if exact {
-                let mut places = Places::<f64>::default();
-                let [craters, ..] = &mut wide.jets;
-                craters.fill(n, 0.0);
-                for octave in lattices {
-                    places.find_exact(chunk.simd, chunk.skewed, octave);
-                    for corner in CORNERS {
-                        dig_exact(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
-                    }
-                }
-                settle_exact(chunk.simd, n, frequency as f32, craters);
-                sums.add_exact(chunk, &craters.value, f64::from(*weight));
-                if fades.is_unseen() {
+            let unseen = fades.is_unseen();
+            let is_f64 = k < chunk.f64_octaves(self.f64_octaves);
+            if is_f64 {
+                let Scratch64 { jets: [craters, ..], places, .. } = in_f64;
+                size.evaluate::<f64>(chunk, places, craters);
+                sums.add_f64(chunk, &craters.value, f64::from(weight));
+                if unseen {
                     continue;
                 }
             }
-            let dig = if fades.is_unseen() { dig_values } else { dig_gradients };
-            let settle = if fades.is_unseen() { settle_values } else { settle_gradients };
-            craters.fill(n, 0.0);
-            for octave in lattices {
-                places.find(chunk.simd, chunk.skewed, octave);
-                for corner in CORNERS {
-                    dig(chunk.simd, n, &places, corner, octave.seed, *mould, craters);
-                }
-            }
-            settle(chunk.simd, n, frequency as f32, craters);
-            if exact {
-                sums.add_gradients(chunk, &craters.gradient, *weight, &fades);
+            let evaluate = if unseen { Size::evaluate::<f32> } else { Size::evaluate::<Jet> };
+            evaluate(size, chunk, places, craters);
+            if is_f64 {
+                sums.add_gradients(chunk, &craters.gradient, weight, &fades);
             } else {
-                sums.add(chunk, &craters.value, &craters.gradient, *weight, &fades);
+                sums.add(chunk, &craters.value, &craters.gradient, weight, &fades);
             }
         }
     }
 }
 
-/// Adds the craters of one cell of the eight: one loop for each cell, as the compiler makes vectors
-/// of innermost loops alone.
+impl Size {
+    /// The height of all craters of the octave.
+    fn evaluate<R: Real>(&self, chunk: &Chunk<'_>, places: &mut Places<R::S>, craters: &mut Jets<R::S>) {
+        let (simd, n) = (chunk.simd, chunk.len());
+        craters.fill(n, R::S::default());
+        for octave in &self.lattices {
+            places.find(simd, chunk.skewed, octave);
+            for corner in CORNERS {
+                dig::<R>(simd, n, places, corner, octave.seed, self.mould, craters);
+            }
+        }
+        settle::<R>(simd, n, self.lattices[0].frequency as f32, craters);
+    }
+}
+
+/// Adds the craters of one of the eight cells: a loop for each cell, because the compiler vectorises only innermost
+/// loops.
 #[inline(always)]
 fn dig_body<R: Real>(
     n: usize,
@@ -234,11 +237,10 @@ fn dig_body<R: Real>(
         (R::load(craters, i) + crater).store(craters, i);
     }
 }
-for_each_simd!(fn dig_values(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<f32>);
-for_each_simd!(fn dig_exact(n: usize, places: &Places<f64>, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets<f64>) = dig_body::<f64>);
-for_each_simd!(fn dig_gradients(n: usize, places: &Places, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets) = dig_body::<Jet>);
+for_each_simd!(fn dig<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], seed: u32, mould: Mould, craters: &mut Jets<R::S>) = dig_body);
 
-/// Overlapping craters dig no deeper than one; and gradients by the lattice become gradients by the direction.
+/// Limits the depth of overlapping craters to that of one; gradients by the lattice become gradients by the
+/// direction.
 #[inline(always)]
 fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets<R::S>) {
     for i in 0..n.min(CHUNK) {
@@ -248,12 +250,10 @@ fn settle_body<R: Real>(n: usize, frequency: f32, craters: &mut Jets<R::S>) {
         sum.chain(v.clamp(-one, one), slope).store(craters, i);
     }
 }
-for_each_simd!(fn settle_values(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<f32>);
-for_each_simd!(fn settle_exact(n: usize, frequency: f32, craters: &mut Jets<f64>) = settle_body::<f64>);
-for_each_simd!(fn settle_gradients(n: usize, frequency: f32, craters: &mut Jets) = settle_body::<Jet>);
+for_each_simd!(fn settle<R: Real>(n: usize, frequency: f32, craters: &mut Jets<R::S>) = settle_body);
 
-/// Height and gradient by the lattice coordinates of a crater whose centre lies `to` from a point with unit direction
-/// `dir`. `random` decides whether it is there, its size and its age.
+/// Height and gradient by lattice coordinates of the crater whose centre is at `to` from a point with unit direction
+/// `dir`. `random` decides whether it exists, its size and its age.
 #[inline(always)]
 fn crater<R: Real>(to: [R::S; 3], dir: [R::S; 3], random: u32, mould: Mould) -> R {
     let of = R::S::of;
@@ -290,7 +290,7 @@ mod tests {
         }
     }
 
-    /// Counts above a diameter go with its power, within an octave and from one to the next.
+    /// Counts above a diameter follow its power, within an octave and from one to the next.
     #[test]
     fn counts_follow_the_power_law() {
         let Craters { sizes, .. } = Craters::new(&moon(), 7, 1740.0, Arithmetic::Fine);
@@ -308,7 +308,7 @@ mod tests {
             counts.sum()
         };
         let widest = 1.0 / sizes[0].lattices[0].frequency;
-        // No crater is wider than the widest, which takes their count off the endless power law.
+        // No crater is wider than the widest: their count is missing from the endless power law.
         for diameter in [0.8, 0.6, 0.5, 0.4, 0.25, 0.15] {
             let count = above(widest * diameter) / above(widest * 0.5);
             let law = (f64::powf(diameter, -2.4) - 1.0) / (f64::powf(0.5, -2.4) - 1.0);

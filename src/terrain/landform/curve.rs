@@ -1,7 +1,7 @@
-//! A smooth curve through knots that never overshoots: monotone cubic Hermite pieces (Fritsch and Butland 1984).
+//! A smooth curve through knots without overshoot: monotone cubic Hermite pieces (Fritsch and Butland 1984).
 //!
-//! Level at both ends, so that a value stays within its bounds; the curves that artists draw go on straight instead, and
-//! stand with the heights that they bend.
+//! It is level at both ends, so that values stay within its bounds. The curves that artists draw (`height::curve`)
+//! are linear beyond their ends.
 
 /// Knots in order, with the slope at each; constant beyond the ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ impl Curve {
             let [before, here, after] = [knots[i - 1], knots[i], knots[i + 1]];
             let (width, next_width) = (here.x - before.x, after.x - here.x);
             let (rise, next_rise) = ((here.y - before.y) / width, (after.y - here.y) / next_width);
-            // The weighted harmonic mean of the rises to both sides keeps each piece monotone.
+            // The weighted harmonic mean of the slopes on both sides keeps each piece monotone.
             let share = (width + 2.0 * next_width) / (3.0 * (width + next_width));
             knots[i].slope = rise * next_rise / (share * next_rise + (1.0 - share) * rise).max(1e-300);
         }

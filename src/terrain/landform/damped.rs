@@ -1,33 +1,34 @@
-//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave divided by `1 + damping * slope^2`, where the
-//! slope is that of the octaves up to it, undamped. Octaves are raised by 1 first, so that damping pulls slopes down:
+//! Slope-damped fractal noise (Quilez, "More noise", 2008): each octave is divided by `1 + damping * slope^2`, where
+//! the slope is that of the undamped octaves up to it. Octaves are raised by 1 first, so that damping lowers slopes:
 //! peaks stand out, valleys widen.
 //!
 //! Slopes are measured along the ground, in coarsest wavelengths, so that `damping` means the same on every planet.
-//! Where the gradient is wanted too, second derivatives of the noise make it exact.
+//! Gradients take second derivatives of the noise.
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point, Varying};
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide, place, place_exact};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{self, CHUNK, Noise};
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Noise};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.07;
 
-/// Cells to the radius, and against the coarsest octave, beyond which the square of a slope
-/// would leave the range of f32.
+/// Greatest frequency in cells per radius, and relative to the coarsest octave: beyond, the square of a slope
+/// overflows f32.
 const FINEST: f64 = 1e10;
 const FINEST_TO_COARSEST: f64 = 1e12;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Damped {
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     damping: f32,
 }
 
@@ -37,7 +38,7 @@ impl Damped {
         let frequency = radius_km / wavelength_km;
         let mut octaves = series(seed, frequency, octaves, gain, lacunarity);
         octaves.retain(|o| o.octave.frequency < FINEST.min(FINEST_TO_COARSEST * frequency));
-        Self { exact: arithmetic.exact_of(&octaves, REST), octaves, damping: damping as f32 }
+        Self { f64_octaves: arithmetic.f64_octaves(&octaves, REST), octaves, damping: damping as f32 }
     }
 }
 
@@ -73,22 +74,21 @@ impl Evaluate for Damped {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [damped, px, py, pz, slope_x, slope_y, slope_z, ..], wide, .. } = scratch;
-        let Wide { noise: exact_noise, jets: [exact_damped, ex, ey, ez, exact_slope @ .., _] } = wide;
-        let [exact_slope_x, exact_slope_y, exact_slope_z] = exact_slope;
-        let exact = chunk.exact(self.exact);
+        let Scratch { sums, noise, jets: [damped, px, py, pz, slope_x, slope_y, slope_z, ..], in_f64, .. } = scratch;
+        let Scratch64 { noise: noise64, jets: [damped64, ex, ey, ez, slope_x_64, slope_y_64, slope_z_64, ..], .. } = in_f64;
+        let exact = chunk.f64_octaves(self.f64_octaves);
         let n = chunk.len();
-        place(chunk, [px, py, pz]);
+        chunk.directions([px, py, pz]);
         let (dir, slope) = ([&*px, &*py, &*pz], &mut [slope_x, slope_y, slope_z]);
         for lane in slope.iter_mut() {
             lane.fill(n, 0.0);
         }
-        let exact_slope = &mut [exact_slope_x, exact_slope_y, exact_slope_z];
+        let slope64 = &mut [slope_x_64, slope_y_64, slope_z_64];
         if exact > 0 {
-            place_exact(chunk, [ex, ey, ez]);
-            exact_slope.iter_mut().for_each(|lane| lane.fill(n, 0.0));
+            chunk.directions_f64([ex, ey, ez]);
+            slope64.iter_mut().for_each(|lane| lane.fill(n, 0.0));
         }
-        let exact_dir = [&*ex, &*ey, &*ez];
+        let dir64 = [&*ex, &*ey, &*ez];
         let Some(first) = self.octaves.first() else { return };
         let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
         for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
@@ -98,27 +98,27 @@ impl Evaluate for Damped {
                 break;
             }
             if k < exact {
-                exact_noise.gradients(chunk.simd, chunk.skewed, octave);
-                let (noise64, simd) = (&*exact_noise, chunk.simd);
-                damp_exact(simd, n, noise64, rise, self.damping, exact_dir, exact_slope, exact_damped);
-                sums.add_exact(chunk, &exact_damped.value, f64::from(*weight));
+                noise64.gradients(chunk.simd, chunk.skewed, octave);
+                let (noise64, simd) = (&*noise64, chunk.simd);
+                damp::<f64>(simd, n, noise64, rise, self.damping, dir64, slope64, damped64);
+                sums.add_f64(chunk, &damped64.value, f64::from(*weight));
                 if !fades.is_unseen() {
                     noise.curvatures(chunk.simd, chunk.skewed, octave);
-                    damp_gradients(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
+                    damp::<Jet>(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
                     sums.add_gradients(chunk, &damped.gradient, *weight, &fades);
                 }
-                for (slope, exact) in slope.iter_mut().zip(&*exact_slope) {
+                for (slope, exact) in slope.iter_mut().zip(&*slope64) {
                     slope.round_from(n, exact);
                 }
                 continue;
             }
-            // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
+            // An octave too fine for every band needs no gradient, nor do the finer ones that follow.
             if fades.is_unseen() {
                 noise.gradients(chunk.simd, chunk.skewed, octave);
-                damp_values(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
+                damp::<f32>(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
             } else {
                 noise.curvatures(chunk.simd, chunk.skewed, octave);
-                damp_gradients(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
+                damp::<Jet>(chunk.simd, n, noise, rise, self.damping, dir, slope, damped);
             }
             sums.add(chunk, &damped.value, &damped.gradient, *weight, &fades);
         }
@@ -127,7 +127,7 @@ impl Evaluate for Damped {
     }
 }
 
-/// Damps an octave, whose gradient times `rise` counts towards the slope.
+/// Damps one octave, whose gradient times `rise` is added to the slope.
 #[inline(always)]
 fn damp_body<R: Real>(
     n: usize,
@@ -153,6 +153,4 @@ fn damp_body<R: Real>(
         (R::noise(noise, i).plus(1.0) * along.scale(damping).plus(1.0).recip()).store(damped, i);
     }
 }
-for_each_simd!(fn damp_values(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<f32>);
-for_each_simd!(fn damp_exact(n: usize, noise: &Noise<f64>, rise: f32, damping: f32, dir: [&Jets<f64>; 3], slope: &mut [&mut Jets<f64>; 3], damped: &mut Jets<f64>) = damp_body::<f64>);
-for_each_simd!(fn damp_gradients(n: usize, noise: &Noise, rise: f32, damping: f32, dir: [&Jets; 3], slope: &mut [&mut Jets; 3], damped: &mut Jets) = damp_body::<Jet>);
+for_each_simd!(fn damp<R: Real>(n: usize, noise: &Noise<R::S>, rise: f32, damping: f32, dir: [&Jets<R::S>; 3], slope: &mut [&mut Jets<R::S>; 3], damped: &mut Jets<R::S>) = damp_body);

@@ -1,47 +1,49 @@
 //! Dunes: phasor noise (Tricard et al. 2019), waves that run with the wind.
 //!
-//! Jittered points in 3D cells each send out a wave `e^iθ` along the wind at their own place, faded with distance.
-//! Their sum is a complex number whose angle is a phase without seam, and a profile drawn over that phase has
-//! crests of equal height that fork and end as those of real dunes do. Where the sum is zero the phase is
-//! undefined; dunes run out before that.
+//! Jittered points in 3D cells each emit a wave `e^iθ` along the wind at the point, which fades with distance. The
+//! angle of the complex sum is a phase without seams. A profile over that phase has crests of equal height that fork
+//! and end as those of real dunes do. Where the sum is 0 the phase is undefined; dunes fade out before.
 //!
-//! Points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread evenly.
-//! Reach and jitter are such that a wave is felt in the eight cells of its lattice nearest to a point and no others.
+//! The points stand in two lattices of cubes, one in the gaps of the other (body-centred), so that they are spread
+//! evenly. Reach and jitter are limited so that a wave reaches only the eight cells of its lattice nearest to a
+//! point.
 
 mod near;
 
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
 use super::varying::Around;
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
+use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::approx;
-use crate::terrain::jet::{Jet, Jets, Real, Scalar};
-use crate::terrain::noise::{self, CHUNK, Noise, Octave};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::scalar::Scalar;
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::f32::consts::TAU;
 
-/// Weight of the sizes that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.2;
-/// Wavelengths to a cell: more makes longer, straighter crests.
+/// Wavelengths per cell: more make longer, straighter crests.
 const WAVES: f32 = 2.2;
-/// How far a wave reaches, in cells.
+/// Reach of a wave, in cells.
 const REACH: f32 = 0.75;
-/// How far points stand from their cells' centres along each axis, in cells. REACH + JITTER <= 1.
+/// Greatest distance of a point from the centre of its cell along each axis, in cells. REACH + JITTER <= 1.
 const JITTER: f32 = 0.25;
-/// The square of the sum at which dunes have half their height; on average it is about 0.24.
+/// The squared sum at which dunes have half their height; its mean is about 0.24.
 const FAINT: f32 = 0.03;
-/// Wavelengths to a cell of the noise that bends the crests.
+/// Wavelengths per cell of the noise that bends the crests.
 const BENDS: f64 = 3.0;
-/// Points for each wavelength from which on dunes show in full.
+/// Points per wavelength at which dunes show in full.
 const LEAST_POINTS: f64 = 4.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Dunes {
     sizes: Vec<Size>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     wind: Wind,
     profile: Profile,
     /// How far noise bends the crests, in wavelengths.
@@ -57,7 +59,7 @@ struct Size {
     weight: f32,
 }
 
-/// The heading the wind blows to: its parts to the east and north.
+/// The heading that the wind blows to: its east and north components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Wind {
     east: f32,
@@ -65,7 +67,7 @@ struct Wind {
 }
 
 impl Wind {
-    /// Its direction at a place. At the very pole it blows nowhere.
+    /// Its direction at a point; 0 at the poles.
     #[inline(always)]
     fn at<S: Scalar>(self, [x, y, z]: [S; 3]) -> [S; 3] {
         let flat = x * x + y * y;
@@ -98,7 +100,7 @@ impl Dunes {
             .collect();
         let (east, north) = libm::sincos(wind_deg.to_radians());
         Self {
-            exact: arithmetic.exact(sizes.iter().map(|size| size.weight), REST),
+            f64_octaves: arithmetic.f64_count(sizes.iter().map(|size| size.weight), REST),
             sizes,
             wind: Wind { east: east as f32, north: north as f32 },
             profile: Profile::new(asymmetry as f32),
@@ -125,51 +127,32 @@ impl Evaluate for Dunes {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [re, im, dunes, ..], wide, .. } = scratch;
-        let (simd, n) = (chunk.simd, chunk.len());
-        let mut places = <Places>::default();
+        let Scratch { sums, noise, jets, places, in_f64, .. } = scratch;
         for (k, size) in self.sizes.iter().enumerate() {
             let fades = chunk.fades(size.wavelength_rad, LEAST_POINTS);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
-            let exact = k < chunk.exact(self.exact);
-            if exact {
-                let Wide { noise, jets: [re, im, dunes, ..] } = wide;
-                let mut places = Places::<f64>::default();
-                re.fill(n, 0.0);
-                im.fill(n, 0.0);
-                for octave in &size.lattices {
-                    places.find_exact(simd, chunk.skewed, octave);
-                    for corner in CORNERS {
-                        send_exact(simd, n, &places, corner, octave, self.wind, re, im);
-                    }
-                }
-                noise.values(simd, chunk.skewed, &size.bends);
-                pile_exact(simd, n, re, im, noise, self.waviness, self.profile, dunes);
-                sums.add_exact(chunk, &dunes.value, f64::from(size.weight));
+            let is_f64 = k < chunk.f64_octaves(self.f64_octaves);
+            if is_f64 {
+                let Scratch64 { noise, jets, places, .. } = in_f64;
+                noise.values(chunk.simd, chunk.skewed, &size.bends);
+                let dunes = self.octave::<f64>(chunk, size, noise, places, jets);
+                sums.add_f64(chunk, &dunes.value, f64::from(size.weight));
                 if unseen {
                     continue;
                 }
             }
-            let send = if unseen { send_values } else { send_gradients };
-            re.fill(n, 0.0);
-            im.fill(n, 0.0);
-            for octave in &size.lattices {
-                places.find(simd, chunk.skewed, octave);
-                for corner in CORNERS {
-                    send(simd, n, &places, corner, octave, self.wind, re, im);
-                }
-            }
-            if unseen {
-                noise.values(simd, chunk.skewed, &size.bends);
-                pile_values(simd, n, re, im, noise, self.waviness, self.profile, dunes);
+            let evaluate = if unseen {
+                noise.values(chunk.simd, chunk.skewed, &size.bends);
+                Self::octave::<f32>
             } else {
-                noise.gradients(simd, chunk.skewed, &size.bends);
-                pile_gradients(simd, n, re, im, noise, self.waviness, self.profile, dunes);
-            }
-            if exact {
+                noise.gradients(chunk.simd, chunk.skewed, &size.bends);
+                Self::octave::<Jet>
+            };
+            let dunes = evaluate(self, chunk, size, noise, places, jets);
+            if is_f64 {
                 sums.add_gradients(chunk, &dunes.gradient, size.weight, &fades);
             } else {
                 sums.add(chunk, &dunes.value, &dunes.gradient, size.weight, &fades);
@@ -178,17 +161,42 @@ impl Evaluate for Dunes {
     }
 }
 
-/// What the point of one cell sends out.
+impl Dunes {
+    /// The height of dunes of one size, whose crests the noise bends.
+    fn octave<'j, R: Real>(
+        &self,
+        chunk: &Chunk<'_>,
+        size: &Size,
+        bends: &Noise<R::S>,
+        places: &mut Places<R::S>,
+        jets: &'j mut [Jets<R::S>; JETS],
+    ) -> &'j Jets<R::S> {
+        let [re, im, dunes, ..] = jets;
+        let (simd, n) = (chunk.simd, chunk.len());
+        re.fill(n, R::S::default());
+        im.fill(n, R::S::default());
+        for octave in &size.lattices {
+            places.find(simd, chunk.skewed, octave);
+            for corner in CORNERS {
+                send::<R>(simd, n, places, corner, octave, self.wind, re, im);
+            }
+        }
+        pile::<R>(simd, n, re, im, bends, self.waviness, self.profile, dunes);
+        dunes
+    }
+}
+
+/// The wave that the point of one cell emits.
 struct Wave<S> {
-    /// Where it stands, in cells from the point that asks.
+    /// Vector from the evaluated point to it, in cells.
     to: [S; 3],
-    /// The wind there.
+    /// Direction of the wind there.
     along: [S; 3],
     /// Its phase there, in turns.
     start: S,
 }
 
-/// The wave out of one cell around the `i`th point.
+/// The wave of one cell around the `i`th point.
 #[inline(always)]
 fn wave<S: Scalar>(places: &Places<S>, corner: [i32; 3], octave: &Octave, wind: Wind, i: usize) -> Wave<S> {
     let (low, span) = (S::from_f32(0.5 - JITTER), S::from_f32(2.0 * JITTER));
@@ -202,7 +210,7 @@ fn wave<S: Scalar>(places: &Places<S>, corner: [i32; 3], octave: &Octave, wind: 
     Wave { to, along, start: unit(noise::scramble(random)) }
 }
 
-/// Adds the waves that the points of one cell of the eight send out, to the real and the imaginary part.
+/// Adds the waves of one of the eight cells to the real and the imaginary part.
 #[inline(always)]
 fn send_body<R: Real>(
     n: usize,
@@ -234,11 +242,9 @@ fn send_body<R: Real>(
         (R::load(im, i) + part(sin, cos)).store(im, i);
     }
 }
-for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<f32>);
-for_each_simd!(fn send_exact(n: usize, places: &Places<f64>, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets<f64>, im: &mut Jets<f64>) = send_body::<f64>);
-for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets, im: &mut Jets) = send_body::<Jet>);
+for_each_simd!(fn send<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets<R::S>, im: &mut Jets<R::S>) = send_body);
 
-/// The height of dunes from the sum of waves and the noise that bends them.
+/// The height of dunes, from the sum of waves and the noise that bends them.
 #[inline(always)]
 fn pile_body<R: Real>(
     n: usize,
@@ -257,16 +263,14 @@ fn pile_body<R: Real>(
         (profile.height(phase) * strength).plus(-1.0).store(dunes, i);
     }
 }
-for_each_simd!(fn pile_values(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<f32>);
-for_each_simd!(fn pile_exact(n: usize, re: &Jets<f64>, im: &Jets<f64>, bends: &Noise<f64>, waviness: f32, profile: Profile, dunes: &mut Jets<f64>) = pile_body::<f64>);
-for_each_simd!(fn pile_gradients(n: usize, re: &Jets, im: &Jets, bends: &Noise, waviness: f32, profile: Profile, dunes: &mut Jets) = pile_body::<Jet>);
+for_each_simd!(fn pile<R: Real>(n: usize, re: &Jets<R::S>, im: &Jets<R::S>, bends: &Noise<R::S>, waviness: f32, profile: Profile, dunes: &mut Jets<R::S>) = pile_body);
 
-/// The section of a dune along the wind.
+/// The cross-section of a dune along the wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Profile {
     /// Share of the wavelength that faces the wind.
     windward: f32,
-    /// How sharply the lee breaks off at the crest: 0 is as round as the windward side.
+    /// Sharpness of the crest on the lee side: at 0 it is as round as the windward side.
     brink: f32,
 }
 
@@ -275,8 +279,7 @@ impl Profile {
         Self { windward: 0.5 + 0.3 * asymmetry, brink: asymmetry }
     }
 
-    /// The height over the trough, 0 to 2, at a phase in turns. The windward side rises from trough
-    /// to crest, the lee falls.
+    /// The height over the trough, 0 to 2, at a phase in turns: the windward side rises to the crest, the lee falls.
     #[inline(always)]
     fn height<R: Real>(self, phase: R) -> R {
         let (height, slope) = self.section(phase.value());
@@ -294,7 +297,7 @@ impl Profile {
         let run = S::from_f32(if up { 1.0 / self.windward } else { -1.0 / (1.0 - self.windward) });
         let s = (if up { t * run } else { (t - one) * run }).clamp(zero, one);
         let round = S::from_f32(1.0 - if up { 0.0 } else { self.brink });
-        // From round, s^2 (3 - 2 s), to broken off, s^2.
+        // From round, s^2 (3 - 2 s), to sharp, s^2.
         let height = two * s * s * (one + round * two * (one - s));
         let slope = of(4.0) * s * (one + round * (two - of(3.0) * s));
         (height, slope * run)
@@ -308,7 +311,7 @@ mod tests {
     use super::*;
     use crate::sphere::geo::east_north;
 
-    /// With the wind the ground rises gently for most of the way and falls steeply.
+    /// With the wind the ground rises gently most of the way and falls steeply.
     #[test]
     fn the_lee_is_steep_and_lies_where_the_wind_blows_to() {
         for heading_deg in [0.0, 90.0, 200.0] {

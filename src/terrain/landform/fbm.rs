@@ -7,17 +7,17 @@ use crate::planet;
 use crate::terrain::noise::{self, Noise};
 use glam::DVec3;
 
-/// Points for each lattice cell from which on an octave shows in full: a wave is about two cells long.
+/// Points per lattice cell at which an octave shows in full: a wave is about two cells long.
 pub(super) const LEAST_POINTS: f64 = 1.5;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 pub(super) const REST: f64 = 0.26;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fbm {
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
 }
 
 impl Fbm {
@@ -31,7 +31,7 @@ impl Fbm {
     }
 
     fn of(octaves: Vec<Weighted>, arithmetic: Arithmetic) -> Self {
-        Self { exact: arithmetic.exact_of(&octaves, REST), octaves }
+        Self { f64_octaves: arithmetic.f64_octaves(&octaves, REST), octaves }
     }
 }
 
@@ -50,15 +50,15 @@ impl Evaluate for Fbm {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, .. } = scratch;
-        add_octaves(&self.octaves, self.exact, chunk, LEAST_POINTS, noise, sums);
+        add_octaves(&self.octaves, self.f64_octaves, chunk, LEAST_POINTS, noise, sums);
     }
 }
 
-/// Adds octaves, the first `exact` of them in f64, each shown in full from `least_points` points for each lattice cell
-/// on.
+/// Adds octaves, the first `f64_octaves` of them in f64. Each shows in full from `least_points` points per lattice
+/// cell.
 pub(super) fn add_octaves(
     octaves: &[Weighted],
-    exact: usize,
+    f64_octaves: usize,
     chunk: &Chunk<'_>,
     least_points: f64,
     noise: &mut Noise,
@@ -69,10 +69,10 @@ pub(super) fn add_octaves(
         if chunk.skips(&fades) {
             break;
         }
-        if k < chunk.exact(exact) {
-            noise.add_exact(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
+        if k < chunk.f64_octaves(f64_octaves) {
+            noise.add_f64(chunk.simd, chunk.skewed, octave, f64::from(*weight), &mut sums.value);
             if !fades.is_unseen() {
-                noise.exact_gradients(chunk.simd, chunk.len(), octave);
+                noise.gradients_of_f64(chunk.simd, chunk.len(), octave);
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
             }
             continue;

@@ -1,64 +1,67 @@
-//! Gullies: mountains as running water carves them, each point by itself, after the gradient-aligned waves of Clay John
-//! (2020) and Rune Skovbo Johansen (2025).
+//! Gullies: mountains carved by running water, evaluated at each point by itself, after the gradient-aligned waves of
+//! Clay John (2020) and Rune Skovbo Johansen (2025).
 //!
-//! A smooth relief of noise is given gullies that run down its slope: in each of the jittered cells around a point
-//! stands a wave whose crests follow the slope, and their sum is a phasor (see `dunes`), the cosine of which is the
-//! gullies' height. Each finer octave runs down the slope of the relief together with the gullies before it, so that
-//! gullies branch. Ground that is flat gets none: summits keep the height of a ridge and valley floors that of a
-//! valley, and ridges and valleys of one octave stay clear of the next.
+//! Smooth noise gets gullies that run down its slope. In each of the jittered cells around a point stands a wave
+//! whose crests follow the slope; the waves sum to a phasor (see `dunes`), and the cosine of its phase is the height
+//! of the gullies. Each finer octave follows the slope of the noise together with the gullies before it, so that
+//! gullies branch. Level ground gets none: summits keep the height of a ridge and valley floors that of a bed, and
+//! each octave leaves the ridges and beds of the coarser ones free.
 //!
-//! Gradients are exact: the relief's second derivatives tell how the waves turn from place to place.
+//! Gradients take second derivatives of the noise, which tell how the waves turn from point to point.
 
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
 use super::varying::{Around, Point};
-use super::{Arithmetic, Chunk, Evaluate, Scratch};
+use super::scratch::Carving;
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::approx;
-use crate::terrain::jet::{Jet, Jets, Real, Scalar};
-use crate::terrain::noise::{self, CHUNK, Noise, Octave};
+use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::scalar::Scalar;
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::f32::consts::TAU;
 
-/// Weight of the octaves of the relief, and height of the gullies, that f32 is enough for.
+/// Greatest total weight of the noise octaves, and greatest total height of the gullies, that are evaluated in f32.
 const REST: f64 = 0.09;
-/// Gullies to a cell.
+/// Gullies per cell.
 const WAVES: f32 = 1.0;
-/// How far a wave reaches, in cells.
+/// Reach of a wave, in cells.
 const REACH: f32 = 0.8;
-/// How far the middles of waves stand from their cells' centres along each axis, in cells. REACH + JITTER <= 1.
+/// Greatest distance of a wave's centre from the centre of its cell along each axis, in cells. REACH + JITTER <= 1.
 const JITTER: f32 = 0.2;
-/// The square of the phasor below which gullies fade; where all waves agree it is about 0.4.
+/// The squared phasor below which gullies fade; where all waves agree it is about 0.4.
 const FAINT: f32 = 0.02;
-/// Depth of a gully for each unit of its width at depth 1, against the relief for each unit of wavelength.
+/// Depth of a gully per width at depth 1, in noise heights per wavelength.
 const STEEPNESS: f64 = 0.4;
-/// The slope at which ground has half its gullies, in reliefs for each unit of wavelength.
+/// The slope at which ground has half its gullies, in noise heights per wavelength.
 const FLAT: f32 = 0.35;
-/// How many times coarser than the gullies an octave of the relief must be to lead them: they cannot follow a slope
-/// that turns within their own width.
+/// Least ratio of the wavelength of a noise octave to that of the gullies for it to lead them: gullies cannot follow
+/// a slope that turns within their width.
 const COARSER: f64 = 2.5;
-/// How much gullies count in the slope that leads the next octave: less keeps the finer ones straighter.
+/// Weight of gullies in the slope that leads the next octave: less keeps finer gullies straighter.
 const BRANCH: f32 = 0.6;
-/// How round the crests are: the square of half the height that is taken off them.
+/// Roundness of the crests: the square of half the height that is taken off them.
 const ROUND: f32 = 0.004;
-/// How quickly the next octave sets in beside a crest or a valley of the one before.
+/// How quickly the next octave sets in beside a crest or bed of the one before.
 const CLEAR: f32 = 0.05;
-/// The height of the relief, up and down, that counts as summit and valley floor.
+/// The height of the noise, up and down, that counts as summit and valley floor.
 const SUMMIT: f32 = 0.6;
-/// Points for each gully from which on it shows in full.
+/// Points per gully at which it shows in full.
 const LEAST_GULLY_POINTS: f64 = 3.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Gullies {
-    relief: Vec<Weighted>,
-    /// So many of the relief's octaves are coarser than the gullies and lead them.
+    octaves: Vec<Weighted>,
+    /// How many noise octaves, the coarsest, lead the gullies.
     leading: usize,
     gullies: Vec<Carved>,
-    /// So many octaves of the relief, and so many of the gullies, are found in f64.
-    exact: [usize; 2],
-    /// Cells of the coarsest octave of the relief to the planet's radius.
+    /// How many octaves of the noise, and how many of the gullies, are evaluated in f64.
+    f64_octaves: [usize; 2],
+    /// Cells of the coarsest noise octave per planet radius.
     frequency: f64,
 }
 
@@ -66,9 +69,9 @@ pub(crate) struct Gullies {
 #[derive(Clone, Debug, PartialEq)]
 struct Carved {
     lattices: [Octave; 2],
-    /// Height of its ridges over the middle.
+    /// Height of its ridges above the mean.
     height: f32,
-    /// The steepest slope of its flanks, in reliefs for each unit of wavelength.
+    /// The steepest slope of its flanks, in noise heights per wavelength.
     slope: f32,
 }
 
@@ -76,7 +79,7 @@ impl Gullies {
     pub(super) fn new(params: &planet::Gullies, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Gullies { wavelength_km, octaves, gain, lacunarity, gully_km, gully_octaves, depth } = *params;
         let frequency = radius_km / wavelength_km;
-        let relief = series(seed, frequency, octaves, gain, lacunarity);
+        let octaves = series(seed, frequency, octaves, gain, lacunarity);
         let waves = series(noise::mix(!seed), radius_km / gully_km, gully_octaves, gain, lacunarity);
         let coarsest = waves.first().map_or(1.0, |wave| f64::from(wave.weight));
         let gullies: Vec<Carved> = waves
@@ -95,18 +98,18 @@ impl Gullies {
                 }
             })
             .collect();
-        let leading = relief.iter().filter(|w| COARSER * w.octave.frequency * gully_km < radius_km).count().max(1);
-        // Gullies hang on one another and on the relief that leads them.
-        let exact = arithmetic.exact(gullies.iter().map(|gully| gully.height), REST);
-        let exact_relief = arithmetic.exact_of(&relief, REST);
-        let exact = [if exact > 0 { exact_relief.max(leading) } else { exact_relief }, exact];
-        Self { relief, leading, gullies, exact, frequency }
+        let leading = octaves.iter().filter(|w| COARSER * w.octave.frequency * gully_km < radius_km).count().max(1);
+        // Gullies depend on one another and on the noise that leads them.
+        let in_f64 = arithmetic.f64_count(gullies.iter().map(|gully| gully.height), REST);
+        let noise_in_f64 = arithmetic.f64_octaves(&octaves, REST);
+        let f64_octaves = [if in_f64 > 0 { noise_in_f64.max(leading) } else { noise_in_f64 }, in_f64];
+        Self { octaves, leading, gullies, f64_octaves, frequency }
     }
 }
 
 impl Evaluate for Gullies {
     fn octave_count(&self) -> usize {
-        self.relief.len() + self.gullies.len()
+        self.octaves.len() + self.gullies.len()
     }
 
     fn bounds(&self) -> (f64, f64) {
@@ -114,145 +117,123 @@ impl Evaluate for Gullies {
         (-bound, bound)
     }
 
-    /// The gullies may be anywhere in their range: only the relief is known better nearby.
+    /// The gullies may be anywhere in their range; only the noise has tighter bounds nearby.
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let (low, high) = Point::new(Around { dir_planet, angle_rad }).sum(&self.relief).range();
+        let (low, high) = Point::new(Around { dir_planet, angle_rad }).sum(&self.octaves).range();
         let carved = self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>() * (1.0 + 1e-5);
         (low - carved, high + carved)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, wide, .. } = scratch;
-        let exact = self.exact.map(|octaves| chunk.exact(octaves));
-        let mut exact_work = (exact[0] > 0).then(Box::<Work<f64>>::default);
+        let Scratch { sums, noise, places, carving, in_f64, .. } = scratch;
+        let Scratch64 { noise: noise64, places: places64, carving: carving64, .. } = in_f64;
+        let [noise_in_f64, gullies_in_f64] = self.f64_octaves.map(|octaves| chunk.f64_octaves(octaves));
         let (simd, n, skewed) = (chunk.simd, chunk.len(), chunk.skewed);
         let fades_of = |octave: &Octave| chunk.fades(1.0 / octave.frequency, LEAST_GULLY_POINTS * f64::from(WAVES));
         let shaded = self.gullies.first().is_some_and(|gully| !fades_of(&gully.lattices[0]).is_unseen());
-        let mut work = <Work>::default();
-        work.share.fill(n, 1.0);
-        for (i, Weighted { octave, weight }) in self.relief.iter().enumerate() {
+        // Gullies in f64 hand their state to the first in f32. Without gradients nothing reads the f32 state before.
+        let leads = shaded || gullies_in_f64 == 0;
+        carving.restart(n);
+        carving64.restart(n);
+        for (i, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
-            if i >= self.leading && chunk.skips(&fades) {
+            let is_leading = i < self.leading;
+            if !is_leading && chunk.skips(&fades) {
                 break;
             }
             let per_cell = *weight / self.frequency as f32;
-            if let Some(work) = exact_work.as_mut().filter(|_| i < exact[0]) {
-                wide.noise.gradients(simd, skewed, octave);
-                if i < self.leading {
-                    lead_exact(simd, n, &wide.noise, *weight, per_cell, work);
+            let is_f64 = i < noise_in_f64;
+            if is_f64 {
+                noise64.gradients(simd, skewed, octave);
+                if is_leading {
+                    lead::<f64>(simd, n, noise64, *weight, per_cell, carving64);
                 }
-                sums.add_exact(chunk, &wide.noise.value, f64::from(*weight));
+                sums.add_f64(chunk, &noise64.value, f64::from(*weight));
+                if fades.is_unseen() && !(is_leading && leads) {
+                    continue;
+                }
             }
-            match (i < self.leading, shaded) {
+            match (is_leading, shaded) {
                 (true, true) => {
                     noise.curvatures(simd, skewed, octave);
-                    lead_gradients(simd, n, noise, *weight, per_cell, &mut work);
+                    lead::<Jet>(simd, n, noise, *weight, per_cell, carving);
                 }
                 (true, false) => {
                     noise.gradients(simd, skewed, octave);
-                    lead_values(simd, n, noise, *weight, per_cell, &mut work);
+                    lead::<f32>(simd, n, noise, *weight, per_cell, carving);
                 }
                 (false, _) if fades.is_unseen() => noise.values(simd, skewed, octave),
                 (false, _) => noise.gradients(simd, skewed, octave),
             }
-            if i < exact[0] {
+            if is_f64 {
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);
             } else {
                 sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
             }
         }
-        settle(simd, n, &mut work);
-        if let Some(exact_work) = &mut exact_work {
-            exact_work.share.fill(n, 1.0);
-            settle_exact(simd, n, exact_work);
-        }
+        if shaded { settle::<Jet>(simd, n, carving) } else { settle::<f32>(simd, n, carving) }
+        settle::<f64>(simd, n, carving64);
         for (k, gully) in self.gullies.iter().enumerate() {
             let fades = fades_of(&gully.lattices[0]);
             if chunk.skips(&fades) {
                 break;
             }
             let unseen = fades.is_unseen();
-            let exact_work = exact_work.as_mut().filter(|_| k < exact[1]);
-            if let Some(exact_work) = exact_work {
-                carve_octave_exact(chunk, gully, exact_work);
-                sums.add_exact(chunk, &exact_work.gully.value, f64::from(gully.height));
+            let evaluate = if unseen { Carved::evaluate::<f32> } else { Carved::evaluate::<Jet> };
+            if k < gullies_in_f64 {
+                gully.evaluate::<f64>(chunk, places64, carving64);
+                sums.add_f64(chunk, &carving64.gully.value, f64::from(gully.height));
                 if !unseen {
-                    carve_octave(chunk, gully, false, &mut work);
-                    sums.add_gradients(chunk, &work.gully.gradient, gully.height, &fades);
+                    evaluate(gully, chunk, places, carving);
+                    sums.add_gradients(chunk, &carving.gully.gradient, gully.height, &fades);
                 }
-                work.round_from(n, exact_work);
+                carving.round_from(n, carving64);
                 continue;
             }
-            carve_octave(chunk, gully, unseen, &mut work);
-            sums.add(chunk, &work.gully.value, &work.gully.gradient, gully.height, &fades);
+            evaluate(gully, chunk, places, carving);
+            sums.add(chunk, &carving.gully.value, &carving.gully.gradient, gully.height, &fades);
         }
     }
 }
 
-/// Carves one octave of gullies, with gradients unless they are unseen.
-fn carve_octave(chunk: &Chunk<'_>, gully: &Carved, unseen: bool, work: &mut Work) {
-    let (simd, n) = (chunk.simd, chunk.len());
-    let turn = if unseen { turn_values } else { turn_gradients };
-    let send = if unseen { send_values } else { send_gradients };
-    let carve = if unseen { carve_values } else { carve_gradients };
-    let mut places = <Places>::default();
-    work.waves.iter_mut().for_each(|jets| jets.fill(n, 0.0));
-    for octave in &gully.lattices {
-        places.find(simd, chunk.skewed, octave);
-        turn(simd, n, &places, work);
-        for corner in CORNERS {
-            send(simd, n, &places, corner, octave, work);
+impl Carved {
+    /// Carves one octave of gullies.
+    fn evaluate<R: Real>(&self, chunk: &Chunk<'_>, places: &mut Places<R::S>, work: &mut Carving<R::S>) {
+        let (simd, n) = (chunk.simd, chunk.len());
+        work.waves.iter_mut().for_each(|jets| jets.fill(n, R::S::default()));
+        for octave in &self.lattices {
+            places.find(simd, chunk.skewed, octave);
+            turn::<R>(simd, n, places, work);
+            for corner in CORNERS {
+                send::<R>(simd, n, places, corner, octave, work);
+            }
         }
-    }
-    carve(simd, n, gully, work);
-}
-
-/// The same in f64, values alone.
-fn carve_octave_exact(chunk: &Chunk<'_>, gully: &Carved, work: &mut Work<f64>) {
-    let (simd, n) = (chunk.simd, chunk.len());
-    let mut places = Places::<f64>::default();
-    work.waves.iter_mut().for_each(|jets| jets.fill(n, 0.0));
-    for octave in &gully.lattices {
-        places.find_exact(simd, chunk.skewed, octave);
-        turn_exact(simd, n, &places, work);
-        for corner in CORNERS {
-            send_exact(simd, n, &places, corner, octave, work);
-        }
-    }
-    carve_exact(simd, n, gully, work);
-}
-
-/// What one octave hands to the next, and room to work in.
-#[derive(Default)]
-struct Work<S: Scalar = f32> {
-    /// The slope that leads the gullies, in reliefs for each cell of its coarsest octave.
-    guide: [Jets<S>; 3],
-    /// Along the ground and across the slope; the shorter, the flatter the ground.
-    side: [Jets<S>; 3],
-    /// Real and imaginary part of the sum of waves; and as their gradients, those of the sum of waves each
-    /// times the way to its middle.
-    waves: [Jets<S>; 4],
-    /// How much of the next octave there is.
-    share: Jets<S>,
-    /// The height where there is none of it.
-    target: Jets<S>,
-    gully: Jets<S>,
-}
-
-impl Work {
-    /// Takes over values that were found in f64.
-    fn round_from(&mut self, n: usize, wide: &Work<f64>) {
-        for (guide, wide) in self.guide.iter_mut().zip(&wide.guide) {
-            guide.round_from(n, wide);
-        }
-        self.share.round_from(n, &wide.share);
-        self.target.round_from(n, &wide.target);
+        carve::<R>(simd, n, self, work);
     }
 }
 
-/// Adds an octave of the relief to the slope that leads, and to the height that summits and valley floors keep.
+impl<S: Scalar> Carving<S> {
+    /// The state before the first octave: a level guide, and gullies of full depth.
+    fn restart(&mut self, n: usize) {
+        self.guide.iter_mut().chain([&mut self.target]).for_each(|jets| jets.fill(n, S::default()));
+        self.share.fill(n, S::of(1.0));
+    }
+}
+
+impl Carving {
+    /// Rounds the values of the state in f64.
+    fn round_from(&mut self, n: usize, source: &Carving<f64>) {
+        for (guide, source) in self.guide.iter_mut().zip(&source.guide) {
+            guide.round_from(n, source);
+        }
+        self.share.round_from(n, &source.share);
+        self.target.round_from(n, &source.target);
+    }
+}
+
+/// Adds a noise octave to the slope that leads, and to the height that summits and valley floors keep.
 #[inline(always)]
-fn lead_body<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32, work: &mut Work<R::S>) {
+fn lead_body<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32, work: &mut Carving<R::S>) {
     for i in 0..n.min(CHUNK) {
         let slope = R::noise_gradient(noise, i);
         for (slope, guide) in slope.into_iter().zip(&mut work.guide) {
@@ -261,24 +242,21 @@ fn lead_body<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32,
         (R::load(&work.target, i) + R::noise(noise, i).scale(weight)).store(&mut work.target, i);
     }
 }
-for_each_simd!(fn lead_values(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) = lead_body::<f32>);
-for_each_simd!(fn lead_exact(n: usize, noise: &Noise<f64>, weight: f32, per_cell: f32, work: &mut Work<f64>) = lead_body::<f64>);
-for_each_simd!(fn lead_gradients(n: usize, noise: &Noise, weight: f32, per_cell: f32, work: &mut Work) = lead_body::<Jet>);
+for_each_simd!(fn lead<R: Real>(n: usize, noise: &Noise<R::S>, weight: f32, per_cell: f32, work: &mut Carving<R::S>) = lead_body);
 
-/// From the relief's height to that of a gully's ridge (1) at summits and of its bed (-1) on valley floors.
+/// Maps the height of the noise to that of a ridge (1) on summits and of a bed (-1) on valley floors.
 #[inline(always)]
-fn settle_body<R: Real>(n: usize, work: &mut Work<R::S>) {
+fn settle_body<R: Real>(n: usize, work: &mut Carving<R::S>) {
     for i in 0..n.min(CHUNK) {
         let relief = R::load(&work.target, i);
         relief.smoothstep(-SUMMIT, SUMMIT).scale(2.0).plus(-1.0).store(&mut work.target, i);
     }
 }
-for_each_simd!(fn settle(n: usize, work: &mut Work) = settle_body::<Jet>);
-for_each_simd!(fn settle_exact(n: usize, work: &mut Work<f64>) = settle_body::<f64>);
+for_each_simd!(fn settle<R: Real>(n: usize, work: &mut Carving<R::S>) = settle_body);
 
-/// Turns the slope to the side.
+/// Finds the vector across the slope.
 #[inline(always)]
-fn turn_body<R: Real>(n: usize, places: &Places<R::S>, work: &mut Work<R::S>) {
+fn turn_body<R: Real>(n: usize, places: &Places<R::S>, work: &mut Carving<R::S>) {
     for i in 0..n.min(CHUNK) {
         let [gx, gy, gz] = [R::load(&work.guide[0], i), R::load(&work.guide[1], i), R::load(&work.guide[2], i)];
         let (on, off) = (R::S::of(1.0), R::S::of(0.0));
@@ -293,16 +271,14 @@ fn turn_body<R: Real>(n: usize, places: &Places<R::S>, work: &mut Work<R::S>) {
         (sz * shorten).store(&mut work.side[2], i);
     }
 }
-for_each_simd!(fn turn_values(n: usize, places: &Places, work: &mut Work) = turn_body::<f32>);
-for_each_simd!(fn turn_exact(n: usize, places: &Places<f64>, work: &mut Work<f64>) = turn_body::<f64>);
-for_each_simd!(fn turn_gradients(n: usize, places: &Places, work: &mut Work) = turn_body::<Jet>);
+for_each_simd!(fn turn<R: Real>(n: usize, places: &Places<R::S>, work: &mut Carving<R::S>) = turn_body);
 
-/// Adds the waves of one cell of the eight.
+/// Adds the waves of one of the eight cells.
 #[inline(always)]
-fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, work: &mut Work<R::S>) {
+fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, work: &mut Carving<R::S>) {
     let (seed, frequency, scale) = (octave.seed, R::S::of(octave.frequency), R::S::from_f32);
     let (low, span, zero) = (scale(0.5 - JITTER), scale(2.0 * JITTER), R::S::of(0.0));
-    let Work { side, waves: [re, im, re_arm, im_arm], .. } = work;
+    let Carving { side, waves: [re, im, re_arm, im_arm], .. } = work;
     for i in 0..n.min(CHUNK) {
         let (cell, step) = neighbour(places, corner, i);
         let random = noise::cell_hash(cell, seed);
@@ -313,7 +289,8 @@ fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave:
         let weight = near * near * near;
         let waves = to[0] * side[0].value[i] + to[1] * side[1].value[i] + to[2] * side[2].value[i];
         let (sin, cos) = approx::sin_cos(waves * scale(-WAVES));
-        // The gradient as if the waves ran the same way everywhere, all but the part that is the same for all waves.
+        // The gradient as if all waves ran the same way everywhere, except for the part that is the same for all
+        // waves.
         let fall = near * near * scale(6.0 / (REACH * REACH)) * frequency;
         let part = |value: R::S| {
             let fall = fall * value;
@@ -329,17 +306,16 @@ fn send_body<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave:
         (R::load(im_arm, i) + arm(sin)).store(im_arm, i);
     }
 }
-for_each_simd!(fn send_values(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<f32>);
-for_each_simd!(fn send_exact(n: usize, places: &Places<f64>, corner: [i32; 3], octave: &Octave, work: &mut Work<f64>) = send_body::<f64>);
-for_each_simd!(fn send_gradients(n: usize, places: &Places, corner: [i32; 3], octave: &Octave, work: &mut Work) = send_body::<Jet>);
+for_each_simd!(fn send<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, work: &mut Carving<R::S>) = send_body);
 
-/// From the sum of waves to the height of gullies, and to what leads the next octave.
+/// From the sum of waves to the height of gullies, and to the state that leads the next octave.
 #[inline(always)]
-fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work<R::S>) {
+fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Carving<R::S>) {
     let (frequency, zero) = (gully.lattices[0].frequency as f32, R::S::of(0.0));
     for i in 0..n.min(CHUNK) {
         let side = [R::load(&work.side[0], i), R::load(&work.side[1], i), R::load(&work.side[2], i)];
-        // Each wave's angle grows along the side, and turns with it by the way to the wave's middle.
+        // The angle of each wave grows along the side vector, and turns with it in proportion to the distance of its
+        // centre.
         let [re, im, re_arm, im_arm] = &work.waves;
         let along = |k: R::S, axis: usize| k * side[axis].value();
         let turned = |sum: &Jets<R::S>, other: &Jets<R::S>, arm: &Jets<R::S>, sign: f32| {
@@ -370,6 +346,4 @@ fn carve_body<R: Real>(n: usize, gully: &Carved, work: &mut Work<R::S>) {
         }
     }
 }
-for_each_simd!(fn carve_values(n: usize, gully: &Carved, work: &mut Work) = carve_body::<f32>);
-for_each_simd!(fn carve_exact(n: usize, gully: &Carved, work: &mut Work<f64>) = carve_body::<f64>);
-for_each_simd!(fn carve_gradients(n: usize, gully: &Carved, work: &mut Work) = carve_body::<Jet>);
+for_each_simd!(fn carve<R: Real>(n: usize, gully: &Carved, work: &mut Carving<R::S>) = carve_body);

@@ -1,5 +1,5 @@
-//! Heights from a picture (see [`crate::sphere::raster`]). Values come from its finest level; gradients from the level
-//! whose texels are as far apart as the points of the band.
+//! Heights from a picture (see [`crate::sphere::raster`]). Values come from its finest level; gradients from the
+//! level whose texel spacing matches the point spacing of the band.
 
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
@@ -22,10 +22,10 @@ impl HeightMap {
 }
 
 impl HeightMap {
-    /// Heights between two numbers of the picture.
+    /// Heights for two values of the picture, in order.
     fn of(&self, (lo, hi): (f64, f64)) -> (f64, f64) {
         let (a, b) = (self.low + (self.high - self.low) * lo, self.low + (self.high - self.low) * hi);
-        // A spline's weights sum to one up to rounding only.
+        // The weights of a spline sum to 1 up to rounding.
         let rounding = 1e-9 * (1.0 + a.abs().max(b.abs()));
         (a.min(b) - rounding, a.max(b) + rounding)
     }
@@ -53,7 +53,7 @@ impl Evaluate for HeightMap {
             scratch.sums.value[i] += self.low + span * finest.0;
             // Bands often share a level.
             let mut sampled: (usize, DVec3) = (0, finest.1);
-            for (gradient, &spacing_rad) in scratch.sums.gradients.iter_mut().zip(chunk.spacings_rad) {
+            for (gradient, &spacing_rad) in scratch.sums.gradients_mut().iter_mut().zip(chunk.spacings_rad) {
                 let level = picture.level_for(spacing_rad);
                 if level != sampled.0 {
                     sampled = (level, picture.sample(&place, level).1);

@@ -1,17 +1,16 @@
-//! Octaves: the same noise finer and weaker, again and again.
+//! Series of octaves: the same noise, finer and weaker each time.
 
 use crate::planet::Precision;
 use crate::terrain::noise::{self, Octave};
 
-/// Which octaves have their values found in f64, and not in f32, whose rounding is up to a millimetre of a few
-/// kilometres.
+/// Which octaves are evaluated in f64. The rounding of f32 is up to a millimetre in a few kilometres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Arithmetic {
-    /// As few as ever: presets before version 3 keep their bits.
+    /// None but those that always were: presets before version 3 keep their bits.
     Classic,
     /// The strongest, so that heights of 8 km are within a millimetre of f64 throughout.
     Fine,
-    /// All: what the others are measured against.
+    /// All: the reference for the others.
     #[cfg(test)]
     Full,
 }
@@ -26,8 +25,8 @@ impl From<Precision> for Arithmetic {
 }
 
 impl Arithmetic {
-    /// How many octaves are found in f64: in `Fine`, so many that those left weigh no more than `rest`.
-    pub(super) fn exact(self, weights: impl Iterator<Item = f32> + Clone, rest: f64) -> usize {
+    /// How many octaves to evaluate in f64: in `Fine`, enough that the others weigh no more than `rest`.
+    pub(super) fn f64_count(self, weights: impl Iterator<Item = f32> + Clone, rest: f64) -> usize {
         match self {
             Self::Classic => 0,
             Self::Fine => {
@@ -40,20 +39,20 @@ impl Arithmetic {
     }
 
     /// The same for a series.
-    pub(super) fn exact_of(self, octaves: &[Weighted], rest: f64) -> usize {
-        self.exact(octaves.iter().map(|octave| octave.weight), rest)
+    pub(super) fn f64_octaves(self, octaves: &[Weighted], rest: f64) -> usize {
+        self.f64_count(octaves.iter().map(|octave| octave.weight), rest)
     }
 }
 
-/// An octave and how much it counts; the weights of a series sum to 1.
+/// An octave and its weight; the weights of a series sum to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weighted {
     pub(super) octave: Octave,
     pub(super) weight: f32,
 }
 
-/// A series of octaves: `count` of them, from `frequency` cells to the planet's radius on, each `lacunarity` times
-/// finer and `gain` times as strong as the one before.
+/// A series of `count` octaves, the first with `frequency` cells per planet radius, each `lacunarity` times finer and
+/// `gain` times as strong as the one before.
 pub(super) fn series(seed: u64, frequency: f64, count: u32, gain: f64, lacunarity: f64) -> Vec<Weighted> {
     // The lattice must stay within what f64 can split; finer octaves would be below a nanometre.
     let frequencies: Vec<f64> = std::iter::successors(Some(frequency), |f| Some(f * lacunarity))

@@ -1,10 +1,11 @@
-//! Where points stand in a lattice of cubic cells: what the kinds share that scatter something in jittered cells.
+//! Positions of points in a lattice of cubic cells, for kinds that scatter features in jittered cells.
 
-use crate::terrain::jet::Scalar;
-use crate::terrain::noise::{self, CHUNK, Lane, Octave, Points3};
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::noise::{self, Octave};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// Cell, place within the cell (0 to 1) and unit direction of each point of a chunk.
+/// Cell, position within the cell (0 to 1) and unit direction of each point of a chunk.
 pub(super) struct Places<S = f32> {
     pub(super) cell: [Lane<u32>; 3],
     pub(super) fraction: [Lane<S>; 3],
@@ -17,15 +18,8 @@ impl<S: Scalar> Default for Places<S> {
     }
 }
 
-impl Places<f64> {
-    /// Finds the places of skewed points in the cells of an octave.
-    pub(super) fn find_exact(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
-        find_exact_places(simd, skewed, octave, self);
-    }
-}
-
-impl Places {
-    /// Finds the places of skewed points in the cells of an octave.
+impl<S: Scalar> Places<S> {
+    /// Finds the positions of skewed points in the cells of an octave.
     pub(super) fn find(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_places(simd, skewed, octave, self);
     }
@@ -45,18 +39,17 @@ fn find_places_body<S: Scalar>(skewed: Points3<'_>, octave: &Octave, places: &mu
         }
     }
 }
-for_each_simd!(fn find_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places) = find_places_body::<f32>);
-for_each_simd!(fn find_exact_places(skewed: Points3<'_>, octave: &Octave, places: &mut Places<f64>) = find_places_body::<f64>);
+for_each_simd!(fn find_places<S: Scalar>(skewed: Points3<'_>, octave: &Octave, places: &mut Places<S>) = find_places_body);
 
-/// The eight cells around a point, in steps towards the nearer side: its own, and the neighbour along each axis or not.
+/// The eight cells around a point, in steps towards the nearer side: its own cell and the neighbours along each axis.
 pub(super) const CORNERS: [[i32; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
 
-/// The cell so many steps from that of the `i`th point, each axis counted towards the side on which the next cell is
-/// nearer; and how many cells it lies from the point's own.
+/// The cell at a number of steps from that of the `i`th point, each axis counted towards the side on which the next
+/// cell is nearer; and its offset from the point's own cell.
 #[inline(always)]
 pub(super) fn neighbour<S: Scalar>(places: &Places<S>, step: [i32; 3], i: usize) -> ([u32; 3], [S; 3]) {
-    // The next cell is nearer below for a point in the lower half of its cell, above for one in the upper.
+    // For a point in the lower half of its cell the nearer neighbour is below, in the upper half above.
     let side = |axis: usize| match places.fraction[axis][i] < S::of(0.5) {
         true => (u32::MAX, S::of(-1.0)),
         false => (1, S::of(1.0)),
@@ -68,9 +61,9 @@ pub(super) fn neighbour<S: Scalar>(places: &Places<S>, step: [i32; 3], i: usize)
     ([cell(0, x), cell(1, y), cell(2, z)], from)
 }
 
-/// A number from 0 to 1 out of the low ten bits.
+/// A number from 0 to 1 from the lowest ten bits.
 #[inline(always)]
 pub(super) fn unit<S: Scalar>(bits: u32) -> S {
-    // Rounded alike for all, lest a crater be there for one and not for another.
+    // Rounded to f32 for every scalar, or a crater would exist in f64 and not in f32.
     S::from_f32((bits & 1023) as f32 * (1.0 / 1023.0))
 }

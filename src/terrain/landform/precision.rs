@@ -1,20 +1,22 @@
-//! How far heights are from what f64 throughout would make of them: every kind, walked in steps of 0.1 m.
+//! Rounding errors of heights: every kind, walked in steps of 0.1 m.
 //!
-//! The measure is each kind's own formula with every operation that makes its value in f64.
+//! The reference is the kind's own formula with every octave in f64.
 
 use super::tests::shapes;
 use super::*;
 use crate::planet::{Planet, Precision, shipped};
 use crate::terrain::Terrain;
 use crate::terrain::field::Field;
+use crate::terrain::lane::CHUNK;
 use crate::terrain::points::Points;
+use crate::terrain::simd::Simd;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
 const RADIUS_KM: f64 = 6371.0;
 
-/// Where walks begin: poles, corners and edges of the cube's faces, and places between.
+/// Starts of walks: poles, corners and edges of the cube's faces, and points between.
 pub(super) fn starts(count: u32) -> Vec<DVec3> {
     let corners = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|side| f64::from(2 * side - 1)));
     let marks = corners.chain([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, 0.0]]);
@@ -25,7 +27,7 @@ pub(super) fn starts(count: u32) -> Vec<DVec3> {
     marks.chain(between).map(|start| DVec3::from_array(start).normalize()).collect()
 }
 
-/// The farthest that the values of a kind are from those in f64.
+/// Greatest error of the values of a kind against f64.
 fn farthest(shape: &Shape, arithmetic: Arithmetic, starts: &[DVec3]) -> f64 {
     let [landform, exact] = [arithmetic, Arithmetic::Full].map(|a| Landform::new(shape, 11, RADIUS_KM, a));
     let mut worst = 0.0_f64;
@@ -39,7 +41,7 @@ fn farthest(shape: &Shape, arithmetic: Arithmetic, starts: &[DVec3]) -> f64 {
     worst
 }
 
-/// The amplitude at which a kind is measured: 8 km, but for dunes, which are never a tenth as high.
+/// The amplitude at which a kind is measured: 8 km, but less for dunes, which are never a tenth as high.
 fn amplitude_m(shape: &Shape) -> f64 {
     if matches!(shape, Shape::Dunes(_)) { 800.0 } else { 8000.0 }
 }
@@ -60,8 +62,7 @@ fn every_kind_is_within_a_millimetre_of_f64() {
     assert!(too_far.is_empty(), "{too_far:#?}");
 }
 
-/// How many times longer one thing takes than another: the least of many short runs in turn, which other programs on
-/// the machine disturb the least.
+/// Ratio of two durations: the least of many short runs in turn, which other programs disturb the least.
 fn times_longer(long: impl Fn(), short: impl Fn()) -> f64 {
     let seconds = |run: &dyn Fn()| {
         let start = Instant::now();
@@ -72,7 +73,7 @@ fn times_longer(long: impl Fn(), short: impl Fn()) -> f64 {
     least.0 / least.1
 }
 
-/// How many times longer each kind and the shipped planets take than they would in f32, on one core; printed.
+/// Prints the cost of f64 octaves for each kind and the shipped planets, on one core.
 #[test]
 #[ignore = "prints figures"]
 fn cost() {
@@ -91,10 +92,10 @@ fn cost() {
         let [fine, classic] = [Precision::Millimetre, Precision::Classic]
             .map(|precision| Terrain::try_new(Arc::new(Planet { precision, ..planet.clone() })).unwrap());
         let ratio = |spacings_rad: &[f64]| {
-            let run = |terrain: &Terrain| drop(black_box(terrain.fields(&points, spacings_rad)));
+            let run = |terrain: &Terrain| drop(black_box(terrain.slopes_at(&points.dirs, spacings_rad)));
             times_longer(|| run(&fine), || run(&classic))
         };
-        // Values alone; with the gradients of a tile seen from space and its parent's; with all gradients.
+        // Values alone; with gradients of a tile seen from space and its parent; with all gradients.
         let [values, far, near] = [&[] as &[f64], &[4e-3, 8e-3], &[0.0]].map(ratio);
         eprintln!("{}: {values:.2} values, {far:.2} with gradients from space, {near:.2} with all", shipped.file);
     }

@@ -3,24 +3,25 @@
 
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point};
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Wide};
+use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::noise::{CHUNK, Noise};
+use crate::terrain::lane::CHUNK;
+use crate::terrain::noise::Noise;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
-/// Points for each lattice cell from which on an octave shows in full: crests are half as long as waves.
+/// Points per lattice cell at which an octave shows in full: crests are half as long as waves.
 const LEAST_POINTS: f64 = 2.2;
 
-/// Weight of the octaves that f32 is enough for.
+/// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.07;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ridged {
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
     feedback: f32,
 }
 
@@ -28,7 +29,7 @@ impl Ridged {
     pub(super) fn new(params: &planet::Ridged, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Ridged { wavelength_km, octaves, gain, lacunarity, feedback } = *params;
         let octaves = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity);
-        Self { exact: arithmetic.exact_of(&octaves, REST), octaves, feedback: feedback as f32 }
+        Self { f64_octaves: arithmetic.f64_octaves(&octaves, REST), octaves, feedback: feedback as f32 }
     }
 }
 
@@ -59,12 +60,12 @@ impl Evaluate for Ridged {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [crest, feed, ..], wide, .. } = scratch;
-        let Wide { noise: exact_noise, jets: [exact_crest, exact_feed, ..] } = wide;
+        let Scratch { sums, noise, jets: [crest, feed, ..], in_f64, .. } = scratch;
+        let Scratch64 { noise: noise64, jets: [crest64, feed64, ..], .. } = in_f64;
         let n = chunk.len();
         feed.fill(n, 1.0);
-        exact_feed.fill(n, 1.0);
-        let exact = chunk.exact(self.exact);
+        feed64.fill(n, 1.0);
+        let exact = chunk.f64_octaves(self.f64_octaves);
         let mut share = 0.0;
         for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
@@ -74,24 +75,24 @@ impl Evaluate for Ridged {
             }
             share += f64::from(*weight);
             if k < exact {
-                exact_noise.values(chunk.simd, chunk.skewed, octave);
-                fold_exact(chunk.simd, n, exact_noise, self.feedback, exact_feed, exact_crest);
-                sums.add_exact(chunk, &exact_crest.value, f64::from(*weight));
+                noise64.values(chunk.simd, chunk.skewed, octave);
+                fold::<f64>(chunk.simd, n, noise64, self.feedback, feed64, crest64);
+                sums.add_f64(chunk, &crest64.value, f64::from(*weight));
                 if !fades.is_unseen() {
                     noise.gradients(chunk.simd, chunk.skewed, octave);
-                    fold_gradients(chunk.simd, n, noise, self.feedback, feed, crest);
+                    fold::<Jet>(chunk.simd, n, noise, self.feedback, feed, crest);
                     sums.add_gradients(chunk, &crest.gradient, *weight, &fades);
                 }
-                feed.round_from(n, exact_feed);
+                feed.round_from(n, feed64);
                 continue;
             }
-            // An octave too fine for every band needs no gradient, nor do the finer ones that follow it.
+            // An octave too fine for every band needs no gradient, nor do the finer ones that follow.
             if fades.is_unseen() {
                 noise.values(chunk.simd, chunk.skewed, octave);
-                fold_values(chunk.simd, n, noise, self.feedback, feed, crest);
+                fold::<f32>(chunk.simd, n, noise, self.feedback, feed, crest);
             } else {
                 noise.gradients(chunk.simd, chunk.skewed, octave);
-                fold_gradients(chunk.simd, n, noise, self.feedback, feed, crest);
+                fold::<Jet>(chunk.simd, n, noise, self.feedback, feed, crest);
             }
             sums.add(chunk, &crest.value, &crest.gradient, *weight, &fades);
         }
@@ -109,6 +110,4 @@ fn fold_body<R: Real>(n: usize, noise: &Noise<R::S>, feedback: f32, feed: &mut J
         height.scale(feedback).at_most(1.0).store(feed, i);
     }
 }
-for_each_simd!(fn fold_values(n: usize, noise: &Noise, feedback: f32, feed: &mut Jets, crest: &mut Jets) = fold_body::<f32>);
-for_each_simd!(fn fold_exact(n: usize, noise: &Noise<f64>, feedback: f32, feed: &mut Jets<f64>, crest: &mut Jets<f64>) = fold_body::<f64>);
-for_each_simd!(fn fold_gradients(n: usize, noise: &Noise, feedback: f32, feed: &mut Jets, crest: &mut Jets) = fold_body::<Jet>);
+for_each_simd!(fn fold<R: Real>(n: usize, noise: &Noise<R::S>, feedback: f32, feed: &mut Jets<R::S>, crest: &mut Jets<R::S>) = fold_body);

@@ -1,5 +1,5 @@
-//! The noise that raises and lowers the steps of terraces: plain octaves. The steps themselves depend on the ground
-//! below and are cut where layers are joined.
+//! The noise that raises and lowers the steps of terraces: plain octaves. The steps depend on the ground below and
+//! are cut where layers are joined (`height::steps`).
 
 use super::fbm::Fbm;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};

@@ -1,10 +1,11 @@
-//! What must hold for every kind of layer: exact gradients, no jumps, bounds, the same bits everywhere.
+//! Properties of every kind: correct gradients, no jumps, bounds, the same bits everywhere.
 
 use super::*;
 use crate::planet;
 use crate::planet::param::{Domain, ParamPath, Params, Unit, ValueMut};
-use crate::terrain::field::{EXACT, Field};
+use crate::terrain::field::{ALL_OCTAVES, Field};
 use crate::terrain::points::Points;
+use crate::terrain::simd::Simd;
 use proptest::prelude::*;
 
 const RADIUS_KM: f64 = 6371.0;
@@ -25,12 +26,12 @@ fn values(landform: &Landform, dirs: Vec<DVec3>) -> Vec<f64> {
 
 /// Gradients with every octave.
 pub(super) fn gradients(landform: &Landform, dirs: &[DVec3]) -> Vec<DVec3> {
-    let field = Field::new(landform, Simd::detect(), &Points::new(dirs.to_vec()), EXACT);
+    let field = Field::new(landform, Simd::detect(), &Points::new(dirs.to_vec()), ALL_OCTAVES);
     let [x, y, z] = field.gradient(0.0).unwrap();
     (0..dirs.len()).map(|i| DVec3::new(x[i].into(), y[i].into(), z[i].into())).collect()
 }
 
-/// Each kind with a name: as it is by default, in its other styles, and with what its defaults leave out.
+/// Each kind with a name: with defaults, in its other styles, and with parameters that the defaults leave at 0.
 pub(super) fn shapes() -> Vec<(&'static str, Shape)> {
     let cells = |style| Shape::Cells(planet::Cells { style, width: 0.4, octaves: 2, ..Default::default() });
     let moon = planet::Craters {
@@ -49,13 +50,13 @@ pub(super) fn shapes() -> Vec<(&'static str, Shape)> {
         ("Cracks", cells(planet::CellStyle::Cracks)),
         ("Bumps", cells(planet::CellStyle::Bumps)),
     ];
-    // A height map without a picture is flat; `heightmap` tests those that have one.
+    // A height map without a picture is flat; `heightmap` tests those with one.
     let has_relief = |(_, shape): &(&'static str, Shape)| !matches!(shape, Shape::HeightMap(_));
     let plain = Shape::NAMES.iter().copied().zip(Shape::all()).filter(has_relief);
     plain.chain(more).collect()
 }
 
-/// The same compiled, with at most so many octaves, and the size of the smallest feature as an angle.
+/// The same compiled, with a limit on octaves, and the angle of the smallest feature.
 fn kinds(most_octaves: u32) -> Vec<(&'static str, Landform, f64)> {
     let kind = |(name, mut shape): (&'static str, Shape)| {
         let (mut smallest_km, mut octave_count) = (f64::MAX, 1);
@@ -101,7 +102,7 @@ fn gradients_match_central_differences() {
 
 #[test]
 fn values_keep_within_their_bounds_and_use_them() {
-    // What the artist's amplitude means depends on it: no kind is much flatter or higher than the others.
+    // The meaning of an amplitude depends on it: no kind is much flatter or higher than the others.
     for (name, landform, _) in kinds(24) {
         let values = values(&landform, directions(20_000));
         let (lo, hi) = landform.bounds();
@@ -119,11 +120,11 @@ fn heights_have_the_same_bits_with_and_without_gradients_on_every_instruction_se
     let points = Points::new(directions(4000));
     let bits = |field: &Field| field.value.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     for (name, landform, _) in kinds(24) {
-        let exact = Field::new(&landform, Simd::detect(), &points, EXACT);
+        let exact = Field::new(&landform, Simd::detect(), &points, ALL_OCTAVES);
         for simd in Simd::available() {
             let of = |spacings_rad: &[f64]| Field::new(&landform, simd, &points, spacings_rad);
-            assert!(exact == of(EXACT), "{name}: {}", simd.name());
-            // Values alone; bands that see all, some and none; one that sees nothing.
+            assert!(exact == of(ALL_OCTAVES), "{name}: {}", simd.name());
+            // Values alone; bands that show all, some and no octaves; one that shows none.
             for spacings_rad in [&[] as &[f64], &[0.0, 1e-3, 3e-2, 1e9], &[1e9]] {
                 let same = of(spacings_rad);
                 assert_eq!(bits(&same), bits(&exact), "{name}: {}, {spacings_rad:?}", simd.name());
@@ -133,7 +134,7 @@ fn heights_have_the_same_bits_with_and_without_gradients_on_every_instruction_se
     }
 }
 
-/// How many million octave samples a second each instruction set makes, on one core; printed.
+/// Prints million octave samples a second for each instruction set, on one core.
 #[test]
 #[ignore = "prints figures"]
 fn speed() {
@@ -149,7 +150,12 @@ fn speed() {
                 }
                 samples as f64 / start.elapsed().as_secs_f64() * 1e-6
             };
-            eprintln!("{name} {}: {:.1} M octave samples/s, {:.1} with gradients", simd.name(), rate(&[]), rate(EXACT));
+            eprintln!(
+                "{name} {}: {:.1} M octave samples/s, {:.1} with gradients",
+                simd.name(),
+                rate(&[]),
+                rate(ALL_OCTAVES)
+            );
         }
     }
 }
@@ -192,7 +198,7 @@ fn every_valid_parameter_gives_finite_numbers_within_bounds() {
                 }
             });
             let landform = Landform::new(&shape, 3, radius_km, Arithmetic::Fine);
-            let field = Field::new(&landform, Simd::detect(), &points, EXACT);
+            let field = Field::new(&landform, Simd::detect(), &points, ALL_OCTAVES);
             let (lo, hi) = landform.bounds();
             assert!(field.value.iter().all(|v| (lo..=hi).contains(v)), "{shape:?} on {radius_km} km");
             assert!(

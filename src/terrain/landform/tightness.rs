@@ -7,12 +7,12 @@ use crate::terrain::Terrain;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// The angle from the middle of a node of the quadtree to its corners.
+/// The angle from the centre of a quadtree node to its corners.
 fn node_rad(level: i32) -> f64 {
     std::f64::consts::FRAC_PI_4 * 2.0_f64.sqrt() * 0.5_f64.powi(level)
 }
 
-/// How many times wider the bounds are than the range of a thousand points, in the middle of many places.
+/// Median ratio of the width of the bounds to the range of a thousand points, over many directions.
 fn looseness(terrain: &Terrain, angle_rad: f64) -> f64 {
     let mut found: Vec<f64> = starts(40)
         .into_iter()
@@ -26,7 +26,7 @@ fn looseness(terrain: &Terrain, angle_rad: f64) -> f64 {
             let (least, most) = heights_m.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &h| (lo.min(h), hi.max(h)));
             let (lo, hi) = terrain.height_bounds_near_m(dir, angle_rad);
             assert!(lo <= least && most <= hi, "{least} to {most} m is beyond {lo} to {hi}");
-            // Where the ground is level there is nothing to compare.
+            // Level ground has nothing to compare.
             (most - least > 0.1).then(|| (hi - lo) / (most - least))
         })
         .collect();
@@ -34,7 +34,8 @@ fn looseness(terrain: &Terrain, angle_rad: f64) -> f64 {
     found.get(found.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// Prints how loose the bounds of a planet are at three levels, and what they cost; the looseness at the finest.
+/// Prints how loose the bounds of a planet are at three levels and what they cost; returns the looseness at the
+/// finest.
 fn report(name: &str, planet: Planet) -> f64 {
     let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
     let [coarse, middle, fine] = [6, 10, 14].map(|level| looseness(&terrain, node_rad(level)));

@@ -1,8 +1,8 @@
-//! Numbers that vary around a direction: how bounds near it are found.
+//! Affine intervals: numbers that vary around a direction, for bounds near it.
 //!
-//! Each is known twice over. As a straight line, `value + gradient . d` give or take an error for a step `d` of the
-//! unit direction, so that slopes of parts that cancel do cancel (a Taylor model of first order: Makino and Berz
-//! 2003); and as an interval, which holds where it bends too much for that. A formula made of them is conservative.
+//! Each number is known in two ways. As a line, `value + gradient . d` plus or minus an error for a step `d` of the
+//! unit direction, so that slopes of parts cancel (a Taylor model of first order: Makino and Berz 2003). And as an
+//! interval, which is tighter where the number bends too much for a line. Formulas of such numbers are conservative.
 
 use super::octaves::Weighted;
 use crate::terrain::noise::{self, Octave};
@@ -27,12 +27,12 @@ pub(super) struct Varying {
 }
 
 impl Varying {
-    /// `value + gradient . d` give or take `error`, and in any case between `lo` and `hi`.
+    /// `value + gradient . d` plus or minus `error`, and in any case between `lo` and `hi`.
     pub(super) fn new(around: Around, value: f64, gradient: DVec3, error: f64, (lo, hi): (f64, f64)) -> Self {
         let number = Self { around, value, gradient, error, lo, hi };
         let reach = number.reach();
         let (lo, hi) = (lo.max(value - reach), hi.min(value + reach));
-        // Where the line says much less than the interval, it is level.
+        // Where the line is little tighter than the interval, it is made level.
         if reach < 0.6 * (hi - lo) && (lo..=hi).contains(&value) {
             Self { lo, hi, ..number }
         } else {
@@ -55,12 +55,12 @@ impl Varying {
         (self.lo, self.hi)
     }
 
-    /// What it is in the middle, give or take the error.
+    /// The value at the central direction, up to the error.
     pub(super) fn value(self) -> f64 {
         self.value
     }
 
-    /// Most that the line goes up or down: steps go along the ground, and down a little as it curves.
+    /// Greatest rise or fall of the line and its error: steps follow the ground, which curves down a little.
     fn reach(self) -> f64 {
         let Around { dir_planet, angle_rad } = self.around;
         let up = self.gradient.dot(dir_planet);
@@ -68,19 +68,19 @@ impl Varying {
         along * angle_rad + 0.5 * up.abs() * angle_rad * angle_rad + self.error
     }
 
-    /// Times a plain number.
+    /// Times a number.
     pub(super) fn scale(self, k: f64) -> Self {
         let (a, b) = (self.lo * k, self.hi * k);
         let (value, gradient, error) = (self.value * k, self.gradient * k, self.error * k.abs());
         Self { value, gradient, error, lo: a.min(b), hi: a.max(b), ..self }
     }
 
-    /// Plus a plain number.
+    /// Plus a number.
     pub(super) fn plus(self, k: f64) -> Self {
         Self { value: self.value + k, lo: self.lo + k, hi: self.hi + k, ..self }
     }
 
-    /// A function of it: `line` gives its value and derivative; `bend` is its greatest second derivative on the way.
+    /// A function of it: `line` gives value and derivative; `bend` bounds its second derivative.
     pub(super) fn map(self, line: impl Fn(f64) -> (f64, f64), bend: f64, range: (f64, f64)) -> Self {
         let ((value, slope), reach) = (line(self.value), self.reach());
         let error = slope.abs() * self.error + 0.5 * bend * reach * reach;
@@ -101,24 +101,24 @@ impl Varying {
         }
     }
 
-    /// One over it, which must be above zero.
+    /// The reciprocal of a positive number.
     pub(super) fn recip(self) -> Self {
         let f = |v: f64| (1.0 / v, -1.0 / (v * v));
         self.map(f, 2.0 / self.lo.powi(3), (1.0 / self.hi, 1.0 / self.lo))
     }
 
-    /// One over its root; it must be above zero.
+    /// The reciprocal of the root of a positive number.
     pub(super) fn recip_sqrt(self) -> Self {
         let f = |v: f64| (1.0 / v.sqrt(), -0.5 / (v * v.sqrt()));
         self.map(f, 0.75 / (self.lo * self.lo * self.lo.sqrt()), (f(self.hi).0, f(self.lo).0))
     }
 
-    /// The greater of it and a plain number, than which it is less by rounding only.
+    /// The greater of it and a number, below which it lies by rounding only.
     pub(super) fn at_least(self, low: f64) -> Self {
         Self { lo: self.lo.max(low), hi: self.hi.max(low), value: self.value.max(low), ..self }
     }
 
-    /// 0 at and below `from`, 1 at and above `to`, smooth between.
+    /// Smoothstep: 0 up to `from`, 1 from `to` on.
     pub(super) fn smoothstep(self, from: f64, to: f64) -> Self {
         let span = 1.0 / (to - from);
         let step = |v: f64| {
@@ -164,12 +164,12 @@ impl Mul for Varying {
     }
 }
 
-/// Where the directions go: themselves, or displaced.
+/// The images of the directions: themselves, or displaced.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     around: Around,
     pub(super) coordinates: [Varying; 3],
-    /// Farthest that any goes from where the middle one goes.
+    /// Greatest distance of an image from that of the central direction.
     distance: f64,
 }
 
@@ -197,7 +197,7 @@ impl Point {
         let (s, t) = dir_planet.any_orthonormal_pair();
         let along = |axis: DVec3| DVec3::from_array(coordinates.map(|c| c.gradient.dot(axis)));
         let (s, t, up) = (along(s), along(t), along(dir_planet));
-        // The longest that a unit step along the ground becomes: the greater singular value.
+        // Greatest stretch of a unit step along the ground: the greater singular value.
         let (mean, half) = (0.5 * (s.dot(s) + t.dot(t)), 0.5 * (s.dot(s) - t.dot(t)));
         let stretch = (mean + half.hypot(s.dot(t))).sqrt();
         let error = DVec3::from_array(coordinates.map(|c| c.error)).length();
@@ -209,8 +209,8 @@ impl Point {
         noise::near(noise::skew(self.coordinates.map(|c| c.value)), octave, self.distance)
     }
 
-    /// What changes with `slope` by the coordinates of the lattice changes so by the direction; and how far from
-    /// that the errors of the coordinates take it.
+    /// The gradient by the direction of a number whose gradient by lattice coordinates is `slope`, and its error from
+    /// the errors of the coordinates.
     fn pulled_back(&self, slope: DVec3, frequency: f64) -> (DVec3, f64) {
         let (mut gradient, mut error) = (DVec3::ZERO, 0.0);
         for (coordinate, slope) in self.coordinates.iter().zip(slope.to_array()) {
@@ -242,9 +242,9 @@ impl Point {
         (self.varying(octave, &near), [0, 1, 2].map(slope))
     }
 
-    /// Octaves summed.
+    /// A sum of octaves.
     pub(super) fn sum(&self, octaves: &[Weighted]) -> Varying {
-        // For the rounding of weights that are f32.
+        // For the rounding of weights in f32.
         octaves.iter().fold(Varying::between(self.around, -1e-6, 1e-6), |sum, Weighted { octave, weight }| {
             sum + self.noise(octave).scale(f64::from(*weight))
         })

@@ -1,24 +1,26 @@
-//! Domain warping: points displaced by a vector noise before a landform is evaluated at them.
+//! Domain warping: a vector noise displaces points before a landform is evaluated at them.
 //!
-//! The displacement is found in f64, because a step of f32 in hundreds of kilometres is centimetres; its Jacobian,
-//! which only turns gradients, in f32.
+//! The displacement is f64, because a step of f32 in hundreds of kilometres is centimetres. Its Jacobian, which only
+//! turns gradients, is f32.
 
+use super::chunk::{Chunk, Sums, add_gradient, add_gradient_f64};
 use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
+use super::scratch::{Displaced, Jacobian64};
 use super::varying::{Around, Point, Varying};
-use super::{Chunk, Sums, add_gradient};
-use crate::terrain::jet::Scalar;
-use crate::terrain::noise::{self, CHUNK, Lane, Noise, Points3, precise};
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::noise::{self, Noise, lattice};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::for_each_simd;
 
-/// At least so many octaves of a warped noise are summed in f64, so that it is smooth underfoot: in the coarsest, a step of f32
+/// Least number of octaves of a warped noise in f64, so that it is smooth underfoot: in the coarsest, a step of f32
 /// is half a millimetre of 4 km.
-const PRECISE: usize = 2;
+const LEAST_F64_OCTAVES: usize = 2;
 
-/// Farthest displacement at a noise of 1, in radii.
+/// Greatest displacement at a noise of 1, in radii.
 const MAX_REACH: f64 = 8.0;
 
-/// Root mean square of the noise's derivative along one axis of its lattice.
+/// Root mean square of the derivative of the noise along one axis of its lattice.
 const DERIVATIVE: f64 = 1.2;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -28,48 +30,23 @@ pub(super) struct Warp {
     reach: f64,
 }
 
-/// Where the points of a chunk went.
-#[derive(Default)]
-pub(crate) struct Displaced {
-    skewed: Displacement,
-    /// For each band the derivatives of the displaced point by the point: `[coordinate displaced][coordinate]`.
-    jacobians: Vec<[[Lane<f32>; 3]; 3]>,
-    /// Second derivatives of each coordinate displaced, in the order of [`Noise::curvature`].
-    curvatures: Curvatures,
-}
-
-struct Curvatures([[Lane<f32>; 6]; 3]);
-
-impl Default for Curvatures {
-    fn default() -> Self {
-        Self([[[0.0; CHUNK]; 6]; 3])
-    }
-}
-
-struct Displacement([Lane<f64>; 3]);
-
-impl Default for Displacement {
-    fn default() -> Self {
-        Self([[0.0; CHUNK]; 3])
-    }
-}
-
 impl Warp {
-    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells to the radius, that
-    /// displaces by `reach` radii.
+    /// A vector noise of `octaves` octaves, the coarsest with `frequency` cells per radius, that displaces by `reach`
+    /// radii.
     pub(super) fn new(seed: u64, frequency: f64, octaves: u32, reach: f64) -> Self {
-        // The lattice must stay within what f64 can split; a few radii away is as good as anywhere.
+        // The lattice must stay within what f64 can split; a few radii away is as good as any distance.
         let reach = reach.min(MAX_REACH);
-        // Another sequence than that of the noise that is warped.
+        // A seed apart from that of the warped noise.
         Self { octaves: series(noise::mix(!seed), frequency, octaves, 0.5, 2.0), reach }
     }
 
-    /// How many octaves of noise it takes at a point.
+    /// How many octaves of noise one point takes.
     pub(super) fn octave_count(&self) -> usize {
         3 * self.octaves.len()
     }
 
-    /// Where the directions around one go; and their derivatives by the direction, `[coordinate displaced][coordinate]`.
+    /// The images of the directions around one, and their derivatives by the direction, `[coordinate
+    /// displaced][coordinate]`.
     pub(super) fn near(&self, around: Around) -> (Point, [[Varying; 3]; 3]) {
         let point = Point::new(around);
         let mut there = point.coordinates;
@@ -77,7 +54,7 @@ impl Warp {
         let mut jacobian = [0, 1, 2].map(|row| [0, 1, 2].map(|column| unit(row == column)));
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            for (axis, octave) in precise::components(octave).iter().enumerate() {
+            for (axis, octave) in lattice::components(octave).iter().enumerate() {
                 let (noise, slope) = point.noise_and_slope(octave);
                 there[axis] = there[axis] + noise.scale(reach);
                 for (derivative, slope) in jacobian[axis].iter_mut().zip(slope) {
@@ -88,17 +65,17 @@ impl Warp {
         (Point::displaced(around, there), jacobian)
     }
 
-    /// By how much features of the warped noise are typically squeezed.
+    /// Typical factor by which features of the warped noise are squeezed.
     fn squeeze(&self) -> f64 {
         let shear = |o: &Weighted| self.reach * f64::from(o.weight) * o.octave.frequency * DERIVATIVE;
         1.0 + self.octaves.iter().map(|o| shear(o) * shear(o)).sum::<f64>().sqrt()
     }
 
-    /// Adds octaves of noise at the displaced points of a chunk, at least so many of them in f64.
+    /// Adds octaves of noise at the displaced points of a chunk, at least `f64_octaves` of them in f64.
     pub(super) fn add_octaves(
         &self,
         octaves: &[Weighted],
-        exact: usize,
+        f64_octaves: usize,
         chunk: &Chunk<'_>,
         noise: &mut Noise,
         displaced: &mut Displaced,
@@ -107,9 +84,9 @@ impl Warp {
         self.displace(chunk, false, noise, displaced);
         let there = Chunk { skewed: displaced.points(chunk.len()), ..*chunk };
         let least_points = LEAST_POINTS * self.squeeze();
-        let (coarse, fine) = octaves.split_at(exact.max(PRECISE).min(octaves.len()));
+        let (coarse, fine) = octaves.split_at(f64_octaves.max(LEAST_F64_OCTAVES).min(octaves.len()));
         for Weighted { octave, weight } in coarse {
-            noise.add_exact(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
+            noise.add_f64(chunk.simd, there.skewed, octave, f64::from(*weight), &mut sums.value);
             let fades = chunk.fades(1.0 / octave.frequency, least_points);
             if !fades.is_unseen() {
                 noise.gradients(chunk.simd, there.skewed, octave);
@@ -123,91 +100,93 @@ impl Warp {
     /// Displaces the points of a chunk; with second derivatives if `curved`.
     pub(super) fn displace(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise, displaced: &mut Displaced) {
         let n = chunk.len();
-        displaced.skewed.0 = [[0.0; CHUNK]; 3];
-        displaced.jacobians.resize(chunk.spacings_rad.len(), [[[0.0; CHUNK]; 3]; 3]);
-        for jacobian in &mut displaced.jacobians {
-            for (row, lanes) in jacobian.iter_mut().enumerate() {
-                for (column, lane) in lanes.iter_mut().enumerate() {
-                    lane.fill(if row == column { 1.0 } else { 0.0 });
-                }
-            }
-        }
-        if curved {
-            displaced.curvatures.0 = [[[0.0; CHUNK]; 6]; 3];
-        }
+        displaced.restart(n, chunk.spacings_rad.len(), curved);
         for Weighted { octave, weight } in &self.octaves {
             let reach = self.reach * f64::from(*weight);
-            noise.add_exact_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed.0);
+            noise.add_f64_vector(chunk.simd, chunk.skewed, octave, reach, &mut displaced.skewed);
             let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
             if fades.is_unseen() {
                 continue;
             }
-            for (row, octave) in precise::components(octave).iter().enumerate() {
+            for (row, octave) in lattice::components(octave).iter().enumerate() {
                 if curved {
                     noise.curvatures(chunk.simd, chunk.skewed, octave);
-                    add_curvature(chunk.simd, n, &noise.curvature, reach as f32, &mut displaced.curvatures.0[row]);
+                    add_curvature(chunk.simd, n, &noise.curvature, reach as f32, &mut displaced.curvatures[row]);
                 } else {
                     noise.gradients(chunk.simd, chunk.skewed, octave);
                 }
-                for (jacobian, share) in displaced.jacobians.iter_mut().zip(fades.0) {
+                for (jacobian, share) in displaced.jacobians[..displaced.bands].iter_mut().zip(fades.0) {
                     add_gradient(chunk.simd, n, &noise.gradient, reach as f32 * share, &mut jacobian[row]);
                 }
             }
         }
-        add_skewed(chunk.simd, chunk.skewed, &mut displaced.skewed.0);
+        add_skewed(chunk.simd, chunk.skewed, &mut displaced.skewed);
     }
 }
 
-/// The derivatives of displaced points by the points, in f64.
-pub(super) struct ExactJacobian([[Lane<f64>; 3]; 3]);
-
-impl ExactJacobian {
-    /// Of the points of a chunk.
-    pub(super) fn new(warp: &Warp, chunk: &Chunk<'_>, noise: &mut Noise<f64>) -> Box<Self> {
-        let mut jacobian = Box::new(Self([[[0.0; CHUNK]; 3]; 3]));
-        for (row, lanes) in jacobian.0.iter_mut().enumerate() {
-            lanes[row].fill(1.0);
-        }
+impl Jacobian64 {
+    /// Finds the derivatives at the points of a chunk.
+    pub(super) fn find(&mut self, warp: &Warp, chunk: &Chunk<'_>, noise: &mut Noise<f64>) {
+        let n = chunk.len();
+        identity(n, &mut self.0);
         for Weighted { octave, weight } in &warp.octaves {
             let reach = warp.reach * f64::from(*weight);
-            for (lanes, octave) in jacobian.0.iter_mut().zip(&precise::components(octave)) {
-                noise.gradients(chunk.simd, chunk.skewed, octave);
-                for (lane, gradient) in lanes.iter_mut().zip(&noise.gradient) {
-                    for (sum, gradient) in lane.iter_mut().zip(gradient) {
-                        *sum += gradient * reach;
-                    }
-                }
+            noise.find_vector(chunk.simd, chunk.skewed, octave);
+            for (component, sums) in self.0.iter_mut().enumerate() {
+                noise.vector_gradients(chunk.simd, n, octave, component);
+                add_gradient_f64(chunk.simd, n, &noise.gradient, reach, sums);
             }
         }
-        jacobian
     }
 
-    /// Turns the gradient of a noise at the displaced points into that by the points.
+    /// Turns the gradient of a noise by the displaced points into the gradient by the points.
     pub(super) fn pull_back(&self, chunk: &Chunk<'_>, noise: &mut Noise<f64>) {
-        multiply_exact(chunk.simd, chunk.len(), &self.0, &mut noise.gradient);
+        multiply::<f64>(chunk.simd, chunk.len(), &self.0, &mut noise.gradient);
+    }
+}
+
+/// Makes a Jacobian the identity at the first `n` points.
+fn identity<S: Scalar>(n: usize, jacobian: &mut [[Lane<S>; 3]; 3]) {
+    for (row, lanes) in jacobian.iter_mut().enumerate() {
+        for (column, lane) in lanes.iter_mut().enumerate() {
+            lane[..n].fill(S::of(if row == column { 1.0 } else { 0.0 }));
+        }
     }
 }
 
 impl Displaced {
-    /// The displaced points, of which there are `n`.
-    pub(super) fn points(&self, n: usize) -> Points3<'_> {
-        self.skewed.0.each_ref().map(|lane| &lane[..n])
+    /// Points without displacement.
+    fn restart(&mut self, n: usize, bands: usize, curved: bool) {
+        self.skewed.iter_mut().for_each(|lane| lane[..n].fill(0.0));
+        self.bands = bands;
+        if self.jacobians.len() < bands {
+            self.jacobians.resize(bands, [[[0.0; CHUNK]; 3]; 3]);
+        }
+        self.jacobians[..bands].iter_mut().for_each(|jacobian| identity(n, jacobian));
+        if curved {
+            self.curvatures.iter_mut().flatten().for_each(|lane| lane[..n].fill(0.0));
+        }
     }
 
-    /// Turns the gradient of a noise at the displaced points (and its second derivatives, if `curved`) into those by
-    /// the points, as the first band shows them.
+    /// The first `n` displaced points.
+    pub(super) fn points(&self, n: usize) -> Points3<'_> {
+        self.skewed.each_ref().map(|lane| &lane[..n])
+    }
+
+    /// Turns the gradient of a noise by the displaced points (and second derivatives, if `curved`) into derivatives
+    /// by the points, as the first band shows them.
     pub(super) fn pull_back_noise(&self, chunk: &Chunk<'_>, curved: bool, noise: &mut Noise) {
-        let Some(jacobian) = self.jacobians.first() else { return };
+        let Some(jacobian) = self.jacobians[..self.bands].first() else { return };
         if curved {
-            bend(chunk.simd, chunk.len(), jacobian, &self.curvatures.0, noise);
+            bend(chunk.simd, chunk.len(), jacobian, &self.curvatures, noise);
         }
-        multiply(chunk.simd, chunk.len(), jacobian, &mut noise.gradient);
+        multiply::<f32>(chunk.simd, chunk.len(), jacobian, &mut noise.gradient);
     }
 
     /// Turns gradients by the displaced points into gradients by the points.
     fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
-        for (jacobian, gradient) in self.jacobians.iter().zip(&mut sums.gradients) {
-            multiply(chunk.simd, chunk.len(), jacobian, gradient);
+        for (jacobian, gradient) in self.jacobians[..self.bands].iter().zip(sums.gradients_mut()) {
+            multiply::<f32>(chunk.simd, chunk.len(), jacobian, gradient);
         }
     }
 }
@@ -236,8 +215,7 @@ fn multiply_body<S: Scalar>(n: usize, jacobian: &[[Lane<S>; 3]; 3], gradient: &m
         z[i] = jx[2][i] * gx + jy[2][i] * gy + jz[2][i] * gz;
     }
 }
-for_each_simd!(fn multiply(n: usize, jacobian: &[[Lane<f32>; 3]; 3], gradient: &mut [Lane<f32>; 3]) = multiply_body::<f32>);
-for_each_simd!(fn multiply_exact(n: usize, jacobian: &[[Lane<f64>; 3]; 3], gradient: &mut [Lane<f64>; 3]) = multiply_body::<f64>);
+for_each_simd!(fn multiply<S: Scalar>(n: usize, jacobian: &[[Lane<S>; 3]; 3], gradient: &mut [Lane<S>; 3]) = multiply_body);
 
 #[inline(always)]
 fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) {
@@ -249,8 +227,8 @@ fn add_curvature_body(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &m
 }
 for_each_simd!(fn add_curvature(n: usize, curvature: &[Lane<f32>; 6], weight: f32, sum: &mut [Lane<f32>; 6]) = add_curvature_body);
 
-/// Second derivatives of a noise by the points, by the chain rule: `J' H J` and the gradient times
-/// those of the displacement.
+/// Second derivatives of a noise by the points, by the chain rule: `J' H J` plus the gradient times those of the
+/// displacement.
 #[inline(always)]
 fn bend_body(n: usize, jacobian: &[[Lane<f32>; 3]; 3], curvatures: &[[Lane<f32>; 6]; 3], noise: &mut Noise) {
     let ([jx, jy, jz], [cx, cy, cz]) = (jacobian, curvatures);

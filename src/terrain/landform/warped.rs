@@ -13,8 +13,8 @@ use glam::DVec3;
 pub(crate) struct Warped {
     warp: Warp,
     octaves: Vec<Weighted>,
-    /// So many of them are found in f64.
-    exact: usize,
+    /// How many octaves, the coarsest, are evaluated in f64.
+    f64_octaves: usize,
 }
 
 impl Warped {
@@ -24,7 +24,7 @@ impl Warped {
         let octaves = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity);
         Self {
             warp: Warp::new(seed, radius_km / warp_wavelength_km, warp_octaves, warp_km / radius_km),
-            exact: arithmetic.exact_of(&octaves, REST),
+            f64_octaves: arithmetic.f64_octaves(&octaves, REST),
             octaves,
         }
     }
@@ -45,6 +45,6 @@ impl Evaluate for Warped {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, displaced, .. } = scratch;
-        self.warp.add_octaves(&self.octaves, self.exact, chunk, noise, displaced, sums);
+        self.warp.add_octaves(&self.octaves, self.f64_octaves, chunk, noise, displaced, sums);
     }
 }

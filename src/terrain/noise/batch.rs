@@ -1,24 +1,17 @@
 //! One octave of noise at a chunk of points.
 //!
-//! Two loops: the lattice in f64 (cell number and fraction of each point), then the noise in f32 and u32 alone. Apart
-//! they are twice as fast as together, because the compiler takes the widest number in a loop to decide how many
-//! points go into a register.
+//! Two loops: first the lattice in f64 (cell number and fraction of each point), then the noise in f32 and u32. One
+//! loop for both takes twice as long, because the widest type in a loop decides how many points the compiler puts
+//! into a register.
 
-use super::precise::Lattice;
+use super::lattice::Lattice;
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
-use crate::terrain::jet::Scalar;
+use crate::terrain::lane::{CHUNK, Lane, Points3};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::{Simd, for_each_simd};
 
-/// Points worked on at a time: few enough for all arrays to stay in the first-level cache.
-pub(crate) const CHUNK: usize = 256;
-
-/// One number for each point of a chunk.
-pub(crate) type Lane<T> = [T; CHUNK];
-
-/// Coordinates of a chunk of points, each coordinate in a slice of its own; at most [`CHUNK`] of them.
-pub(crate) type Points3<'a> = [&'a [f64]; 3];
-
-/// The noise of one octave at a chunk of points, by the coordinates of the points (not of the lattice).
+/// The noise of one octave at a chunk of points. Derivatives are by the coordinates of the points, not of the
+/// lattice.
 pub(crate) struct Noise<S = f32> {
     cell: [Lane<u32>; 3],
     fraction: [Lane<S>; 3],
@@ -26,7 +19,7 @@ pub(crate) struct Noise<S = f32> {
     pub(crate) gradient: [Lane<S>; 3],
     /// Second derivatives xx, yy, zz, yz, zx, xy.
     pub(crate) curvature: [Lane<S>; 6],
-    /// Where it is found in f64.
+    /// For noise in f64.
     lattice: Lattice,
 }
 
@@ -45,7 +38,17 @@ impl<S: Scalar> Default for Noise<S> {
 }
 
 impl Noise<f64> {
-    /// Values alone, at skewed points.
+    /// Finds the lattice of a vector noise for [`Noise::vector_gradients`].
+    pub(crate) fn find_vector(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
+        self.lattice.find_vector(simd, skewed, octave);
+    }
+
+    /// The gradients of one component of the vector noise.
+    pub(crate) fn vector_gradients(&mut self, simd: Simd, n: usize, octave: &Octave, component: usize) {
+        self.lattice.gradients(simd, n, octave.frequency, component, &mut self.value, &mut self.gradient);
+    }
+
+    /// Values at skewed points.
     pub(crate) fn values(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         self.lattice.find(simd, skewed, octave);
         self.lattice.values(simd, skewed[0].len(), &mut self.value);
@@ -55,12 +58,12 @@ impl Noise<f64> {
     pub(crate) fn gradients(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         let Self { value, gradient, lattice, .. } = self;
         lattice.find(simd, skewed, octave);
-        lattice.gradients(simd, skewed[0].len(), octave.frequency, value, gradient);
+        lattice.gradients(simd, skewed[0].len(), octave.frequency, 0, value, gradient);
     }
 }
 
 impl Noise {
-    /// Values alone, at skewed points.
+    /// Values at skewed points.
     pub(crate) fn values(&mut self, simd: Simd, skewed: Points3<'_>, octave: &Octave) {
         find_cells(simd, skewed, octave, self);
         fill_values(simd, skewed[0].len(), octave.seed, self);
@@ -72,8 +75,8 @@ impl Noise {
         fill_gradients(simd, skewed[0].len(), octave, self);
     }
 
-    /// Adds the noise, found in f64, times a weight to a sum.
-    pub(crate) fn add_exact(
+    /// Adds the noise in f64 times a weight to a sum.
+    pub(crate) fn add_f64(
         &mut self,
         simd: Simd,
         skewed: Points3<'_>,
@@ -85,14 +88,14 @@ impl Noise {
         self.lattice.add(simd, skewed[0].len(), weight, sum);
     }
 
-    /// The gradients of the noise that [`Noise::add_exact`] found last.
-    pub(crate) fn exact_gradients(&mut self, simd: Simd, n: usize, octave: &Octave) {
+    /// Gradients in f32 of the noise that [`Noise::add_f64`] evaluated last.
+    pub(crate) fn gradients_of_f64(&mut self, simd: Simd, n: usize, octave: &Octave) {
         self.lattice.rounded_gradients(simd, n, octave.frequency, &mut self.gradient);
     }
 
-    /// Adds three noises on the lattice of an octave, found in f64, times a weight to sums; see
-    /// [`precise::components`](super::precise::components).
-    pub(crate) fn add_exact_vector(
+    /// Adds three noises on the lattice of one octave in f64, times a weight; see
+    /// [`lattice::components`](super::lattice::components).
+    pub(crate) fn add_f64_vector(
         &mut self,
         simd: Simd,
         skewed: Points3<'_>,

@@ -1,63 +1,62 @@
-//! Gradient noise: the arithmetic at the bottom of every layer.
+//! Gradient noise: the arithmetic below every landform.
 //!
-//! 3D simplex noise (Perlin 2001, after Gustavson's formulation) with two changes that make it fast
-//! and exact at planet scale:
+//! 3D simplex noise (Perlin 2001, in Gustavson's formulation) with two changes for speed and for planets of true
+//! size:
 //!
-//! - The skew onto the simplex grid is linear, so it is applied to a point once ([`skew`]) and each octave only scales
-//!   the skewed point. Lattice and fraction are found in f64, whose rounding at the Earth's scale is below a
-//!   micrometre; only the fraction goes on in f32. The answer does not depend on which tile asks.
-//! - Gradients are three signed 10-bit numbers out of an integer hash, uniform in a cube: no table, no preferred axes.
+//! - The skew onto the simplex grid is linear, so a point is skewed once ([`skew`]) and each octave only scales it.
+//!   Cell and fraction are found in f64, whose rounding on the Earth is below a micrometre; the fraction goes on in
+//!   f32. The noise at a point does not depend on which tile asks.
+//! - Gradients are three signed 10-bit numbers of an integer hash, uniform in a cube: no table, no preferred axes.
 //!
-//! Everything is branch-free and uses only operations that IEEE 754 rounds correctly, never a fused multiply-add,
-//! so that the loops over points ([`batch`]) can be compiled for each instruction set (see [`super::simd`]) with
-//! the same bits everywhere.
+//! The code is branch-free and uses only operations that IEEE 754 rounds correctly, never a fused multiply-add. So
+//! the loops over points ([`batch`]) have the same bits for every instruction set (see [`super::simd`]).
 
 mod batch;
+pub(crate) mod lattice;
 mod near;
-pub(crate) mod precise;
 
-use super::jet::Scalar;
-pub(crate) use batch::{CHUNK, Lane, Noise, Points3};
+use super::scalar::Scalar;
+pub(crate) use batch::Noise;
 pub(crate) use near::{Nearby, SLOPE_BOUND, near};
 
-/// Bound of `|noise|`: the sum of the four corners' greatest contributions is 1.448.
+/// Bound of `|noise|`: the greatest contributions of the four corners add up to 1.448.
 pub(crate) const BOUND: f64 = 1.45;
 
-/// Scales the sum of corners so that the noise's standard deviation is about 0.33.
+/// Scales the sum of the corners to a standard deviation of about 0.33.
 const SCALE: f32 = 90.0 / 512.0 / GRADIENT_UNIT;
 
-/// One of a component of a corner's gradient. A power of two, so that it changes no bits of the noise.
+/// The unit of a gradient component. A power of two, so that it changes no bits of the noise.
 const GRADIENT_UNIT: f32 = (1 << 22) as f32;
 
 /// Adding and subtracting this rounds an f64 below 2^51 to a whole number and leaves that number in the low bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// One octave: where and how fine the lattice is, and how its corners are hashed.
+/// One octave of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     /// Lattice cells per unit of the point's coordinates.
     pub(crate) frequency: f64,
-    /// Shift of the lattice in skewed coordinates, so that octaves do not share a centre.
+    /// Shift of the lattice in skewed coordinates, so that octaves have no common centre.
     pub(crate) offset: [f64; 3],
     /// Hash seed.
     pub(crate) seed: u32,
 }
 
-/// Skews a point onto the simplex grid: a third of the sum of its coordinates is added to each.
+/// Skews a point onto the simplex grid: adds a third of the sum of its coordinates to each.
 #[inline(always)]
 pub(crate) fn skew(p: [f64; 3]) -> [f64; 3] {
     let s = (p[0] + p[1] + p[2]) * (1.0 / 3.0);
     [p[0] + s, p[1] + s, p[2] + s]
 }
 
-/// Cell number and position within the cell, 0 to 1.
+/// Cell number and fraction within the cell, 0 to 1.
 #[inline(always)]
 pub(crate) fn split<S: Scalar>(q: f64) -> (u32, S) {
     let rounded = (q - 0.5) + ROUNDER;
     (rounded.to_bits() as u32, S::of(q - (rounded - ROUNDER)))
 }
 
-/// Large odd numbers that spread cell numbers over the hash's bits.
+/// Large odd numbers that spread cell numbers over the bits of the hash.
 const PRIME: [u32; 3] = [0x8DA6_B343, 0xD816_3841, 0xCB1A_B31F];
 
 /// Spreads the bits of a number.
@@ -75,13 +74,12 @@ pub(crate) fn cell_hash(cell: [u32; 3], seed: u32) -> u32 {
     h ^ (h >> 16)
 }
 
-/// A corner's gradient out of its random bits, each component an odd whole number from -511 to 511 of
-/// [`GRADIENT_UNIT`].
+/// The gradient of a corner from its hash: three odd whole numbers from -511 to 511, in units of [`GRADIENT_UNIT`].
 ///
-/// Ten bits each, of which the lowest counts as set. The highest ten stay where they are and count as an integer. The
-/// others stay where they are too, in the mantissa of a number whose exponent makes the lowest of them one unit; what
-/// remains is to take that number's own 1 and half the range away. Shifts would cost more, and the compiler makes
-/// multiplications of them.
+/// Each takes ten bits, the lowest of which counts as set. The highest ten bits are read in place as an integer. The
+/// others are read in place as the mantissa of a float whose exponent makes their lowest bit one unit; the float's
+/// implicit 1 and half the range are then subtracted. Shifts would cost more, because the compiler turns them into
+/// multiplications.
 #[inline(always)]
 fn gradient<S: Scalar>(hash: u32) -> [S; 3] {
     let odd = |lowest: u32| 1 << lowest;
@@ -95,19 +93,19 @@ fn gradient<S: Scalar>(hash: u32) -> [S; 3] {
     [S::from_i32((hash & others(22) | odd(22)) as i32), in_mantissa(12), in_mantissa(2)]
 }
 
-/// What one corner of the simplex adds: its weight cubed, and gradient dot distance.
+/// The weight of a corner before it is raised to the fourth power, from the vector to the point.
 #[inline(always)]
 fn falloff<S: Scalar>(d: [S; 3]) -> S {
     (S::of(0.5) - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])).max(S::of(0.0))
 }
 
-/// The four corners of the simplex around a place in a cell: distances, gradients.
+/// The four corners of the simplex around a point of a cell: vectors to the point, and gradients.
 #[inline(always)]
 fn corners<S: Scalar>([ix, iy, iz]: [u32; 3], [x, y, z]: [S; 3], seed: u32) -> ([[S; 3]; 4], [[S; 3]; 4]) {
     let (half, third, sixth) = (S::of(0.5), S::of(1.0 / 3.0), S::of(1.0 / 6.0));
     let t = (x + y + z) * sixth;
     let d0 = [x - t, y - t, z - t];
-    // Which tetrahedron of the cell: the order of x, y and z, as selects.
+    // The order of x, y and z tells the tetrahedron of the cell.
     let (xy, yz, zx) = (x >= y, y >= z, z > x);
     let first = [xy & !zx, yz & !xy, zx & !yz];
     let second = [xy | !zx, yz | !xy, zx | !yz];
@@ -131,7 +129,7 @@ fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The noise at a place within a cell of the skewed lattice, about -1 to 1.
+/// The noise at a point of a cell of the skewed lattice, about -1 to 1.
 #[inline(always)]
 pub(crate) fn value<S: Scalar>(cell: [u32; 3], fraction: [S; 3], seed: u32) -> S {
     let (d, g) = corners(cell, fraction, seed);
@@ -183,7 +181,7 @@ pub(crate) fn value_gradient_curvature<S: Scalar>(cell: [u32; 3], fraction: [S; 
     (v, g, [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5)])
 }
 
-/// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014): seeds and offsets of octaves.
+/// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014), for seeds and offsets.
 pub(crate) fn mix(state: u64) -> u64 {
     let mut z = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -262,8 +260,8 @@ mod tests {
         assert!((0.31..0.35).contains(&deviation), "deviation {deviation}");
     }
 
-    /// How alike two points are depends on their distance, not on the direction from one to the
-    /// other: no lattice shows.
+    /// How alike the noise of two points is depends on their distance, not on the direction between them: no lattice
+    /// shows.
     #[test]
     fn no_direction_is_preferred() {
         let n = 60_000;
@@ -292,7 +290,7 @@ mod tests {
         }
     }
 
-    /// The greatest that corners can add up to, over a grid of places in a simplex.
+    /// The greatest sum of corners, over a grid of points in a simplex.
     #[test]
     fn bounds_hold_with_the_worst_of_gradients() {
         let longest = 511.0 * 3.0_f64.sqrt() * f64::from(GRADIENT_UNIT) * f64::from(SCALE);

@@ -1,34 +1,34 @@
-//! The noise of one octave around a point, for bounds: what it is there, and how far from that it can get.
+//! The noise of one octave near a point, for bounds: value, derivatives, and how far the noise can be from them.
 
 use super::{BOUND, Octave, split, value_gradient_curvature};
 use glam::{DMat3, DVec3};
 
-/// Bounds of the length of the gradient and of the greatest second and third derivatives along any direction, by
-/// lattice coordinates: sums of the four corners' greatest contributions, each with the worst of gradients.
-/// True values are far smaller.
+/// Bounds of the length of the gradient and of the second and third derivatives along any direction, by lattice
+/// coordinates. They add up the greatest contributions of four corners with the worst gradients; true values are far
+/// smaller.
 pub(crate) const SLOPE_BOUND: f64 = 11.4;
 pub(crate) const CURVATURE_BOUND: f64 = 131.0;
 pub(crate) const TWIST_BOUND: f64 = 1380.0;
 
-/// What the f32 of the kernels may be off by.
+/// Bound of the rounding of the f32 kernels.
 const ROUNDING: f64 = 3e-6;
 
-/// The noise around a point, by lattice coordinates.
+/// The noise near a point; derivatives are by lattice coordinates.
 pub(crate) struct Nearby {
     pub(crate) value: f64,
     pub(crate) gradient: DVec3,
     pub(crate) curvature: DMat3,
-    /// How far from `value + gradient . d` the noise can be.
+    /// Bound of the distance of the noise from `value + gradient . d`.
     pub(crate) bend: f64,
-    /// How far from `gradient + curvature d` its gradient can be.
+    /// Bound of the distance of its gradient from `gradient + curvature d`.
     pub(crate) twist: f64,
     /// Lowest and highest noise.
     pub(crate) range: (f64, f64),
-    /// How far from `gradient` each component can be.
+    /// Bound of the change of each component of the gradient.
     pub(crate) turn: f64,
 }
 
-/// The noise of an octave within a distance of a skewed point (in the point's units). Conservative.
+/// The noise of an octave within a distance of a skewed point (in the units of the point). Conservative.
 pub(crate) fn near(point_skewed: [f64; 3], octave: &Octave, distance: f64) -> Nearby {
     let [(ix, x), (iy, y), (iz, z)] =
         [0, 1, 2].map(|axis| split::<f64>(point_skewed[axis] * octave.frequency + octave.offset[axis]));

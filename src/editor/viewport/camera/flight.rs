@@ -1,19 +1,20 @@
 //! A flight from one pose to another along a great circle: up, across and down again.
 //!
-//! Height and way follow van Wijk and Nuij, Smooth and Efficient Zooming and Panning (2003): what passes by in the
-//! picture goes at an even pace, however far the places are apart and however high they are looked at from.
+//! Height and distance follow van Wijk and Nuij, Smooth and Efficient Zooming and Panning (2003): the ground passes
+//! through the picture at an even speed, at every distance and height.
 
 use super::Ground;
 use super::pose::Pose;
 use glam::{DQuat, DVec3};
 
-/// The authors' trade between climbing and going across.
+/// ρ of the paper: the balance between climbing and moving across. The authors found 1.4 in a user study.
 const RHO: f64 = 1.4;
-/// A flight takes this long and so much more for each unit of its path.
+/// Duration of a flight of length 0, and the time for each unit of its length.
 const SHORTEST_SECS: f64 = 1.0;
 const SECS_PER_UNIT: f64 = 0.12;
+/// Greatest duration of a flight.
 const LONGEST_SECS: f64 = 4.0;
-/// Lowest height that a path starts or ends at: ratios of heights decide its shape.
+/// Least height at the ends of a path: the path depends on the ratio of the heights.
 const LEAST_HEIGHT_M: f64 = 0.5;
 
 /// A flight under way.
@@ -21,10 +22,10 @@ const LEAST_HEIGHT_M: f64 = 0.5;
 pub struct Flight {
     from: Pose,
     to: Pose,
-    /// Great circle from the one place to the other.
+    /// Axis of the great circle between the two locations.
     axis: DVec3,
     angle_rad: f64,
-    /// Distances from the centre above which heights are measured: the ground at both ends.
+    /// Distance of the ground from the centre at both ends; heights count from there.
     base_m: [f64; 2],
     path: ZoomPath,
     elapsed_secs: f64,
@@ -32,7 +33,7 @@ pub struct Flight {
 }
 
 impl Flight {
-    /// From one pose to another; `base_m` are the distances of the ground below them from the planet's centre.
+    /// A flight from one pose to another. `base_m`: distance of the ground below them from the planet's centre.
     pub fn new(from: Pose, to: Pose, base_m: [f64; 2]) -> Self {
         let (axis, angle_rad) = DQuat::from_rotation_arc(from.up(), to.up()).to_axis_angle();
         let height_m = |pose: &Pose, base_m: f64| (pose.position_planet_m.length() - base_m).max(LEAST_HEIGHT_M);
@@ -41,41 +42,41 @@ impl Flight {
         Self { from, to, axis, angle_rad, base_m, path, elapsed_secs: 0.0, duration_secs }
     }
 
-    /// Goes on; whether it is still under way.
+    /// Advances by a time. Gives whether the flight is still under way.
     pub fn advance(&mut self, duration_secs: f64) -> bool {
         self.elapsed_secs += duration_secs;
         self.elapsed_secs < self.duration_secs
     }
 
-    /// Where the eye is now, never nearer to the ground than `clearance_m`.
+    /// The pose now, at least `clearance_m` above the ground.
     pub fn pose(&self, ground: &dyn Ground, clearance_m: f64) -> Pose {
         let x = (self.elapsed_secs / self.duration_secs).clamp(0.0, 1.0);
         if x >= 1.0 {
             return self.to;
         }
-        // Starts and ends at rest, without a jerk (Perlin's smootherstep).
+        // Starts and ends at rest and without acceleration (Perlin's smootherstep).
         let eased = x * x * x * (x * (6.0 * x - 15.0) + 10.0);
         let (share, height_m) = self.path.at(eased);
         let along = DQuat::from_axis_angle(self.axis, self.angle_rad * share);
         let up = (along * self.from.up()).normalize();
         let base_m = self.base_m[0] + (self.base_m[1] - self.base_m[0]) * share;
         let radius_m = (base_m + height_m).max(ground.floor_radius_m(up) + clearance_m);
-        // The head turns from the one attitude to the other while both are carried along the way.
+        // The view turns from one attitude to the other while both are carried along the great circle.
         let whole = DQuat::from_axis_angle(self.axis, self.angle_rad);
         let turned = self.from.planet_from_view.slerp(whole.inverse() * self.to.planet_from_view, eased);
         Pose { position_planet_m: up * radius_m, planet_from_view: (along * turned).normalize() }
     }
 }
 
-/// The optimal path in the plane of way and height.
+/// The optimal path in the plane of distance and height.
 #[derive(Clone, Copy, Debug)]
 struct ZoomPath {
     from_height_m: f64,
     to_height_m: f64,
     way_m: f64,
-    /// The parameter at the start; what the paper calls r0.
+    /// The parameter at the start; r0 of the paper.
     start: f64,
-    /// In units in which ways are measured against the height they are seen from.
+    /// Length of the path in the metric of the paper, where distances count in heights; S of the paper.
     length: f64,
 }
 
@@ -95,7 +96,7 @@ impl ZoomPath {
         Self { from_height_m, to_height_m, way_m: if straight { 0.0 } else { u1 }, start, length }
     }
 
-    /// Share of the way, and height, at a share of the path's length.
+    /// Share of the distance, and height, at a share of the path's length.
     fn at(&self, share: f64) -> (f64, f64) {
         if self.way_m <= 0.0 {
             return (share, self.from_height_m * libm::pow(self.to_height_m / self.from_height_m, share));

@@ -1,61 +1,62 @@
-//! Free flight: where one looks, faster the higher one is, and never into the ground.
+//! Free flight: along the view, with a speed that grows with the height above the ground.
 
 use super::pose::{Attitude, Pose};
 use super::{Controls, MAX_RADII};
 use glam::DVec3;
 
-/// Nearest one comes to the ground.
+/// Least height of the eye above the ground.
 pub const CLEARANCE_M: f64 = 1.5;
-/// Share of the height above the ground that one flies in a second.
+/// Speed per second, as a share of the height above the ground.
 const HEIGHTS_PER_SEC: f64 = 0.8;
-/// However low, one flies at least as fast as this.
+/// Least speed.
 const LEAST_SPEED_M_S: f64 = 5.0;
-/// Shift multiplies the speed.
+/// Factor of Shift on the speed.
 const FAST: f64 = 5.0;
-/// Time in which the speed comes near to what is asked for.
+/// Time constant in which the speed approaches the one asked for.
 const INERTIA_SECS: f64 = 0.12;
+/// Speed of the roll.
 const ROLL_RAD_PER_SEC: f64 = 1.0;
-/// Below this share of the speed one stands still.
+/// A smaller share of the speed counts as rest.
 const STILL: f64 = 1e-3;
 
 /// An eye in free flight.
 #[derive(Clone, Copy, Debug)]
 pub struct Fly {
     position_planet_m: DVec3,
-    /// How the head is turned.
+    /// Orientation of the view.
     pub attitude: Attitude,
-    /// To the right, away from the ground, and to where one looks, in shares of the speed.
+    /// Velocity to the right, away from the ground, and along the view, in shares of the speed.
     thrust: DVec3,
-    /// What the wheel has made of the speed.
+    /// The factor that the wheel has given to the speed.
     pub speed_factor: f64,
 }
 
 impl Fly {
-    /// Goes on from a pose.
+    /// Starts from a pose, at rest.
     pub fn from_pose(pose: &Pose) -> Self {
         let attitude = Attitude::of(pose);
         Self { position_planet_m: pose.position_planet_m, attitude, thrust: DVec3::ZERO, speed_factor: 1.0 }
     }
 
-    /// The same elsewhere, at rest.
+    /// The same camera at another pose, at rest.
     pub fn moved_to(&self, pose: &Pose) -> Self {
         Self { speed_factor: self.speed_factor, ..Self::from_pose(pose) }
     }
 
-    /// Where the eye is.
+    /// The pose of the eye.
     pub fn pose(&self) -> Pose {
         Pose::new(self.position_planet_m, &self.attitude)
     }
 
-    /// Keeps the eye above `floor_m`, the ground's distance from the centre, and within reach of the planet.
+    /// Keeps the eye above `floor_m`, the ground's distance from the centre, and within [`MAX_RADII`].
     pub fn keep_above(&mut self, floor_m: f64, planet_radius_m: f64) {
         let lowest_m = floor_m + CLEARANCE_M;
         let radius_m = self.position_planet_m.length().clamp(lowest_m, lowest_m.max(MAX_RADII * planet_radius_m));
         self.position_planet_m = self.position_planet_m.normalize_or(DVec3::Z) * radius_m;
     }
 
-    /// Goes on for a while; `floor_m` gives the distance of what lies below from the planet's
-    /// centre. Whether anything moved.
+    /// Advances by a time; `floor_m` gives the distance from the planet's centre to the ground or the sea. Gives
+    /// whether the camera moved.
     pub fn advance(
         &mut self,
         duration_secs: f64,

@@ -1,10 +1,11 @@
-//! Where one looks from and how the pointer and the keys move it. Pure mathematics in the planet frame; no egui.
+//! The cameras, and how the pointer and the keys move them. Pure mathematics in the planet frame; no egui.
 //!
-//! - [`orbit`]: around the planet; [`fly`]: wherever one likes; [`walk`]: on foot
-//! - [`flight`]: to a place from afar
-//! - [`pose`]: what all of them can be read as and started from
+//! - [`orbit`]: around the planet; [`fly`]: free flight; [`walk`]: on foot
+//! - [`flight`]: an animated flight from one pose to another
+//! - [`pose`]: position and orientation of the eye, common to all cameras
 //!
-//! [`Cameras`] is all of them: one at a time, handed over to the next without a jump, and never below the ground.
+//! [`Cameras`] holds the camera in use. A change of the mode starts from the pose of the camera before, without a jump.
+//! The eye never goes below the ground.
 
 pub mod flight;
 pub mod fly;
@@ -21,26 +22,26 @@ use orbit::Orbit;
 use pose::{Attitude, Pose};
 use walk::Walk;
 
-/// Farthest one goes, in planet radii from the centre.
+/// Greatest distance of the eye from the centre, in planet radii.
 pub const MAX_RADII: f64 = 20.0;
-/// However a camera got there, the eye is as high as this above the ground.
+/// Least height of the eye above the ground, for every camera.
 pub const CLEARANCE_M: f64 = 0.5;
-/// From higher up one flies down to walk rather than falls.
+/// From a greater height above the ground the camera flies down to walk; from a lower one it falls.
 const FALL_M: f64 = 60.0;
-/// Duration of a hand-over.
+/// Time in which the difference to the camera before fades away.
 const HANDOVER_SECS: f64 = 0.6;
-/// How much a step of the wheel changes the speed of free flight, and how far.
+/// Least and greatest factor that the wheel gives to the speed of free flight.
 const SPEED_FACTORS: (f64, f64) = (0.02, 50.0);
-/// Somebody whose eyes are so near to where they would be on foot stands there.
+/// An eye within this distance of the height of a walker is taken for a walker.
 const STANDING_M: f64 = 0.2;
-/// Angles that a camera around the planet cannot hold; free flight can.
+/// A greater roll is taken for free flight: the orbit camera has no roll.
 const ROLLED_RAD: f64 = 0.02;
 
-/// The ground as the cameras need to know it.
+/// The ground below the cameras.
 pub trait Ground {
     /// Radius of the reference sphere.
     fn radius_m(&self) -> f64;
-    /// Distance from the centre to the ground, be it under the sea.
+    /// Distance from the centre to the ground, including the sea bed.
     fn floor_radius_m(&self, dir_planet: DVec3) -> f64;
     /// Distance from the centre to the ground or the sea, whichever is higher.
     fn surface_radius_m(&self, dir_planet: DVec3) -> f64;
@@ -48,14 +49,14 @@ pub trait Ground {
     fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64>;
 }
 
-/// What the keys ask for, each from -1 to 1.
+/// The movement that the keys ask for; each number is from -1 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Controls {
     /// To the right.
     pub right: f64,
     /// Away from the ground.
     pub up: f64,
-    /// To where one looks.
+    /// Along the view.
     pub ahead: f64,
     /// Tilts the head to the right.
     pub roll: f64,
@@ -76,7 +77,7 @@ impl Controls {
     }
 }
 
-/// The ways to move.
+/// The modes of movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Mode {
@@ -89,7 +90,7 @@ impl Mode {
     /// All of them.
     pub const ALL: [Mode; 3] = [Mode::Orbit, Mode::Fly, Mode::Walk];
 
-    /// The name a person reads.
+    /// The name in menus and in the status bar.
     pub fn label(self) -> &'static str {
         match self {
             Mode::Orbit => "Orbit",
@@ -124,7 +125,7 @@ impl Rig {
     }
 }
 
-/// What is left of the camera before: fades away.
+/// The difference to the pose of the camera before; it fades away.
 #[derive(Clone, Copy, Debug)]
 struct Handover {
     offset_planet_m: DVec3,
@@ -132,7 +133,7 @@ struct Handover {
     elapsed_secs: f64,
 }
 
-/// All cameras.
+/// The camera in use, and its transitions.
 #[derive(Clone, Debug)]
 pub struct Cameras {
     rig: Rig,
@@ -143,13 +144,13 @@ pub struct Cameras {
 }
 
 impl Cameras {
-    /// Looks at a whole planet from over the given place.
+    /// Looks at the whole planet from over a location.
     pub fn new(planet_radius_m: f64, over: LatLon) -> Self {
         let rig = Rig::Orbit(Orbit::new(planet_radius_m, over));
         Self { rig, handover: None, flight: None, dive: false }
     }
 
-    /// The way one moves, or will once a flight arrives.
+    /// The mode of movement, or the one that follows the flight under way.
     pub fn mode(&self) -> Mode {
         match self.flight.as_ref().map_or(&self.rig, |(_, then)| then) {
             Rig::Orbit(_) => Mode::Orbit,
@@ -158,17 +159,17 @@ impl Cameras {
         }
     }
 
-    /// Whether one may go below the sea's surface in free flight and on foot.
+    /// Whether free flight and walking may go under water.
     pub fn dives(&self) -> bool {
         self.dive
     }
 
-    /// Lets one go below the sea's surface, or stay above it.
+    /// Sets whether free flight and walking may go under water.
     pub fn set_dive(&mut self, dive: bool) {
         self.dive = dive;
     }
 
-    /// Where the eye is.
+    /// The pose of the eye.
     pub fn pose(&self, ground: &dyn Ground) -> Pose {
         let mut pose = match &self.flight {
             Some((flight, _)) => flight.pose(ground, CLEARANCE_M),
@@ -188,12 +189,12 @@ impl Cameras {
         pose
     }
 
-    /// The camera to draw with.
+    /// The camera for drawing.
     pub fn camera(&self, ground: &dyn Ground) -> Camera {
         self.pose(ground).camera(Camera::DEFAULT_FOV_Y_RAD)
     }
 
-    /// The way one moves from now on. To walk from on high one first flies down.
+    /// Sets the mode of movement. From high above the ground, walking starts with a flight down.
     pub fn set_mode(&mut self, mode: Mode, ground: &dyn Ground) {
         if mode == self.mode() {
             return;
@@ -210,8 +211,8 @@ impl Cameras {
         }
     }
 
-    /// Flies to a pose, smoothly: on foot if it is one of somebody who stands there, and in free flight if a camera
-    /// around the planet could not hold it.
+    /// Starts a flight to a pose. The mode after it is walking if the pose is that of a walker, and free flight if the
+    /// orbit camera cannot hold the pose.
     pub fn fly_to_pose(&mut self, to: Pose, ground: &dyn Ground) {
         let from = self.pose(ground);
         let attitude = Attitude::of(&to);
@@ -227,7 +228,7 @@ impl Cameras {
         self.fly(from, to, Rig::from_pose(mode, &to, ground), ground);
     }
 
-    /// Flies to the place under the pointer (`x`, `y` from -1 to 1, right and up), and goes on there as here.
+    /// Starts a flight to the ground under the pointer (`x`, `y` from -1 to 1, right and up), in the same mode.
     pub fn fly_to(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
         let from = self.pose(ground);
         let dir = from.camera(Camera::DEFAULT_FOV_Y_RAD).ray_dir_planet(x, y, aspect);
@@ -241,7 +242,7 @@ impl Cameras {
         let then = match &self.rig {
             Rig::Orbit(orbit) => Rig::Orbit(orbit.near(hit, ground)),
             Rig::Fly(fly) => {
-                // Near the ground twice as far away as high, from space above it.
+                // Near the ground the eye ends twice as far from the point as it is high; from space, above the point.
                 let altitude_m = from.position_planet_m.length() - ground.surface_radius_m(from.up());
                 let height_m = (altitude_m * 0.25).max(fly::CLEARANCE_M);
                 let back_m = 2.0 * height_m * (1.0 - smoothstep(10.0 * height_m / ground.radius_m()));
@@ -264,7 +265,7 @@ impl Cameras {
         self.flight.is_some()
     }
 
-    /// Ends a flight where it is. Who was to land goes on in free flight rather than falls.
+    /// Ends a flight at the current pose. A walker who has not landed goes on in free flight rather than falling.
     pub fn stop(&mut self, ground: &dyn Ground) {
         if self.flight.is_some() {
             let pose = self.pose(ground);
@@ -274,7 +275,7 @@ impl Cameras {
         }
     }
 
-    /// Keeps the view of a planet whose radius has changed.
+    /// Scales the camera with a planet whose radius has changed.
     pub fn rescale(&mut self, from_radius_m: f64, to_radius_m: f64, ground: &dyn Ground) {
         let factor = to_radius_m / from_radius_m;
         (self.flight, self.handover) = (None, None);
@@ -290,7 +291,7 @@ impl Cameras {
         self.keep_above(ground);
     }
 
-    /// Keeps the eye above the ground and within reach. Call it whenever the ground may have changed.
+    /// Keeps the eye above the ground and within [`MAX_RADII`]. Call it whenever the ground may have changed.
     pub fn keep_above(&mut self, ground: &dyn Ground) {
         let floor_m = |up: DVec3| if self.dive { ground.floor_radius_m(up) } else { ground.surface_radius_m(up) };
         match &mut self.rig {
@@ -300,7 +301,7 @@ impl Cameras {
         }
     }
 
-    /// Takes hold of what is under the pointer: the ground around which one turns, or else the view itself.
+    /// Starts a drag at a point of the picture. The orbit camera holds the ground there.
     pub fn grab(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
         self.settle(ground);
         if let Rig::Orbit(orbit) = &mut self.rig {
@@ -308,7 +309,7 @@ impl Cameras {
         }
     }
 
-    /// Moves what is held to under the pointer, which went `right` and `up` in shares of the picture's height.
+    /// Goes on with a drag to the point `to`; the pointer moved by `right` and `up`, in shares of the picture's height.
     pub fn drag(&mut self, to: (f64, f64), (right, up): (f64, f64), aspect: f64, ground: &dyn Ground) {
         match &mut self.rig {
             Rig::Orbit(orbit) => orbit.drag(to.0, to.1, aspect, ground),
@@ -316,33 +317,33 @@ impl Cameras {
         }
     }
 
-    /// Lets go.
+    /// Ends a drag.
     pub fn release(&mut self) {
         if let Rig::Orbit(orbit) = &mut self.rig {
             orbit.release();
         }
     }
 
-    /// Turns the head to the right and up, in shares of the picture's height.
+    /// Turns the view to the right and up, in shares of the picture's height.
     pub fn look(&mut self, right: f64, up: f64, ground: &dyn Ground) {
         self.stop(ground);
         let picture_rad = Camera::DEFAULT_FOV_Y_RAD;
         let (right_rad, up_rad) = (right * picture_rad, up * picture_rad);
         match &mut self.rig {
-            // Seen steeply from above the planet would hardly turn.
+            // Seen from straight above, the planet would hardly seem to turn without the factor.
             Rig::Orbit(orbit) => orbit.tilt(right * 1.6, up * 1.6, ground),
             Rig::Fly(fly) => {
-                let place = fly.pose().up();
-                fly.attitude.look(right_rad, up_rad, place);
+                let up = fly.pose().up();
+                fly.attitude.look(right_rad, up_rad, up);
             }
             Rig::Walk(walk) => {
-                let place = walk.pose().up();
-                walk.attitude.look(right_rad, up_rad, place);
+                let up = walk.pose().up();
+                walk.attitude.look(right_rad, up_rad, up);
             }
         }
     }
 
-    /// The wheel: goes nearer to what is under the pointer, or flies faster.
+    /// The wheel: moves the orbit camera towards the point under the pointer, or changes the speed of free flight.
     pub fn zoom(&mut self, steps: f64, pointer: Option<(f64, f64)>, aspect: f64, ground: &dyn Ground) {
         self.stop(ground);
         match &mut self.rig {
@@ -357,12 +358,12 @@ impl Cameras {
         }
     }
 
-    /// What the wheel has made of the speed of free flight.
+    /// The factor that the wheel has given to the speed of free flight.
     pub fn speed_factor(&self) -> f64 {
         if let Rig::Fly(fly) = &self.rig { fly.speed_factor } else { 1.0 }
     }
 
-    /// Takes the roll out of free flight.
+    /// Sets the roll of free flight to zero.
     pub fn level(&mut self, ground: &dyn Ground) {
         self.stop(ground);
         let before = self.pose(ground);
@@ -372,7 +373,7 @@ impl Cameras {
         }
     }
 
-    /// Goes on for a while; whether anything goes on moving.
+    /// Advances by a time. Gives whether the camera goes on moving.
     pub fn advance(&mut self, duration_secs: f64, controls: &Controls, ground: &dyn Ground) -> bool {
         if let Some(handover) = &mut self.handover {
             handover.elapsed_secs += duration_secs;
@@ -423,7 +424,7 @@ impl Cameras {
         self.flight = Some((Flight::new(from, to, base_m), then));
     }
 
-    /// Ends whatever moves by itself, with the eye where it is seen.
+    /// Ends a flight and a fading difference, with the eye at its current pose.
     fn settle(&mut self, ground: &dyn Ground) {
         self.stop(ground);
         if self.handover.is_some() && self.mode() == Mode::Orbit {
@@ -440,7 +441,7 @@ impl Cameras {
         self.hand_over_from(from, ground);
     }
 
-    /// Lets what the camera now differs in from a pose fade away.
+    /// Starts to fade the difference between a pose and that of the camera in use.
     fn hand_over_from(&mut self, from: &Pose, ground: &dyn Ground) {
         let now = self.rig.pose(ground);
         let offset_planet_m = from.position_planet_m - now.position_planet_m;

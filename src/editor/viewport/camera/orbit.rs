@@ -1,7 +1,7 @@
-//! The camera that turns around the planet: holds the ground under the pointer, nears what it points at.
+//! The orbit camera: a drag holds the ground under the pointer, the wheel moves towards the point under the pointer.
 //!
-//! The eye stands over a place at a distance from the planet's centre. Its pitch follows the height above the ground
-//! (straight down from space, towards the horizon below some kilometres) until somebody tilts the view by hand.
+//! The eye is over a location, at a distance from the planet's centre. The pitch follows the height above the ground
+//! (straight down from space, towards the horizon below some kilometres) until the user tilts the view.
 //! Angles are radians, lengths metres.
 
 use super::pose::{Attitude, Pose};
@@ -11,20 +11,20 @@ use crate::sphere::{LatLon, geo};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Nearest one comes to the ground or the sea.
+/// Least height of the eye above the ground or the sea.
 pub const MIN_ALTITUDE_M: f64 = 2.0;
-/// Where one starts, in planet radii from the centre.
+/// Distance from the centre at the start, in planet radii.
 const START_RADII: f64 = 1.0 + crate::lod::opening::OPENING_ALTITUDE_RADII;
-/// How far the view can be tilted up from the horizon.
+/// Greatest pitch that a tilt can set.
 const MAX_PITCH_RAD: f64 = 0.9;
-/// Pitch on the ground.
+/// Pitch near the ground, unless tilted.
 const GROUND_PITCH_RAD: f64 = -0.12;
-/// What is farther away than this many altitudes lies ahead rather than below.
+/// A point farther away than this many altitudes is ahead of the eye rather than below it.
 const FAR_ALTITUDES: f64 = 8.0;
-/// Latitude up to which dragging keeps the heading; nearer to the poles it turns with the globe.
+/// Latitude up to which a drag keeps the heading; nearer to the poles the heading turns with the globe.
 const KEEP_HEADING_LAT_RAD: f64 = 75.0 * PI / 180.0;
 
-/// The ground held by the pointer: its direction, and how far from the centre it is.
+/// The point of the ground that a drag holds: its direction, and its distance from the centre.
 #[derive(Clone, Copy, Debug)]
 struct Grab {
     dir: DVec3,
@@ -32,25 +32,25 @@ struct Grab {
     keep_heading: bool,
 }
 
-/// The eye and what it holds.
+/// The orbit camera.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    place: LatLon,
-    /// From the planet's centre.
+    location: LatLon,
+    /// Distance of the eye from the planet's centre.
     radius_m: f64,
     heading_rad: f64,
-    /// Chosen by hand, or None: follows the altitude.
+    /// The pitch that the user has set; None follows the altitude.
     pitch_rad: Option<f64>,
     grab: Option<Grab>,
 }
 
 impl Orbit {
-    /// Looks at a whole planet from over the given place.
+    /// Looks at the whole planet from over a location.
     pub fn new(planet_radius_m: f64, over: LatLon) -> Self {
-        Self { place: over, radius_m: planet_radius_m * START_RADII, heading_rad: 0.0, pitch_rad: None, grab: None }
+        Self { location: over, radius_m: planet_radius_m * START_RADII, heading_rad: 0.0, pitch_rad: None, grab: None }
     }
 
-    /// Goes on from a pose, level; the pitch follows the altitude again if that is what it does anyway.
+    /// Starts from a pose, without its roll. A pitch equal to that of the altitude follows the altitude again.
     pub fn from_pose(pose: &Pose, ground: &dyn Ground) -> Self {
         let attitude = Attitude::of(pose);
         let up = pose.up();
@@ -63,61 +63,61 @@ impl Orbit {
         orbit
     }
 
-    /// Where the eye is.
+    /// The pose of the eye.
     pub fn pose(&self, ground: &dyn Ground) -> Pose {
         let camera = self.camera(ground);
         Pose { position_planet_m: camera.position_planet_m, planet_from_view: camera.planet_from_view }
     }
 
-    /// The place under the eye.
-    pub fn place(&self) -> LatLon {
-        self.place
+    /// The location under the eye.
+    pub fn location(&self) -> LatLon {
+        self.location
     }
 
     /// Height of the eye above the ground or the sea.
     pub fn altitude_m(&self, ground: &dyn Ground) -> f64 {
-        self.radius_m - ground.surface_radius_m(self.place.direction())
+        self.radius_m - ground.surface_radius_m(self.location.direction())
     }
 
-    /// Keeps the view of a planet whose radius has changed.
+    /// Scales the camera with a planet whose radius has changed.
     pub fn rescale(&mut self, from_radius_m: f64, to_radius_m: f64) {
         self.radius_m *= to_radius_m / from_radius_m;
     }
 
-    /// The camera to draw with.
+    /// The camera for drawing.
     pub fn camera(&self, ground: &dyn Ground) -> Camera {
         let pitch = self.pitch(ground);
-        Camera::over(self.place, self.radius_m, self.heading_rad, pitch, Camera::DEFAULT_FOV_Y_RAD)
+        Camera::over(self.location, self.radius_m, self.heading_rad, pitch, Camera::DEFAULT_FOV_Y_RAD)
     }
 
-    /// Angle above the horizon at which one looks.
+    /// Pitch of the view: the angle above the horizon.
     pub fn pitch(&self, ground: &dyn Ground) -> f64 {
         let radius_m = ground.radius_m();
         let altitude_m = self.altitude_m(ground).max(MIN_ALTITUDE_M);
         let auto = auto_pitch(altitude_m, radius_m);
         match self.pitch_rad {
-            // In far space the planet must not leave the picture.
+            // Far from the planet the view turns straight down, so that the planet stays in the picture.
             Some(pitch) => lerp(pitch, -FRAC_PI_2, smoothstep(2.0 * radius_m, 8.0 * radius_m, altitude_m)),
             None => auto,
         }
     }
 
-    /// Keeps the eye above the ground and within reach. Call it whenever the ground may have changed.
+    /// Keeps the eye above the ground and within [`MAX_RADII`]. Call it whenever the ground may have changed.
     pub fn keep_above(&mut self, ground: &dyn Ground) {
-        let lowest_m = ground.surface_radius_m(self.place.direction()) + MIN_ALTITUDE_M;
+        let lowest_m = ground.surface_radius_m(self.location.direction()) + MIN_ALTITUDE_M;
         let highest_m = (ground.radius_m() * MAX_RADII).max(lowest_m);
         self.radius_m = if self.radius_m.is_finite() { self.radius_m.clamp(lowest_m, highest_m) } else { highest_m };
     }
 
-    /// Takes hold of the ground under the pointer (`x`, `y` from -1 to 1, right and up).
+    /// Starts a drag that holds the ground under the pointer (`x`, `y` from -1 to 1, right and up).
     pub fn grab(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
         let camera = self.camera(ground);
         let (dir, radius_m) = self.point_under(&camera, x, y, aspect, ground, None);
-        let keep_heading = self.place.lat_rad.abs() < KEEP_HEADING_LAT_RAD;
+        let keep_heading = self.location.lat_rad.abs() < KEEP_HEADING_LAT_RAD;
         self.grab = Some(Grab { dir, radius_m, keep_heading });
     }
 
-    /// Turns the planet so that the ground held stays under the pointer.
+    /// Turns the planet so that the held ground stays under the pointer.
     pub fn drag(&mut self, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
         if let Some(grab) = self.grab {
             self.bring_under(grab, x, y, aspect, ground);
@@ -125,27 +125,27 @@ impl Orbit {
         }
     }
 
-    /// Lets go.
+    /// Ends the drag.
     pub fn release(&mut self) {
         self.grab = None;
     }
 
-    /// Goes nearer (`steps` > 0) or farther; a step is a factor of e in altitude. Keeps what is
-    /// under the pointer there.
+    /// Moves nearer (`steps` > 0) or farther; a step is a factor of e in altitude. The ground under the pointer stays
+    /// under the pointer.
     pub fn zoom(&mut self, steps: f64, pointer: Option<(f64, f64)>, aspect: f64, ground: &dyn Ground) {
         let camera = self.camera(ground);
-        let surface_m = ground.surface_radius_m(self.place.direction());
+        let surface_m = ground.surface_radius_m(self.location.direction());
         let altitude_m = (self.radius_m - surface_m).max(MIN_ALTITUDE_M);
         let hit = pointer.and_then(|(x, y)| {
             let dir = camera.ray_dir_planet(x, y, aspect);
             Some((x, y, dir, ground.raycast(camera.position_planet_m, dir)?))
         });
         let far_m = FAR_ALTITUDES * altitude_m;
-        // Towards something far off the eye goes straight; its height above the ground is no measure there.
-        // Going back that way it would hardly rise, and leave the place behind.
+        // Towards a far point the eye moves straight: its altitude says little about the distance. Backwards it does
+        // not, since it would hardly rise.
         if let Some((_, _, dir, _)) = hit.filter(|(_, _, _, distance_m)| *distance_m > far_m && steps > 0.0) {
             let eye = camera.position_planet_m + dir * far_m * (1.0 - libm::exp(-steps));
-            self.place = LatLon::from_direction(eye);
+            self.location = LatLon::from_direction(eye);
             self.radius_m = eye.length();
             self.keep_above(ground);
             return;
@@ -154,14 +154,14 @@ impl Orbit {
         self.radius_m = surface_m + altitude_m * libm::exp(-steps);
         self.keep_above(ground);
         if let Some((hit, x, y)) = anchor {
-            let keep_heading = self.place.lat_rad.abs() < KEEP_HEADING_LAT_RAD;
+            let keep_heading = self.location.lat_rad.abs() < KEEP_HEADING_LAT_RAD;
             let grab = Grab { dir: hit.normalize(), radius_m: hit.length(), keep_heading };
             self.bring_under(grab, x, y, aspect, ground);
             self.keep_above(ground);
         }
     }
 
-    /// Turns the head: `right_rad` to the right, `up_rad` up.
+    /// Turns the view: `right_rad` to the right, `up_rad` up.
     pub fn tilt(&mut self, right_rad: f64, up_rad: f64, ground: &dyn Ground) {
         self.heading_rad = (self.heading_rad + right_rad).rem_euclid(2.0 * PI);
         if up_rad != 0.0 {
@@ -169,10 +169,10 @@ impl Orbit {
         }
     }
 
-    /// Moves over the ground, in shares of the altitude: `right` and `ahead`, as seen.
+    /// Moves over the ground to the right and ahead in the picture, in shares of the altitude.
     pub fn travel(&mut self, right: f64, ahead: f64, ground: &dyn Ground) {
         let altitude_m = self.altitude_m(ground).max(MIN_ALTITUDE_M);
-        let up = self.place.direction();
+        let up = self.location.direction();
         let (east, north) = geo::east_north(up);
         let (sin_h, cos_h) = libm::sincos(self.heading_rad);
         let ahead_dir = north * cos_h + east * sin_h;
@@ -186,24 +186,25 @@ impl Orbit {
         }
     }
 
-    /// The same camera a quarter as high, so that a point of the ground lies in the middle of the picture or, if that
-    /// is at the horizon, below it.
+    /// The same camera at a quarter of the altitude, with a point of the ground in the middle of the picture. If the
+    /// middle is near the horizon, the point is below the middle.
     pub fn near(&self, point: DVec3, ground: &dyn Ground) -> Self {
         let up = point.normalize_or(DVec3::Z);
         let altitude_m = (self.altitude_m(ground) * 0.25).max(MIN_ALTITUDE_M);
-        let mut near = Self { place: LatLon::from_direction(up), grab: None, ..self.clone() };
+        let mut near = Self { location: LatLon::from_direction(up), grab: None, ..self.clone() };
         near.radius_m = ground.surface_radius_m(up) + altitude_m;
         let pitch_rad = near.pitch(ground);
         let back_m = altitude_m * (libm::cos(pitch_rad) / libm::sin(-pitch_rad).max(1e-3)).clamp(0.0, 3.0);
         let (east, north) = geo::east_north(up);
         let (sin_h, cos_h) = libm::sincos(self.heading_rad);
         let away = (up * near.radius_m - (north * cos_h + east * sin_h) * back_m).normalize();
-        near.place = LatLon::from_direction(away);
+        near.location = LatLon::from_direction(away);
         near.radius_m = ground.surface_radius_m(away) + altitude_m;
         near
     }
 
-    /// The direction of the ground under the pointer; off the globe, of the point of the globe nearest to the ray.
+    /// Direction and distance from the centre of the ground under the pointer. Beside the globe it is the point of the
+    /// globe nearest to the ray.
     fn point_under(
         &self,
         camera: &Camera,
@@ -225,15 +226,15 @@ impl Orbit {
         (sphere_point(eye, ray, radius_m), radius_m)
     }
 
-    /// Moves the eye so that a point of the globe comes under the pointer.
+    /// Moves the eye so that a point of the globe is under the pointer.
     fn bring_under(&mut self, grab: Grab, x: f64, y: f64, aspect: f64, ground: &dyn Ground) {
-        // Pitch is held: it must not change under the pointer because the ground below rises or falls.
+        // The pitch stays fixed: else it would change with the ground below the eye during a drag.
         let pitch = self.pitch(ground);
-        // With the heading held the turn is found by repetition; it converges fast away from the poles.
+        // With a fixed heading the rotation is found by iteration, which converges fast away from the poles.
         let rounds = if grab.keep_heading { 12 } else { 1 };
         let limit_rad = (20.0 * self.altitude_m(ground).max(MIN_ALTITUDE_M) / self.radius_m).min(0.5);
         for _ in 0..rounds {
-            let camera = Camera::over(self.place, self.radius_m, self.heading_rad, pitch, Camera::DEFAULT_FOV_Y_RAD);
+            let camera = Camera::over(self.location, self.radius_m, self.heading_rad, pitch, Camera::DEFAULT_FOV_Y_RAD);
             let (under, _) = self.point_under(&camera, x, y, aspect, ground, Some(grab.radius_m));
             let arc = DQuat::from_rotation_arc(under, grab.dir);
             let (axis, angle) = arc.to_axis_angle();
@@ -244,30 +245,30 @@ impl Orbit {
         }
     }
 
-    /// Turns the eye about the planet's centre.
+    /// Rotates the eye about the planet's centre.
     fn turn(&mut self, rotation: DQuat, keep_heading: bool) {
-        let up = self.place.direction();
+        let up = self.location.direction();
         let (east, north) = geo::east_north(up);
         let (sin_h, cos_h) = libm::sincos(self.heading_rad);
         let ahead = rotation * (north * cos_h + east * sin_h);
         let dir = (rotation * up).normalize();
-        self.place = LatLon::from_direction(dir);
+        self.location = LatLon::from_direction(dir);
         if keep_heading {
-            self.place.lat_rad = self.place.lat_rad.clamp(-1.55, 1.55);
+            self.location.lat_rad = self.location.lat_rad.clamp(-1.55, 1.55);
         } else {
             self.heading_rad = heading(dir, ahead);
         }
     }
 }
 
-/// Clockwise from north.
+/// The heading of a direction, clockwise from north.
 fn heading(up: DVec3, ahead: DVec3) -> f64 {
     let (east, north) = geo::east_north(up);
     libm::atan2(ahead.dot(east), ahead.dot(north)).rem_euclid(2.0 * PI)
 }
 
-/// Where the star stands after a drag by `right` and `up` (shares of the picture's height), as seen by the camera:
-/// light and shadow follow the pointer.
+/// The location under the star after a drag by `right` and `up` (shares of the picture's height): light and shadow
+/// follow the pointer in the picture.
 pub fn turn_sun(sun_dir_planet: DVec3, camera: &Camera, right: f64, up: f64) -> LatLon {
     let view_right = camera.planet_from_view * DVec3::X;
     let view_up = camera.planet_from_view * DVec3::Y;
@@ -275,7 +276,8 @@ pub fn turn_sun(sun_dir_planet: DVec3, camera: &Camera, right: f64, up: f64) -> 
     LatLon::from_direction(turn * sun_dir_planet)
 }
 
-/// Straight down from space, towards the horizon near the ground; the two heights scale with the planet.
+/// The pitch for an altitude: straight down from space, towards the horizon near the ground. On a planet of the radius
+/// of the Earth it changes between 400 km and 5 km; both scale with the radius.
 fn auto_pitch(altitude_m: f64, planet_radius_m: f64) -> f64 {
     let scale = planet_radius_m / 6_371_000.0;
     let (low_m, high_m) = (5_000.0 * scale, 400_000.0 * scale);
@@ -283,7 +285,8 @@ fn auto_pitch(altitude_m: f64, planet_radius_m: f64) -> f64 {
     lerp(GROUND_PITCH_RAD, -FRAC_PI_2, share)
 }
 
-/// Where a ray first meets a sphere about the origin; when it misses, the sphere's point nearest to it. As a direction.
+/// Direction of the first intersection of a ray with a sphere about the origin. A ray that misses gives the direction
+/// of its point nearest to the origin.
 fn sphere_point(eye: DVec3, ray: DVec3, radius_m: f64) -> DVec3 {
     let along = -eye.dot(ray);
     let nearest = eye + ray * along.max(0.0);
@@ -444,7 +447,7 @@ mod tests {
     fn travel_goes_ahead_and_light_follows_the_pointer() {
         let mut controller = Orbit::new(EARTH.0, LatLon::from_degrees(0.0, 0.0));
         controller.travel(0.0, 0.1, &EARTH);
-        assert!(controller.place().lat_rad > 0.0 && controller.place().lon_rad.abs() < 1e-9);
+        assert!(controller.location().lat_rad > 0.0 && controller.location().lon_rad.abs() < 1e-9);
         let camera = Orbit::new(EARTH.0, LatLon::from_degrees(0.0, 0.0)).camera(&EARTH);
         let east = turn_sun(DVec3::X, &camera, 0.1, 0.0);
         assert!((east.lon_rad - 0.1 * PI).abs() < 1e-9 && east.lat_rad.abs() < 1e-9);

@@ -1,21 +1,21 @@
-//! Where the eye is and how it is turned: what every camera can be read as and started from.
+//! Position and orientation of the eye. Every camera gives a pose and can start from one.
 //! Planet frame, metres, radians.
 
 use crate::lod::Camera;
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
-/// Place and turn of the eye.
+/// Position and orientation of the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// The eye, from the planet's centre.
+    /// Position of the eye, from the planet's centre.
     pub position_planet_m: DVec3,
-    /// Turns view space (looking along -Z, +Y up) into the planet frame.
+    /// Rotates view space (looking along -Z, +Y up) into the planet frame.
     pub planet_from_view: DQuat,
 }
 
 impl Pose {
-    /// An eye over the surface whose head is turned like this.
+    /// The pose of an eye at a position with an attitude.
     pub fn new(position_planet_m: DVec3, attitude: &Attitude) -> Self {
         let planet_from_view = attitude.planet_from_view(position_planet_m.normalize_or(DVec3::Z));
         Self { position_planet_m, planet_from_view }
@@ -26,33 +26,33 @@ impl Pose {
         self.position_planet_m.normalize_or(DVec3::Z)
     }
 
-    /// The camera to draw with.
+    /// The camera for drawing.
     pub fn camera(&self, fov_y_rad: f64) -> Camera {
         let Self { position_planet_m, planet_from_view } = *self;
         Camera { position_planet_m, planet_from_view, fov_y_rad }
     }
 }
 
-/// How a head is turned against the ground below it.
+/// Orientation of the view against the ground below the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attitude {
-    /// Unit vector along the ground.
+    /// Direction ahead, along the ground.
     pub ahead: DVec3,
     /// Angle above the horizon, -π/2 to π/2.
     pub pitch_rad: f64,
-    /// How far the top of the head leans to the right.
+    /// Angle by which the top of the view leans to the right.
     pub roll_rad: f64,
 }
 
 impl Attitude {
-    /// Reads it from a pose. Straight up and down, the top of the picture tells what is ahead.
+    /// The attitude of a pose. In a view straight up or down, the top of the picture gives the direction ahead.
     pub fn of(pose: &Pose) -> Self {
         let up = pose.up();
         let forward = pose.planet_from_view * DVec3::NEG_Z;
         let top = pose.planet_from_view * DVec3::Y;
         let sin_pitch = forward.dot(up).clamp(-1.0, 1.0);
         let along = forward - up * sin_pitch;
-        // As exact from 1° as from 89°.
+        // `asin` would lose digits near ±90°.
         let pitch_rad = libm::atan2(sin_pitch, along.length());
         let along = if along.length() > 1e-6 { along } else { top * -sin_pitch.signum() };
         let ahead = level(along, up);
@@ -61,7 +61,7 @@ impl Attitude {
         Self { ahead, pitch_rad, roll_rad }
     }
 
-    /// The turn of an eye over the place in direction `up`.
+    /// The orientation of an eye whose location is in direction `up`.
     pub fn planet_from_view(&self, up: DVec3) -> DQuat {
         let (sin_p, cos_p) = libm::sincos(self.pitch_rad);
         let forward = self.ahead * cos_p + up * sin_p;
@@ -70,7 +70,7 @@ impl Attitude {
         (unrolled * DQuat::from_rotation_z(-self.roll_rad)).normalize()
     }
 
-    /// Turns the head as seen in the picture, however it is rolled.
+    /// Turns the view to the right and up in the picture, whatever its roll.
     pub fn look(&mut self, right_rad: f64, up_rad: f64, up: DVec3) {
         let (sin_r, cos_r) = libm::sincos(self.roll_rad);
         let (right_rad, up_rad) = (right_rad * cos_r + up_rad * sin_r, up_rad * cos_r - right_rad * sin_r);
@@ -78,29 +78,29 @@ impl Attitude {
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
-    /// Turns the head along a vector.
+    /// Turns the view along a vector.
     pub fn look_at(&mut self, way: DVec3, up: DVec3) {
         let climb = way.dot(up);
         let along = way - up * climb;
         self.pitch_rad = libm::atan2(climb, along.length());
-        // Straight down, what was ahead still is.
+        // Straight down, the direction ahead stays.
         if along.length() > 1e-6 * climb.abs() {
             self.ahead = level(along, up);
         }
     }
 
-    /// Keeps the head turned as it is against the ground while the eye moves from over one place to over another.
+    /// Keeps the attitude against the ground while the eye moves from over one location to over another.
     pub fn carry(&mut self, from_up: DVec3, to_up: DVec3) {
         self.ahead = level(DQuat::from_rotation_arc(from_up, to_up) * self.ahead, to_up);
     }
 
-    /// Unit vector to the right along the ground.
+    /// Direction to the right, along the ground.
     pub fn right(&self, up: DVec3) -> DVec3 {
         self.ahead.cross(up)
     }
 }
 
-/// The part of a vector along the ground, of unit length.
+/// The direction of the part of a vector along the ground.
 fn level(v: DVec3, up: DVec3) -> DVec3 {
     (v - up * v.dot(up)).try_normalize().unwrap_or_else(|| up.any_orthonormal_vector())
 }

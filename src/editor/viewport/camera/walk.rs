@@ -1,5 +1,5 @@
-//! On foot: gravity, jumps, and a pace that follows the slope. Steps of physics have a fixed length, so that the same
-//! keys lead to the same place however many pictures a second are drawn.
+//! Walking: gravity, jumps, and a speed that follows the slope. The physics has a fixed time step, so that equal keys
+//! lead to equal positions at any frame rate.
 
 use super::Controls;
 use super::pose::{Attitude, Pose};
@@ -7,64 +7,65 @@ use glam::DVec3;
 
 /// Height of the eyes above the ground.
 pub const EYE_M: f64 = 1.7;
-/// Duration of a step of physics.
+/// Time step of the physics.
 const STEP_SECS: f64 = 1.0 / 120.0;
-/// Time beyond this is lost rather than caught up with.
+/// Longest time that one frame advances: after a slow frame the rest is dropped.
 const MOST_SECS: f64 = 0.25;
 const GRAVITY_M_S2: f64 = 9.81;
 /// Height of a jump.
 const JUMP_M: f64 = 1.2;
-/// Pace on level ground, and what Shift makes of it.
+/// Speed on level ground.
 const PACE_M_S: f64 = 2.5;
+/// Factor of Shift on the speed.
 const FAST: f64 = 4.0;
-/// Nobody gets stuck: the steepest ground leaves this share of the pace.
+/// Least share of the speed on steep ground, so that nobody gets stuck.
 const LEAST_PACE: f64 = 0.12;
 /// Distance over which the slope ahead is measured.
 const SLOPE_OVER_M: f64 = 0.5;
-/// How fast the pace becomes what is asked for, in shares a second: on the ground, and in the air.
+/// Rate at which the speed approaches the one asked for: in the air, and on the ground.
 const GRIP_PER_SEC: [f64; 2] = [1.5, 12.0];
-/// Ground that falls away less than this below a foot is followed; beyond that one falls.
+/// Greatest drop of the ground below the feet that is followed; below a greater one the walker falls.
 const STEP_DOWN_M: f64 = 0.05;
-/// Slope down which one still walks rather than falls.
+/// Steepest descent (rise over run) that the walker follows without falling.
 const STEEPEST_WALKED: f64 = 3.0;
-/// A pace slower than this is none.
+/// A lower speed counts as rest.
 const STILL_M_S: f64 = 0.01;
 
-/// Feet at the end of a step.
+/// State of the feet after a time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Feet {
     /// Unit vector from the planet's centre.
     up: DVec3,
-    /// From the planet's centre.
+    /// Distance from the planet's centre.
     radius_m: f64,
     climb_m_s: f64,
-    /// Along the ground.
+    /// Velocity along the ground.
     pace_m_s: DVec3,
     standing: bool,
 }
 
-/// Somebody on foot.
+/// The walking camera.
 #[derive(Clone, Copy, Debug)]
 pub struct Walk {
     feet: Feet,
     before: Feet,
-    /// How the head is turned.
+    /// Orientation of the view.
     pub attitude: Attitude,
-    /// Time that is not yet a whole step.
+    /// Time since the last whole step.
     left_secs: f64,
 }
 
 impl Walk {
-    /// Goes on from a pose: falls, if it is high.
+    /// Starts from a pose; falls if it is above the ground.
     pub fn from_pose(pose: &Pose) -> Self {
         let radius_m = pose.position_planet_m.length() - EYE_M;
         let feet = Feet { up: pose.up(), radius_m, climb_m_s: 0.0, pace_m_s: DVec3::ZERO, standing: false };
-        // The head may be turned, not tilted.
+        // A walker has no roll.
         let attitude = Attitude { roll_rad: 0.0, ..Attitude::of(pose) };
         Self { feet, before: feet, attitude, left_secs: 0.0 }
     }
 
-    /// Where the eyes are, between the last two steps.
+    /// The pose of the eye, interpolated between the last two steps.
     pub fn pose(&self) -> Pose {
         let share = self.left_secs / STEP_SECS;
         let up = self.before.up.lerp(self.feet.up, share).normalize();
@@ -77,8 +78,8 @@ impl Walk {
         self.feet.standing
     }
 
-    /// Keeps the feet out of ground that has risen, and lets them fall where it has sunk. `floor_m` is its distance
-    /// from the planet's centre.
+    /// Lifts the feet onto ground that has risen, and lets them fall onto ground that has sunk. `floor_m` is the
+    /// distance of the ground from the planet's centre.
     pub fn keep_above(&mut self, floor_m: f64) {
         if self.feet.radius_m < floor_m {
             self.feet = Feet { radius_m: floor_m, climb_m_s: 0.0, standing: true, ..self.feet };
@@ -88,14 +89,14 @@ impl Walk {
         }
     }
 
-    /// Keeps the height over the ground when the whole planet grows or shrinks.
+    /// Scales the camera with a planet whose radius has changed.
     pub fn rescale(&mut self, factor: f64) {
         self.feet.radius_m *= factor;
         self.before = self.feet;
     }
 
-    /// Goes on for a while; `floor_m` gives the distance of the ground from the planet's
-    /// centre. Whether anything moves.
+    /// Advances by a time; `floor_m` gives the distance of the ground from the planet's centre. Gives whether the
+    /// camera moves.
     pub fn advance(&mut self, duration_secs: f64, controls: &Controls, floor_m: impl Fn(DVec3) -> f64) -> bool {
         if self.is_resting() && !controls.moves_feet() {
             self.left_secs = 0.0;
@@ -118,7 +119,7 @@ impl Walk {
     }
 }
 
-/// One step of physics.
+/// One time step of the physics.
 fn step(feet: &Feet, attitude: &Attitude, controls: &Controls, floor_m: &impl Fn(DVec3) -> f64) -> Feet {
     let up = feet.up;
     let floor_here_m = floor_m(up);
@@ -152,7 +153,7 @@ fn step(feet: &Feet, attitude: &Attitude, controls: &Controls, floor_m: &impl Fn
     }
 }
 
-/// Share of the pace that a slope (rise over run) leaves: Tobler's hiking function (1993), 1 on level ground.
+/// Share of the speed on a slope (rise over run): Tobler's hiking function (1993), 1 on level ground.
 fn pace_on(slope: f64) -> f64 {
     libm::exp(-3.5 * ((slope + 0.05).abs() - 0.05)).max(LEAST_PACE)
 }

@@ -1,4 +1,4 @@
-//! Bounds of cells near a direction: from the centres that count there, and how much nearer or farther they can get.
+//! Bounds of cells near a direction, from the centres that can be nearest there.
 
 use super::{HORIZON, centre, neighbourhood};
 use crate::terrain::landform::places::{Places, unit};
@@ -6,9 +6,9 @@ use crate::terrain::noise::{self, Octave};
 use crate::terrain::simd::Simd;
 use glam::DVec3;
 
-/// The centres around a direction, for bounds of the ground within a distance of it.
+/// The centres around a direction, for bounds within a distance of it.
 pub(super) struct Near {
-    /// Distance in cells, and level of its plate; nearest first.
+    /// Distance in cells and level of the plate, nearest first.
     centres: Vec<(f64, f64)>,
     /// The distance in cells.
     reach: f64,
@@ -18,7 +18,7 @@ impl Near {
     pub(super) fn new(octave: &Octave, jitter: f32, dir_planet: DVec3, angle_rad: f64) -> Self {
         let [x, y, z] = noise::skew(dir_planet.to_array());
         let mut places = Places::<f64>::default();
-        places.find_exact(Simd::detect(), [&[x], &[y], &[z]], octave);
+        places.find(Simd::detect(), [&[x], &[y], &[z]], octave);
         let centre = |step: [i32; 3]| {
             let (square, random) = centre::<f64>(&places, step, octave.seed, jitter, 0);
             (square.sqrt(), f64::from(2.0 * unit::<f32>(noise::scramble(random)) - 1.0))
@@ -29,13 +29,13 @@ impl Near {
         Self { centres, reach: angle_rad * octave.frequency + 1e-5 }
     }
 
-    /// The least and the greatest that the square of a distance can be.
+    /// Bounds of a squared distance.
     fn squares(&self, distance: f64) -> (f64, f64) {
         ((distance - self.reach).max(0.0).powi(2), (distance + self.reach).powi(2))
     }
 
-    /// By how much one distance's square is over another's. The difference changes no faster than with twice the
-    /// distance between the two centres.
+    /// Bounds of the difference of two squared distances. It changes by at most twice the distance between the two
+    /// centres.
     fn beyond(&self, distance: f64, first: f64) -> (f64, f64) {
         let change = 2.0 * (distance + first + 2.0 * self.reach) * self.reach;
         let beyond = distance * distance - first * first;
@@ -56,7 +56,7 @@ impl Near {
         (step(low), step(high))
     }
 
-    /// None where centres that are not known may count.
+    /// `None` where centres beyond those known may count.
     pub(super) fn plates(&self, width: f64) -> Option<(f64, f64)> {
         let first = self.centres[0].0;
         let ((_, farthest), horizon) = (self.squares(first), f64::from(HORIZON));
@@ -73,7 +73,7 @@ impl Near {
             })
             .filter(|share| share.1 > 0.0)
             .collect();
-        // A mean is greatest with the most of the highest and the least of the others.
+        // A mean is greatest with the greatest share of the highest and the least of the others.
         let greatest = |sign: f64| {
             let mean = |from: f64| {
                 let weight = |&(least, most, level): &(f64, f64, f64)| if sign * level >= from { most } else { least };

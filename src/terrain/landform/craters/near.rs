@@ -1,4 +1,4 @@
-//! Bounds of craters near a direction: of all that may reach there, each by its profile between two distances.
+//! Bounds of craters near a direction: the profile of each crater that may reach there, between two distances.
 
 use super::{DISH, DISH_DEPTH, FILLED, Mould, PEAK, RADIUS, Size, THICKNESS};
 use crate::terrain::landform::places::{Places, neighbour, unit};
@@ -7,11 +7,11 @@ use crate::terrain::simd::Simd;
 use glam::DVec3;
 
 impl Size {
-    /// Lowest and highest ground within an angle of a direction: of all craters that may reach there.
+    /// Lowest and highest ground within an angle of a direction.
     pub(super) fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         // A little more for the rounding of f32.
         let reach = angle_rad * self.lattices[0].frequency + 1e-5;
-        // Craters beyond the cells next to a point's own are out of reach of all that is so near to it.
+        // Beyond this, craters outside the cells next to the direction's own could reach.
         if reach > 0.4 {
             return (-1.0, 1.0);
         }
@@ -19,7 +19,7 @@ impl Size {
         let mut places = Places::<f64>::default();
         let mut sum = (0.0, 0.0);
         for octave in &self.lattices {
-            places.find_exact(Simd::detect(), [&[x], &[y], &[z]], octave);
+            places.find(Simd::detect(), [&[x], &[y], &[z]], octave);
             for step in (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]) {
                 let (cell, from) = neighbour(&places, step, 0);
                 let random = noise::cell_hash(cell, octave.seed);
@@ -32,7 +32,7 @@ impl Size {
         (sum.0.max(-1.0), sum.1.min(1.0))
     }
 
-    /// The same of one crater whose centre lies `to` from the direction, in cells, within a `reach` of cells.
+    /// Bounds of the crater whose centre is at `to` from the direction, in cells, within a `reach` of cells.
     fn crater_near(&self, to: DVec3, dir_planet: DVec3, reach: f64, random: u32) -> (f64, f64) {
         let mould = self.mould;
         if unit::<f32>(random) >= mould.density {
@@ -57,8 +57,8 @@ impl Size {
 }
 
 impl Mould {
-    /// Lowest and highest of [`Mould::profile`] between two distances from the middle: from its parts, each of which
-    /// only rises or only falls.
+    /// Lowest and highest [`Mould::profile`] between two distances from the middle, from its parts, each of which is
+    /// monotone.
     fn range(self, from: f64, to: f64, random: f32) -> (f64, f64) {
         let [rim, floor, peak, reach] = [self.rim, self.floor, self.peak, self.reach].map(f64::from);
         let bowl = |r: f64| (1.0 + rim) * ((r.min(1.0) - floor) / (1.0 - floor)).max(0.0).powi(2) - 1.0;

@@ -1,7 +1,7 @@
 //! Bounds of dunes near a direction.
 //!
-//! The sum of waves is taken as one wave, that of the wind there, times a complex number that varies slowly: the
-//! first brings the phase forward evenly, and what the second can do follows from its derivatives.
+//! The sum of waves is written as one carrier, the wave of the wind there, times a complex number that varies slowly.
+//! The carrier advances the phase evenly; the range of the other factor follows from its derivatives.
 
 use super::{Dunes, FAINT, JITTER, Profile, REACH, Size, WAVES, wave};
 use crate::terrain::landform::places::Places;
@@ -11,13 +11,13 @@ use crate::terrain::simd::Simd;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// Most cells around a direction in which anything is known: a wave that is felt there comes from a cell next to the
-/// direction's own, and the phase goes full circle soon.
+/// Greatest distance in cells for which bounds are known: waves come from the cells next to the direction's own, and
+/// the phase soon turns full circle.
 const FARTHEST: f64 = 0.3;
 const _: () = assert!(1.5 - JITTER as f64 > REACH as f64 + FARTHEST);
 
 impl Size {
-    /// What dunes of this size are around a direction.
+    /// Bounds of dunes of one size around a direction.
     pub(super) fn near(&self, around: Around, dunes: &Dunes) -> Varying {
         let frequency = self.lattices[0].frequency;
         let reach = around.angle_rad * frequency * (1.0 + 1e-9) + 1e-7;
@@ -52,7 +52,7 @@ impl Size {
         let (mut sum, mut gradients, mut weights, mut bend) = ([0.0; 2], [DVec3::ZERO; 2], 0.0, 0.0);
         let mut places = Places::<f64>::default();
         for octave in &self.lattices {
-            places.find_exact(Simd::detect(), skewed.each_ref().map(std::slice::from_ref), octave);
+            places.find(Simd::detect(), skewed.each_ref().map(std::slice::from_ref), octave);
             for corner in (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]) {
                 let wave = wave(&places, corner, octave, dunes.wind, 0);
                 let (to, waves) = (DVec3::from_array(wave.to), wave_vector(wave.along));
@@ -61,7 +61,7 @@ impl Size {
                 if nearest >= f64::from(REACH) {
                     continue;
                 }
-                // How the weight and the phase against the carrier's change from the direction on.
+                // How the weight, and the phase relative to the carrier, change from the direction on.
                 let near = (1.0 - distance * distance / within).max(0.0);
                 let weight = near.powi(3);
                 let fall = to * (6.0 * near * near / within);
@@ -70,7 +70,7 @@ impl Size {
                 sum = [sum[0] + weight * cos, sum[1] + weight * sin];
                 gradients[0] += fall * cos - turn * (weight * sin);
                 gradients[1] += fall * sin + turn * (weight * cos);
-                // The most that all of it can bend on the way.
+                // Bound of the bend of the sum on the way.
                 let most = 1.0 - nearest * nearest / within;
                 let steepest = 6.0 * most * most * farthest / within;
                 let curved = (24.0 * most * farthest * farthest / (within * within)).max(6.0 * most * most / within);
@@ -96,21 +96,21 @@ impl Size {
     }
 }
 
-/// The share of their height that dunes have where the sum's square is so great.
+/// The share of their height that dunes have at this squared sum.
 fn share(square: f64) -> f64 {
     square / (square + f64::from(FAINT))
 }
 
-/// The sum of waves over that of the wind alone: along the sum in the middle, and across it.
+/// The sum of waves relative to the carrier: along the sum at the direction, and across it.
 struct Sum {
     along: Varying,
     across: Varying,
-    /// The phase of the wind's wave, from that of the sum in the middle, in turns.
+    /// The phase of the carrier relative to that of the sum at the direction, in turns.
     carrier: Varying,
 }
 
 impl Sum {
-    /// The phase in turns; None where it may be any.
+    /// The phase in turns; `None` where it may be any.
     fn phase(&self) -> Option<Varying> {
         if self.along.range().0 < 1e-3 {
             return None;

@@ -1,0 +1,78 @@
+//! Carries out the actions that views ask for.
+
+use super::command::{Action, Answer, Command, Commands, Setting, Window};
+use super::commands;
+use super::handlers::{answers, bookmarks, opening, pictures};
+use super::state::State;
+use super::state::questions::Goal;
+use eframe::egui;
+
+/// Carries out the actions of the last frame. Gives those that wait until a typed value has been taken over.
+pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -> Commands {
+    let mut deferred = Commands::default();
+    for action in actions {
+        let focused = ctx.memory(egui::Memory::focused);
+        if let Some(id) = focused
+            && takes_typed_value(&action)
+            && ctx.text_edit_focused()
+            && !state.questions.has_question()
+        {
+            ctx.memory_mut(|memory| memory.surrender_focus(id));
+            deferred.push(action);
+            continue;
+        }
+        apply(state, ctx, action);
+    }
+    deferred
+}
+
+/// Whether a value that is being typed is taken over first, so that it is neither lost nor left out of the file.
+fn takes_typed_value(action: &Action) -> bool {
+    match action {
+        Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
+        Action::OpenPath(_) | Action::OpenShipped(_) | Action::Browse(_) => true,
+        Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) => false,
+        Action::DismissMessage | Action::Close(_) => false,
+    }
+}
+
+fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
+    match action {
+        Action::Command(command) => run(state, ctx, command),
+        Action::OpenPath(path) => opening::pursue(state, ctx, Goal::OpenPath(path)),
+        Action::OpenShipped(index) => opening::pursue(state, ctx, Goal::OpenShipped(index)),
+        Action::Browse(path) => pictures::browse(state, ctx, path),
+        Action::Bookmark(action) => bookmarks::apply(state, action),
+        Action::Set(setting) => set(state, setting),
+        Action::Answer(Answer::Unsaved(answer)) => answers::unsaved(state, ctx, answer),
+        Action::Answer(Answer::Replace(answer)) => answers::replace(state, ctx, answer),
+        Action::Answer(Answer::Change(answer)) => answers::change(state, ctx, answer),
+        Action::Answer(Answer::Path(path)) => answers::path(state, ctx, path),
+        Action::Answer(Answer::Recover(keep)) => opening::recover(state, keep),
+        Action::DismissMessage => {
+            if !state.messages.is_empty() {
+                state.messages.remove(0);
+            }
+        }
+        Action::Close(Window::Controls) => state.shows.controls = false,
+        Action::Close(Window::Performance) => state.shows.performance = false,
+    }
+}
+
+fn run(state: &mut State, ctx: &egui::Context, command: Command) {
+    match commands::row(command) {
+        Some(row) => row.run(state, ctx),
+        None => log::error!("{command:?} has no row in the table of commands"),
+    }
+}
+
+fn set(state: &mut State, setting: Setting) {
+    let settings = &mut state.viewport.settings;
+    match setting {
+        Setting::Quality(quality) => settings.quality = quality,
+        Setting::Tone(tone) => settings.tone = tone,
+        Setting::ExposureEv(exposure_ev) => settings.exposure_ev = exposure_ev,
+        Setting::AutoExposure(automatic) => settings.auto_exposure = automatic,
+        Setting::TimeSpeed(time_speed) => settings.time_speed = time_speed,
+    }
+}

@@ -1,0 +1,11 @@
+//! Files and the desktop, apart from the document.
+//!
+//! - [`dialogs`]: file dialogs that never block the window
+//! - [`disk`]: whether a file has changed on disk
+//! - [`claim`]: whether another window has a file open
+//! - [`file_names`]: extensions, names for people, equal files
+
+pub mod claim;
+pub mod dialogs;
+pub mod disk;
+pub mod file_names;

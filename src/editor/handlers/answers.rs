@@ -1,0 +1,106 @@
+//! Answers to questions about files, and the window's close button.
+
+use super::{biome_table, opening, pictures, saving};
+use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};
+use crate::editor::files::disk::TheirFile;
+use crate::editor::state::State;
+use crate::editor::state::questions::{Asking, Change, Goal, Replace};
+use eframe::egui;
+use std::path::{Path, PathBuf};
+
+/// Takes the answer of a dialog of the desktop, if there is one.
+pub fn poll_dialogs(state: &mut State, ctx: &egui::Context) {
+    if let Some((asking, file)) = state.questions.poll() {
+        // The dialog itself has asked whether to replace the file.
+        let agreed = file.clone();
+        chosen(state, ctx, asking, file, Some(&agreed));
+    }
+}
+
+/// Goes on with a path that was typed in the window; None cancels.
+pub fn path(state: &mut State, ctx: &egui::Context, path: Option<PathBuf>) {
+    match (state.questions.path.take(), path) {
+        (Some(wanted), Some(path)) => chosen(state, ctx, wanted.asking, path, None),
+        _ => state.questions.after_save = None,
+    }
+}
+
+fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf, agreed: Option<&Path>) {
+    match asking {
+        Asking::Open => opening::pursue(state, ctx, Goal::OpenPath(file)),
+        Asking::SaveAs => saving::save_chosen(state, ctx, &file, agreed),
+        Asking::Picture(path) => pictures::choose(state, &path, &file),
+        Asking::ImportTable => biome_table::import(state, &file),
+        Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),
+    }
+}
+
+/// Goes on after the question about unsaved work.
+pub fn unsaved(state: &mut State, ctx: &egui::Context, answer: UnsavedAnswer) {
+    let Some(goal) = state.questions.unsaved.take() else { return };
+    match answer {
+        UnsavedAnswer::Save => {
+            state.questions.after_save = Some(goal);
+            saving::save(state, ctx);
+        }
+        UnsavedAnswer::Discard => opening::reach(state, ctx, goal),
+        UnsavedAnswer::Cancel => {}
+    }
+}
+
+/// Goes on after the question whether to replace a file.
+pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
+    let Some(replace) = state.questions.replace.take() else { return };
+    match (answer, replace) {
+        (ReplaceAnswer::Replace, Replace::Planet(path)) => saving::write(state, ctx, path),
+        (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
+        (ReplaceAnswer::OtherName, Replace::Planet(_)) => saving::save_as(state, ctx),
+        (ReplaceAnswer::OtherName, Replace::Table(_)) => biome_table::ask_for_export(state, ctx),
+        (ReplaceAnswer::Cancel, _) => state.questions.after_save = None,
+    }
+}
+
+/// Goes on after the question whose planet to keep in the open file.
+pub fn change(state: &mut State, ctx: &egui::Context, answer: ChangeAnswer) {
+    let Some(Change { theirs: TheirFile { bytes, planet }, saving, .. }) = state.questions.change.take() else {
+        return;
+    };
+    match (answer, planet) {
+        (ChangeAnswer::Reload, Ok(planet)) => {
+            state.questions.after_save = None;
+            state.reload(planet, bytes);
+        }
+        (ChangeAnswer::KeepMine, planet) => {
+            // The user knows their text: the next save replaces it without a question.
+            state.document.note_disk(planet.ok(), Some(bytes));
+            if saving {
+                saving::save(state, ctx);
+            }
+        }
+        (ChangeAnswer::SaveAs, _) => {
+            // If the user then chooses this file after all, the question comes again.
+            state.open_file.put_off = Some(bytes);
+            saving::save_as(state, ctx);
+        }
+        (ChangeAnswer::Cancel, _) | (ChangeAnswer::Reload, Err(_)) => {
+            state.questions.after_save = None;
+            state.open_file.put_off = Some(bytes);
+        }
+    }
+}
+
+/// The window's close button: keeps the window open while there is unsaved work.
+pub fn close_request(state: &mut State, ctx: &egui::Context, commands: &mut Commands) {
+    if !ctx.input(|input| input.viewport().close_requested()) || state.questions.may_close {
+        return;
+    }
+    // A value that is being typed becomes unsaved work once it is taken over. The field of a question belongs to no
+    // value, and keeps the focus.
+    if ctx.text_edit_focused() && !state.questions.has_question() {
+        ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        commands.push(Action::Command(Command::Quit));
+    } else if state.loses_work() {
+        ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        state.questions.unsaved = Some(Goal::Quit);
+    }
+}

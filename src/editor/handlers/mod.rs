@@ -1,0 +1,19 @@
+//! Handlers: they change the state, as commands and answers ask.
+//!
+//! - [`opening`]: another document in the place of this one, without losing unsaved work
+//! - [`saving`]: the planet into a file
+//! - [`answers`]: answers to questions about files, and the close button
+//! - [`open_file`]: the open file has changed on disk
+//! - [`biome_table`]: import and export of the biome table
+//! - [`pictures`]: height maps
+//! - [`bookmarks`]: views kept in the preset
+//! - [`window`]: full screen and theme
+
+pub mod answers;
+pub mod biome_table;
+pub mod bookmarks;
+pub mod open_file;
+pub mod opening;
+pub mod pictures;
+pub mod saving;
+pub mod window;

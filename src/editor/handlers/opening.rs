@@ -1,0 +1,130 @@
+//! Opening: another document in the place of this one, after a question where unsaved work would be lost.
+
+use crate::editor::files::dialogs::DialogRequest;
+use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable_stem, with_extension};
+use crate::editor::state::document::Document;
+use crate::editor::state::questions::{Asking, Goal};
+use crate::editor::state::{State, recovery};
+use crate::editor::widgets::random_seed;
+use crate::planet::file::read_text;
+use crate::planet::picture::folder_of;
+use crate::planet::{LoadError, Planet, random, shipped};
+use eframe::egui;
+use std::path::Path;
+
+/// Reads the file to start with. A file that does not exist yet gives a new planet of that name.
+///
+/// # Errors
+/// What is wrong with the file, or why no planet can be saved under that name.
+pub fn first_document(path: &Path) -> Result<Document, LoadError> {
+    match read(path) {
+        Err(LoadError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
+            let refused = |why: String| LoadError::Read { path: path.to_owned(), source: std::io::Error::other(why) };
+            let folder = folder_of(path);
+            if !folder.is_dir() {
+                return Err(refused(format!(
+                    "there is no folder {}; create it first or name another",
+                    folder.display()
+                )));
+            }
+            if !has_extension(path, PRESET_EXTENSION) {
+                let name = with_extension(path, PRESET_EXTENSION);
+                let name = name.file_name().unwrap_or_default().to_string_lossy();
+                return Err(refused(format!(
+                    "there is no such file; the file name of a new planet ends in .ron, such as {name}"
+                )));
+            }
+            let planet = Planet { name: readable_stem(path), ..shipped::default_planet() };
+            Ok(Document::new(planet, Some(path.to_owned())))
+        }
+        read => read,
+    }
+}
+
+/// Reads a document without its height maps: they are read in the background.
+fn read(path: &Path) -> Result<Document, LoadError> {
+    let text = read_text(path)?;
+    let mut planet = Planet::from_text(&path.display().to_string(), &text)?;
+    planet.set_folder(&folder_of(path));
+    Ok(Document::opened(planet, path.to_owned(), text))
+}
+
+/// Pursues a goal: asks first if unsaved work would be lost.
+pub fn pursue(state: &mut State, ctx: &egui::Context, goal: Goal) {
+    state.questions.after_save = None;
+    if state.loses_work() {
+        state.questions.unsaved = Some(goal);
+    } else {
+        reach(state, ctx, goal);
+    }
+}
+
+/// Reaches a goal without a question about unsaved work.
+pub fn reach(state: &mut State, ctx: &egui::Context, goal: Goal) {
+    match goal {
+        Goal::New => state.replace_document(Document::new(shipped::default_planet(), None)),
+        Goal::Open => {
+            let folder = state.document.folder();
+            state.questions.ask(ctx, Asking::Open, DialogRequest::Open { folder });
+        }
+        Goal::OpenPath(path) => show(state, &path, read(&path)),
+        Goal::OpenShipped(index) => {
+            if let Some(preset) = shipped::ALL.get(index) {
+                let document = preset.load().map(|planet| Document::new(planet, None));
+                show(state, Path::new(preset.file), document);
+            }
+        }
+        Goal::Quit => {
+            state.questions.may_close = true;
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+    }
+}
+
+/// Starts with a file that need not exist yet.
+pub fn begin_with(state: &mut State, path: &Path) {
+    show(state, path, first_document(path));
+}
+
+/// Shows a document that has been read. If it could not be read, a message says why, and the document stays.
+fn show(state: &mut State, path: &Path, document: Result<Document, LoadError>) {
+    match document {
+        Ok(document) => state.replace_document(document),
+        Err(error) => state.report("The planet could not be opened", problems(path, &error)),
+    }
+}
+
+/// Replaces the planet by a random one: one undo step.
+pub fn roll(state: &mut State) {
+    state.roll(random::random(random_seed()), "Random planet");
+}
+
+/// Opens the first working copy that a crash left behind, or deletes it.
+pub fn recover(state: &mut State, keep: bool) {
+    if state.orphans.is_empty() {
+        return;
+    }
+    let orphan = state.orphans.remove(0);
+    match &state.recovery {
+        // Kept until this editor's own working copy takes its place: a second crash loses nothing.
+        Some(recovery) if keep => recovery.adopt(&orphan.file),
+        _ => recovery::remove(&orphan.file),
+    }
+    if keep {
+        state.replace_document(Document::unsaved(orphan.planet));
+    }
+}
+
+fn problems(path: &Path, error: &LoadError) -> Vec<String> {
+    match error {
+        LoadError::Read { source, .. } => vec![format!("{}: {source}", path.display())],
+        LoadError::Invalid { file, problems } => problems
+            .iter()
+            .map(|problem| {
+                let at = if problem.line > 0 { format!(":{}:{}", problem.line, problem.column) } else { String::new() };
+                let path = if problem.path.is_empty() { String::new() } else { format!("{}: ", problem.path) };
+                format!("{file}{at}: {path}{}", problem.message)
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,197 @@
+//! Undo and redo: one step for each gesture, each a whole planet.
+//!
+//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames. [`History::record`] opens a step at
+//! its first change; [`History::settle`], called while nobody drags or types, closes it. Planets are shared by `Arc`: a
+//! step takes the memory of one planet.
+
+use crate::editor::files::file_names::is_same_file;
+use crate::planet::Planet;
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Most steps that can be undone; older ones are dropped.
+pub const MAX_STEPS: usize = 500;
+
+/// The file of a planet, and its content.
+#[derive(Clone, Debug, Default)]
+pub struct Home {
+    /// The path of the file, if there is one.
+    pub path: Option<PathBuf>,
+    /// The planet in the file, or the one that a new document began with; None for unsaved work.
+    pub saved: Option<Arc<Planet>>,
+    /// Content of the file when it was last read or written, UTF-8 or not; None if there is no file yet.
+    pub bytes: Option<Vec<u8>>,
+    /// The random planet that the document began with: it counts as nobody's work.
+    pub rolled: Option<Arc<Planet>>,
+}
+
+impl Home {
+    /// Whether a planet with this file is unsaved work.
+    pub fn lacks(&self, planet: &Arc<Planet>) -> bool {
+        let begun = self.saved.as_ref().or(self.rolled.as_ref());
+        begun.is_none_or(|begun| !Arc::ptr_eq(begun, planet) && begun != planet)
+    }
+}
+
+/// An undo step: its name, and the planet on its other side.
+#[derive(Clone, Debug)]
+struct Step {
+    label: String,
+    planet: Arc<Planet>,
+    /// The file of the planet on the other side, if it is another.
+    home: Option<Home>,
+}
+
+impl Step {
+    /// Takes the step. Gives the planet on its other side, and the step back.
+    fn turned(self, current: &Arc<Planet>, home: &mut Home) -> (Arc<Planet>, Self) {
+        let back = self.home.map(|other| std::mem::replace(home, other));
+        (self.planet, Self { label: self.label, planet: current.clone(), home: back })
+    }
+}
+
+/// The steps that can be undone and redone.
+#[derive(Debug, Default)]
+pub struct History {
+    undo: VecDeque<Step>,
+    redo: Vec<Step>,
+    /// Whether the gesture of the newest step is under way.
+    open: bool,
+}
+
+impl History {
+    /// Notes that `before` is about to be replaced. A change with the name of the gesture under way joins its step.
+    pub fn record(&mut self, before: &Arc<Planet>, label: &str) {
+        self.redo.clear();
+        if self.open && self.undo.back().is_some_and(|step| step.label == label) {
+            return;
+        }
+        self.push(before, None, label);
+    }
+
+    /// Notes a change after which the planet has another file; `home` is the file before.
+    pub fn record_move(&mut self, before: &Arc<Planet>, home: Home, label: &str) {
+        self.redo.clear();
+        self.push(before, Some(home), label);
+    }
+
+    fn push(&mut self, before: &Arc<Planet>, home: Option<Home>, label: &str) {
+        self.undo.push_back(Step { label: label.to_owned(), planet: before.clone(), home });
+        if self.undo.len() > MAX_STEPS {
+            self.undo.pop_front();
+        }
+        self.open = true;
+    }
+
+    /// The planets of steps that change the file, with their files.
+    pub fn homes(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
+        self.undo.iter().chain(&self.redo).filter_map(|step| Some((&step.planet, step.home.as_ref()?)))
+    }
+
+    /// Notes the content of a file in every step of that file.
+    pub fn note_file(&mut self, now: &Home) {
+        let Some(path) = &now.path else { return };
+        for home in self.undo.iter_mut().chain(&mut self.redo).filter_map(|step| step.home.as_mut()) {
+            if home.path.as_ref().is_some_and(|other| is_same_file(other, path)) {
+                (home.saved, home.bytes) = (now.saved.clone(), now.bytes.clone());
+            }
+        }
+    }
+
+    /// Ends the gesture under way. A gesture that ends with the planet of its begin leaves no step.
+    pub fn settle(&mut self, current: &Arc<Planet>) {
+        if self.open && self.undo.back().is_some_and(|step| step.planet == *current) {
+            self.undo.pop_back();
+        }
+        self.open = false;
+    }
+
+    /// Goes one step back. Gives the planet before the step, and sets `home` to its file.
+    pub fn undo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
+        self.settle(current);
+        let step = self.undo.pop_back()?;
+        let (planet, step) = step.turned(current, home);
+        self.redo.push(step);
+        Some(planet)
+    }
+
+    /// Goes one step forward.
+    pub fn redo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
+        self.open = false;
+        let step = self.redo.pop()?;
+        let (planet, step) = step.turned(current, home);
+        self.undo.push_back(step);
+        Some(planet)
+    }
+
+    /// Name of the step that undo takes.
+    pub fn undo_label(&self) -> Option<&str> {
+        self.undo.back().map(|step| step.label.as_str())
+    }
+
+    /// Name of the step that redo takes.
+    pub fn redo_label(&self) -> Option<&str> {
+        self.redo.last().map(|step| step.label.as_str())
+    }
+
+    /// Number of steps that can be undone.
+    pub fn undo_len(&self) -> usize {
+        self.undo.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn planet(seed: u32) -> Arc<Planet> {
+        Arc::new(Planet { seed, ..Planet::default() })
+    }
+
+    #[test]
+    fn a_gesture_is_one_step() {
+        let mut history = History::default();
+        history.record(&planet(0), "Change seed");
+        history.record(&planet(1), "Change seed");
+        history.record(&planet(2), "Change seed");
+        history.settle(&planet(3));
+        assert_eq!(history.undo_len(), 1);
+        assert_eq!(history.undo(&planet(3), &mut Home::default()), Some(planet(0)));
+        assert_eq!(history.redo_label(), Some("Change seed"));
+        assert_eq!(history.redo(&planet(0), &mut Home::default()), Some(planet(3)));
+        assert_eq!(history.undo_label(), Some("Change seed"));
+    }
+
+    #[test]
+    fn gestures_that_differ_or_are_settled_between_are_steps_of_their_own() {
+        let mut history = History::default();
+        history.record(&planet(0), "Change seed");
+        history.settle(&planet(1));
+        history.record(&planet(1), "Change seed");
+        history.record(&planet(2), "Change radius");
+        history.settle(&planet(3));
+        assert_eq!(history.undo_len(), 3);
+    }
+
+    #[test]
+    fn a_gesture_that_ends_where_it_began_leaves_nothing() {
+        let mut history = History::default();
+        history.record(&planet(0), "Change seed");
+        history.settle(&planet(0));
+        assert_eq!(history.undo_len(), 0);
+    }
+
+    #[test]
+    fn an_edit_forgets_what_could_be_redone_and_memory_is_bounded() {
+        let mut history = History::default();
+        for seed in 0..2 * MAX_STEPS as u32 {
+            history.record(&planet(seed), "Change seed");
+            history.settle(&planet(seed + 1));
+        }
+        assert_eq!(history.undo_len(), MAX_STEPS);
+        assert!(history.undo(&planet(9999), &mut Home::default()).is_some());
+        history.record(&planet(1), "Change radius");
+        assert_eq!(history.redo_label(), None);
+    }
+}

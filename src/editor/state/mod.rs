@@ -1,0 +1,190 @@
+//! The state of the editor: the document, the picture's camera and settings, questions, notices, open windows.
+//!
+//! Views read it and send commands; handlers change it. It knows neither.
+//!
+//! - [`document`], [`history`], [`describe`]: the planet being edited, its file, its undo steps, changes in words
+//! - [`questions`]: questions about files
+//! - [`open_file`]: the watch over the open file
+//! - [`notices`]: notices of the editor
+//! - [`pictures`]: height maps, read in the background
+//! - [`recovery`]: the working copy
+
+pub mod describe;
+pub mod document;
+pub mod history;
+pub mod notices;
+pub mod open_file;
+pub mod pictures;
+pub mod questions;
+pub mod recovery;
+
+use super::files::dialogs::FileDialogs;
+use super::viewport::Viewport;
+use super::viewport::camera::{Cameras, Ground};
+use crate::planet::Planet;
+use document::Document;
+use eframe::egui;
+use notices::Notices;
+use open_file::OpenFile;
+use pictures::Pictures;
+use questions::Questions;
+use recovery::{Orphan, Recovery};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A message about something that went wrong; shown until it is dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// What happened.
+    pub title: String,
+    /// The details.
+    pub lines: Vec<String>,
+}
+
+impl Message {
+    /// A message of some lines.
+    pub fn new(title: &str, lines: Vec<String>) -> Self {
+        Self { title: title.to_owned(), lines }
+    }
+}
+
+/// The parts of the window that are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shows {
+    /// The side panel.
+    pub panel: bool,
+    /// The list of keys.
+    pub controls: bool,
+    /// The times of the last edit.
+    pub performance: bool,
+}
+
+/// The state of the editor.
+pub struct State {
+    /// The planet being edited.
+    pub document: Document,
+    /// Counts the documents: views that remember something about a document forget it when this changes.
+    pub document_number: u64,
+    /// The picture: its camera, its settings and its measurements.
+    pub viewport: Viewport,
+    /// Questions about files.
+    pub questions: Questions,
+    /// The watch over the open file.
+    pub open_file: OpenFile,
+    /// Notices of the editor.
+    pub notices: Notices,
+    /// Height maps.
+    pub pictures: Pictures,
+    /// Messages, the oldest first.
+    pub messages: Vec<Message>,
+    /// The parts of the window that are shown.
+    pub shows: Shows,
+    /// The index of the bookmark whose name is asked for.
+    pub renaming: Option<usize>,
+    /// Working copies that crashed editors left behind.
+    pub orphans: Vec<Orphan>,
+    /// The working copy of this editor.
+    pub recovery: Option<Recovery>,
+    /// The name of the graphics adapter.
+    pub adapter: String,
+    /// Start of this frame.
+    pub frame_start: Instant,
+}
+
+impl State {
+    /// The state at the start: a document that no file holds.
+    pub fn new(planet: Planet, viewport: Viewport, dialogs: Box<dyn FileDialogs>) -> Self {
+        Self {
+            document: Document::new(planet, None),
+            document_number: 0,
+            viewport,
+            questions: Questions::new(dialogs),
+            open_file: OpenFile::default(),
+            notices: Notices::default(),
+            pictures: Pictures::default(),
+            messages: Vec::new(),
+            shows: Shows { panel: true, controls: false, performance: false },
+            renaming: None,
+            orphans: Vec::new(),
+            recovery: None,
+            adapter: String::new(),
+            frame_start: Instant::now(),
+        }
+    }
+
+    /// Makes an undo step of a changed planet, and starts the clock that stops at its picture.
+    pub fn edit(&mut self, planet: Planet, label: Option<String>) {
+        let shown_before = self.document.valid_planet().clone();
+        self.document.edit(planet, label);
+        if !Arc::ptr_eq(self.document.valid_planet(), &shown_before) {
+            self.start_edit_clock();
+        }
+    }
+
+    /// Goes one undo step back.
+    pub fn undo(&mut self, ctx: &egui::Context) {
+        self.document.undo();
+        self.start_edit_clock();
+        ctx.request_repaint();
+    }
+
+    /// Goes one undo step forward.
+    pub fn redo(&mut self, ctx: &egui::Context) {
+        self.document.redo();
+        self.start_edit_clock();
+        ctx.request_repaint();
+    }
+
+    /// Replaces the planet by the content of its file: one undo step.
+    pub fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
+        self.document.reload(planet, bytes);
+        self.start_edit_clock();
+    }
+
+    /// Replaces the planet by one that no file holds: one undo step.
+    pub fn roll(&mut self, planet: Planet, label: &str) {
+        self.document.roll(planet, label);
+        self.forget_document();
+        self.start_edit_clock();
+    }
+
+    /// Replaces the document; its undo steps are lost.
+    pub fn replace_document(&mut self, document: Document) {
+        self.document = document;
+        self.forget_document();
+    }
+
+    /// Drops the questions and the view of the document before.
+    fn forget_document(&mut self) {
+        self.document_number += 1;
+        self.questions.forget();
+        self.renaming = None;
+        self.reset_view();
+    }
+
+    /// Looks at the whole planet, as when it was opened.
+    pub fn reset_view(&mut self) {
+        let planet = self.document.valid_planet().clone();
+        self.viewport.reset_view(&planet);
+    }
+
+    /// Changes the camera or its mode.
+    pub fn move_cameras(&mut self, change: impl FnOnce(&mut Cameras, &dyn Ground)) {
+        let planet = self.document.valid_planet().clone();
+        self.viewport.move_cameras(&planet, change);
+    }
+
+    /// Whether another document in the place of this one would lose unsaved work.
+    pub fn loses_work(&self) -> bool {
+        self.document.is_dirty() || !self.document.rolled_over().is_empty()
+    }
+
+    /// Shows a message.
+    pub fn report(&mut self, title: &str, lines: Vec<String>) {
+        self.messages.push(Message::new(title, lines));
+    }
+
+    fn start_edit_clock(&mut self) {
+        self.viewport.edit_clock.edited(self.document.valid_planet(), self.frame_start);
+    }
+}

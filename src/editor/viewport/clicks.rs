@@ -1,0 +1,77 @@
+//! Clicks on the planet that are for the painter of the biome table.
+
+use super::pointer::{Probe, UnderPointer, in_view};
+use crate::editor::painter::is_chord;
+use crate::lod::View;
+use crate::render::MarkedCells;
+use crate::tiles::Surface;
+use eframe::egui;
+use std::sync::Arc;
+
+/// The use of a click on the planet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Click {
+    /// Choose the biome there.
+    Pick,
+    /// Paint the cell of the biome table that the climate there falls into.
+    Paint,
+}
+
+/// What the painter of the biome table shows on the planet, and which clicks it takes.
+#[derive(Clone, Debug, Default)]
+pub struct PainterLink {
+    /// Cells whose ground lights up.
+    pub marked: Option<Arc<MarkedCells>>,
+    /// Whether a click with Ctrl paints.
+    pub paints: bool,
+    /// Whether a plain click picks.
+    pub picks: bool,
+}
+
+/// The newest click for the painter. The ground there is found on another thread.
+pub(super) struct Clicks {
+    probe: Probe,
+    clicked: Option<Click>,
+}
+
+impl Clicks {
+    /// No click yet; `wake` is called from another thread when the ground is known.
+    pub(super) fn new(wake: impl Fn() + Send + 'static) -> Self {
+        Self { probe: Probe::new(wake), clicked: None }
+    }
+
+    /// Takes a click of this frame, if the painter wants it.
+    pub(super) fn look(
+        &mut self,
+        (ui, response): (&egui::Ui, &egui::Response),
+        link: &PainterLink,
+        view: &View,
+        surface: Option<&Arc<Surface>>,
+    ) {
+        let chord = ui.input(|i| is_chord(i.modifiers));
+        let click = match (chord, link) {
+            (true, PainterLink { paints: true, .. }) => Click::Paint,
+            (false, PainterLink { picks: true, .. }) => Click::Pick,
+            _ => return,
+        };
+        if response.hovered() {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+        }
+        if response.clicked()
+            && let (Some(pos), Some(surface)) = (response.interact_pointer_pos(), surface)
+        {
+            let (x, y) = in_view(response.rect, pos);
+            self.probe.leave();
+            self.probe.ask(x, y, view, surface);
+            self.clicked = Some(click);
+        }
+    }
+
+    /// The click and the ground there, once, when the ground is known.
+    pub(super) fn take(&mut self) -> Option<(Click, UnderPointer)> {
+        let click = self.clicked?;
+        let answer = self.probe.take()?;
+        self.clicked = None;
+        answer.map(|under| (click, under))
+    }
+}

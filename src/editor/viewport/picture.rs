@@ -1,0 +1,255 @@
+//! The picture on screen: uploads the tiles of a surface to the GPU, and draws it when something has changed.
+
+use super::adaptation::{self, Adaptation};
+use super::clock::{EditClock, FrameMeter};
+use super::frames::FrameLog;
+use super::settings::ViewSettings;
+use super::swap::{Swap, UPLOAD_BUDGET_BYTES};
+use super::target::Target;
+use super::timeline::{self, Span};
+use crate::lod::{Quality, View};
+use crate::planet::Planet;
+use crate::render::{self, BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Renderer, Tone};
+use crate::tiles::{Leaf, Surface};
+use eframe::egui::{self, TextureId};
+use eframe::egui_wgpu::RenderState;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The scene to draw.
+pub(super) struct Scene<'a> {
+    pub(super) surface: Arc<Surface>,
+    /// The planet that gives sea, air, clouds and light.
+    pub(super) planet: &'a Arc<Planet>,
+    pub(super) view: View,
+    /// The view whose tiles are kept, if detail is frozen.
+    pub(super) frozen: Option<View>,
+    pub(super) settings: &'a ViewSettings,
+    /// Cells of the biome table whose ground lights up.
+    pub(super) marked: Option<Arc<MarkedCells>>,
+}
+
+/// The measurements that drawing takes part in.
+pub(super) struct Meters<'a> {
+    pub(super) frames: &'a mut FrameLog,
+    pub(super) frame_meter: &'a mut FrameMeter,
+    pub(super) edit_clock: &'a mut EditClock,
+}
+
+/// The renderer with eframe's device, or why there is none.
+enum Drawing {
+    Ready(Box<Renderer>, RenderState),
+    Failed(String),
+}
+
+/// The picture on screen.
+pub(super) struct Picture {
+    drawing: Drawing,
+    swap: Swap,
+    /// The upload under way or just done: when, and how many bytes had been uploaded before it.
+    upload: Option<(Span, u64)>,
+    target: Option<Target>,
+    drawn: Option<PictureKey>,
+    adaptation: Adaptation,
+    stats: FrameStats,
+    count: u64,
+}
+
+impl Picture {
+    /// Draws with eframe's device, or says why it cannot.
+    pub(super) fn new(render_state: Option<&RenderState>) -> Self {
+        let drawing = match render_state {
+            Some(state) => match Renderer::new(&state.device, &state.queue) {
+                Ok(renderer) => Drawing::Ready(Box::new(renderer), state.clone()),
+                Err(error) => Drawing::Failed(error.to_string()),
+            },
+            None => Drawing::Failed("There is no graphics device to draw with.".to_owned()),
+        };
+        // On a software adapter the pictures between the first and the adapted one take too long.
+        let gradual = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
+        Self {
+            drawing,
+            swap: Swap::default(),
+            upload: None,
+            target: None,
+            drawn: None,
+            adaptation: Adaptation::new(gradual),
+            stats: FrameStats::default(),
+            count: 0,
+        }
+    }
+
+    /// The surface on screen.
+    pub(super) fn surface(&self) -> Option<&Arc<Surface>> {
+        self.swap.shown()
+    }
+
+    /// Whether `newest` is not on screen yet.
+    pub(super) fn is_behind(&self, newest: Option<&Arc<Surface>>) -> bool {
+        self.swap.is_under_way(newest)
+    }
+
+    /// How often each look-up texture has been made since the start.
+    pub(super) fn lut_runs(&self) -> Option<LutRuns> {
+        match &self.drawing {
+            Drawing::Ready(renderer, _) => Some(renderer.lut_runs(BodyId::default())),
+            Drawing::Failed(_) => None,
+        }
+    }
+
+    /// Figures of the newest picture.
+    pub(super) fn stats(&self) -> FrameStats {
+        self.stats
+    }
+
+    /// How many pictures have been drawn since the start.
+    pub(super) fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Why nothing, or only an old picture, is drawn.
+    pub(super) fn error(&self) -> Option<&str> {
+        match &self.drawing {
+            Drawing::Ready(renderer, _) => renderer.shader_error(),
+            Drawing::Failed(error) => Some(error.as_str()),
+        }
+    }
+
+    /// The texture that holds the picture.
+    pub(super) fn texture(&self) -> Option<TextureId> {
+        self.target.as_ref().map(Target::id)
+    }
+
+    /// How long to wait for the next picture while the exposure adapts.
+    pub(super) fn adapts_after(&self, settings: &ViewSettings) -> Option<Duration> {
+        (settings.auto_exposure && self.adaptation.is_under_way()).then_some(adaptation::PAUSE)
+    }
+
+    /// Uploads one frame's share of the newest surface, and shows it once all of its tiles are uploaded.
+    pub(super) fn advance(&mut self, newest: Option<&Arc<Surface>>, frames: &mut FrameLog, ctx: &egui::Context) {
+        let (drawing, upload) = (&mut self.drawing, &mut self.upload);
+        self.swap.advance(newest.cloned(), |surface| {
+            let Drawing::Ready(renderer, _) = drawing else { return true };
+            let (begin, before) = (Instant::now(), renderer.uploaded_bytes());
+            let done = renderer.upload(BodyId::default(), surface, UPLOAD_BUDGET_BYTES);
+            let now = Span::since(begin);
+            frames.uploaded(now.end - now.begin);
+            let (first, before) = upload.map_or((now, before), |(span, before)| (span, before));
+            *upload = Some((Span { end: now.end, ..first }, before));
+            done
+        });
+        if self.is_behind(newest) {
+            ctx.request_repaint();
+        }
+    }
+
+    /// Draws the scene, unless the texture holds that picture already.
+    pub(super) fn draw(&mut self, scene: &Scene<'_>, meters: &mut Meters<'_>) {
+        let Drawing::Ready(renderer, state) = &mut self.drawing else { return };
+        let Scene { planet, settings, .. } = scene;
+        let key = PictureKey::of(scene);
+        let target = self.target.get_or_insert_with(|| Target::new(state, key.view.size_px));
+        let resized = target.resize(key.view.size_px);
+        let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
+        let adapting = settings.auto_exposure && self.adaptation.is_under_way();
+        if !changed && !adapting {
+            if !self.swap.is_uploading() {
+                self.upload = None;
+            }
+            return;
+        }
+        let begin = Instant::now();
+        let sun_dir_planet = planet.star.place(key.time_secs).direction();
+        let mut drawn_scene = render::Scene::of_planet(planet, &key.surface, key.view, sun_dir_planet);
+        drawn_scene.time_secs = key.time_secs;
+        drawn_scene.debug_view = key.debug_view;
+        drawn_scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
+        drawn_scene.post.exposure_ev = key.exposure_ev;
+        drawn_scene.post.tone = key.tone;
+        for body in &mut drawn_scene.bodies {
+            body.frozen = key.frozen;
+            body.marked.clone_from(&key.marked);
+        }
+        let drawn = renderer.render(target.view(), &drawn_scene);
+        match drawn {
+            Ok(stats) => self.stats = stats,
+            Err(error) => {
+                self.drawing = Drawing::Failed(error.to_string());
+                return;
+            }
+        }
+        self.count += 1;
+        meters.frame_meter.drawn();
+        let draw = Span::since(begin);
+        meters.frames.drew(draw.end - draw.begin);
+        let upload = if self.swap.is_uploading() { None } else { self.upload.take() };
+        let (upload, before) = upload.unzip();
+        let uploaded_bytes = before.map_or(0, |before| renderer.uploaded_bytes() - before);
+        meters.edit_clock.drawn(&key.surface, planet, &timeline::Drawing { upload, uploaded_bytes, draw });
+        self.drawn = Some(key);
+    }
+}
+
+/// The quality that an adapter can bear: low on a software adapter.
+pub(super) fn quality_for(render_state: Option<&RenderState>) -> Quality {
+    render_state.map_or(Quality::Low, |state| match state.adapter.get_info().device_type {
+        wgpu::DeviceType::Cpu => Quality::Low,
+        wgpu::DeviceType::DiscreteGpu => Quality::High,
+        _ => Quality::Medium,
+    })
+}
+
+/// Everything that a picture depends on: equal keys give equal pictures.
+struct PictureKey {
+    surface: Arc<Surface>,
+    planet: Arc<Planet>,
+    view: View,
+    frozen: Option<View>,
+    time_secs: f64,
+    exposure_ev: f64,
+    auto_exposure: bool,
+    tone: Tone,
+    debug_view: DebugView,
+    marked: Option<Arc<MarkedCells>>,
+}
+
+impl PictureKey {
+    fn of(scene: &Scene<'_>) -> Self {
+        Self {
+            surface: scene.surface.clone(),
+            planet: scene.planet.clone(),
+            view: scene.view,
+            frozen: scene.frozen,
+            time_secs: scene.settings.time_secs,
+            exposure_ev: scene.settings.exposure_ev,
+            auto_exposure: scene.settings.auto_exposure,
+            tone: scene.settings.tone,
+            debug_view: scene.settings.debug_view,
+            marked: scene.marked.clone(),
+        }
+    }
+
+    fn same(&self, other: &PictureKey) -> bool {
+        same_leaves(&self.surface, &other.surface)
+            && Arc::ptr_eq(&self.planet, &other.planet)
+            && self.view == other.view
+            && self.frozen == other.frozen
+            && self.time_secs == other.time_secs
+            && self.exposure_ev == other.exposure_ev
+            && self.auto_exposure == other.auto_exposure
+            && self.tone == other.tone
+            && self.debug_view == other.debug_view
+            && self.marked == other.marked
+    }
+}
+
+/// Whether two surfaces have the same tiles, with the same detail textures, horizons, parent edges and ranges.
+fn same_leaves(a: &Arc<Surface>, b: &Arc<Surface>) -> bool {
+    let serials = |leaf: &Leaf| {
+        let (detail, horizon) = (leaf.detail.as_ref(), leaf.horizon.as_ref());
+        (leaf.tile.serial, detail.map(|detail| detail.serial), horizon.map(|horizon| horizon.serial))
+    };
+    let same = |(a, b): (&Leaf, &Leaf)| serials(a) == serials(b) && a.coarser_edges == b.coarser_edges;
+    let all = || a.leaves.len() == b.leaves.len() && a.leaves.iter().zip(&b.leaves).all(same);
+    Arc::ptr_eq(a, b) || (a.complete == b.complete && a.ranges == b.ranges && all())
+}

@@ -1,0 +1,45 @@
+//! Settings of the view; no part of the document.
+
+use crate::lod::Quality;
+use crate::render::{DebugView, Tone};
+
+/// Which picture of the planet is drawn, and at which time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewSettings {
+    /// Shaded, or a debug view.
+    pub debug_view: DebugView,
+    /// Quality of the picture.
+    pub quality: Quality,
+    /// Whether the tiles stay those of the view in which they were frozen.
+    pub freeze_detail: bool,
+    /// Exposure in stops.
+    pub exposure_ev: f64,
+    /// Whether the exposure follows the brightness of the picture; [`Self::exposure_ev`] then corrects it.
+    pub auto_exposure: bool,
+    /// The tone curve.
+    pub tone: Tone,
+    /// Seconds since time zero.
+    pub time_secs: f64,
+    /// Whether time passes.
+    pub playing: bool,
+    /// Seconds of the planet for each second of the clock.
+    pub time_speed: f64,
+}
+
+impl ViewSettings {
+    /// The settings at the start: the shaded planet at time zero, paused.
+    pub fn new(quality: Quality) -> Self {
+        Self {
+            debug_view: DebugView::default(),
+            quality,
+            freeze_detail: false,
+            exposure_ev: 0.0,
+            auto_exposure: true,
+            tone: Tone::default(),
+            time_secs: 0.0,
+            playing: false,
+            // Ten minutes of the planet for each second: a day of 24 hours takes 2.4 minutes.
+            time_speed: 600.0,
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The menu bar, made from the table of commands. Menus only send commands.
+
+use crate::editor::command::{Action, BookmarkAction, Command, Commands, Setting};
+use crate::editor::commands::{self, Menu, Row};
+use crate::editor::files::file_names::readable_stem;
+use crate::editor::state::State;
+use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::menu_button;
+use crate::editor::widgets::typed::{Allowed, plain_field};
+use crate::lod::Quality;
+use crate::planet::param::Unit;
+use crate::planet::shipped;
+use crate::render::Tone;
+use eframe::egui;
+use std::path::Path;
+
+/// Range of the exposure slider, in stops.
+const EXPOSURE_EV: f64 = 8.0;
+/// Fastest time, in seconds of the planet for each second: a day of 24 hours.
+const MAX_TIME_SPEED: f64 = 86_400.0;
+
+/// Shows the bar: menus to the left, time and the document's name to the right.
+pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        for menu in Menu::ALL {
+            menu_button(ui, menu.label(), |ui| {
+                for (i, group) in commands::menu_groups(menu).iter().enumerate() {
+                    if i > 0 {
+                        ui.separator();
+                    }
+                    group.iter().for_each(|row| entry(ui, state, commands, row));
+                }
+                match menu {
+                    Menu::View => settings(ui, state, commands),
+                    Menu::Bookmarks => bookmarks(ui, state, commands),
+                    Menu::Planets => planets(ui, commands),
+                    Menu::File | Menu::Edit | Menu::Camera | Menu::Help => {}
+                }
+            });
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            time(ui, state, commands);
+            ui.separator();
+            ui.add(egui::Label::new(egui::RichText::new(state.document.title()).weak()).truncate());
+        });
+    });
+}
+
+/// The button of a command, with its shortcut; highlighted if it makes the current setting.
+fn entry(ui: &mut egui::Ui, state: &State, commands: &mut Commands, row: &Row) {
+    let label = row.label_now(state);
+    let mut button = match row.is_chosen(state) {
+        Some(chosen) => egui::Button::selectable(chosen, label),
+        None => egui::Button::new(label),
+    };
+    if let Some(shortcut) = row.shortcuts.first() {
+        button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+    }
+    if ui.add_enabled(row.is_enabled(state), button).on_hover_text(row.tooltip).clicked() {
+        commands.send(row.command);
+        ui.close();
+    }
+}
+
+fn planets(ui: &mut egui::Ui, commands: &mut Commands) {
+    ui.separator();
+    for (index, preset) in shipped::ALL.iter().enumerate() {
+        if ui.button(readable_stem(Path::new(preset.file))).clicked() {
+            commands.push(Action::OpenShipped(index));
+            ui.close();
+        }
+    }
+}
+
+/// One submenu for each bookmark.
+fn bookmarks(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    let bookmarks = state.document.bookmarks();
+    if !bookmarks.is_empty() {
+        ui.separator();
+    }
+    for (index, bookmark) in bookmarks.iter().enumerate() {
+        let submenu = ui.menu_button(&bookmark.name, |ui| {
+            for (label, tooltip, action) in [
+                ("Go there", "Fly to this view.", BookmarkAction::GoTo(index)),
+                ("Rename…", "Give this view another name.", BookmarkAction::AskName(index)),
+                ("Move here", "Replace this view with what you see now.", BookmarkAction::Update(index)),
+                ("Delete", "Remove this view.", BookmarkAction::Delete(index)),
+            ] {
+                if ui.button(label).on_hover_text(tooltip).clicked() {
+                    commands.push(Action::Bookmark(action));
+                    ui.close();
+                }
+            }
+        });
+        if let Some(shortcut) = commands::row(Command::GoTo(index)).and_then(|row| row.shortcuts.first()) {
+            submenu.response.on_hover_text(ui.ctx().format_shortcut(shortcut));
+        }
+    }
+}
+
+/// Settings of the view that take a value.
+fn settings(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    let settings = state.viewport.settings;
+    ui.separator();
+    ui.menu_button(format!("Quality: {}", settings.quality.label().to_lowercase()), |ui| {
+        for quality in Quality::ALL {
+            if ui.radio(settings.quality == quality, quality.label()).clicked() {
+                commands.push(Action::Set(Setting::Quality(quality)));
+                ui.close();
+            }
+        }
+    });
+    let tones = ui.menu_button(format!("Tones: {}", settings.tone.label()), |ui| {
+        for tone in Tone::ALL {
+            if ui.radio(settings.tone == tone, tone.label()).clicked() {
+                commands.push(Action::Set(Setting::Tone(tone)));
+                ui.close();
+            }
+        }
+    });
+    tones.response.on_hover_text("The tone curve from radiance to the picture: like film, neutral, or none");
+    exposure(ui, state, commands);
+}
+
+fn exposure(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    let mut exposure_ev = state.viewport.settings.exposure_ev;
+    let mut automatic = state.viewport.settings.auto_exposure;
+    ui.horizontal(|ui| {
+        let label = ui.label("Exposure");
+        let told = "Brightness of the picture in stops; not part of the planet";
+        let slider = egui::Slider::new(&mut exposure_ev, -EXPOSURE_EV..=EXPOSURE_EV).show_value(false);
+        let slid = ui.add(slider).labelled_by(label.id).on_hover_text(told);
+        let allowed = Allowed::numbers(Unit::None, -EXPOSURE_EV, EXPOSURE_EV).marked(" EV");
+        let typed = plain_field(ui, &mut exposure_ev, 0.02, 3, allowed)
+            .on_hover_text(told)
+            .accessible_name("Exposure as a number");
+        if slid.changed() || typed.changed() {
+            commands.push(Action::Set(Setting::ExposureEv(exposure_ev)));
+        }
+        let told = "The exposure follows the brightness of the picture, and the slider corrects it; off, the slider \
+                    alone sets it";
+        if ui.checkbox(&mut automatic, "Automatic").on_hover_text(told).changed() {
+            commands.push(Action::Set(Setting::AutoExposure(automatic)));
+        }
+    });
+}
+
+/// Right to left: speed, then the button.
+fn time(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    let settings = state.viewport.settings;
+    let mut time_speed = settings.time_speed;
+    let allowed = Allowed::numbers(Unit::None, -MAX_TIME_SPEED, MAX_TIME_SPEED).marked("×");
+    let field = plain_field(ui, &mut time_speed, 20.0, 6, allowed)
+        .on_hover_text("Speed of time: 3600 is an hour of the planet for each second")
+        .accessible_name("Speed of time");
+    if field.changed() {
+        commands.push(Action::Set(Setting::TimeSpeed(time_speed)));
+    }
+    let (icon, name) = if settings.playing { (Icon::Pause, "Pause time") } else { (Icon::Play, "Play time") };
+    let tooltip = commands::row(Command::PlayPause).map_or("", |row| row.tooltip);
+    if icon_button(ui, icon, name, tooltip).clicked() {
+        commands.send(Command::PlayPause);
+    }
+}

@@ -1,0 +1,20 @@
+//! Views: they read the state and send commands.
+//!
+//! - [`menus`]: the menu bar
+//! - [`status`]: the status bar
+//! - [`problems`]: notices and problems
+//! - [`prompts`], `path_field`, `rename`: questions and messages
+//! - [`controls`], [`performance`]: windows
+//! - [`shortcuts`]: keys and dropped files
+//! - [`look`]: colours and spacing
+
+pub mod controls;
+pub mod look;
+pub mod menus;
+mod path_field;
+pub mod performance;
+pub mod problems;
+pub mod prompts;
+mod rename;
+pub mod shortcuts;
+pub mod status;

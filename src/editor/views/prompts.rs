@@ -1,0 +1,178 @@
+//! Questions and messages in front of the window.
+
+use super::path_field::PathField;
+use super::rename::RenameField;
+use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, ReplaceAnswer, UnsavedAnswer};
+use crate::editor::state::questions::Change;
+use crate::editor::state::{Message, State};
+use eframe::egui;
+use std::path::Path;
+
+/// Texts that are being typed into questions.
+#[derive(Default)]
+pub struct Prompts {
+    path: Option<PathField>,
+    rename: Option<RenameField>,
+}
+
+impl Prompts {
+    /// Shows the questions and messages that are open.
+    pub fn show(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
+        commands.extend(self.question(ctx, state).map(Action::Answer));
+        if let Some(orphan) = state.orphans.first()
+            && !state.document.is_dirty()
+            && let Some(keep) = recover(ctx, &orphan.planet.name)
+        {
+            commands.push(Action::Answer(Answer::Recover(keep)));
+        }
+        if let Some(message) = state.messages.first()
+            && dismissed(ctx, message)
+        {
+            commands.push(Action::DismissMessage);
+        }
+        self.rename_bookmark(ctx, state, commands);
+    }
+
+    /// The question about files that comes first.
+    fn question(&mut self, ctx: &egui::Context, state: &State) -> Option<Answer> {
+        let questions = &state.questions;
+        self.path = self.path.take().filter(|field| questions.path.as_ref().is_some_and(|wanted| field.is_for(wanted)));
+        if questions.unsaved.is_some() {
+            unsaved(ctx, state).map(Answer::Unsaved)
+        } else if let Some(replace) = &questions.replace {
+            replaced(ctx, replace.path()).map(Answer::Replace)
+        } else if let Some(change) = &questions.change {
+            changed(ctx, &state.document.title(), change).map(Answer::Change)
+        } else if let Some(wanted) = &questions.path {
+            self.path.get_or_insert_with(|| PathField::new(wanted)).show(ctx).map(Answer::Path)
+        } else {
+            None
+        }
+    }
+
+    fn rename_bookmark(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
+        let bookmark = state.renaming.and_then(|index| Some((index, state.document.bookmarks().get(index)?)));
+        let Some((index, bookmark)) = bookmark else {
+            self.rename = None;
+            return;
+        };
+        let field = self.rename.take().filter(|field| field.is_for(index));
+        let field = self.rename.insert(field.unwrap_or_else(|| RenameField::new(index, &bookmark.name)));
+        commands.extend(field.show(ctx).map(Action::Bookmark));
+    }
+}
+
+/// A question with a button for each answer; closing it answers `cancel`.
+fn question<A: Copy>(
+    ctx: &egui::Context,
+    id: &'static str,
+    (heading, lines): (&str, &[String]),
+    answers: &[(&str, A)],
+    cancel: A,
+) -> Option<A> {
+    let modal = egui::Modal::new(egui::Id::unique(id)).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading(heading);
+        ui.add_space(4.0);
+        for line in lines {
+            ui.label(line);
+        }
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            let clicked = |(text, meaning): &(&str, A)| ui.button(*text).clicked().then_some(*meaning);
+            // The fold shows all buttons, also those after the clicked one.
+            answers.iter().map(clicked).fold(None, Option::or)
+        })
+        .inner
+    });
+    if modal.inner.is_none() && modal.should_close() { Some(cancel) } else { modal.inner }
+}
+
+fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
+    let dirty = state.document.is_dirty();
+    let title = state.document.title();
+    let here = dirty.then(|| format!("{} has unsaved changes.", title.trim_start_matches("• ")));
+    let before = state
+        .document
+        .rolled_over()
+        .into_iter()
+        .map(|name| format!("{name} had unsaved changes before the random planet; undo brings them back."));
+    let lines: Vec<String> = here.into_iter().chain(before).collect();
+    let save = ("Save changes", UnsavedAnswer::Save);
+    let rest = [("Discard changes", UnsavedAnswer::Discard), ("Cancel", UnsavedAnswer::Cancel)];
+    let answers: Vec<_> = dirty.then_some(save).into_iter().chain(rest).collect();
+    let heading = if dirty { "Save your changes?" } else { "Lose your changes?" };
+    question(ctx, "unsaved work", (heading, &lines), &answers, UnsavedAnswer::Cancel)
+}
+
+fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
+    let lines = [format!("{} exists already. Its content would be lost.", path.display())];
+    let answers = [
+        ("Replace", ReplaceAnswer::Replace),
+        ("Other name…", ReplaceAnswer::OtherName),
+        ("Cancel", ReplaceAnswer::Cancel),
+    ];
+    question(ctx, "replace file", ("Replace the file?", &lines), &answers, ReplaceAnswer::Cancel)
+}
+
+fn changed(ctx: &egui::Context, title: &str, change: &Change) -> Option<ChangeAnswer> {
+    let mut lines =
+        vec![format!("Another program has written {} since it was opened here.", title.trim_start_matches("• "))];
+    let mut answers = Vec::new();
+    match &change.theirs.planet {
+        Ok(_) => {
+            lines.push("Reload takes the file; undo brings yours back.".to_owned());
+            answers.push(("Reload", ChangeAnswer::Reload));
+        }
+        Err(why) => lines.push(format!("The file cannot be read now: {why}")),
+    }
+    let keep = if change.saving { "Save mine over it" } else { "Keep mine" };
+    answers.extend([(keep, ChangeAnswer::KeepMine), ("Save mine as…", ChangeAnswer::SaveAs)]);
+    let cancel = if change.saving { "Cancel" } else { "Later" };
+    answers.push((cancel, ChangeAnswer::Cancel));
+    question(ctx, "changed on disk", ("The file has changed on disk", &lines), &answers, ChangeAnswer::Cancel)
+}
+
+fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {
+    // Only an answer closes the question: a click beside it must not delete work.
+    let modal = egui::Modal::new(egui::Id::unique("recover work")).show(ctx, |ui| {
+        ui.set_width(360.0);
+        ui.heading("Recover unsaved work?");
+        ui.add_space(4.0);
+        ui.label(format!("The editor stopped without saving {name}."));
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            if ui.button("Recover").clicked() {
+                Some(true)
+            } else if ui.button("Delete").clicked() {
+                Some(false)
+            } else {
+                None
+            }
+        })
+        .inner
+    });
+    modal.inner
+}
+
+fn dismissed(ctx: &egui::Context, message: &Message) -> bool {
+    let modal = egui::Modal::new(egui::Id::unique("message")).show(ctx, |ui| {
+        ui.set_width(560.0);
+        ui.heading(&message.title);
+        ui.add_space(4.0);
+        egui::ScrollArea::vertical().max_height(280.0).show(ui, |ui| {
+            for line in &message.lines {
+                ui.add(egui::Label::new(egui::RichText::new(line).monospace()).wrap().selectable(true));
+            }
+        });
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            if ui.button("Copy").clicked() {
+                ctx.copy_text(message.lines.join("\n"));
+            }
+            ui.button("Dismiss").clicked()
+        })
+        .inner
+    });
+    modal.inner || modal.should_close()
+}

@@ -1,0 +1,92 @@
+//! The status bar: the ground under the pointer, and figures of the picture.
+
+use crate::editor::state::State;
+use crate::editor::widgets::number::{format_digits, length_text, megabytes};
+use crate::sphere::LatLon;
+use eframe::egui;
+
+/// Shows the bar.
+pub fn show(ui: &mut egui::Ui, state: &State) {
+    let viewport = &state.viewport;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 12.0;
+        let (altitude_m, location) = viewport.eye(state.document.valid_planet());
+        let left = match viewport.under_pointer() {
+            Some(under) => format!(
+                "{}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
+                location_text(under.location),
+                length_text(under.height_m),
+                under.slope_deg,
+                under.biome,
+                under.temperature_c,
+                under.moisture
+            ),
+            None => format!("Over {}", location_text(location)),
+        };
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            figures(ui, state);
+            ui.separator();
+            ui.label(format!("Eye at {}", length_text(altitude_m))).on_hover_text("Height of the eye above the ground");
+            ui.label(mode_text(state)).on_hover_text("How the camera moves: F2 orbit, F3 free flight, F4 walk");
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(left).truncate())
+                    .on_hover_text("Under the pointer: location, height, slope, biome, temperature, moisture");
+            });
+        });
+    });
+}
+
+/// Right to left.
+fn figures(ui: &mut egui::Ui, state: &State) {
+    let viewport = &state.viewport;
+    let quality = viewport.settings.quality.label();
+    ui.label(quality).on_hover_text(format!("Quality. Drawn by {}", state.adapter));
+    let frames = match viewport.frame_meter.interval_secs() {
+        Some(secs) => format!("{:.0} fps, {:.1} ms", 1.0 / secs.max(1e-4), secs * 1000.0),
+        None => "idle".to_owned(),
+    };
+    ui.label(frames).on_hover_text("Pictures per second while something moves; nothing is drawn while nothing changes");
+    if let Some(duration) = viewport.edit_clock.last() {
+        ui.label(format!("edit {:.1} ms", duration.as_secs_f64() * 1000.0))
+            .on_hover_text("From the last edit to its complete picture");
+    }
+    let memory = viewport.memory();
+    ui.label(format!("{:.0} MB", megabytes(memory.used_bytes as u64))).on_hover_text(format!(
+        "In the cache: {} tiles and {} layer fields, at most {:.0} MB",
+        memory.tiles,
+        memory.fields,
+        megabytes(memory.budget_bytes as u64)
+    ));
+    if let Some(surface) = viewport.surface() {
+        let stats = surface.stats;
+        let drawn = viewport.stats();
+        let busy = if viewport.is_busy() { " …" } else { "" };
+        ui.label(format!("{} tiles, {}k vertices{busy}", stats.tiles, stats.vertices / 1000)).on_hover_text(format!(
+            "{} tiles built in {:.1} ms; {} tiles and {} triangles drawn",
+            stats.tiles_built,
+            stats.duration_secs * 1000.0,
+            drawn.tiles_drawn,
+            drawn.triangles
+        ));
+    }
+}
+
+fn mode_text(state: &State) -> String {
+    let cameras = state.viewport.cameras();
+    let mut text = cameras.mode().label().to_owned();
+    let factor = cameras.speed_factor();
+    if (factor - 1.0).abs() > 0.01 {
+        text += &format!(" ×{}", format_digits(factor, 2));
+    }
+    if state.viewport.settings.freeze_detail {
+        text += ", detail frozen";
+    }
+    text
+}
+
+fn location_text(location: LatLon) -> String {
+    let (lat_deg, lon_deg) = location.to_degrees();
+    let ns = if lat_deg < 0.0 { "S" } else { "N" };
+    let ew = if lon_deg < 0.0 { "W" } else { "E" };
+    format!("{:.3}° {ns} {:.3}° {ew}", lat_deg.abs(), lon_deg.abs())
+}

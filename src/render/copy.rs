@@ -1,0 +1,14 @@
+//! The air stage where there is no air to draw (`copy.wgsl`): debug views and scenes without bodies.
+
+use super::screen_pass::{Input, Output, Scope, ScreenPass, writes};
+use super::targets::Target;
+
+/// See the module.
+pub(crate) const PASS: ScreenPass = ScreenPass {
+    shader: "copy.wgsl",
+    scope: Scope::View,
+    reads: &[Input::Load(Target::BeforeAir)],
+    writes: &[writes(Target::AfterAir), Output { target: Target::Stars, multiplies: true }],
+    depth: None,
+    runs: |_| true,
+};

@@ -1,0 +1,234 @@
+//! Textures that outlive a frame. [`Patterns`]: noises and materials, one set for a device. [`Luts`]: the LUTs of the air,
+//! the weather map and the biomes of a body, each made again when the content that it depends on has changed.
+//!
+//! LUTs of the air: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020.
+
+use super::biome_table::{BiomeTexels, BiomeTextures, MarkedCells};
+use super::border_tile;
+use super::cloud_map::{CloudMapPass, WeatherMap};
+use super::gpu::{self, Slot};
+use super::material_maps::MaterialMaps;
+use super::screen_pass::Shared;
+use super::targets::RADIANCE_FORMAT;
+use super::{RenderError, noise_tile, shaders};
+use crate::planet::{Atmosphere, Biomes, Planet};
+use std::sync::Arc;
+
+/// Size of each LUT of the air, texels.
+pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
+pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 32];
+pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
+pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
+
+/// The LUTs of the air in the order in which they build on each other: name, shader, size.
+const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
+    ("optical depth", "optical_depth.wgsl", OPTICAL_DEPTH_SIZE),
+    ("multiscatter", "multiscatter.wgsl", MULTISCATTER_SIZE),
+    ("irradiance", "irradiance.wgsl", IRRADIANCE_SIZE),
+    ("sky", "sky.wgsl", SKY_SIZE),
+];
+/// LUTs that each LUT of the air reads: the first ones of the list.
+const AIR_LUTS_READ: [usize; 4] = [0, 1, 2, 2];
+
+/// What the LUTs of the air depend on: the air, the planet's radius, and the widest sun's, which softens the terminator.
+type AirKey = (Atmosphere, f64, u32);
+
+/// What the weather map depends on: scale, curl, seeds, radius.
+type WeatherKey = (f64, f64, u32, u32, f64);
+
+/// How often each texture of a body, and its uniforms, have been written since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LutRuns {
+    /// The biome table.
+    pub biomes: u64,
+    /// The weather map.
+    pub weather: u64,
+    /// The four LUTs of the air.
+    pub air: u64,
+    /// The uniforms of the body and of the frame.
+    pub uniforms: u64,
+}
+
+/// Textures that all bodies share.
+pub(crate) struct Patterns {
+    /// The noise of ground and clouds, and that of the borders between biomes.
+    noise: [wgpu::TextureView; 2],
+    materials: MaterialMaps,
+    /// Layout of the group of a body's LUTs.
+    pub(crate) layout: wgpu::BindGroupLayout,
+}
+
+impl Patterns {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        use Slot::{Cube, Float2d, Float2dArray, Float3d, Unfiltered2d};
+        let air = [Float2d; 4];
+        let rest = [Cube, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d];
+        Self {
+            noise: [noise_tile::upload(device, queue), border_tile::upload(device, queue)],
+            materials: MaterialMaps::new(device, queue),
+            layout: gpu::layout(device, "LUTs", &[&air[..], &rest].concat()),
+        }
+    }
+}
+
+/// The pipelines that fill LUTs.
+pub(crate) struct LutPipelines {
+    air: Vec<wgpu::RenderPipeline>,
+    cloud_map: CloudMapPass,
+}
+
+impl LutPipelines {
+    pub(crate) fn new(device: &wgpu::Device, shared: Shared<'_>) -> Result<Self, RenderError> {
+        let pipeline = |(i, (_, entry, _)): (usize, &(&str, &'static str, [u32; 2]))| {
+            let groups = [shared.uniforms, shared.luts];
+            let groups = if AIR_LUTS_READ[i] == 0 { &groups[..1] } else { &groups[..] };
+            let description = gpu::ScreenPipelineDescriptor {
+                entry,
+                layout: &gpu::pipeline_layout(device, entry, groups),
+                module: &shaders::module(device, entry)?,
+                targets: &[Some(RADIANCE_FORMAT.into())],
+                writes_depth: false,
+                encodes_srgb: false,
+            };
+            gpu::screen_pipeline(device, &description)
+        };
+        let air = AIR_LUTS.iter().enumerate().map(pipeline).collect::<Result<_, _>>()?;
+        Ok(Self { air, cloud_map: CloudMapPass::new(device, shared.uniforms)? })
+    }
+}
+
+/// The LUTs of a body.
+pub(crate) struct Luts {
+    air: Vec<wgpu::TextureView>,
+    weather: WeatherMap,
+    biomes: BiomeTextures,
+    groups: Groups,
+    air_key: Option<AirKey>,
+    weather_key: Option<WeatherKey>,
+    biome_key: Option<(Biomes, Option<Arc<MarkedCells>>)>,
+    biome_texels: BiomeTexels,
+    pub(crate) runs: LutRuns,
+}
+
+/// The LUTs bound for drawing, and for filling the later LUTs of the air.
+struct Groups {
+    all: wgpu::BindGroup,
+    first_of_air: wgpu::BindGroup,
+    first_two_of_air: wgpu::BindGroup,
+}
+
+impl Luts {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
+        let texture = |(name, _, size): &(&str, &str, [u32; 2])| gpu::target(device, name, *size, RADIANCE_FORMAT);
+        let air: Vec<_> = AIR_LUTS.iter().map(texture).collect();
+        let weather = WeatherMap::new(device);
+        let biome_texels = BiomeTexels::new(&Biomes::default(), None);
+        let biomes = BiomeTextures::with(device, queue, &biome_texels);
+        let groups = Groups::new(device, patterns, &air, &weather.cube, &biomes);
+        Self {
+            air,
+            weather,
+            biomes,
+            groups,
+            air_key: None,
+            weather_key: None,
+            biome_key: None,
+            biome_texels,
+            runs: LutRuns::default(),
+        }
+    }
+
+    /// The bind group for drawing.
+    pub(crate) fn group(&self) -> &wgpu::BindGroup {
+        &self.groups.all
+    }
+
+    /// Makes everything anew at the next frame: the shaders that fill it have changed.
+    pub(crate) fn forget(&mut self) {
+        self.air_key = None;
+        self.weather_key = None;
+    }
+
+    /// Brings everything up to date with a planet. `uniforms`: the body's, already written; `sun_radius_rad`: their widest
+    /// sun's.
+    pub(crate) fn update(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        encoder: &mut wgpu::CommandEncoder,
+        (patterns, pipelines): (&Patterns, &LutPipelines),
+        (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
+        planet: &Planet,
+        marked: Option<&Arc<MarkedCells>>,
+    ) {
+        let same = |key: &(Biomes, Option<Arc<MarkedCells>>)| key.0 == planet.biomes && key.1.as_ref() == marked;
+        if !self.biome_key.as_ref().is_some_and(same) {
+            let texels = BiomeTexels::new(&planet.biomes, marked.map(|marked| &**marked));
+            self.write_biomes(device, queue, patterns, texels);
+            self.biome_key = Some((planet.biomes.clone(), marked.cloned()));
+        }
+        if let Some(air) = &planet.atmosphere {
+            let key = (air.clone(), planet.radius_km, sun_radius_rad.to_bits());
+            if self.air_key.as_ref() != Some(&key) {
+                self.fill_air(encoder, uniforms, pipelines);
+                self.air_key = Some(key);
+                self.runs.air += 1;
+            }
+        }
+        if let Some(clouds) = planet.clouds.as_ref().filter(|clouds| clouds.coverage > 0.0 && marked.is_none()) {
+            let key = (clouds.scale_km, clouds.curl, clouds.seed, planet.seed, planet.radius_km);
+            if self.weather_key != Some(key) {
+                pipelines.cloud_map.draw(encoder, uniforms, &self.weather);
+                self.weather_key = Some(key);
+                self.runs.weather += 1;
+            }
+        }
+    }
+
+    /// Nothing happens if what differs is not in the textures: names, or where rows begin.
+    fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns, texels: BiomeTexels) {
+        if texels == self.biome_texels {
+            return;
+        }
+        if self.biomes.fit(&texels) {
+            self.biomes.write(queue, &texels);
+        } else {
+            self.biomes = BiomeTextures::with(device, queue, &texels);
+            self.groups = Groups::new(device, patterns, &self.air, &self.weather.cube, &self.biomes);
+        }
+        self.biome_texels = texels;
+        self.runs.biomes += 1;
+    }
+
+    fn fill_air(&self, encoder: &mut wgpu::CommandEncoder, uniforms: &wgpu::BindGroup, pipelines: &LutPipelines) {
+        for (i, (name, ..)) in AIR_LUTS.iter().enumerate() {
+            let groups = match AIR_LUTS_READ[i] {
+                0 => vec![uniforms],
+                1 => vec![uniforms, &self.groups.first_of_air],
+                _ => vec![uniforms, &self.groups.first_two_of_air],
+            };
+            gpu::draw_screen(encoder, name, &pipelines.air[i], &groups, &[&self.air[i]]);
+        }
+    }
+}
+
+impl Groups {
+    fn new(
+        device: &wgpu::Device,
+        patterns: &Patterns,
+        air: &[wgpu::TextureView],
+        weather: &wgpu::TextureView,
+        biomes: &BiomeTextures,
+    ) -> Self {
+        let (noise, materials) = (&patterns.noise, &patterns.materials);
+        // With the first LUTs of the air only: the others are being filled, and the first stands in for them.
+        let bind = |ready: usize| {
+            let air = (0..air.len()).map(|i| &air[if i < ready { i } else { 0 }]);
+            let rest =
+                [weather, &noise[0], &biomes.ids, &biomes.params, &materials.tint, &materials.surface, &noise[1]];
+            let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
+            gpu::group(device, "LUTs", &patterns.layout, views)
+        };
+        Self { all: bind(air.len()), first_of_air: bind(1), first_two_of_air: bind(2) }
+    }
+}

@@ -1,0 +1,355 @@
+//! The renderer of a device: pipelines and patterns once, resources for each body and for each view.
+
+use super::body_tiles::BodyTiles;
+use super::ground_view::GroundView;
+use super::luts::{LutRuns, Luts, Patterns};
+use super::passes::{Pipelines, Work};
+use super::prepared::{Plan, PlannedBody, PreparedFrame};
+use super::scene::{Body, BodyId, DebugView, MAX_SUNS, Scene, ViewId};
+use super::screen_pass::Shared;
+use super::targets::{self, Owned, Target, Targets};
+use super::terrain::Indices;
+use super::uniforms::{self, Drawn, UniformBuffer};
+use super::{FrameStats, Metering, RenderError, exposure, gpu, shaders};
+use crate::lod::Quality;
+use crate::tiles::Surface;
+use std::collections::{HashMap, HashSet};
+
+/// Draws scenes on one device. Bodies and views have their own resources, under the ids that a scene gives them.
+pub struct Renderer {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    shared: UniformGroups,
+    pub(crate) patterns: Patterns,
+    pub(crate) indices: Indices,
+    pub(crate) pipelines: Pipelines,
+    pub(crate) bodies: HashMap<BodyId, BodyResources>,
+    pub(crate) views: HashMap<ViewId, ViewResources>,
+    watch: shaders::Watch,
+    shader_error: Option<String>,
+    /// The view of the newest [`Renderer::render`], and the target that holds its radiance.
+    newest: Option<(ViewId, Target)>,
+}
+
+/// Makes the groups of uniforms.
+struct UniformGroups {
+    layout: wgpu::BindGroupLayout,
+    samplers: [wgpu::Sampler; 2],
+}
+
+impl UniformGroups {
+    fn group(&self, device: &wgpu::Device, frame: &UniformBuffer, body: &UniformBuffer) -> wgpu::BindGroup {
+        let [clamped, repeated] = self.samplers.each_ref().map(wgpu::BindingResource::Sampler);
+        let buffers = [frame.buffer.as_entire_binding(), body.buffer.as_entire_binding()];
+        gpu::group(device, "uniforms", &self.layout, buffers.into_iter().chain([clamped, repeated]))
+    }
+}
+
+/// Resources of a body.
+pub(crate) struct BodyResources {
+    pub(crate) tiles: BodyTiles,
+    pub(crate) luts: Luts,
+    /// Views that have drawn the body in this frame of it.
+    drawn_by: HashSet<ViewId>,
+}
+
+/// Resources of a view.
+pub(crate) struct ViewResources {
+    frame: UniformBuffer,
+    /// Group of the passes that read no body.
+    pub(crate) group: wgpu::BindGroup,
+    pub(crate) targets: Targets,
+    pub(crate) exposure: exposure::Exposure,
+    pub(crate) bodies: HashMap<BodyId, BodyView>,
+}
+
+/// Resources of a body in a view.
+pub(crate) struct BodyView {
+    uniforms: UniformBuffer,
+    /// Group 0 of the passes that draw the body.
+    pub(crate) group: wgpu::BindGroup,
+    pub(crate) ground: GroundView,
+}
+
+impl Renderer {
+    /// Features and limits to ask of the device; works on every adapter of the WebGPU default limits.
+    pub fn required_limits() -> wgpu::Limits {
+        wgpu::Limits::default()
+    }
+
+    /// Compiles the pipelines and uploads the patterns.
+    ///
+    /// # Errors
+    /// [`RenderError::Shader`]: the driver rejects a shader.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, RenderError> {
+        let shared = UniformGroups { layout: uniforms::layout(device), samplers: gpu::samplers(device) };
+        let patterns = Patterns::new(device, queue);
+        let pipelines = Pipelines::new(device, Shared { uniforms: &shared.layout, luts: &patterns.layout })?;
+        Ok(Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            shared,
+            patterns,
+            indices: Indices::new(device),
+            pipelines,
+            bodies: HashMap::new(),
+            views: HashMap::new(),
+            watch: shaders::Watch::new(),
+            shader_error: None,
+            newest: None,
+        })
+    }
+
+    /// Layouts of the two bind groups of a body ([`PreparedFrame::body_groups`]): group 0 and 1 of a pipeline whose shader
+    /// begins with [`super::air_wgsl`].
+    pub fn body_layouts(&self) -> [&wgpu::BindGroupLayout; 2] {
+        [&self.shared.layout, &self.patterns.layout]
+    }
+
+    /// Frees the resources of a body that scenes no longer hold.
+    pub fn forget_body(&mut self, id: BodyId) {
+        self.bodies.remove(&id);
+        for view in self.views.values_mut() {
+            view.bodies.remove(&id);
+        }
+    }
+
+    /// Frees the resources of a view that is no longer drawn.
+    pub fn forget_view(&mut self, id: ViewId) {
+        self.views.remove(&id);
+    }
+
+    /// Uploads tiles of a surface ahead of the frame that will draw it, at most `budget_bytes`, but at least one tile.
+    /// Whether all are on the GPU now. Without it [`Renderer::prepare`] uploads all that it needs.
+    pub fn upload(&mut self, id: BodyId, surface: &Surface, budget_bytes: u64) -> bool {
+        profiling::scope!("upload");
+        let (device, queue) = (&self.device, &self.queue);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("upload") });
+        let body = self.bodies.entry(id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
+        let done = body.tiles.upload(device, queue, &mut encoder, surface, budget_bytes);
+        queue.submit([encoder.finish()]);
+        done
+    }
+
+    /// Bytes of tiles uploaded since the start.
+    pub fn uploaded_bytes(&self) -> u64 {
+        self.bodies.values().map(|body| body.tiles.uploaded_bytes()).sum()
+    }
+
+    /// How often the textures of a body have been made since the start.
+    pub fn lut_runs(&self, id: BodyId) -> LutRuns {
+        self.bodies.get(&id).map(|body| body.luts.runs).unwrap_or_default()
+    }
+
+    /// The newest error of a shader that was edited on disk (debug builds). The last good shaders go on drawing.
+    pub fn shader_error(&self) -> Option<&str> {
+        self.shader_error.as_deref()
+    }
+
+    /// Writes uniforms, uploads tiles and fills LUTs for a frame, and gives the stages to record.
+    ///
+    /// `target_px`: size of the caller's targets; `viewport_px`: left, top, width and height of the picture in them.
+    /// Uniforms go through the queue: submit `encoder` before the same view is prepared again.
+    ///
+    /// # Errors
+    /// [`RenderError::Viewport`], [`RenderError::TooManySuns`], [`RenderError::BodyTwice`]: the scene cannot be drawn.
+    pub fn prepare(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &Scene<'_>,
+        target_px: [u32; 2],
+        viewport_px: [u32; 4],
+    ) -> Result<PreparedFrame<'_>, RenderError> {
+        let [x, y, width, height] = viewport_px.map(u64::from);
+        let [wide, high] = target_px.map(u64::from);
+        if width == 0 || height == 0 || x + width > wide || y + height > high {
+            return Err(RenderError::Viewport { viewport_px, target_px });
+        }
+        self.prepare_drawn(encoder, scene, target_px, &Drawn { viewport_px, render_scale: 1.0 }, false)
+    }
+
+    fn prepare_drawn(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &Scene<'_>,
+        target_px: [u32; 2],
+        drawn: &Drawn,
+        has_own_targets: bool,
+    ) -> Result<PreparedFrame<'_>, RenderError> {
+        if scene.suns.len() > MAX_SUNS {
+            return Err(RenderError::TooManySuns(scene.suns.len()));
+        }
+        let mut ids = HashSet::new();
+        if let Some(twice) = scene.bodies.iter().find(|body| !ids.insert(body.id)) {
+            return Err(RenderError::BodyTwice(twice.id.0));
+        }
+        self.reload_shaders();
+        let plan = plan(scene, drawn, has_own_targets);
+        let (device, queue) = (&self.device, &self.queue);
+        let group = |frame: &UniformBuffer, body: &UniformBuffer| self.shared.group(device, frame, body);
+        let view = self.views.entry(scene.view_id).or_insert_with(|| {
+            let frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
+            let group = group(&frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"));
+            let (targets, exposure) = (Targets::new(target_px), exposure::Exposure::new(device));
+            ViewResources { frame, group, targets, exposure, bodies: HashMap::new() }
+        });
+        if view.targets.size_px != target_px {
+            view.targets = Targets::new(target_px);
+        }
+        for owned in plan.owned() {
+            view.targets.make(device, owned);
+        }
+        let frame_written = view.frame.write(queue, &uniforms::frame(scene, drawn));
+        for (number, planned) in plan.bodies.iter().enumerate() {
+            let body = &scene.bodies[planned.index];
+            let resources =
+                self.bodies.entry(body.id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
+            let body_view = view.bodies.entry(body.id).or_insert_with(|| {
+                let uniforms = UniformBuffer::new::<uniforms::Body>(device, "body");
+                let group = group(&view.frame, &uniforms);
+                BodyView { uniforms, group, ground: GroundView::new(device) }
+            });
+            let order = [number == 0, plan.frontmost == Some(number)];
+            let values = uniforms::body(scene, body, drawn, order);
+            let body_written = body_view.uniforms.write(queue, &values);
+            resources.luts.runs.uniforms += u64::from(frame_written || body_written);
+            resources.begin_view(scene.view_id);
+            let lod_view = scene.view_of(body.position_m, body.scene_from_body);
+            body_view.ground.prepare((device, queue), encoder, &mut resources.tiles, body, &lod_view);
+            body_view.ground.morph(encoder, &self.pipelines.morph);
+            resources.luts.update(
+                (device, queue),
+                encoder,
+                (&self.patterns, &self.pipelines.luts),
+                (&body_view.group, values.lut_sun_radius_rad),
+                body.planet,
+                body.marked.as_ref(),
+            );
+        }
+        let renderer: &Self = self;
+        match renderer.views.get(&scene.view_id) {
+            Some(view) => Ok(PreparedFrame::new(renderer, view, plan)),
+            None => Err(RenderError::Device("the view is not there".to_owned())),
+        }
+    }
+
+    /// Draws a scene into a target as large as [`Scene::size_px`] and submits it: all stages in the view's own targets, at
+    /// the render scale of the scene's quality.
+    ///
+    /// # Errors
+    /// [`RenderError::TargetSize`]: the target has another size, and nothing is drawn. Others as [`Renderer::prepare`].
+    pub fn render(&mut self, target: &wgpu::TextureView, scene: &Scene<'_>) -> Result<FrameStats, RenderError> {
+        profiling::scope!("render");
+        let limit_px = self.device.limits().max_texture_dimension_2d;
+        targets::check_size("target", target, scene.size_px, limit_px)?;
+        let (size_px, render_scale) = drawn_size(scene, limit_px);
+        let (device, queue) = (self.device.clone(), self.queue.clone());
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let drawn = Drawn { viewport_px: [0, 0, size_px[0], size_px[1]], render_scale };
+        let frame = self.prepare_drawn(&mut encoder, scene, size_px, &drawn, true)?;
+        let (stats, radiance) = frame.draw_all(&mut encoder, target)?;
+        self.newest = Some((scene.view_id, radiance));
+        queue.submit([encoder.finish()]);
+        Ok(stats)
+    }
+
+    /// The radiance of the newest [`Renderer::render`] before exposure and tone curve, without stars: size of the picture as
+    /// it was drawn, and red, green and blue of each pixel (1: white ground at noon). Waits for the device.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`]: the device does not answer.
+    pub fn radiance(&self) -> Result<([u32; 2], Vec<[f32; 3]>), RenderError> {
+        let newest = self.newest.and_then(|(id, target)| {
+            let targets = &self.views.get(&id)?.targets;
+            Some((targets.size_px, targets.get(Owned::Target(target))?))
+        });
+        let Some(([width, height], view)) = newest else { return Ok(([0, 0], Vec::new())) };
+        let bytes = gpu::read_texture(&self.device, &self.queue, view.texture())?;
+        let half = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
+        let pixel = |bytes: &[u8]| [half(bytes), half(&bytes[2..]), half(&bytes[4..])];
+        Ok(([width, height], bytes.chunks_exact(8).map(pixel).collect()))
+    }
+
+    /// Group 0 of a frame and a body.
+    pub(crate) fn uniform_group(&self, frame: &UniformBuffer, body: &UniformBuffer) -> wgpu::BindGroup {
+        self.shared.group(&self.device, frame, body)
+    }
+
+    fn reload_shaders(&mut self) {
+        if !self.watch.changed() {
+            return;
+        }
+        let shared = Shared { uniforms: &self.shared.layout, luts: &self.patterns.layout };
+        match Pipelines::new(&self.device, shared) {
+            Ok(pipelines) => {
+                self.pipelines = pipelines;
+                for body in self.bodies.values_mut() {
+                    body.luts.forget();
+                }
+                self.shader_error = None;
+            }
+            Err(error) => self.shader_error = Some(error.to_string()),
+        }
+    }
+}
+
+impl BodyResources {
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
+        let luts = Luts::new(device, queue, patterns);
+        Self { tiles: BodyTiles::new(device), luts, drawn_by: HashSet::new() }
+    }
+
+    /// A view that draws the body for the second time begins a new frame of it.
+    fn begin_view(&mut self, id: ViewId) {
+        if self.drawn_by.is_empty() || !self.drawn_by.insert(id) {
+            self.drawn_by.clear();
+            self.drawn_by.insert(id);
+            self.tiles.begin_frame();
+        }
+    }
+}
+
+/// What the stages of a frame have to draw.
+fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
+    let shaded = scene.debug_view == DebugView::Shaded;
+    let away_m = |body: &Body<'_>| uniforms::away_m(body);
+    let mut order: Vec<usize> = (0..scene.bodies.len()).collect();
+    order.sort_by(|&a, &b| away_m(&scene.bodies[b]).total_cmp(&away_m(&scene.bodies[a])));
+    let planned = |(number, index): (usize, usize)| {
+        let body = &scene.bodies[index];
+        let clouds = body.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && body.marked.is_none();
+        let sea = body.planet.water.is_some();
+        let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges };
+        // The farthest body brings the stars, whether it has air or not.
+        let has_air = shaded && (number == 0 || clouds || body.planet.atmosphere.is_some());
+        PlannedBody { id: body.id, index, work, has_air }
+    };
+    let bodies: Vec<PlannedBody> = order.into_iter().enumerate().map(planned).collect();
+    Plan {
+        viewport_px: drawn.viewport_px,
+        has_own_targets,
+        frontmost: bodies.iter().rposition(|body| body.has_air),
+        bodies,
+        lines: scene.debug_view == DebugView::Wireframe,
+        metering: if shaded { scene.post.metering } else { Metering::Manual },
+        post: Work { shaded, sea: false, clouds: false, smooth_edges: scene.post.smooth_edges },
+    }
+}
+
+/// Pictures of more pixels than this are not supersampled: the targets would take gigabytes.
+const MOST_SUPERSAMPLED_PX: u32 = 9_000_000;
+
+/// Size of the picture before it is shown, and its render scale: 2 at high quality, 0.5 at low.
+fn drawn_size(scene: &Scene<'_>, limit_px: u32) -> ([u32; 2], f32) {
+    let size = scene.size_px.map(|side| side.clamp(1, limit_px));
+    // These debug views show the mesh as it is.
+    let plain = matches!(scene.debug_view, DebugView::Coverage | DebugView::Wireframe);
+    match scene.quality {
+        _ if plain => (size, 1.0),
+        Quality::Low => (size.map(|side| side.div_ceil(2)), 0.5),
+        Quality::High if size.iter().all(|side| side * 2 <= limit_px) && size[0] * size[1] <= MOST_SUPERSAMPLED_PX => {
+            (size.map(|side| side * 2), 2.0)
+        }
+        Quality::Medium | Quality::High => (size, 1.0),
+    }
+}

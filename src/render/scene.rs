@@ -1,0 +1,326 @@
+//! A scene: a camera, suns, and the bodies around the camera.
+//!
+//! Scene space has its origin at the camera; its axes are the caller's. Positions are f64 metres. A body's own frame is
+//! the planet frame of [`crate`]: the renderer draws each body in that frame, relative to the eye.
+
+use super::{Metering, Tone};
+use crate::lod::{Camera, Quality, View};
+use crate::planet::{Planet, Star};
+use crate::render::MarkedCells;
+use crate::tiles::Surface;
+use glam::{DQuat, DVec3, Mat4};
+use std::sync::Arc;
+
+/// The most suns of a scene.
+pub const MAX_SUNS: usize = 4;
+
+/// Key of a body: the renderer keeps the body's tiles and LUTs under it from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct BodyId(pub u32);
+
+/// Key of a view: the renderer keeps the view's targets and its exposure under it from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ViewId(pub u32);
+
+/// A light at infinity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sun {
+    /// Unit vector towards it, scene space.
+    pub dir_scene: DVec3,
+    /// Its colour as linear RGB, 1 for white.
+    pub color: [f64; 3],
+    /// 1: white ground under it overhead has radiance 1.
+    pub brightness: f64,
+    /// Angular radius of its disc.
+    pub radius_rad: f64,
+}
+
+impl Sun {
+    /// The star of a preset, in a direction of scene space (of any length).
+    pub fn new(star: &Star, dir_scene: DVec3) -> Self {
+        Self {
+            dir_scene: dir_scene.normalize_or(DVec3::X),
+            color: star.color,
+            brightness: star.brightness,
+            radius_rad: star.radius_deg.to_radians(),
+        }
+    }
+}
+
+/// One planet of a scene.
+#[derive(Clone)]
+#[non_exhaustive]
+pub struct Body<'a> {
+    /// Different for each body of the scene; the same from frame to frame.
+    pub id: BodyId,
+    /// The planet for everything that is not in the tiles. It may be newer than the surface's.
+    pub planet: &'a Planet,
+    /// The tiles, built for [`Scene::view_of`] this body.
+    pub surface: &'a Surface,
+    /// Centre of the body, metres from the camera, scene space.
+    pub position_m: DVec3,
+    /// Turns the body's frame into scene space.
+    pub scene_from_body: DQuat,
+    /// The view that the tiles were chosen for, if it is another: tiles are culled and morphed as seen from there.
+    pub frozen: Option<View>,
+    /// Cells of the biome table whose ground is highlighted. Clouds are left out meanwhile.
+    pub marked: Option<Arc<MarkedCells>>,
+}
+
+impl<'a> Body<'a> {
+    /// A body at a position in scene space, its axes those of the scene.
+    pub fn new(id: BodyId, planet: &'a Planet, surface: &'a Surface, position_m: DVec3) -> Self {
+        let scene_from_body = DQuat::IDENTITY;
+        Self { id, planet, surface, position_m, scene_from_body, frozen: None, marked: None }
+    }
+
+    /// The eye in the body's frame, metres from its centre.
+    pub fn eye_planet_m(&self) -> DVec3 {
+        self.scene_from_body.inverse() * -self.position_m
+    }
+}
+
+/// A perspective projection as tangents of the angles from the view axis: any off-axis frustum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Projection {
+    /// Left, right, bottom and top edge of the picture at unit distance; left and bottom are negative in a symmetric one.
+    pub tangents: [f64; 4],
+    /// Offset of the picture in pixels, right and down: for temporal antialiasing.
+    pub jitter_px: [f64; 2],
+    /// Distance of the near plane. `None`: 0.05 to 1000 m, by the distance of the highest ground.
+    pub near_m: Option<f64>,
+}
+
+impl Projection {
+    /// A symmetric projection: vertical opening angle, width over height.
+    pub fn symmetric(fov_y_rad: f64, aspect: f64) -> Self {
+        let tan = (fov_y_rad * 0.5).tan();
+        Self::off_axis([-tan * aspect, tan * aspect, -tan, tan])
+    }
+
+    /// Any frustum: see [`Projection::tangents`].
+    pub fn off_axis(tangents: [f64; 4]) -> Self {
+        Self { tangents, jitter_px: [0.0; 2], near_m: None }
+    }
+
+    /// Half width and half height at unit distance.
+    pub(crate) fn half_extent(&self) -> [f64; 2] {
+        let [left, right, bottom, top] = self.tangents;
+        [0.5 * (right - left), 0.5 * (top - bottom)]
+    }
+
+    /// The middle of the picture at unit distance, jitter counted in.
+    pub(crate) fn center(&self, size_px: [u32; 2]) -> [f64; 2] {
+        let [left, right, bottom, top] = self.tangents;
+        let [half_x, half_y] = self.half_extent();
+        let step = |half: f64, size: u32| 2.0 * half / f64::from(size.max(1));
+        // A picture that moves right shows what lies further left.
+        let aside = -self.jitter_px[0] * step(half_x, size_px[0]);
+        let up = self.jitter_px[1] * step(half_y, size_px[1]);
+        [0.5 * (left + right) + aside, 0.5 * (bottom + top) + up]
+    }
+}
+
+/// How radiance becomes a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Post {
+    /// How the exposure is found.
+    pub metering: Metering,
+    /// The tone curve.
+    pub tone: Tone,
+    /// Whether edges are smoothed. Without, each pixel is the tone curve of its own radiance.
+    pub smooth_edges: bool,
+    /// Exposure in stops, 0 for a sunlit planet. With automatic exposure: a correction to it.
+    pub exposure_ev: f64,
+}
+
+impl Default for Post {
+    fn default() -> Self {
+        Self { metering: Metering::Manual, tone: Tone::default(), smooth_edges: true, exposure_ev: 0.0 }
+    }
+}
+
+/// What is drawn in one frame.
+#[derive(Clone)]
+#[non_exhaustive]
+pub struct Scene<'a> {
+    /// The view that this is a frame of.
+    pub view_id: ViewId,
+    /// Turns view space (-Z ahead, +Y up) into scene space.
+    pub scene_from_view: DQuat,
+    /// The camera's lens.
+    pub projection: Projection,
+    /// Width and height of the picture as it is shown, pixels; not zero.
+    pub size_px: [u32; 2],
+    /// How well the picture is drawn.
+    pub quality: Quality,
+    /// The lights, brightest first: at most [`MAX_SUNS`].
+    pub suns: Vec<Sun>,
+    /// The planets, in any order.
+    pub bodies: Vec<Body<'a>>,
+    /// Seconds since time zero: drift of the clouds, waves.
+    pub time_secs: f64,
+    /// The planets, or a debug view.
+    pub debug_view: DebugView,
+    /// How radiance becomes a picture.
+    pub post: Post,
+}
+
+impl<'a> Scene<'a> {
+    /// An empty scene, dark.
+    pub fn new(scene_from_view: DQuat, projection: Projection, size_px: [u32; 2], quality: Quality) -> Self {
+        Self {
+            view_id: ViewId::default(),
+            scene_from_view,
+            projection,
+            size_px,
+            quality,
+            suns: Vec::new(),
+            bodies: Vec::new(),
+            time_secs: 0.0,
+            debug_view: DebugView::Shaded,
+            post: Post::default(),
+        }
+    }
+
+    /// One planet under its own star; scene space has the planet's axes.
+    pub fn of_planet(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Self {
+        let projection = Projection::symmetric(view.camera.fov_y_rad, view.aspect());
+        let mut scene = Self::new(view.camera.planet_from_view, projection, view.size_px, view.quality);
+        scene.suns.push(Sun::new(&planet.star, sun_dir_planet));
+        scene.bodies.push(Body::new(BodyId::default(), planet, surface, -view.camera.position_planet_m));
+        scene
+    }
+
+    /// The camera as a body sees it: the view to build its tiles for. An off-axis picture lies inside the view's frustum.
+    pub fn view_of(&self, position_m: DVec3, scene_from_body: DQuat) -> View {
+        let body_from_scene = scene_from_body.inverse();
+        let [left, right, bottom, top] = self.projection.tangents;
+        let aspect = f64::from(self.size_px[0]) / f64::from(self.size_px[1]);
+        let (widest, highest) = (left.abs().max(right.abs()), bottom.abs().max(top.abs()));
+        let camera = Camera {
+            position_planet_m: body_from_scene * -position_m,
+            planet_from_view: body_from_scene * self.scene_from_view,
+            fov_y_rad: 2.0 * highest.max(widest / aspect).atan(),
+        };
+        View { camera, size_px: self.size_px, quality: self.quality }
+    }
+
+    /// The matrices of the frame.
+    pub fn matrices(&self) -> Matrices {
+        let [half_x, half_y] = self.projection.half_extent();
+        let [center_x, center_y] = self.projection.center(self.size_px);
+        let near_m = self.projection.near_m.unwrap_or_else(|| self.bodies.iter().map(near_m).fold(1000.0, f64::min));
+        let clip_from_view = Mat4::from_cols_array_2d(&[
+            [(1.0 / half_x) as f32, 0.0, 0.0, 0.0],
+            [0.0, (1.0 / half_y) as f32, 0.0, 0.0],
+            [(center_x / half_x) as f32, (center_y / half_y) as f32, 0.0, -1.0],
+            [0.0, 0.0, near_m as f32, 0.0],
+        ]);
+        let view_from_scene = Mat4::from_quat(self.scene_from_view.inverse().as_quat());
+        Matrices { near_m, clip_from_view, clip_from_scene: clip_from_view * view_from_scene }
+    }
+}
+
+/// Near plane for a body: a twentieth of the distance to its highest ground.
+fn near_m(body: &Body<'_>) -> f64 {
+    let highest_m = body.planet.radius_m() + height_range_m(body.surface).1;
+    ((body.position_m.length() - highest_m) * 0.05).clamp(0.05, 1000.0)
+}
+
+/// Lowest and highest height of all tiles, metres.
+pub(crate) fn height_range_m(surface: &Surface) -> (f64, f64) {
+    let heights = surface.leaves.iter().map(|leaf| (leaf.tile.min_height_m, leaf.tile.max_height_m));
+    heights.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((0.0, 0.0))
+}
+
+/// Matrices of a frame. Depth is reversed, the far plane at infinity: depth = near plane / distance along the view axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Matrices {
+    /// Distance of the near plane.
+    pub near_m: f64,
+    /// View space to clip space, metres.
+    pub clip_from_view: Mat4,
+    /// Scene space to clip space, metres: its origin is the camera.
+    pub clip_from_scene: Mat4,
+}
+
+/// A position in metres as the sum of two that 32 bits hold: the greater part and the rest.
+pub fn split_position(position_m: DVec3) -> [glam::Vec3; 2] {
+    let high = position_m.as_vec3();
+    [high, (position_m - high.as_dvec3()).as_vec3()]
+}
+
+/// What is drawn of the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DebugView {
+    /// The planet.
+    #[default]
+    Shaded,
+    /// Height, from the lowest to the highest of the surface.
+    Height,
+    /// The normal in the planet frame as a colour.
+    Normal,
+    /// Angle against the horizontal, 0 to 60°.
+    Slope,
+    /// The biome's colour by itself.
+    Biome,
+    /// Temperature, -40 to 40 °C.
+    Temperature,
+    /// Moisture, dry to wet.
+    Moisture,
+    /// The tile's level in the quadtree.
+    Lod,
+    /// Lines where tiles meet.
+    TileBorders,
+    /// The edges of the triangles.
+    Wireframe,
+    /// Vertex spacing in pixels of the picture, as the level of detail sees it: blue 1, green 4, yellow 16, red 64.
+    Error,
+    /// White where there is ground, black elsewhere.
+    Coverage,
+    /// The ground's albedo with its patterns, without light.
+    Albedo,
+}
+
+impl DebugView {
+    /// All of them.
+    pub const ALL: [DebugView; 13] = [
+        DebugView::Shaded,
+        DebugView::Height,
+        DebugView::Normal,
+        DebugView::Slope,
+        DebugView::Biome,
+        DebugView::Temperature,
+        DebugView::Moisture,
+        DebugView::Lod,
+        DebugView::TileBorders,
+        DebugView::Wireframe,
+        DebugView::Error,
+        DebugView::Coverage,
+        DebugView::Albedo,
+    ];
+
+    /// The name that the editor shows.
+    pub fn label(self) -> &'static str {
+        match self {
+            DebugView::Shaded => "Shaded",
+            DebugView::Height => "Height",
+            DebugView::Normal => "Normal",
+            DebugView::Slope => "Slope",
+            DebugView::Biome => "Biome",
+            DebugView::Temperature => "Temperature",
+            DebugView::Moisture => "Moisture",
+            DebugView::Lod => "Level",
+            DebugView::TileBorders => "Tile borders",
+            DebugView::Error => "Error",
+            DebugView::Wireframe => "Wireframe",
+            DebugView::Coverage => "Coverage",
+            DebugView::Albedo => "Albedo",
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! A pass over all pixels of the picture: its description, and its pipeline.
+
+use super::gpu::{self, Slot};
+use super::passes::Work;
+use super::targets::Target;
+use super::{RenderError, shaders};
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+
+/// A resource that a pass reads, in the order of its bindings.
+#[derive(Clone, Copy)]
+pub(crate) enum Input {
+    /// A texture that is loaded, never filtered.
+    Load(Target),
+    /// A texture that is filtered.
+    Sample(Target),
+    /// A depth texture.
+    Depth(Target),
+    /// The buffer of the view's exposure.
+    Exposure,
+}
+
+/// A texture that a pass writes.
+#[derive(Clone, Copy)]
+pub(crate) struct Output {
+    pub(crate) target: Target,
+    /// The texture is multiplied by what the pass writes: by each body in turn, from 1 on.
+    pub(crate) multiplies: bool,
+}
+
+/// Writes a texture.
+pub(crate) const fn writes(target: Target) -> Output {
+    Output { target, multiplies: false }
+}
+
+/// Whose uniforms a pass reads.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// The frame and one body. Groups: uniforms, LUTs, inputs.
+    Body,
+    /// The frame alone. Groups: uniforms, inputs.
+    View,
+}
+
+/// A pass over all pixels of the picture.
+pub(crate) struct ScreenPass {
+    /// Its shader file.
+    pub(crate) shader: &'static str,
+    pub(crate) scope: Scope,
+    pub(crate) reads: &'static [Input],
+    pub(crate) writes: &'static [Output],
+    /// A depth texture that the pass tests and writes.
+    pub(crate) depth: Option<Target>,
+    /// When it runs.
+    pub(crate) runs: fn(&Work) -> bool,
+}
+
+/// Layouts of the groups that passes share.
+#[derive(Clone, Copy)]
+pub(crate) struct Shared<'a> {
+    pub(crate) uniforms: &'a wgpu::BindGroupLayout,
+    pub(crate) luts: &'a wgpu::BindGroupLayout,
+}
+
+/// The pipeline of a pass.
+pub(crate) struct ScreenPipeline {
+    pub(crate) pass: &'static ScreenPass,
+    inputs: wgpu::BindGroupLayout,
+    layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    /// By the format of the output; the same for all formats where the pass does not write the output.
+    pipelines: Mutex<HashMap<Option<wgpu::TextureFormat>, wgpu::RenderPipeline>>,
+}
+
+/// What a pass is drawn with.
+pub(crate) struct Drawing<'a> {
+    pub(crate) device: &'a wgpu::Device,
+    /// The groups before the inputs.
+    pub(crate) groups: &'a [&'a wgpu::BindGroup],
+    pub(crate) texture: &'a dyn Fn(Target) -> Option<&'a wgpu::TextureView>,
+    pub(crate) exposure: &'a wgpu::Buffer,
+    /// Left, top, width and height in the targets.
+    pub(crate) viewport_px: [u32; 4],
+    /// Whether the targets keep what they hold; if not they are cleared.
+    pub(crate) load: bool,
+}
+
+impl ScreenPipeline {
+    /// Checks the shader and makes the pipeline.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        shared: Shared<'_>,
+        pass: &'static ScreenPass,
+    ) -> Result<Self, RenderError> {
+        let slot = |input: &Input| match input {
+            Input::Load(_) => Slot::Unfiltered2d,
+            Input::Sample(_) => Slot::Float2d,
+            Input::Depth(_) => Slot::Depth,
+            Input::Exposure => Slot::Uniform,
+        };
+        let slots: Vec<Slot> = pass.reads.iter().map(slot).collect();
+        let inputs = gpu::layout(device, pass.shader, &slots);
+        let groups = match pass.scope {
+            Scope::Body => vec![shared.uniforms, shared.luts, &inputs],
+            Scope::View => vec![shared.uniforms, &inputs],
+        };
+        let layout = gpu::pipeline_layout(device, pass.shader, &groups);
+        let module = shaders::module(device, pass.shader)?;
+        let made = Self { pass, inputs, layout, module, pipelines: Mutex::default() };
+        let writes_output = pass.writes.iter().any(|output| output.target == Target::Output);
+        if !writes_output {
+            made.pipeline(device, None)?;
+        }
+        Ok(made)
+    }
+
+    /// The pipeline for a format of the output.
+    fn pipeline(
+        &self,
+        device: &wgpu::Device,
+        output: Option<wgpu::TextureFormat>,
+    ) -> Result<wgpu::RenderPipeline, RenderError> {
+        let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = pipelines.get(&output) {
+            return Ok(pipeline.clone());
+        }
+        let multiply = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::Dst,
+            dst_factor: wgpu::BlendFactor::Zero,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let blend = |multiplies: bool| multiplies.then_some(wgpu::BlendState { color: multiply, alpha: multiply });
+        let state = |of: &Output| {
+            let format = of.target.format().or(output)?;
+            let write_mask = wgpu::ColorWrites::ALL;
+            Some(wgpu::ColorTargetState { format, blend: blend(of.multiplies), write_mask })
+        };
+        let targets: Vec<_> = self.pass.writes.iter().map(state).collect();
+        let description = gpu::ScreenPipelineDescriptor {
+            entry: self.pass.shader,
+            layout: &self.layout,
+            module: &self.module,
+            targets: &targets,
+            writes_depth: self.pass.depth.is_some(),
+            encodes_srgb: output.is_some_and(|format| format.is_srgb()),
+        };
+        let pipeline = gpu::screen_pipeline(device, &description)?;
+        pipelines.insert(output, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    /// Draws the pass; nothing if a texture that it needs is not there.
+    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, with: &Drawing<'_>) -> Result<(), RenderError> {
+        let pass = self.pass;
+        let output = pass.writes.iter().find(|output| output.target == Target::Output);
+        let format = output.and_then(|output| (with.texture)(output.target)).map(|view| view.texture().format());
+        let pipeline = self.pipeline(with.device, format)?;
+        let resource = |input: &Input| match input {
+            Input::Load(target) | Input::Sample(target) | Input::Depth(target) => {
+                (with.texture)(*target).map(wgpu::BindingResource::TextureView)
+            }
+            Input::Exposure => Some(with.exposure.as_entire_binding()),
+        };
+        let Some(resources) = pass.reads.iter().map(resource).collect::<Option<Vec<_>>>() else { return Ok(()) };
+        let inputs = gpu::group(with.device, pass.shader, &self.inputs, resources);
+        let attachment = |output: &Output| {
+            let clear = if output.multiplies { wgpu::Color::WHITE } else { wgpu::Color::TRANSPARENT };
+            let load = if with.load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(clear) };
+            Some(wgpu::RenderPassColorAttachment {
+                view: (with.texture)(output.target)?,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+            })
+        };
+        let attachments: Vec<_> = pass.writes.iter().map(attachment).collect();
+        let depth_view = pass.depth.and_then(|target| (with.texture)(target));
+        let mut draw = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(pass.shader),
+            color_attachments: &attachments,
+            depth_stencil_attachment: depth_view.map(|view| gpu::depth_attachment(view, with.load)),
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        draw.set_pipeline(&pipeline);
+        for (i, group) in (0..).zip(with.groups.iter().copied().chain([&inputs])) {
+            draw.set_bind_group(i, group, &[]);
+        }
+        gpu::set_viewport(&mut draw, with.viewport_px);
+        draw.draw(0..3, 0..1);
+        Ok(())
+    }
+}

@@ -1,0 +1,245 @@
+//! Queries: what the ground is under directions from the planet's centre.
+//!
+//! A direction may have any length. A direction without one (zero, infinite or NaN) counts as the north pole, so that
+//! every query has a finite answer. All queries of a point agree to the bit: alone or in a batch, on any thread.
+
+use super::Terrain;
+use super::biome::Site;
+use super::climate::PointClimate;
+use super::evaluate::BatchScratch;
+use super::field::{ALL_OCTAVES, Components};
+use super::lane::CHUNK;
+use super::points::unit;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::cell::RefCell;
+use std::fmt;
+
+/// Directions for one task of a parallel query.
+const TASK: usize = 1024;
+
+/// The surface at one point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Height of the ground above the reference sphere (below the sea too).
+    pub height_m: f64,
+    /// Unit normal of the ground in the planet frame.
+    pub normal_planet: DVec3,
+    /// Angle between the ground and the horizontal.
+    pub slope_rad: f64,
+    /// Temperature at the surface (of the sea, where there is sea).
+    pub temperature_c: f64,
+    /// The same between the coldest (0) and the hottest (1) temperature of the biome table.
+    pub temperature: f64,
+    /// Moisture, 0 to 1: the biome table's columns.
+    pub moisture: f64,
+    /// The same as rain and snow in a year.
+    pub precipitation_mm: f64,
+    /// Column and row of the biome table, after border jitter.
+    pub cell: [usize; 2],
+    /// Index of the biome in the palette: the cell's, or that of a surface rule for steep ground, beaches or snow.
+    pub biome: usize,
+}
+
+/// What [`Terrain::samples`] finds besides the height. What is not asked for costs nothing and keeps its default value
+/// (0) in each [`Sample`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Wanted {
+    /// Normal and slope.
+    pub normal: bool,
+    /// Temperature, moisture and precipitation.
+    pub climate: bool,
+    /// Cell and biome. They take the slope and the climate, which are then filled in too.
+    pub biome: bool,
+}
+
+impl Wanted {
+    /// The height alone.
+    pub const HEIGHT: Self = Self { normal: false, climate: false, biome: false };
+    /// Everything.
+    pub const ALL: Self = Self { normal: true, climate: true, biome: true };
+
+    /// And the normal.
+    #[must_use]
+    pub fn and_normal(self) -> Self {
+        Self { normal: true, ..self }
+    }
+
+    /// And the climate.
+    #[must_use]
+    pub fn and_climate(self) -> Self {
+        Self { climate: true, ..self }
+    }
+
+    /// And the biome.
+    #[must_use]
+    pub fn and_biome(self) -> Self {
+        Self { biome: true, ..self }
+    }
+
+    fn slope(self) -> bool {
+        self.normal || self.biome
+    }
+}
+
+/// Memory for queries on one thread. It grows with the first query of a planet; later ones allocate nothing.
+#[derive(Default)]
+pub struct Scratch(Box<BatchScratch>);
+
+impl fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Scratch")
+    }
+}
+
+/// Lends the calling thread's own scratch.
+pub(super) fn with_scratch<T>(query: impl FnOnce(&mut Scratch) -> T) -> T {
+    thread_local! {
+        static SCRATCH: RefCell<Scratch> = RefCell::default();
+    }
+    SCRATCH.with_borrow_mut(query)
+}
+
+/// Heights and slopes at points, for shading.
+pub(crate) struct Slopes {
+    pub(crate) height_m: Vec<f64>,
+    /// For each spacing, the slopes that points so far apart can show: see [`tangent_slope`].
+    pub(crate) slopes: Vec<Vec<DVec3>>,
+}
+
+impl Terrain {
+    /// Height of the ground above the reference sphere under a direction: the height of a mesh vertex there, to the
+    /// bit. Between vertices the mesh is straight and stays within the screen-space error.
+    pub fn height_m(&self, dir_planet: DVec3) -> f64 {
+        let mut height_m = 0.0;
+        with_scratch(|scratch| self.heights_into(&[dir_planet], std::slice::from_mut(&mut height_m), scratch));
+        height_m
+    }
+
+    /// [`Terrain::height_m`] of many directions, on all cores.
+    pub fn heights_m(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
+        let mut heights_m = vec![0.0; dirs_planet.len()];
+        let tasks = heights_m.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
+        tasks.for_each(|(heights_m, dirs)| with_scratch(|scratch| self.heights_into(dirs, heights_m, scratch)));
+        heights_m
+    }
+
+    /// [`Terrain::height_m`] of many directions, on the calling thread and without allocating. `heights_m` has one
+    /// number for each direction; where the lengths differ, the shorter counts.
+    pub fn heights_into(&self, dirs_planet: &[DVec3], heights_m: &mut [f64], scratch: &mut Scratch) {
+        for (dirs, heights_m) in dirs_planet.chunks(CHUNK).zip(heights_m.chunks_mut(CHUNK)) {
+            self.evaluate_at(dirs, &[], scratch);
+            for (height_m, found) in heights_m.iter_mut().zip(&scratch.0.heights.height_m) {
+                *height_m = *found;
+            }
+        }
+    }
+
+    /// The surface under a direction.
+    pub fn sample(&self, dir_planet: DVec3) -> Sample {
+        let mut sample = Sample::default();
+        let samples = std::slice::from_mut(&mut sample);
+        with_scratch(|scratch| self.samples_into(&[dir_planet], Wanted::ALL, samples, scratch));
+        sample
+    }
+
+    /// The surface under many directions, on all cores.
+    pub fn samples(&self, dirs_planet: &[DVec3], wanted: Wanted) -> Vec<Sample> {
+        let mut samples = vec![Sample::default(); dirs_planet.len()];
+        let tasks = samples.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
+        tasks.for_each(|(samples, dirs)| with_scratch(|scratch| self.samples_into(dirs, wanted, samples, scratch)));
+        samples
+    }
+
+    /// As [`Terrain::samples`], on the calling thread and without allocating. `samples` has one for each direction;
+    /// where the lengths differ, the shorter counts.
+    pub fn samples_into(&self, dirs_planet: &[DVec3], wanted: Wanted, samples: &mut [Sample], scratch: &mut Scratch) {
+        let spacings_rad = if wanted.slope() { ALL_OCTAVES } else { &[] };
+        for (dirs, samples) in dirs_planet.chunks(CHUNK).zip(samples.chunks_mut(CHUNK)) {
+            self.evaluate_at(dirs, spacings_rad, scratch);
+            let BatchScratch { points, heights, .. } = &*scratch.0;
+            for (i, (sample, &dir)) in samples.iter_mut().zip(&points.dirs).enumerate() {
+                *sample = Sample { height_m: heights.height_m[i], ..Sample::default() };
+                if let Some(gradient) = heights.gradients.first().filter(|_| wanted.slope()) {
+                    let slope = self.slope(dir, gradient, i, sample.height_m);
+                    sample.normal_planet = (dir - slope).normalize();
+                    sample.slope_rad = libm::atan(slope.length());
+                }
+            }
+            if wanted.climate || wanted.biome {
+                self.find_climate(wanted, samples, scratch);
+            }
+        }
+    }
+
+    /// Fills in climate and biome of the points evaluated last, whose heights and slopes are known.
+    fn find_climate(&self, wanted: Wanted, samples: &mut [Sample], scratch: &mut Scratch) {
+        let BatchScratch { points, noise, .. } = &mut *scratch.0;
+        let inputs = noise.climate(self, points);
+        for (i, (sample, &dir)) in samples.iter_mut().zip(&points.dirs).enumerate() {
+            let (noise, inland_rad) = inputs.at(i);
+            let climate = self.rules.at(dir.z, sample.height_m, noise, inland_rad);
+            let PointClimate { temperature_c, temperature, moisture, .. } = climate;
+            let precipitation_mm = moisture * self.planet.climate.wettest_mm;
+            *sample = Sample { temperature_c, temperature, moisture, precipitation_mm, ..*sample };
+            if wanted.biome {
+                let cosine = sample.normal_planet.dot(dir);
+                let site = Site { height_m: sample.height_m, cosine, temperature_c };
+                (sample.cell, sample.biome) = self.biomes.at(dir, &climate, site);
+            }
+        }
+    }
+
+    /// By how much each layer of the preset changes the height under a direction, in order; 0 for layers that are off.
+    /// Biome relief is in none of them.
+    pub fn layers_m(&self, dir_planet: DVec3) -> Vec<f64> {
+        let (mut layers_m, mut before_m) = (vec![0.0; self.stack.layers.len()], 0.0);
+        with_scratch(|Scratch(scratch)| {
+            scratch.points.refill(std::iter::once(unit(dir_planet)));
+            self.evaluate(&[], scratch, |layer, heights_m| {
+                layers_m[layer] = heights_m[0] - before_m;
+                before_m = heights_m[0];
+            });
+        });
+        layers_m
+    }
+
+    /// The ground at unit directions, with the slopes that points at each spacing (angles) can show.
+    pub(crate) fn slopes_at(&self, dirs_planet: &[DVec3], spacings_rad: &[f64]) -> Slopes {
+        let mut ground = Slopes {
+            height_m: Vec::with_capacity(dirs_planet.len()),
+            slopes: spacings_rad.iter().map(|_| Vec::with_capacity(dirs_planet.len())).collect(),
+        };
+        with_scratch(|scratch| {
+            for dirs in dirs_planet.chunks(CHUNK) {
+                self.evaluate_at(dirs, spacings_rad, scratch);
+                let heights = &scratch.0.heights;
+                ground.height_m.extend_from_slice(&heights.height_m);
+                for (slopes, gradient) in ground.slopes.iter_mut().zip(&heights.gradients) {
+                    let slope = |(i, &dir)| self.slope(dir, gradient, i, heights.height_m[i]);
+                    slopes.extend(dirs.iter().enumerate().map(slope));
+                }
+            }
+        });
+        ground
+    }
+
+    /// Evaluates at most one chunk of directions.
+    fn evaluate_at(&self, dirs_planet: &[DVec3], spacings_rad: &[f64], Scratch(scratch): &mut Scratch) {
+        scratch.points.refill(dirs_planet.iter().map(|&dir| unit(dir)));
+        self.evaluate(spacings_rad, scratch, |_, _| {});
+    }
+
+    /// The slope at the `i`th point, from a gradient by the unit direction.
+    fn slope(&self, dir: DVec3, gradient: &Components, i: usize, height_m: f64) -> DVec3 {
+        let gradient = gradient.each_ref().map(|component| f64::from(component[i]));
+        tangent_slope(dir, DVec3::from_array(gradient), self.planet.radius_m() + height_m)
+    }
+}
+
+/// Rise over run of a height whose gradient by the unit direction is `gradient`, at `radius_m` from the centre: a
+/// vector in the tangent plane. The surface's normal is along `dir - slope`.
+fn tangent_slope(dir: DVec3, gradient: DVec3, radius_m: f64) -> DVec3 {
+    (gradient - dir * dir.dot(gradient)) / radius_m
+}

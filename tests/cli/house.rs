@@ -1,0 +1,102 @@
+//! The rules of this repository for its own sources: short files, comments of at most 120 columns.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+/// Folders with sources.
+const FOLDERS: [&str; 7] = [".ci", "benches", "examples", "scripts", "shaders", "src", "tests"];
+/// Most lines of a Rust or WGSL file: it should be read in one sitting.
+const MOST_LINES: usize = 500;
+/// Most columns of a comment line; rustfmt limits the code.
+const MOST_COLUMNS: usize = 120;
+/// Paths that do not keep the rules yet.
+const NOT_YET: &[&str] = &[
+    "scripts/",
+    "shaders/",
+    "src/atmosphere/",
+    "src/cli/bench/",
+    "src/lod/",
+    "src/planet/",
+    "src/render/",
+    "src/sphere/",
+    "src/terrain/",
+    "src/tiles/",
+    "tests/core/",
+    "tests/gpu/",
+    "tests/support/",
+];
+
+/// The language of a file, by its name.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Language {
+    /// Rust or WGSL: comments begin with `//`.
+    Code,
+    /// Scripts and settings: comments begin with `#`.
+    Script,
+}
+
+fn language(path: &Path, text: &str) -> Option<Language> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("rs" | "wgsl") => Some(Language::Code),
+        Some("sh" | "toml" | "py") => Some(Language::Script),
+        None if text.starts_with("#!") => Some(Language::Script),
+        _ => None,
+    }
+}
+
+/// All files below a folder.
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.map(|entry| entry.unwrap().path()) {
+        if path.is_dir() {
+            files(&path, found);
+        } else {
+            found.push(path);
+        }
+    }
+}
+
+/// What is wrong with a file, a line for each offence.
+fn offences(name: &str, text: &str, language: Language) -> Vec<String> {
+    let mark = if language == Language::Code { "//" } else { "#" };
+    let long = text.lines().enumerate().filter(|(_, line)| {
+        line.trim_start().starts_with(mark) && !line.starts_with("#!") && line.chars().count() > MOST_COLUMNS
+    });
+    let mut wrong: Vec<String> =
+        long.map(|(i, line)| format!("{name}:{}: a comment of {} columns", i + 1, line.chars().count())).collect();
+    let lines = text.lines().count();
+    if language == Language::Code && lines > MOST_LINES {
+        wrong.push(format!("{name}: {lines} lines"));
+    }
+    wrong
+}
+
+#[test]
+fn files_are_short_and_comments_fit_the_window() {
+    let mut paths = vec![Path::new(ROOT).join("Cargo.toml")];
+    FOLDERS.iter().for_each(|folder| files(&Path::new(ROOT).join(folder), &mut paths));
+    let mut wrong = Vec::new();
+    let mut read = 0;
+    for path in paths {
+        let name = path.strip_prefix(ROOT).unwrap().to_string_lossy().replace('\\', "/");
+        let Ok(text) = fs::read_to_string(&path) else { continue };
+        if let Some(language) = language(&path, &text)
+            && !NOT_YET.iter().any(|prefix| name.starts_with(prefix))
+        {
+            read += 1;
+            wrong.extend(offences(&name, &text, language));
+        }
+    }
+    assert!(read > 50, "only {read} files were found");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn an_offence_is_named_with_its_line() {
+    let long = format!("fn f() {{}}\n    // {}\n", "x".repeat(MOST_COLUMNS));
+    assert_eq!(offences("a.rs", &long, Language::Code), ["a.rs:2: a comment of 127 columns"]);
+    assert_eq!(offences("a.sh", &long, Language::Script), Vec::<String>::new());
+    let tall = "\n".repeat(MOST_LINES + 1);
+    assert_eq!(offences("a.rs", &tall, Language::Code), ["a.rs: 501 lines"]);
+}
