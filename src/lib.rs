@@ -26,6 +26,7 @@
 //!
 //! - [`planet`]: what a planet is: the preset's data, its parameters, loading and saving
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
+//! - `world`: world maps: values for the whole globe, such as the distance to the coast
 //! - [`terrain`]: what the surface is: [`terrain::Terrain`], the evaluator that everything asks
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`lod`]: which nodes are shown from where
@@ -45,6 +46,7 @@ pub mod planet;
 pub mod sphere;
 pub mod terrain;
 pub mod tiles;
+mod world;
 
 #[cfg(feature = "render")]
 pub mod render;

@@ -124,8 +124,10 @@ impl EditorApp {
 
     fn show_panels(&mut self, ui: &mut egui::Ui) {
         let (state, panels) = (&self.state, &mut self.panels);
-        if panels.paints() {
-            self.surveyor.ask(state.document.valid_planet());
+        if panels.paints()
+            && let Some(surface) = state.viewport.surface()
+        {
+            self.surveyor.ask(&surface.terrain);
         }
         let mut planet = (**state.document.planet()).clone();
         let problems = [state.document.problems(), state.pictures.problems()].concat();

@@ -1,31 +1,32 @@
-//! What stands in for a vertex before it appears: the chord between two vertices of the next coarser level.
+//! Chords: the line between two vertices of the coarser level that a vertex replaces.
 //!
-//! A vertex is *born* at the coarsest level that has it. Until it shows, the mesh of the level before runs through its place in a
-//! straight line: along an edge of a quad, or along the diagonal that is drawn there (see [`super::stitch`]). Both ends are vertices
-//! of every tile that has the middle one and, on an edge of the tile, lie on that edge: whoever shares a vertex knows its chord.
+//! A vertex is *born* at the coarsest level that has it. Until it appears, the coarser mesh runs through its location
+//! in a straight line: along an edge of a quad or its diagonal (see [`super::stitch`]). Both ends of this chord are
+//! vertices of every tile that has the vertex. On the edge of a tile they lie on that edge, so tiles that share a
+//! vertex share its chord.
 
 use super::tile::{TILE_QUADS, TILE_SIDE};
 use std::sync::LazyLock;
 
-/// The coarsest grid whose vertices a tile knows chords of: every so many vertices.
+/// Stride of the coarsest grid whose vertices have chords in a tile.
 pub const COARSEST_STRIDE: usize = 16;
 
-/// One vertex of a tile between two others; indices into [`super::Tile::vertices`].
+/// A vertex of a tile and the ends of its chord, as indices into [`super::Tile::vertices`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Chord {
-    /// The one in the middle.
+    /// The vertex in the middle.
     pub vertex: u16,
     /// The end that was born one level before it.
     pub younger: u16,
-    /// The end that is older still.
+    /// The other, older end.
     pub elder: u16,
-    /// Vertices to the neighbours on the grid where it was born: 1 for the tile's own level, 2 for its parent's...
+    /// Stride of the grid where it was born, in vertices: 1 for the tile's own level, 2 for its parent's, and so on.
     pub stride: u16,
     /// Whether the elder was born exactly two levels before it.
     pub elder_is_next: bool,
 }
 
-/// All chords of a tile, coarse ones first. `odd_node`: whether the node's column and row add up to an odd number, which turns the
+/// All chords of a tile, coarse ones first. `odd_node`: whether column plus row of the node is odd, which turns the
 /// diagonal of the coarsest quad.
 pub fn chords(odd_node: bool) -> &'static [Chord] {
     static CHORDS: LazyLock<[Vec<Chord>; 2]> = LazyLock::new(|| [list(false), list(true)]);
@@ -43,7 +44,8 @@ fn list(odd_node: bool) -> Vec<Chord> {
                 (1, 0) => [(x - 1, y), (x + 1, y)],
                 (0, _) => [(x, y - 1), (x, y + 1)],
                 _ => {
-                    // The coarser quad's diagonal goes from the middle of a block of two by two to its corner.
+                    // The diagonal of the coarser quad goes from the middle of a block of two by two quads to its
+                    // corner.
                     let turned = (x / 2 + y / 2) % 2 == 1 || (stride == COARSEST_STRIDE && odd_node);
                     if turned { [(x + 1, y - 1), (x - 1, y + 1)] } else { [(x - 1, y - 1), (x + 1, y + 1)] }
                 }

@@ -1,10 +1,10 @@
-//! Which tiles can be seen: frustum and horizon, both by bounding sphere.
+//! Culling of tiles by frustum and horizon, with bounding spheres.
 
 use super::View;
 use crate::lod::tile::Tile;
 use glam::DVec3;
 
-/// What a view can see; made once a frame.
+/// The visible space of a view; computed once a frame.
 #[derive(Clone, Debug)]
 pub struct Culling {
     eye: DVec3,
@@ -16,13 +16,12 @@ pub struct Culling {
 }
 
 impl Culling {
-    /// For a view of a planet whose ground (or sea) nowhere lies lower than `lowest_radius_m` from the centre.
+    /// `lowest_radius_m`: distance from the centre of the lowest ground or sea.
     pub fn new(view: &View, lowest_radius_m: f64) -> Self {
         Self::widened(view, lowest_radius_m, 1.0)
     }
 
-    /// The same with the frustum's opening (its tangent) `factor` times as wide, for choosing
-    /// tiles a little ahead of need.
+    /// The same with the tangent of the opening angle multiplied by `factor`, to choose tiles ahead of need.
     pub fn widened(view: &View, lowest_radius_m: f64, factor: f64) -> Self {
         let camera = &view.camera;
         let tan_y = (camera.fov_y_rad * 0.5).tan() * factor;
@@ -36,18 +35,18 @@ impl Culling {
         }
     }
 
-    /// Whether any of the tile may be seen. Never wrongly false: mountains beyond the horizon stay.
+    /// Whether any part of a tile may be visible. Conservative: mountains beyond the horizon count as visible.
     pub fn sees(&self, tile: &Tile) -> bool {
         self.sees_sphere(tile.center_planet_m, tile.bounding_radius_m)
     }
 
-    /// Whether any of a sphere may be seen.
+    /// Whether any part of a sphere may be visible.
     pub fn sees_sphere(&self, center_planet_m: DVec3, radius_m: f64) -> bool {
         let offset = center_planet_m - self.eye;
         if self.sides.iter().any(|side| side.dot(offset) < -radius_m) {
             return false;
         }
-        // Beyond the horizon: even its farthest-out point is lower than the ray that grazes the lowest ground.
+        // Beyond the horizon: even its highest point is below the ray that grazes the lowest ground.
         let distance = center_planet_m.length();
         if distance <= radius_m {
             return true;
@@ -58,7 +57,7 @@ impl Culling {
     }
 }
 
-/// Angle at the planet's centre between a point at `radius_m` and where its sight grazes the
+/// Angle at the centre of the planet between a point at `radius_m` and the point where its line of sight grazes the
 /// sphere of `lowest_radius_m`.
 fn horizon_angle_rad(lowest_radius_m: f64, radius_m: f64) -> f64 {
     (lowest_radius_m / radius_m).clamp(-1.0, 1.0).acos()

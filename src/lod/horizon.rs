@@ -1,8 +1,8 @@
-//! A horizon tile: how high the ground around stands over each vertex of a node, whichever way one looks.
+//! Horizon tiles: the horizon angles and the sky visibility at each vertex of a node.
 //!
-//! It knows nothing of the star: where the star stands higher than the horizon in its azimuth a place is lit, so that moving
-//! it makes nothing anew (Max, Horizon Mapping, 1988). Azimuths are those of the face's own coordinates: 0 towards growing
-//! `s`, a quarter turn towards growing `t`, so that all tiles of a face mean the same by them.
+//! They do not depend on the star: ground is lit where the star is higher than the horizon in its azimuth, so moving
+//! the star recomputes nothing (Max, Horizon Mapping, 1988). Azimuths are measured in the coordinates of the face, from
+//! 0 towards growing `s` to a quarter turn towards growing `t`, the same for all tiles of a face.
 
 use super::tile::TILE_QUADS;
 use crate::sphere::cube::C_SQUARED;
@@ -10,46 +10,46 @@ use crate::sphere::{Face, NodeId};
 use glam::DVec3;
 use half::f16;
 
-/// Azimuths in which a horizon is known, evenly around. Between them it is a cubic through the four nearest (Catmull and Rom), so that
-/// the shadow of a peak does not shrink while the star moves from one to the next.
+/// Number of azimuths, evenly spaced. Between them the horizon is a cubic through the four nearest (Catmull and Rom),
+/// so that the shadow of a peak does not shrink while the star moves from one azimuth to the next.
 pub const AZIMUTHS: usize = 48;
-/// Images of a horizon tile: one for each azimuth, and the openness.
+/// Images of a horizon tile: one for each azimuth, and the sky visibility.
 pub const HORIZON_IMAGES: usize = AZIMUTHS + 1;
-/// Points along the side of what a tile keeps of its parent.
+/// Points along the side of the parent's values in a tile.
 pub const COARSE_SIDE: usize = TILE_QUADS / 2 + 1;
 
-/// The horizon at each vertex of a node.
+/// The horizon angles at each vertex of a node.
 #[derive(Debug)]
 pub struct HorizonTile {
     /// The node.
     pub id: NodeId,
-    /// Different for any two ever made: the key under which a renderer keeps its copy.
+    /// Unique: the key under which a renderer keeps its copy.
     pub serial: u64,
-    /// [`HORIZON_IMAGES`] images of [`super::tile::TILE_VERTICES`] values. First the sine of the horizon's elevation, an
-    /// image for each azimuth. Then the openness: the share of the sky's light on level ground that the ground around lets through, over
-    /// what a plane with the slope of the place would.
+    /// [`HORIZON_IMAGES`] images of [`super::tile::TILE_VERTICES`] values. First the sine of the elevation of the
+    /// horizon, an image for each azimuth. Then the sky visibility: the share of the sky light on level ground that the
+    /// surrounding ground lets through, relative to a plane with the local slope.
     pub own: Vec<f16>,
-    /// The same as the parent has it, on every second vertex of every second row ([`COARSE_SIDE`] squared values an image).
+    /// The parent's values, on every second vertex of every second row ([`COARSE_SIDE`] squared values an image).
     pub coarse: Vec<f16>,
-    /// Equal for equal grounds: hash of all it was made from.
+    /// Content key of the ground that it was made from.
     pub(crate) key: u64,
-    /// For each azimuth and vertex the tangent of the horizon of all that is farther away than the children look for
-    /// themselves, and how near that is: vertex spacings over distance. Only where the node is split.
+    /// For each azimuth and vertex, the tangent of the horizon of all ground that is too far for the children to march
+    /// over, and its nearness: vertex spacings over distance. Only if the node is split.
     pub(crate) far: Option<Vec<[f16; 2]>>,
 }
 
 impl HorizonTile {
-    /// Resident size, for the cache's budget.
+    /// Resident size.
     pub(crate) fn bytes(&self) -> usize {
         let far = self.far.as_ref().map_or(0, |far| far.len() * size_of::<[f16; 2]>());
         (self.own.len() + self.coarse.len()) * size_of::<f16>() + far
     }
 }
 
-/// A direction along the ground at a place of a face, as a (not normalised) step in the face's coordinates.
+/// A direction along the ground at a point of a face, as a step (not normalised) in the coordinates of the face.
 ///
-/// Moving along `towards` moves the point of the cube's face by its part within the face, and the bend of the coordinates
-/// (see [`crate::sphere::cube`]) is undone by its derivative.
+/// A step along `towards` moves the point on the flat face by its part within the face; the derivative of the face's
+/// mapping (see [`crate::sphere::cube`]) converts that to coordinates.
 pub fn face_step(face: Face, dir_planet: DVec3, towards_planet: DVec3) -> [f64; 2] {
     let (axis, sign) = face.axis();
     let ((s_axis, s_sign), t_axis) = face.tangent_axes();

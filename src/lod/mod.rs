@@ -1,12 +1,12 @@
-//! Which nodes are shown: the camera, the choice of nodes by screen-space error, culling, index permutations.
+//! Level of detail: camera, ranges, choice of nodes, culling, morph, index permutations.
 //!
 //! - [`view`]: camera, viewport, quality
-//! - [`tile`]: what a tile is: vertices, bounds; [`horizon`]: how high the ground around it stands
+//! - [`tile`]: a tile: vertices and bounds; [`horizon`]: horizon angles
 //! - [`stitch`]: index permutations for coarser neighbours
-//! - [`opening`]: where the camera stands when a planet is opened
-//! - [`chords`]: what stands in for a vertex before it appears
-//! - [`range`]: how far from the eye each level shows
-//! - [`morph`]: how vertices rise out of the coarser mesh
+//! - [`opening`]: the camera when a planet is opened
+//! - [`chords`]: the line that a vertex replaces
+//! - [`range`]: the distance at which each level splits
+//! - [`morph`]: vertices between the coarser mesh and their exact position
 //! - [`select`]: which nodes must be split for a view
 //! - [`cull`]: frustum and horizon
 

@@ -1,24 +1,23 @@
-//! The shape that the ground has on screen: vertices rise out of the coarser mesh as the eye comes nearer. This is the same
-//! arithmetic as `morph.wgsl`, for tests and for games that must know where exactly the drawn ground is.
+//! The drawn shape of the ground: vertices morph from the coarser mesh to their exact position as the eye approaches.
+//! The same arithmetic as `morph.wgsl`, for tests and for games that need the exact drawn height.
 //!
-//! Geomorphing as a hierarchical basis: the drawn place of a vertex is the middle of its chord *as drawn*, plus a share of its
-//! deviation from that chord. The share depends on nothing but the eye and what the vertex itself carries, and it is 0 for all
-//! vertices that a coarser mesh leaves out, so that any choice of tiles draws the very same surface. (CDLOD, Strugar 2010, morphs
-//! level by level at fixed distances; here each vertex has a distance of its own.)
+//! Geomorphing in a hierarchical basis: the drawn position of a vertex is the middle of its chord *as drawn* plus a
+//! share of its deviation. The share depends only on the eye and on the vertex, and it is 0 for every vertex that a
+//! coarser mesh omits, so every LOD cut draws the same surface. (CDLOD, Strugar 2010, morphs level by level at fixed
+//! distances; here each vertex has its own distance.)
 //!
-//! Vertices born three levels before the tile's or earlier have always come out in full: a tile is nowhere as far from the eye as
-//! that ([`super::range`]).
+//! Vertices born three or more levels before the tile's are always exact: no tile is as far from the eye as the
+//! distance at which they begin to appear ([`super::range`]).
 
 use super::chords::chords;
 use super::range::{FULL_AT, Ranges};
 use super::tile::{TILE_VERTICES, Tile, Vertex};
 use glam::DVec3;
 
-/// The coarsest grid of a tile whose vertices may still be on their way: every so many vertices.
+/// Stride of the coarsest grid of a tile whose vertices may still morph.
 pub const COARSEST_MORPHING: u16 = 4;
 
-/// How far each vertex of a tile is drawn above (below, if negative) its true place, in metres along its own vertical, for an eye
-/// in the planet frame.
+/// Height of each drawn vertex above its exact position (negative: below), in metres along its own vertical.
 pub fn shifts_m(tile: &Tile, eye_planet_m: DVec3, ranges: &Ranges) -> Vec<f32> {
     let eye = Split::new(eye_planet_m);
     let mut shifts_m = vec![0.0_f32; TILE_VERTICES];
@@ -32,7 +31,7 @@ pub fn shifts_m(tile: &Tile, eye_planet_m: DVec3, ranges: &Ranges) -> Vec<f32> {
     shifts_m
 }
 
-/// A position as the shader has it.
+/// A position as the shader holds it.
 struct Split {
     high_m: [f32; 3],
     low_m: [f32; 3],
@@ -45,7 +44,7 @@ impl Split {
     }
 }
 
-/// How far a vertex has come out: 0 not at all, 1 in full.
+/// Progress of a vertex: 0 on its chord, 1 at its exact position.
 fn share(vertex: &Vertex, spacing_m: f32, eye: &Split, ranges: &Ranges) -> f32 {
     let [x, y, z] =
         [0, 1, 2].map(|i| (vertex.position_high_m[i] - eye.high_m[i]) + (vertex.position_low_m[i] - eye.low_m[i]));

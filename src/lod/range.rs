@@ -1,69 +1,70 @@
-//! How far from the eye each level shows.
+//! Ranges: the distance from the eye at which each level splits.
 //!
-//! A vertex appears where the error of the ground without it is foreseen to pass a tolerance in pixels, but nowhere beyond the
-//! distance at which the level's vertices stand closer than is worth drawing, and everywhere inside the distance at which the level
-//! before would be too coarse for what is shaded. It is a function of the eye and of the vertex alone: whichever tiles are drawn,
-//! the ground has one shape (see [`super::morph`]).
+//! A vertex begins to appear at the distance where the expected screen-space error without it exceeds a tolerance in
+//! pixels. That distance is limited above, where vertices of its level would be closer together on screen than is worth
+//! drawing, and below, where the coarser level would be too coarse for shading. It depends only on the eye and the
+//! vertex: whichever tiles are drawn, the ground has one shape (see [`super::morph`]).
 
 use super::{Quality, View};
 use crate::lod::tile::TILE_QUADS;
 
-/// A level shows at least as far out as so many of its vertex spacings, however small the picture: nodes must be small against
-/// their distance for what is shaded to change from level to level without a step.
+/// Least range of a level in its vertex spacings, however small the picture: nodes must be small relative to their
+/// distance, or shading changes visibly from level to level.
 const LEAST_SPACINGS: f64 = 100.0;
-/// Where that is too much for the budget of triangles, it is so many.
+/// The same once the LOD bias reaches `BIAS_LIMITS[1]`: the least range shrinks to fit the triangle budget.
 const FEWEST_SPACINGS: f64 = 70.0;
-/// And at most so many times as far out as it must: what a tile knows of older vertices suffices only so far (`morph.rs`).
+/// Greatest range relative to the least: tiles know the chords of older vertices only this far (`morph.rs`).
 const MOST_OVER_LEAST: f64 = 3.0;
-/// Errors may be so many times as large as the quality asks before all levels show less far, and so many times before they show
-/// less far than is good for what is shaded.
-const LENIENT: [f64; 2] = [4.0, 8.0];
-/// A vertex has come out in full when the eye is at this share of the distance where it began.
+/// LOD bias beyond which the spacing on screen grows, and beyond which [`LEAST_SPACINGS`] shrinks.
+const BIAS_LIMITS: [f64; 2] = [4.0, 8.0];
+/// A vertex has reached its exact position when the eye is at this share of the distance where it began to appear.
 pub const FULL_AT: f64 = 0.6;
-/// Shading changes from a level to the next between this share of the level's range and its end.
+/// Shading blends to the next level between this share of the range and its end.
 pub const SHADED_AT: f64 = 0.92;
 
-/// The distances of one view.
+/// The ranges of one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranges {
-    /// Metres from vertex to vertex at level 0 (nominal).
+    /// Nominal distance between vertices at level 0.
     pub root_spacing_m: f64,
-    /// Spacings of a level out to which it always shows.
+    /// Least range of a level in its vertex spacings.
     pub least_spacings: f64,
-    /// Spacings of a level beyond which it never shows.
+    /// Greatest range of a level in its vertex spacings.
     pub most_spacings: f64,
-    /// Metres of distance for each metre by which the ground would be wrong.
+    /// Metres of distance for each metre of geometric error: at this distance the error meets the tolerance.
     pub reach: f64,
 }
 
 impl Ranges {
-    /// For a view of a planet of this radius; errors may be `leniency` (1 or more) times as large as the quality asks.
-    pub fn new(view: &View, radius_m: f64, leniency: f64) -> Self {
-        // Pixels that the ground may be wrong by; most and least pixels between vertices.
+    /// Ranges of a view of a planet of this radius. `bias` is the LOD bias: 1 or more times the tolerance of the
+    /// quality.
+    pub fn new(view: &View, radius_m: f64, bias: f64) -> Self {
+        // Tolerance of the screen-space error in pixels; most and least pixels between vertices.
         let (error_px, coarsest_px, finest_px) = match view.quality {
             Quality::Low => (2.0, 16.0, 8.0),
             Quality::Medium => (1.0, 12.0, 5.0),
             Quality::High => (0.5, 7.0, 2.5),
         };
         let focal_px = 1.0 / view.pixel_rad();
-        // A level takes over where the one before has become too coarse: at twice its own spacing.
-        let floor = (LEAST_SPACINGS * LENIENT[1] / leniency).clamp(FEWEST_SPACINGS, LEAST_SPACINGS);
-        let least_spacings = (2.0 * focal_px / (coarsest_px * (leniency / LENIENT[0]).max(1.0))).max(floor);
+        // A level takes over where the coarser level, with twice the spacing, has become too coarse.
+        let floor = (LEAST_SPACINGS * BIAS_LIMITS[1] / bias).clamp(FEWEST_SPACINGS, LEAST_SPACINGS);
+        let least_spacings = (2.0 * focal_px / (coarsest_px * (bias / BIAS_LIMITS[0]).max(1.0))).max(floor);
         let most_spacings = (2.0 * focal_px / finest_px).clamp(least_spacings, MOST_OVER_LEAST * least_spacings);
         let root_spacing_m = spacing_rad(0) * radius_m;
-        Self { root_spacing_m, least_spacings, most_spacings, reach: focal_px / (error_px * leniency) }
+        Self { root_spacing_m, least_spacings, most_spacings, reach: focal_px / (error_px * bias) }
     }
 
-    /// How far an eye may be from the one that tiles were chosen for, in spacings of the finest: a vertex that is older than its tile knows
-    /// must have come out in full even at the tile's far end.
+    /// Distance, in spacings of the finest level, that the eye may move from where the LOD cut was made. Beyond it, a
+    /// vertex older than its tile knows may not have reached its exact position at the far end of the tile.
     pub fn eye_spacings(&self) -> f64 {
-        // Where a level three before has come out, less the farthest that a level shows and the diagonal of the node split for it.
+        // The distance at which vertices three levels older are exact, less the greatest range of a level and the
+        // diagonal of the node split for it.
         let known = 8.0 * FULL_AT * self.least_spacings;
         let farthest = MOST_OVER_LEAST * self.least_spacings + 2.0 * TILE_QUADS as f64 * std::f64::consts::SQRT_2;
         (known - farthest).clamp(0.0, self.least_spacings)
     }
 
-    /// Metres from vertex to vertex of a level (nominal).
+    /// Nominal distance between vertices of a level.
     pub fn spacing_m(&self, level: u8) -> f64 {
         self.root_spacing_m / f64::from(1_u32 << level)
     }
@@ -73,14 +74,14 @@ impl Ranges {
         self.spacing_m(level) * self.least_spacings
     }
 
-    /// Distance at which a vertex born at a level begins to appear, where the ground without it is foreseen to be wrong by so much.
+    /// Distance at which a vertex born at a level begins to appear, given the expected error without it.
     pub fn begin_m(&self, level: u8, foreseen_m: f64) -> f64 {
         let spacing_m = self.spacing_m(level);
         (foreseen_m * self.reach).clamp(spacing_m * self.least_spacings, spacing_m * self.most_spacings)
     }
 }
 
-/// Angle between neighbouring vertices of a level (nominal).
+/// Nominal angle between neighbouring vertices of a level.
 pub fn spacing_rad(level: u8) -> f64 {
     std::f64::consts::FRAC_PI_2 / (TILE_QUADS as f64 * f64::from(1_u32 << level))
 }

@@ -1,8 +1,8 @@
-//! Whether a node must be split: if any vertex of its children would show by then ([`super::range`]).
+//! Which nodes must be split: those of whose children any vertex would be visible ([`super::range`]).
 //!
-//! How far the children deviate from a node is foreseen from how far the node's own vertices deviate from its parent: relief that
-//! keeps its slope deviates half as much from level to level, smooth ground a quarter. The distance at which a vertex appears goes
-//! by what was foreseen, so a node that is not split lacks nothing that would show, whatever its children would be like.
+//! The deviations of the children are estimated from those of the node's own vertices: they halve from level to level
+//! on ground of constant slope, and fall to a quarter on smooth ground. A vertex appears at the distance given by this
+//! estimate, so a node that is not split lacks no visible vertex, whatever its children are like.
 
 use super::chords::chords;
 use super::range::Ranges;
@@ -12,11 +12,12 @@ use crate::sphere::NodeId;
 use glam::DVec3;
 use std::collections::HashSet;
 
-/// Nodes a little outside the picture are refined too, so that a turn of the head shows no coarse ground.
+/// Factor on the opening of the frustum: nodes a little outside the picture are refined, so that turning the camera
+/// shows no coarse ground.
 const FRUSTUM_MARGIN: f64 = 1.15;
-/// And so are those a little farther away than they must be: the eye goes on while tiles are built.
+/// Factor on ranges: nodes a little farther away are refined, because the camera moves while tiles are built.
 const DISTANCE_MARGIN: f64 = 1.03;
-/// A node that is split stays so until the errors that split it have become so many times smaller.
+/// A node that is split stays split until its errors are this many times smaller than those that split it.
 const HYSTERESIS: f64 = 1.4;
 
 /// Decides for one view which nodes must be split.
@@ -24,12 +25,12 @@ pub struct Selection<'a> {
     culling: Culling,
     eye_planet_m: DVec3,
     ranges: Ranges,
-    /// Nodes that are split in what is shown.
+    /// Nodes that are split in the LOD cut on screen.
     shown: Option<&'a HashSet<NodeId>>,
 }
 
 impl<'a> Selection<'a> {
-    /// For a view of a planet whose ground or sea nowhere lies lower than `lowest_radius_m`.
+    /// `lowest_radius_m`: distance from the centre of the lowest ground or sea. `shown`: the split nodes on screen.
     pub fn new(view: &View, ranges: &Ranges, lowest_radius_m: f64, shown: Option<&'a HashSet<NodeId>>) -> Self {
         let culling = Culling::widened(view, lowest_radius_m, FRUSTUM_MARGIN);
         Self { culling, eye_planet_m: view.camera.position_planet_m, ranges: *ranges, shown }
@@ -46,19 +47,19 @@ impl<'a> Selection<'a> {
         self.is_within(tile, &reach_m) && self.culling.sees(tile)
     }
 
-    /// Whether what is shaded must be finer than the tile's detail.
+    /// Whether shading needs a finer detail texture than the tile's.
     pub fn wants_finer_detail(&self, tile: &Tile) -> bool {
         let level = tile.id.level + 1;
         level <= NodeId::MAX_LEVEL && self.is_within(tile, &|_| self.ranges.always_m(level))
     }
 
-    /// Whether the picture shows any of it.
+    /// Whether the picture shows any part of the tile.
     pub fn sees(&self, tile: &Tile) -> bool {
         self.culling.sees(tile)
     }
 
-    /// Whether any vertex of the tile, or what its children may have beside it, is nearer than a distance that depends on what is
-    /// foreseen in its block.
+    /// Whether any vertex of the tile or of its children may be nearer than a distance that depends on the expected
+    /// deviation in its block.
     fn is_within(&self, tile: &Tile, reach_m: &dyn Fn(f32) -> f64) -> bool {
         let most_m = tile.blocks.iter().map(|block| block.foreseen_m).fold(0.0, f32::max);
         if self.eye_planet_m.distance(tile.center_planet_m) - tile.bounding_radius_m >= reach_m(most_m) {
@@ -78,13 +79,13 @@ impl<'a> Selection<'a> {
     }
 }
 
-/// What is to be foreseen for the children of a tile whose vertices carry their deviations, block by block; `level`: the tile's.
+/// Sets the expected deviations of the children of a tile in each block. `level` is the tile's.
 pub(crate) fn foresee(level: u8, deviations_m: &[f32], blocks: &mut [Block]) {
     for block in blocks.iter_mut() {
-        // Nothing is known of level 0: it stands out from no parent.
+        // The deviations of level 0 are unknown: it has no parent.
         block.foreseen_m = if level == 0 { UNKNOWN_M } else { 0.0 };
     }
-    // Level by level half: what a child's vertex sees of the two ends of its chord.
+    // The deviation halves with each level: the share that a child's vertex has of the two ends of its chord.
     for chord in chords(false).iter().filter(|chord| chord.stride <= 2 && u16::from(level) >= chord.stride) {
         let share = if chord.stride == 1 { 0.5 } else { 0.25 };
         let foreseen_m = deviations_m[usize::from(chord.vertex)].abs() * share;
@@ -98,5 +99,5 @@ pub(crate) fn foresee(level: u8, deviations_m: &[f32], blocks: &mut [Block]) {
     }
 }
 
-/// Stands for an error that nothing is known of: more than any planet is large.
+/// An unknown deviation in metres: greater than any planet.
 pub(crate) const UNKNOWN_M: f32 = 1e12;

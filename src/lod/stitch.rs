@@ -1,16 +1,15 @@
-//! Index permutations: one triangle list for each combination of edges beyond which the neighbour is a level coarser,
-//! so that no T-junction and no crack is left.
+//! Index permutations: one triangle list for each combination of parent edges, without T-junctions or cracks.
 //!
-//! On such an edge every second vertex is left out. All 16 lists are made once; a tile picks one by its edge mask.
+//! On a parent edge every second vertex is left out. A tile chooses one of the 16 lists by its edge mask.
 
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE};
 use crate::sphere::Edge;
 
-/// The triangle list (anticlockwise seen from outside) of a tile whose `coarser_edges` (bits of [`Edge::bit`]) touch
-/// coarser neighbours. Indices into the tile's vertices.
+/// The triangle list (anticlockwise from outside) of a tile with parent edges `coarser_edges` (bits of [`Edge::bit`]),
+/// as indices into the vertices of the tile.
 ///
-/// Works on blocks of two by two quads: a fan around the middle vertex, whose rim leaves out the vertex in the
-/// middle of each stitched side.
+/// Each block of two by two quads is a fan around its middle vertex; its rim omits the middle vertex of each stitched
+/// side.
 pub fn triangle_indices(coarser_edges: u8) -> Vec<u16> {
     let mut indices = Vec::with_capacity(TILE_QUADS * TILE_QUADS * 6);
     let vertex = |x: usize, y: usize| (y * TILE_SIDE + x) as u16;

@@ -1,4 +1,4 @@
-//! A tile: the finished mesh of one node, ready for any renderer.
+//! A tile: the mesh data of one node, for any renderer.
 
 use crate::sphere::{Face, NodeId};
 use glam::DVec3;
@@ -10,33 +10,34 @@ pub const TILE_SIDE: usize = TILE_QUADS + 1;
 /// Vertices of a tile.
 pub const TILE_VERTICES: usize = TILE_SIDE * TILE_SIDE;
 
-/// Texels along a detail tile's side, one on each vertex and three between: borders are shared with the neighbours.
+/// Texels along the side of a detail texture: one on each vertex and three between. Neighbours share their borders.
 pub const DETAIL_SIDE: usize = 4 * TILE_QUADS + 1;
-/// Texels beyond the node on each side: what is averaged over texels around a point is the same from either side of a border.
+/// Apron: texels beyond the node on each side, so that averages around a point are equal from both sides of a border.
 pub const DETAIL_APRON: usize = 2;
-/// Texels along the side of a detail tile's images.
+/// Texels along the side of the images of a detail texture.
 pub const DETAIL_IMAGE: usize = DETAIL_SIDE + 2 * DETAIL_APRON;
 
-/// The ground of a node four times as fine as its mesh: the relief that a tile's vertices are too coarse to show, for shading.
+/// The detail texture of a node: the ground at four times the density of its mesh, for shading.
 ///
-/// Values lie on [`DETAIL_IMAGE`] rows of [`DETAIL_IMAGE`] texels, with linear interpolation between; but for [`DETAIL_APRON`] around,
-/// the first and the last lie on the node's edges. Heights are the evaluator's, as on vertices: what is made of them (climate, shores, biomes) covers the same
-/// share of the ground at every level. From slopes, what is finer than twice the texel spacing is faded out.
+/// [`DETAIL_IMAGE`] rows of [`DETAIL_IMAGE`] texels, to be interpolated linearly. Inside the apron of [`DETAIL_APRON`]
+/// texels, the first and the last lie on the edges of the node. Heights are those of the evaluator, so that climate,
+/// coasts and biomes cover the same share of the ground at every level. Slopes omit detail finer than twice the texel
+/// spacing.
 #[derive(Debug)]
 pub struct DetailTile {
     /// The node.
     pub id: NodeId,
-    /// Different for any two ever built.
+    /// Unique serial number.
     pub serial: u64,
-    /// [`Tile::heights_serial`] of the tile whose ground it shows.
+    /// [`Tile::heights_serial`] of the tile that it was made for.
     pub heights_serial: u64,
-    /// Rise over run along two tangents of the sphere, as [`slope_basis`] has them at each point (the normal is along
-    /// `up - x * east - y * north`); and the same as the parent's detail shows it.
+    /// Rise over run along the two tangents of [`slope_basis`] (the normal is along `up - x * east - y * north`), and
+    /// the same as the detail texture of the parent shows it.
     pub slopes: Vec<[half::f16; 4]>,
-    /// The height that [`DetailTile::heights`] count from, metres.
+    /// The height in metres to which [`DetailTile::heights`] are relative.
     pub base_m: f32,
-    /// Height in metres as the sum of the first two. The others are how steep (rise over run) the ground is at that very point as
-    /// far as [`DetailTile::slopes`] show it, and with what is faded out of them.
+    /// Height in metres as the sum of the first two. The other two are the slope (rise over run) at the point as
+    /// [`DetailTile::slopes`] show it, and with every octave.
     pub heights: Vec<[half::f16; 4]>,
 }
 
@@ -47,8 +48,8 @@ impl DetailTile {
     }
 }
 
-/// Two tangents of the sphere at a direction on a face, perpendicular to each other: one as nearly along the face's
-/// first axis as it can be, and the one to its left, seen from outside.
+/// Two perpendicular tangents of the sphere at a direction on a face: one as nearly along the first axis of the face as
+/// possible, and the one to its left, seen from outside.
 pub fn slope_basis(face: Face, dir_planet: DVec3) -> [DVec3; 2] {
     let along = slope_axis(face);
     let east = (along - dir_planet * dir_planet.dot(along)).normalize_or_zero();
@@ -78,20 +79,19 @@ pub struct Vertex {
     pub height_m: f32,
     /// Rest of the position, metres.
     pub position_low_m: [f32; 3],
-    /// Temperature in °C at the level that climate counts from: the sea's, or the reference sphere's. What height adds is
-    /// for whoever knows the height of a place between vertices.
+    /// Temperature in °C at sea level, or at the reference sphere without a sea. Shaders subtract the lapse with
+    /// height.
     pub temperature_c: f32,
-    /// Moisture at the same level, before it is cut to 0 (dry) to 1 (wet).
+    /// Moisture at the same level, before it is clamped to 0 (dry) to 1 (wet).
     pub moisture: f32,
-    /// Unit normal in the planet frame, octahedral, snorm; relief finer than twice the vertex
-    /// spacing is faded out of it.
+    /// Unit normal in the planet frame, octahedral, snorm; terrain finer than twice the vertex spacing is faded out.
     pub normal_oct: [i16; 2],
-    /// The same as the parent tile would have it here: blend to it with distance, so that no level change shows.
+    /// The normal of the parent tile at this point: blend to it with distance, so that no level change shows.
     pub parent_normal_oct: [i16; 2],
-    /// How far it stands above the chord that is drawn in its place before it appears ([`crate::lod::chords`]), along its
-    /// vertical; 0 for a vertex of level 0.
+    /// Deviation: height above the chord that the vertex replaces ([`crate::lod::chords`]), along its vertical; 0 at
+    /// level 0.
     pub deviation_m: f32,
-    /// How large that was to be expected from the level before: see [`crate::lod::select`].
+    /// The deviation expected from the coarser level: see [`crate::lod::select`].
     pub foreseen_m: f32,
 }
 
@@ -102,28 +102,28 @@ impl Vertex {
     }
 }
 
-/// Quads along a side of one of the blocks that a tile's bounds are known for.
+/// Quads along the side of a block.
 pub const BLOCK_QUADS: usize = 8;
 /// Blocks along a tile's side.
 pub const BLOCKS_SIDE: usize = TILE_QUADS / BLOCK_QUADS;
 
-/// A square part of a tile.
+/// A square part of a tile, with its own bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Block {
-    /// Distance of the farthest vertex from the one in the middle.
+    /// Distance from its middle vertex to its farthest vertex.
     pub radius_m: f32,
-    /// The greatest [`Vertex::foreseen_m`] that a child's vertex in it would have.
+    /// The greatest [`Vertex::foreseen_m`] of a vertex that a child would have in it.
     pub foreseen_m: f32,
 }
 
-/// The finished mesh of a node.
-#[derive(Debug)]
+/// The mesh of a node.
+#[derive(Clone, Debug)]
 pub struct Tile {
     /// The node.
     pub id: NodeId,
-    /// Different for any two tiles ever built: the key under which a renderer keeps its copy.
+    /// Unique: the key under which a renderer keeps its copy.
     pub serial: u64,
-    /// Different for any two sets of heights: a tile rebuilt for another climate keeps it.
+    /// Unique for each set of heights: a tile with only a new climate keeps it.
     pub heights_serial: u64,
     /// [`TILE_SIDE`] rows of [`TILE_SIDE`] vertices: `u` (east on the face) runs fastest.
     pub vertices: Vec<Vertex>,
@@ -133,8 +133,8 @@ pub struct Tile {
     pub max_height_m: f64,
     /// Centre of the bounding sphere in the planet frame.
     pub center_planet_m: DVec3,
-    /// Radius of the bounding sphere, around all vertices whether they have come out or not.
+    /// Radius of the bounding sphere around all vertices, in every state of their morph.
     pub bounding_radius_m: f64,
-    /// [`BLOCKS_SIDE`] rows of as many.
+    /// [`BLOCKS_SIDE`] rows of [`BLOCKS_SIDE`] blocks.
     pub blocks: [Block; BLOCKS_SIDE * BLOCKS_SIDE],
 }

@@ -1,4 +1,4 @@
-//! Where one looks from, how large the picture is, and how well it is to be drawn.
+//! Camera, picture size and quality of a view.
 
 use crate::sphere::{LatLon, geo};
 use glam::{DMat3, DQuat, DVec3};
@@ -15,10 +15,10 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The opening angle used where nobody chose one.
+    /// Default vertical opening angle: 50°.
     pub const DEFAULT_FOV_Y_RAD: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
-    /// A camera at a position that looks along `forward`, its top as near to `up` as that allows.
+    /// A camera at a position that looks along `forward`, with its top as near to `up` as possible.
     pub fn looking(position_planet_m: DVec3, forward: DVec3, up: DVec3, fov_y_rad: f64) -> Self {
         let back = -forward.normalize();
         let right = up.cross(back);
@@ -27,8 +27,8 @@ impl Camera {
         Self { position_planet_m, planet_from_view, fov_y_rad }
     }
 
-    /// A camera over a place, at `radius_m` from the planet's centre. Heading is clockwise from north; pitch is 0 at
-    /// the horizon and -π/2 straight down.
+    /// A camera over a location, at `radius_m` from the centre. Heading is clockwise from north; pitch is 0 at the
+    /// horizon and -π/2 straight down.
     pub fn over(place: LatLon, radius_m: f64, heading_rad: f64, pitch_rad: f64, fov_y_rad: f64) -> Self {
         let up = place.direction();
         let (east, north) = geo::east_north(up);
@@ -50,7 +50,7 @@ impl Camera {
     }
 }
 
-/// How well things are drawn; never what is drawn.
+/// How well everything is drawn. Quality never changes what is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
     /// For software adapters: half the resolution, coarse tiles, few steps.
@@ -63,10 +63,10 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// All of them, coarsest first.
+    /// All qualities, coarsest first.
     pub const ALL: [Quality; 3] = [Quality::Low, Quality::Medium, Quality::High];
 
-    /// The name a person reads.
+    /// Display name.
     pub fn label(self) -> &'static str {
         match self {
             Quality::Low => "Low",
@@ -76,10 +76,10 @@ impl Quality {
     }
 }
 
-/// Everything the choice of nodes depends on.
+/// Everything that the LOD cut depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where one looks from.
+    /// The camera.
     pub camera: Camera,
     /// Width and height of the picture in pixels; never zero.
     pub size_px: [u32; 2],

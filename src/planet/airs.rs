@@ -1,14 +1,14 @@
-//! Atmospheres to start from. Like the Earth's, the figures are those of real air as far as they are known (surface densities,
-//! scale heights, optical depths), rounded, and then tuned by eye for three colours.
+//! Starting atmospheres. Surface densities, scale heights and optical depths are those of the real atmospheres as far
+//! as they are known, rounded, then tuned by eye for three colours.
 
 use super::Atmosphere;
 
 /// A named atmosphere.
 #[derive(Clone, Copy, Debug)]
 pub struct StartingAir {
-    /// What it is called, as a person reads it.
+    /// Display name.
     pub name: &'static str,
-    /// What to expect of it, in a few words.
+    /// A short description.
     pub note: &'static str,
     make: fn() -> Atmosphere,
 }
@@ -29,7 +29,7 @@ pub const STARTING_AIRS: &[StartingAir] = &[
     StartingAir { name: "Alien green", note: "Green by day, a violet sunset", make: green },
 ];
 
-/// Dust takes more red out of light than blue, and swallows blue: what is left around a low star is blue.
+/// Dust scatters more red than blue and absorbs blue; around a low star, the light that remains is blue.
 fn mars() -> Atmosphere {
     Atmosphere {
         height_km: 100.0,

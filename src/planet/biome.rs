@@ -1,18 +1,17 @@
-//! One kind of ground: its colours, how it shines, what it looks like from near, what becomes of it on steep slopes, and the
-//! relief and the glow that are its own.
+//! A biome, one kind of ground: colours, gloss, close-up pattern, steep ground, biome relief and glow.
 
 use super::Biomes;
 use super::param::{Domain, Stage, Unit, choice, linear, log, params};
 
-/// Sizes of a pattern; must stay below what the shaders wrap positions at.
+/// Period of a pattern in metres. It must stay below the length at which shaders wrap positions (`WRAP_M` in
+/// `render/biome_table.rs`).
 pub(super) const DETAIL_SIZE: Domain = log(0.2, 200.0);
 
-/// The key that a rule holds until a biome is chosen for it. Where no biome has that key, it stands for none, and the
-/// rule must be off.
+/// The key that a rule holds until a biome is chosen for it. If the palette has no such key, the rule must be off.
 pub const UNSET_KEY: char = 'a';
 
 choice! {
-    /// What ground looks like from near.
+    /// Close-up pattern of the ground.
     pub enum Detail {
         /// One even surface.
         None = "None",
@@ -20,9 +19,9 @@ choice! {
         Grass = "Grass",
         /// Fallen leaves and twigs, as under trees.
         Litter = "Litter",
-        /// Ripples left by wind, and grains.
+        /// Wind ripples and grains.
         Sand = "Sand",
-        /// Pebbles of all sizes in finer stuff.
+        /// Pebbles of all sizes between finer grains.
         Gravel = "Gravel",
         /// Fractured slabs with layers and lichen.
         Rock = "Rock",
@@ -30,21 +29,21 @@ choice! {
         Snow = "Snow",
         /// Clear and cloudy patches with cracks.
         Ice = "Ice",
-        /// Plates of dried mud, damp between them.
+        /// Plates of dried mud with damp cracks.
         Mud = "Mud",
-        /// A dark crust in plates; what lies between them glows.
+        /// A dark crust in plates with glowing cracks.
         Lava = "Lava",
     }
 }
 
 choice! {
-    /// What becomes of a biome where it is steep.
+    /// What a biome becomes on steep ground.
     pub enum Steep {
-        /// The rock that all biomes share, at the slopes where all of them end.
+        /// The bare rock that all biomes share, between the slopes that all biomes share.
         Rock = "Rock",
         /// Another biome of the palette, between slopes of its own.
         Biome = "Biome",
-        /// Nothing: it lies on every slope.
+        /// The biome stays on every slope.
         Stays = "Stays",
     }
 }
@@ -52,13 +51,13 @@ choice! {
 params! {
     /// One kind of ground.
     pub struct Biome {
-        /// The letter that stands for this biome in the table; unique in the palette.
+        /// The letter of this biome in the table; unique in the palette.
         key: char = 'a', "Key", Unit::None, Domain::Letter, Stage::Material;
-        /// What the biome is called.
+        /// Name of the biome.
         name: String = "Ground".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
         /// Colour of the ground (albedo, linear sRGB).
         color: [f64; 3] = [0.2, 0.18, 0.15], "Colour", Unit::None, Domain::Color, Stage::Material;
-        /// Strength of the mottling: 0 is one even colour.
+        /// Strength of the macro variation: 0 is one even colour.
         variation: f64 = 0.25, "Variation", Unit::None, linear(0.0, 1.0), Stage::Material;
         /// Share of the ground that has the second colour.
         patches: f64 = 0.0, "Patches", Unit::None, linear(0.0, 1.0), Stage::Material;
@@ -66,65 +65,65 @@ params! {
         patch_color: [f64; 3] = [0.25, 0.22, 0.15], "Second colour", Unit::None, Domain::Color, Stage::Material;
         /// Size of the patches.
         patch_m: f64 = 100.0, "Size of patches", Unit::Metres, log(1.0, 100_000.0), Stage::Material;
-        /// How dull the ground is: 0 is a mirror, 1 is chalk.
+        /// Roughness of the surface: 0 is a mirror, 1 is chalk.
         roughness: f64 = 0.9, "Roughness", Unit::None, linear(0.0, 1.0), Stage::Material;
-        /// How strongly its surface mirrors: 0 not at all, 0.25 as water, 0.5 as most minerals.
+        /// Strength of the specular reflection: 0 is none, 0.25 is water, 0.5 is most minerals.
         specular: f64 = 0.2, "Specular", Unit::None, linear(0.0, 1.0), Stage::Material;
-        /// What it looks like from near.
+        /// Close-up pattern.
         detail: Detail = Detail::None, "Detail", Unit::None, Domain::Choice, Stage::Material;
-        /// Size of the pattern, from one repeat to the next.
+        /// Period of the pattern.
         detail_m: f64 = 2.0, "Size of detail", Unit::Metres, DETAIL_SIZE, Stage::Material;
         /// Strength of the pattern: 0 is an even surface.
         detail_strength: f64 = 1.0, "Strength of detail", Unit::None, linear(0.0, 2.0), Stage::Material;
-        /// What becomes of it where it is steep.
+        /// What the biome becomes on steep ground.
         steep: Steep = Steep::Rock, "On steep ground", Unit::None, Domain::Choice, Stage::Material;
-        /// Key of the biome that it gives way to on steep ground, if it is to be another one of the palette.
+        /// Key of the biome that replaces it on steep ground, if that is another biome.
         steep_key: char = UNSET_KEY, "Gives way to", Unit::None, Domain::BiomeKey, Stage::Material;
-        /// Slope at which it begins to give way to that biome.
+        /// Slope at which the other biome begins to replace it.
         steep_from_deg: f64 = 25.0, "From", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
-        /// Slope from which there is only that biome.
+        /// Slope from which there is only the other biome.
         steep_to_deg: f64 = 35.0, "To", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
-        /// Height of hummocks and hollows that the ground has wherever it is of this biome; they fade into its neighbours as
-        /// the table blends.
+        /// Biome relief: height of the hummocks and hollows that the biome adds to the ground. It fades towards
+        /// neighbours as the table blends.
         relief_m: f64 = 0.0, "Relief", Unit::Metres, log(0.0, 1000.0), Stage::Height;
-        /// Size of the hummocks and hollows.
+        /// Wavelength of the biome relief.
         relief_size_m: f64 = 50.0, "Size of relief", Unit::Metres, log(1.0, 100_000.0), Stage::Field | Stage::Height;
-        /// How brightly what glows in it does: 1 is as bright as white ground under the star at brightness 1.
+        /// Radiance of the glowing parts: 1 is as bright as white ground under a star of brightness 1.
         glow: f64 = 0.0, "Glow", Unit::None, log(0.0, 100.0), Stage::Material;
         /// Colour of the glow.
         glow_color: [f64; 3] = [1.0, 0.25, 0.03], "Colour of glow", Unit::None, Domain::Color, Stage::Material;
-        /// How fast it flows downhill, as lava does: only what it looks like moves.
+        /// Speed at which the pattern flows downhill, as lava does. The ground itself does not move.
         flow_m_s: f64 = 0.0, "Flow", Unit::MetresPerSecond, log(0.0, 10.0), Stage::Material;
     }
 }
 
 impl Biome {
-    /// Whether it changes the height of the ground.
+    /// Whether the biome adds biome relief.
     pub fn has_relief(&self) -> bool {
         self.relief_m > 0.0
     }
 }
 
-/// What a biome gives way to on steep ground, and where.
+/// The rule by which a biome is replaced on steep ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteepRule {
-    /// Index into the palette; None is the rock that all biomes share.
+    /// Index into the palette; None is the bare rock that all biomes share.
     pub into: Option<usize>,
-    /// Slope at which it begins to give way.
+    /// Slope at which the replacement begins.
     pub from_deg: f64,
-    /// Slope from which nothing is left of it.
+    /// Slope from which the replacement is complete.
     pub to_deg: f64,
 }
 
 impl Biomes {
-    /// The place of a key in the palette.
+    /// Index of a key in the palette.
     pub fn index_of(&self, key: char) -> Option<usize> {
         self.palette.iter().position(|biome| biome.key == key)
     }
 
-    /// What becomes of a biome where it is steep; None if it stays what it is.
+    /// The rule for steep ground of a biome; None if it stays on every slope.
     pub fn steep_rule(&self, biome: &Biome) -> Option<SteepRule> {
-        // Never all at once, or a line shows where a slope passes the limit.
+        // Never a step: it would show as a line where the slope passes the limit.
         let rule = |into, from_deg: f64, to_deg: f64| SteepRule { into, from_deg, to_deg: to_deg.max(from_deg + 0.5) };
         match biome.steep {
             Steep::Rock => Some(rule(None, self.cliff_start_deg, self.cliff_full_deg)),
@@ -135,7 +134,7 @@ impl Biomes {
         }
     }
 
-    /// Lets everything that refers to a biome by its key refer to another: the table and the rules.
+    /// Replaces a key in the table and in all rules.
     pub fn replace_key(&mut self, old: char, new: char) {
         self.table.replace_key(old, new);
         let steep = self.palette.iter_mut().map(|biome| &mut biome.steep_key);
@@ -148,8 +147,7 @@ impl Biomes {
 }
 
 impl Biomes {
-    /// Rules that are off and hold a key that no biome has lose it. Presets could hold such keys before they were
-    /// chosen from a list.
+    /// Resets the key of each rule that is off and names no biome. Older presets could hold such keys.
     pub(crate) fn forget_idle_keys(&mut self) {
         let keys: Vec<char> = self.palette.iter().map(|biome| biome.key).collect();
         let forget = |key: &mut char, is_on: bool| {
@@ -164,8 +162,8 @@ impl Biomes {
         }
     }
 
-    /// Lets rules that name no biome name one of the palette: snow the brightest, others the first. `idle`: those that
-    /// are off, too.
+    /// Gives a biome of the palette to each rule that names none: the brightest to snow, the first to all others.
+    /// `idle` includes rules that are off.
     pub fn name_missing(&mut self, idle: bool) {
         let light = |biome: &Biome| biome.color.iter().sum::<f64>();
         let brightest = self.palette.iter().max_by(|a, b| light(a).total_cmp(&light(b)));
@@ -185,24 +183,24 @@ impl Biomes {
     }
 }
 
-/// The relief of each cell of a table.
+/// The biome relief of each cell of a biome table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reliefs {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    /// Height and size in metres, row by row; height 0 is none, whatever its size.
+    /// Height and wavelength in metres, row by row; height 0 is none, whatever the wavelength.
     pub(crate) cells: Vec<(f64, f64)>,
 }
 
 impl Reliefs {
-    /// The sizes for which there is noise.
+    /// The wavelengths for which noise is needed.
     pub(crate) fn sizes_m(&self) -> impl Iterator<Item = f64> {
         self.cells.iter().filter(|(height_m, _)| *height_m > 0.0).map(|(_, size_m)| *size_m)
     }
 }
 
 impl Biomes {
-    /// The relief of each cell of the table; None where no biome in it has one.
+    /// The biome relief of each cell of the table; None if no biome in it has one.
     pub(crate) fn reliefs(&self) -> Option<Reliefs> {
         if !self.palette.iter().any(Biome::has_relief) {
             return None;

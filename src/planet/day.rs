@@ -1,53 +1,53 @@
-//! The day: where the star stands over a turning planet, and what hour that is.
+//! The position of the star over a rotating planet, by hour and season.
 
 use super::Star;
 use crate::sphere::LatLon;
 
 impl Star {
-    /// The place over which it stands overhead, so many seconds after time zero.
+    /// The location where the star is overhead, `time_secs` seconds after time zero.
     pub fn place(&self, time_secs: f64) -> LatLon {
         LatLon::from_degrees(self.latitude_deg, wrapped_deg(self.longitude_deg - self.turned_deg(time_secs)))
     }
 
-    /// Puts it over a place for that time; digits beyond the hundredth of a degree would only clutter the file.
+    /// Places the star over a location at a time, rounded to a hundredth of a degree to keep the file short.
     pub fn set_place(&mut self, lat_deg: f64, lon_deg: f64, time_secs: f64) {
         let tidy = |degrees: f64| (degrees * 100.0).round() / 100.0;
         self.latitude_deg = tidy(lat_deg).clamp(-90.0, 90.0);
         self.longitude_deg = tidy(wrapped_deg(lon_deg + self.turned_deg(time_secs))).clamp(-180.0, 180.0);
     }
 
-    /// The hour of a day of 24 at a longitude: 12 where it stands highest.
+    /// The solar hour, 0 to 24, at a longitude; 12 is noon.
     pub fn hour(&self, lon_deg: f64, time_secs: f64) -> f64 {
         let (_, star_lon_deg) = self.place(time_secs).to_degrees();
         ((lon_deg - star_lon_deg) / 15.0 + 12.0).rem_euclid(24.0)
     }
 
-    /// Makes it that hour at a longitude.
+    /// Sets the solar hour at a longitude.
     pub fn set_hour(&mut self, hour: f64, lon_deg: f64, time_secs: f64) {
         self.set_place(self.latitude_deg, lon_deg - (hour - 12.0) * 15.0, time_secs);
     }
 
-    /// How far the year has gone since spring, in degrees: at 90 it stands as far north as the tilt of the axis lets it. Of the two seasons
-    /// with the same latitude the one in which days get longer in the north.
+    /// The season as an angle since the northern spring, in degrees: at 90 the star is as far north as the axial tilt
+    /// allows. Of the two seasons with equal latitude, the one in which northern days get longer.
     pub fn season_deg(&self) -> f64 {
         let (latitude, tilt) = (self.latitude_deg.to_radians(), self.tilt_deg.to_radians());
         let share = libm::sin(latitude) / libm::sin(tilt).max(1e-9);
         libm::asin(share.clamp(-1.0, 1.0)).to_degrees()
     }
 
-    /// Makes it that season.
+    /// Sets the season.
     pub fn set_season(&mut self, season_deg: f64) {
         let sine = libm::sin(self.tilt_deg.to_radians()) * libm::sin(season_deg.to_radians());
         self.latitude_deg = (libm::asin(sine.clamp(-1.0, 1.0)).to_degrees() * 100.0).round() / 100.0;
     }
 
-    /// By how much the planet has turned under it.
+    /// The rotation of the planet since time zero.
     fn turned_deg(&self, time_secs: f64) -> f64 {
         if self.day_hours > 0.0 { (time_secs / (self.day_hours * 3600.0)).fract() * 360.0 } else { 0.0 }
     }
 }
 
-/// The same longitude from -180 to 180.
+/// A longitude, wrapped to -180 to 180.
 fn wrapped_deg(degrees: f64) -> f64 {
     if (-180.0..=180.0).contains(&degrees) { degrees } else { (degrees + 180.0).rem_euclid(360.0) - 180.0 }
 }

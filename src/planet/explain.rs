@@ -1,10 +1,10 @@
-//! Parses RON into a type and says what is wrong with it in words that a person who edits presets by hand can use.
+//! Parses RON, and explains errors to a person who edits presets by hand.
 //!
-//! ron names a place and its own idea of what it expected; serde_path_to_error adds the path; the description of the
-//! parameter adds what would be right.
+//! ron reports a position and what it expected; serde_path_to_error adds the path; the description of the parameter
+//! adds what would be right.
 
-use super::param::{Domain, Param, ValueMut};
-use super::{Atmosphere, Bookmark, Clouds, EditorNotes, Layer, Mask, Planet, Problem, Shape, Water, locate};
+use super::param::{Domain, Form, Param, PartType};
+use super::{Mask, Planet, Problem, Shape, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -12,7 +12,7 @@ use serde_path_to_error::Segment;
 
 const TOO_EARLY: &str = "the text ends too early; a closing bracket or a value is missing";
 
-/// How presets are read and written: `shape: Fbm(octaves: 3)` and `water: (level_m: 0.0)` without further brackets.
+/// RON options of presets: `shape: Fbm(octaves: 3)` and `water: (level_m: 0.0)` need no further brackets.
 pub(crate) fn options() -> ron::Options {
     let extensions = Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::IMPLICIT_SOME;
     ron::Options::default().with_default_extension(extensions)
@@ -29,7 +29,7 @@ pub(crate) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, Problem> {
     Ok(value)
 }
 
-/// `layers[2].shape.octaves`: enum variants take no part in it.
+/// The path as in `layers[2].shape.octaves`; enum variants are not part of it.
 fn path_text(path: &serde_path_to_error::Path) -> String {
     let mut text = String::new();
     for segment in path {
@@ -56,7 +56,7 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
             (key_offset(text, &path, field).unwrap_or(stop), format!("`{field}` stands here twice; remove one"))
         }
         Error::MissingStructField { field, .. } => (at_value, format!("`{field}` is missing; add it")),
-        // `octaves: 3.5` is read as 3, and then a comma is missed.
+        // ron reads `octaves: 3.5` as 3 and then misses a comma.
         Error::ExpectedComma if text.get(stop..).is_some_and(|rest| rest.starts_with('.')) => {
             let (path, place) = last_value(text, stop);
             let offset = place.map_or(stop, |place| place.value);
@@ -126,7 +126,7 @@ pub(crate) fn at(text: &str, offset: usize, message: impl Into<String>) -> Probl
     Problem { line, column, path: String::new(), message: message.into() }
 }
 
-/// Where a field's name stands last; ron names the field, but its place is already behind it.
+/// The offset of the last occurrence of a field's name. ron names the field, but reports a position behind it.
 fn key_offset(text: &str, path: &str, field: &str) -> Option<usize> {
     let parent = locate::steps(path);
     let parent = match parent.split_last() {
@@ -143,7 +143,7 @@ fn key_offset(text: &str, path: &str, field: &str) -> Option<usize> {
     key
 }
 
-/// The value that began last before an offset.
+/// The last value that begins before an offset.
 fn last_value(text: &str, before: usize) -> (String, Option<locate::Place>) {
     let mut last = (String::new(), None);
     locate::walk(text, |path, place| {
@@ -155,7 +155,7 @@ fn last_value(text: &str, before: usize) -> (String, Option<locate::Place>) {
     last
 }
 
-/// An unknown name, what was probably meant, and what there is.
+/// The message for an unknown name: a guess of what was meant, and the known names.
 fn stranger(what: &str, found: &str, known: &[&str]) -> String {
     let near = known
         .iter()
@@ -166,25 +166,30 @@ fn stranger(what: &str, found: &str, known: &[&str]) -> String {
     format!("there is no {what} `{found}` here; {meant}use {}", list(known, ""))
 }
 
-/// What stands at an offset and what should.
+/// The message for a value of the wrong type: what was found, and what would be right.
 fn wanted(text: &str, path: &str, offset: usize) -> String {
     let found = locate::excerpt(text, offset);
     let right = match parameter(path) {
         Some((param, names)) => in_words(param, names),
-        None if path.ends_with("layers")
-            || path.ends_with("masks")
-            || path.ends_with("palette")
-            || path.ends_with("bookmarks") =>
-        {
-            "a list: `[(...), (...)]`".to_owned()
-        }
-        None if path.ends_with("table") => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
-        None if path.contains("table[") => "a row of letters: `\"aab\"`".to_owned(),
         None if path == "version" => format!("a whole number, now {}", super::VERSION),
-        None if matches!(path, "water" | "atmosphere" | "clouds" | "editor") => "`(...)` or `None`".to_owned(),
-        None => "`(field: value, ...)`".to_owned(),
+        None => match (form(path), path.ends_with(']')) {
+            (Some(Form::List), false) => "a list: `[(...), (...)]`".to_owned(),
+            (Some(Form::Table), false) => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
+            (Some(Form::Table), true) => "a row of letters: `\"aab\"`".to_owned(),
+            (Some(Form::Optional), false) => "`(...)` or `None`".to_owned(),
+            _ => "`(field: value, ...)`".to_owned(),
+        },
     };
     format!("{found} is not what belongs here; use {right}")
+}
+
+/// The form of the part at a path, or of the part whose element is at the path.
+fn form(path: &str) -> Option<Form> {
+    let name = locate::steps(path).into_iter().rev().find_map(|step| match step {
+        locate::Step::Field(name) => Some(name),
+        locate::Step::Index(_) => None,
+    })?;
+    Planet::all_parts().into_iter().find(|part| part.name == name).map(|part| part.form)
 }
 
 fn in_words(param: &Param, names: &[&str]) -> String {
@@ -208,7 +213,7 @@ fn in_words(param: &Param, names: &[&str]) -> String {
     }
 }
 
-/// How many numbers belong in brackets at a path.
+/// The count of numbers in brackets that a path needs, in words.
 fn numbers(path: &str) -> &'static str {
     match parameter(path) {
         Some((Param { domain: Domain::Curve { .. }, .. }, _)) => "two for each point: `(from, to)`",
@@ -221,9 +226,9 @@ fn list(names: &[&str], after: &str) -> String {
     names.join(", ")
 }
 
-/// The description of the parameter at a path, if it is one, and its values if there are but a few.
+/// The description of the parameter at a path, and the names of its values if it is a choice.
 fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
-    // Any index is as good as 0.
+    // Elements of a list have the same parameters: indices are left out.
     let general = |steps: Vec<locate::Step<'_>>| -> Vec<Option<String>> {
         let name = |step: &locate::Step<'_>| match step {
             locate::Step::Field(name) => Some((*name).to_owned()),
@@ -234,30 +239,16 @@ fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
     let mut wanted = general(locate::steps(path));
     loop {
         let mut found = None;
-        for shape in Shape::all() {
-            specimen(shape).each(&mut |path, param, value| {
+        for planet in <Planet as PartType>::every_kind() {
+            planet.each_value(&mut |path, param, value| {
                 if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
-                    let names = if let ValueMut::Choice(choice) = value { choice.names() } else { &[] };
-                    found = Some((param, names));
+                    found = Some((param, value.names()));
                 }
             });
         }
-        // The component of a colour and the point of a curve are described by the whole.
+        // Components of a colour and points of a curve have the description of the whole.
         if found.is_some() || wanted.pop() != Some(None) {
             return found;
         }
-    }
-}
-
-/// A planet that has every part, so that every parameter can be found in it.
-fn specimen(shape: Shape) -> Planet {
-    let layer = Layer { shape, masks: Mask::all(), ..Layer::default() };
-    Planet {
-        layers: vec![layer],
-        water: Some(Water::default()),
-        atmosphere: Some(Atmosphere::default()),
-        clouds: Some(Clouds::default()),
-        editor: Some(EditorNotes { bookmarks: vec![Bookmark::default()] }),
-        ..Planet::default()
     }
 }

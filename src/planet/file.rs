@@ -1,6 +1,7 @@
-//! Loading and saving a preset, and what can go wrong with either.
+//! Loading and saving a preset, and the errors of both.
 
 use super::locate::Place;
+use super::open::{Opened, open};
 use super::param::ParamPath;
 use super::picture::folder_of;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
@@ -9,23 +10,23 @@ use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Longest preset that is read. A preset with every list at its limit stays far below it.
+/// Longest preset that is read, in bytes. A preset with every list at its limit is far shorter.
 pub const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// One thing that is wrong with a preset.
+/// A problem of a preset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// 1-based line, 0 when the problem has no place in the text.
+    /// Line, from 1; 0 if the problem has no location in the text.
     pub line: usize,
-    /// 1-based column in characters.
+    /// Column in characters, from 1.
     pub column: usize,
-    /// Where in the planet: `layers[2].shape.octaves`; empty for the file as a whole.
+    /// Path in the planet: `layers[2].shape.octaves`; empty for the file as a whole.
     pub path: String,
     /// What is wrong, and what would be right.
     pub message: String,
 }
 
-/// `line:column: path: message`, without the parts that the problem does not have.
+/// `line:column: path: message`, without the elements that the problem lacks.
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.line > 0 {
@@ -54,7 +55,7 @@ pub enum LoadError {
     Invalid {
         /// The file, or a name for the text.
         file: String,
-        /// Everything that is wrong.
+        /// All problems.
         problems: Vec<Problem>,
     },
 }
@@ -113,8 +114,8 @@ impl Planet {
         text::write(self)
     }
 
-    /// Saves atomically: the old file stays until the new one is whole. Paths of pictures are written as they count
-    /// from the new file. A planet that could not be loaded again is refused.
+    /// Saves atomically: the old file stays until the new one is complete. Paths of pictures are rewritten relative to
+    /// the new file. A planet that could not be loaded again is refused.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
         let path = path.as_ref();
         let failed = |message: String| SaveError { path: path.to_owned(), message };
@@ -126,7 +127,7 @@ impl Planet {
     }
 }
 
-/// The text of a file that may be a preset.
+/// The text of a file that should be a preset.
 pub(crate) fn read_text(path: &Path) -> Result<String, LoadError> {
     let file = path.display().to_string();
     let invalid = |problem: Problem| LoadError::Invalid { file, problems: vec![problem] };
@@ -147,7 +148,7 @@ fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
-/// The file's bytes: all of them, or one more than `most` of a longer file.
+/// The bytes of a file: all of them, or `most` and one more of a longer file.
 pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let file = match open(path)? {
         Opened::File(file) => file,
@@ -161,32 +162,12 @@ pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// What stands at a path; links are followed.
-pub(crate) enum Opened {
-    /// A file, ready to be read.
-    File(std::fs::File),
-    /// A folder.
-    Folder,
-    /// A pipe, a device or a socket. It was not opened: whoever reads one may wait for ever.
-    Special,
-}
-
-/// Opens a file to be read, if it is one.
-pub(crate) fn open(path: &Path) -> io::Result<Opened> {
-    let metadata = std::fs::metadata(path)?;
-    Ok(match metadata.file_type() {
-        kind if kind.is_file() => Opened::File(std::fs::File::open(path)?),
-        kind if kind.is_dir() => Opened::Folder,
-        _ => Opened::Special,
-    })
-}
-
-/// The version that the text says it has. Found without reading the rest, which a newer version may write differently.
+/// The version of a text. It is found without parsing the rest, which a newer version may write differently.
 fn version(text: &str) -> Result<u32, Problem> {
     let field = "version";
     let Some(place) = locate::find(text, field) else {
-        // A text that is no preset at all has a better explanation than a missing field.
-        let problem = match explain::parse::<migrate::FileV3>(text) {
+        // For a text that is no preset at all, the parser's message is better than "the version is missing".
+        let problem = match explain::parse::<migrate::CurrentFile>(text) {
             Err(problem) if problem.path.is_empty() && !problem.message.starts_with("there is no field") => problem,
             _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version()) },
         };
@@ -216,7 +197,7 @@ fn start(text: &str) -> usize {
     locate::find(text, "").map_or(0, |place| place.value)
 }
 
-/// Problems of parameters with their places in the text, in its order.
+/// Adds to the problems of parameters their locations in the text, and sorts them by location.
 fn all_placed(file: &str, text: &str, problems: Vec<(ParamPath, String)>) -> LoadError {
     let text = without_mark(text);
     let places = locate::all(text);
@@ -226,7 +207,7 @@ fn all_placed(file: &str, text: &str, problems: Vec<(ParamPath, String)>) -> Loa
     LoadError::Invalid { file: file.to_owned(), problems }
 }
 
-/// A problem of a parameter, at its value or at the nearest part of the text that holds it.
+/// A problem of a parameter, located at its value or at the nearest enclosing value in the text.
 fn placed(text: &str, places: &HashMap<String, Place>, path: String, message: String) -> Problem {
     let mut holder = path.as_str();
     loop {
@@ -241,10 +222,10 @@ fn placed(text: &str, places: &HashMap<String, Place>, path: String, message: St
     }
 }
 
-/// Writes beside the target, waits for the disk, then takes the target's place: a reader finds the old file or the new
-/// one, never half of either, whatever fails in between.
+/// Writes a file beside the target, syncs it to disk, then renames it to the target: a reader finds the old file or the
+/// new one, never a part of either, whatever fails in between.
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    // A link stays a link: what it points to is replaced.
+    // A link stays a link; its target is replaced.
     let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -276,12 +257,12 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> 
         .map_err(|e| failed(&format!("cannot write to the folder {}", folder.display()), &e))?;
     file.write_all(bytes).map_err(|e| failed("cannot write", &e))?;
     if let Some(permissions) = existing {
-        // Not every file system has permissions; the text matters more.
+        // Not every file system has permissions.
         let _ = file.as_file().set_permissions(permissions);
     }
     file.as_file().sync_all().map_err(|e| failed("cannot write", &e))?;
     file.persist(&target).map_err(|e| failed("cannot replace the file", &e.error))?;
-    // The rename itself must reach the disk too. Folders cannot be opened everywhere, and the file is whole already.
+    // The rename must reach the disk, too. Not every system can open folders, and the file is complete already.
     #[cfg(unix)]
     if let Ok(folder) = std::fs::File::open(folder) {
         let _ = folder.sync_all();

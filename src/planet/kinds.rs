@@ -1,15 +1,13 @@
-//! Enums whose every value carries parameters of its own: kinds of layer, kinds of mask.
+//! Enums whose variants carry parameters: kinds of layer, kinds of mask.
 //!
-//! A list of kinds is all that is written; the names, the choice in the panels, the file and the
-//! messages follow from it.
+//! `kinds!` writes the enum, its names, its choice in the panels and its form in the file from one list of variants.
 
 use super::param::{ParamPath, Params, Unit};
 
-/// Writes an enum of kinds from their list; its default is the first. In a file a value is
-/// written `Kind(parameter: 1.0)`.
+/// Writes an enum of kinds from a list. The first kind is the default. A file writes a value as `Kind(parameter: 1.0)`.
 ///
-/// `"name", "Label", stage | stage` describe the choice between the kinds as a parameter; the enum's
-/// documentation is its tooltip.
+/// `"name", "Label", stage | stage` describe the choice between the kinds as a parameter. The documentation of the enum
+/// is the tooltip of that parameter.
 macro_rules! kinds {
     (
         $(#[doc = $enum_doc:literal])+
@@ -24,7 +22,7 @@ macro_rules! kinds {
             /// The names of the kinds, in the order of [`Choice::index`](crate::planet::param::Choice::index).
             pub const NAMES: &'static [&'static str] = &[$( stringify!($kind), )+];
 
-            /// What each kind is, in the same order.
+            /// The description of each kind, in the same order.
             pub const DOCS: &'static [&'static str] = &[$( concat!($($doc),+).trim_ascii_start(), )+];
 
             /// The choice between the kinds.
@@ -37,7 +35,7 @@ macro_rules! kinds {
                 stages: $crate::planet::param::Stages::of(&[$($stage),+]),
             };
 
-            /// One of each kind, with its default parameters.
+            /// Every kind with its default parameters.
             pub fn all() -> Vec<$enum> {
                 vec![$( $enum::$kind($params::default()), )+]
             }
@@ -49,6 +47,10 @@ macro_rules! kinds {
 
             /// The parameters of the kind.
             pub fn params(&mut self) -> &mut dyn $crate::planet::param::Params {
+                match self { $( $enum::$kind(params) => params, )+ }
+            }
+
+            fn params_ref(&self) -> &dyn $crate::planet::param::Params {
                 match self { $( $enum::$kind(params) => params, )+ }
             }
         }
@@ -67,12 +69,20 @@ macro_rules! kinds {
                 let same = |kind: &Self| std::mem::discriminant(kind) == std::mem::discriminant(self);
                 Self::all().iter().position(same).unwrap_or(0)
             }
-            /// Changes the kind and keeps what both kinds have.
+            /// Changes the kind and keeps the parameters that both kinds have.
             fn set_index(&mut self, index: usize) {
                 if let Some(mut kind) = Self::of_kind(index).filter(|_| index != self.index()) {
-                    $crate::planet::kinds::take_over(kind.params(), self.params());
+                    $crate::planet::kinds::take_over(kind.params(), self.params_ref());
                     *self = kind;
                 }
+            }
+        }
+
+        impl $crate::planet::param::PartType for $enum {
+            const FORM: $crate::planet::param::Form = $crate::planet::param::Form::Kind;
+
+            fn every_kind() -> Vec<Self> {
+                Self::all()
             }
         }
 
@@ -85,16 +95,25 @@ macro_rules! kinds {
                 visit(path, &Self::KIND, $crate::planet::param::ValueMut::Choice(self));
                 self.params().each_param(path, visit);
             }
+
+            fn each_value(
+                &self,
+                path: &mut $crate::planet::param::ParamPath,
+                look: &mut $crate::planet::param::Look<'_>,
+            ) {
+                look(path, &Self::KIND, $crate::planet::param::ValueRef::Choice(self));
+                self.params_ref().each_value(path, look);
+            }
         }
     };
 }
 pub(crate) use kinds;
 
-/// Takes over what two kinds both have: parameters of the same name and unit, and the size of the largest feature,
-/// which is the first parameter in kilometres of either.
-pub(super) fn take_over(kind: &mut dyn Params, before: &mut dyn Params) {
+/// Copies from `before` the parameters that both kinds have: those of equal name and unit, and the size of the largest
+/// feature, which is the first parameter in kilometres of each kind.
+pub(super) fn take_over(kind: &mut dyn Params, before: &dyn Params) {
     let mut old = Vec::new();
-    before.each_param(&mut ParamPath::default(), &mut |_, param, value| {
+    before.each_value(&mut ParamPath::default(), &mut |_, param, value| {
         old.push((param.name, param.unit, value.get()));
     });
     let old_size = old.iter().find(|(_, unit, _)| *unit == Unit::Kilometres).map(|(_, _, value)| value.clone());

@@ -1,9 +1,9 @@
-//! Where in a RON text a value stands: a scanner that knows brackets, literals and comments, but no types.
+//! Locations of values in a RON text: a scanner of brackets, literals and comments, without types.
 //!
-//! serde forgets positions as soon as a value is read, and a range is only checked when the whole planet is there. This
-//! walks the text once more and tells for each value its path (`layers[2].shape.octaves`) and its place. It is written
-//! as a loop with its own stack, so that no depth of nesting can overflow the thread's, and it never fails: in a broken
-//! text it reports what it could see before the break.
+//! serde forgets positions once a value is read, and ranges are checked only when the whole planet is there. This
+//! scanner walks the text again and reports the path (`layers[2].shape.octaves`) and offset of each value. It is a loop
+//! with its own stack, so deep nesting cannot overflow the thread's stack. It never fails: of a broken text it reports
+//! the part before the break.
 
 use std::collections::HashMap;
 
@@ -19,9 +19,9 @@ pub(crate) enum Step<'a> {
 /// The place of a value, as byte offsets into the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
-    /// Where the field's name begins; the value itself where it has none.
+    /// Offset of the field's name; of the value if it has no name.
     pub(crate) key: usize,
-    /// Where the value begins.
+    /// Offset of the value.
     pub(crate) value: usize,
 }
 
@@ -109,7 +109,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// `r"…"`, `r#"…"#`, …; `hashes` is what stands between the `r` and the quote.
+    /// `r"…"`, `r#"…"#`, …; `hashes` is the text between the `r` and the quote.
     fn skip_raw_string(&mut self, prefix: usize, hashes: usize) {
         self.at += prefix + hashes + 1;
         self.skip_past(&format!("\"{}", "#".repeat(hashes)));
@@ -128,7 +128,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The next token and where it begins.
+    /// The next token and its offset.
     fn next(&mut self) -> Option<(usize, Token<'a>)> {
         self.skip_space_and_comments();
         let start = self.at;
@@ -203,14 +203,14 @@ impl<'a> Tokens<'a> {
 
 /// An open bracket.
 struct Frame {
-    /// `Some(…)` and `Fbm(…)`: what stands inside without a name is the value itself and takes no step.
+    /// `Some(…)` and `Fbm(…)`: an unnamed content is the value itself and adds no step to the path.
     transparent: bool,
     index: usize,
-    /// Whether the element under way has put a step on the path.
+    /// Whether the current element has added a step to the path.
     stepped: bool,
     /// Whether its value has begun.
     begun: bool,
-    /// Where its name begins.
+    /// Offset of its name.
     key: Option<usize>,
 }
 
@@ -317,7 +317,7 @@ pub(crate) fn find(text: &str, path: &str) -> Option<Place> {
     found
 }
 
-/// The place of every value, by its path; what lies deeper than any preset goes is left out.
+/// The place of every value by path, down to the depth of any preset.
 pub(crate) fn all(text: &str) -> HashMap<String, Place> {
     const DEEPEST: usize = 8;
     let mut places = HashMap::new();
@@ -344,7 +344,7 @@ pub(crate) fn offset(text: &str, line: usize, column: usize) -> usize {
     line_start + rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(i, _)| i)
 }
 
-/// The text of the value (or other token) at an offset, for messages; long ones are cut.
+/// The text of the token at an offset, shortened, for messages.
 pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     const MOST_CHARS: usize = 40;
     let mut tokens = Tokens { text, at: offset };

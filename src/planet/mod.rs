@@ -1,16 +1,18 @@
 //! What a planet is: plain data, its description, its file.
 //!
-//! - [`param`]: one description for each parameter and the visitor that reaches them all
-//! - [`layers`], [`shapes`], [`masks`], [`parts`], [`biome`], [`table`]: the preset's data (terrain layers; their kinds; where
-//!   they act; everything else; one kind of ground; the biome table); `kinds` writes the enums whose values carry parameters
-//! - `airs`, `tables`, `star_color`: atmospheres and biome tables to start from; the colour of a star by its temperature
-//! - [`diff`]: which parameters two planets differ in, and which stages of a rebuild that makes stale
-//! - [`validate`]: what serde cannot see: ranges, names that refer to each other, the table's shape
-//! - [`mod@file`]: loading and saving; `text` writes a preset, `explain` reads one and words what is wrong with it,
-//!   `locate` knows lines and columns, `migrate` old versions
-//! - [`picture`]: pictures that a preset refers to
+//! - [`param`]: one description for each parameter and each part, and the visitors of all parameters
+//! - [`layers`], [`shapes`] (landforms), [`masks`], [`parts`] (climate to star), [`biome`], [`table`] (the biome
+//!   table): the data of a preset; `kinds` writes enums whose variants carry parameters
+//! - `airs`, `tables`, `star_color`, `day`: starting atmospheres and biome tables; the colour of a star by temperature;
+//!   its position by hour and season
+//! - [`diff`]: which parameters two planets differ in
+//! - [`key`]: content keys
+//! - [`validate`]: ranges, references between names, the shape of the biome table
+//! - [`mod@file`]: loading and saving; `open` opens files, `text` writes a preset, `explain` parses one and explains
+//!   errors, `locate` finds lines and columns, `migrate` reads old versions
+//! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`shipped`]: the presets that come with the program
-//! - [`notes`]: what the editor keeps in a preset for itself
+//! - [`notes`]: the editor's own section of a preset
 //! - [`random`]: random planets that are always valid
 
 mod airs;
@@ -19,15 +21,18 @@ mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
+pub mod key;
 pub(crate) mod kinds;
 pub mod layers;
 pub(crate) mod locate;
 pub mod masks;
 pub(crate) mod migrate;
 pub mod notes;
+mod open;
 pub mod param;
 pub mod parts;
 pub mod picture;
+mod pictures;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
@@ -40,10 +45,11 @@ pub mod validate;
 pub use airs::{STARTING_AIRS, StartingAir};
 pub use biome::{Biome, Detail, Steep};
 pub use file::{LoadError, Problem, SaveError};
+pub use key::Key;
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
-pub use parts::{Atmosphere, Biomes, Climate, Clouds, Star, TableBlend, TableRows, Water};
+pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
@@ -54,7 +60,7 @@ pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
 pub use validate::InvalidPlanet;
 
-use param::{Curve, Domain, ParamPath, Params, Stage, Unit, choice, log, params};
+use param::{Curve, Domain, ParamPath, Params, Part, PartType, Stage, Unit, choice, log, params};
 use serde::{Deserialize, Serialize};
 
 /// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
@@ -67,10 +73,10 @@ pub const MAX_LAYERS: usize = 64;
 /// Most masks a layer may have.
 pub const MAX_MASKS: usize = 8;
 
-/// Most distances over which the slope masks of a planet may measure, all different.
+/// Most different distances over which the slope masks of a planet may measure.
 pub const MAX_SLOPE_DISTANCES: usize = 6;
 
-/// Reach of the curve over heights, and how close its points may stand.
+/// Domain of the curve over heights, in metres.
 const HEIGHT_CURVE: Domain = Domain::Curve { most: 100_000.0, least_step: 1.0 };
 
 /// Most biomes a palette may have.
@@ -79,17 +85,17 @@ pub const MAX_BIOMES: usize = 64;
 params! {
     /// A whole planet, as saved in a preset.
     pub struct Planet {
-        /// What the planet is called.
+        /// Name of the planet.
         name: String = "Unnamed".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 64 }, Stage::Label;
-        /// Start of every pseudo-random sequence of this planet: each layer's own seed is mixed with it.
+        /// Seed of the planet, mixed into the seed of every layer, the climate and the clouds.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
         radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
-        /// How exactly heights are found. Classic is how presets before version 3 were made, and keeps their heights to
-        /// the bit; Millimetre is smooth underfoot on the highest mountains.
+        /// Precision of the heights. Classic is the arithmetic of presets before version 3 and keeps their heights bit
+        /// for bit; Millimetre is smooth underfoot on the highest mountains.
         precision: Precision = Precision::Millimetre, "Precision", Unit::None, Domain::Choice, Stage::Field;
-        /// Reshapes the height that the layers make together: points (height, what it becomes). Empty leaves it as it
-        /// is; beyond its ends the curve goes on straight.
+        /// Reshapes the combined height of all layers: points (height, new height). An empty curve changes nothing.
+        /// Beyond its ends the curve is a straight line.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;
     } with {
         /// The star that lights the planet.
@@ -98,7 +104,7 @@ params! {
         layers: Vec<Layer> = Vec::new();
         /// Temperature and moisture over the globe.
         climate: Climate = Climate::default();
-        /// What kind of ground lies where.
+        /// The biome table, its palette and the surface rules.
         biomes: Biomes = Biomes::default();
         /// The sea, or None.
         water: Option<Water> = None;
@@ -106,7 +112,7 @@ params! {
         atmosphere: Option<Atmosphere> = None;
         /// The clouds, or None.
         clouds: Option<Clouds> = None;
-        /// What only the editor reads, or None.
+        /// The editor's own section, or None.
         editor: Option<EditorNotes> = None;
     }
 }
@@ -117,24 +123,36 @@ impl Planet {
         self.radius_km * 1000.0
     }
 
-    /// Height of the sea's surface above the reference sphere, if there is a sea.
+    /// Sea level in metres above the reference sphere, if there is a sea.
     pub fn sea_level_m(&self) -> Option<f64> {
         self.water.as_ref().map(|water| water.level_m)
     }
 
-    /// Calls `visit` for each parameter of the planet, in the order of the file.
+    /// Every part of a planet, at any depth.
+    pub fn all_parts() -> Vec<&'static Part> {
+        let mut parts = Vec::new();
+        <Self as PartType>::each_part(&mut |part| parts.push(part));
+        parts
+    }
+
+    /// Calls `visit` for each parameter of the planet in the order of the file, to be changed.
     pub fn each(&mut self, visit: &mut param::Visit<'_>) {
-        self.each_param(&mut ParamPath::default(), visit);
+        Params::each_param(self, &mut ParamPath::default(), visit);
+    }
+
+    /// Calls `look` for each parameter of the planet in the order of the file.
+    pub fn each_value(&self, look: &mut param::Look<'_>) {
+        Params::each_value(self, &mut ParamPath::default(), look);
     }
 }
 
 choice! {
-    /// How exactly heights are found.
+    /// Precision of the heights.
     pub enum Precision {
         /// Within a millimetre of f64 throughout at 8 km of amplitude.
         Millimetre = "Millimetre",
-        /// As before version 3: a third of a millimetre off for each kilometre of amplitude, and more for some kinds of
-        /// layer.
+        /// As before version 3: an error of a third of a millimetre for each kilometre of amplitude, and more for some
+        /// landforms.
         Classic = "Classic",
     }
 }

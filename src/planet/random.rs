@@ -2,11 +2,10 @@
 //!
 //! - `dice`: the pseudo-random numbers
 //! - `lands`: layers that suit a kind of world
-//! - `grounds`: biomes that follow from a climate
+//! - `grounds`: biomes that suit a climate
 //!
-//! [`random`] makes a planet from nothing: a few layers that build on each other, a climate, and biomes that follow
-//! from it. [`vary`] moves the numbers of a planet that there is. Neither knows more of a parameter than its
-//! description, where that is enough.
+//! [`random`] makes a planet: a few layers that build on each other, a climate, and biomes that suit it. [`vary`] moves
+//! the numbers of an existing planet. Both use the descriptions of parameters wherever those suffice.
 
 mod dice;
 mod grounds;
@@ -16,10 +15,10 @@ use super::param::Stage;
 use super::{Atmosphere, Climate, Clouds, Mask, Planet, Precision, Star, Water, validate};
 use dice::{Dice, three_digits};
 
-/// A random planet that is always valid; the same seed gives the same planet.
+/// A random planet. Always valid; the same seed gives the same planet.
 pub fn random(seed: u64) -> Planet {
     let mut dice = Dice(seed);
-    // The climate decides the rest: what is frozen has no clouds, what is hot no sea.
+    // The climate decides the rest: a frozen world has no clouds, a hot one no sea.
     let kind =
         *dice.pick(&[Kind::Temperate, Kind::Temperate, Kind::Temperate, Kind::Cold, Kind::Hot, Kind::Dry, Kind::Bare]);
     let radius_km = dice.rounded_log(if kind == Kind::Bare { 400.0 } else { 2500.0 }, 12_000.0);
@@ -34,7 +33,7 @@ pub fn random(seed: u64) -> Planet {
     });
     let air = kind != Kind::Bare && (water.is_some() || dice.chance(0.7));
     let clouds = (air && dice.chance(if water.is_some() { 0.9 } else { 0.4 })).then(|| Clouds {
-        // On ice they would hide white behind white, and deserts have few.
+        // Over ice, clouds would hide white behind white; deserts have few.
         coverage: if kind == Kind::Temperate { dice.rounded(0.2, 0.5) } else { dice.rounded(0.1, 0.35) },
         scale_km: three_digits(radius_km * dice.between(0.2, 0.5)),
         curl: dice.rounded(0.3, 1.2),
@@ -68,7 +67,7 @@ pub fn random(seed: u64) -> Planet {
 /// A variation of a planet: its numbers moved by up to `strength` (0 to 1) of their range;
 /// always valid if the planet is.
 ///
-/// Names, letters, switches and choices stay: it is the same planet, only different.
+/// Names, letters, switches and choices stay the same.
 pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     let strength = if strength.is_finite() { strength.clamp(0.0, 1.0) } else { 0.0 };
     let mut dice = Dice(seed);
@@ -79,7 +78,7 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
             value.set(&new);
         }
     });
-    // What several numbers must agree on.
+    // Rules that involve several numbers.
     let biomes = &mut varied.biomes;
     if biomes.coldest_c >= biomes.hottest_c {
         (biomes.coldest_c, biomes.hottest_c) = (planet.biomes.coldest_c, planet.biomes.hottest_c);
@@ -96,7 +95,7 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
             if from.1 == to.1 {
                 *mask = old.clone();
             }
-            // Slope masks that measure over one distance go on sharing it, for there may be only a few.
+            // Slope masks that measure over one distance keep sharing it, because only a few distances are allowed.
             if let (Mask::Slope(slope), Mask::Slope(old)) = (mask, old) {
                 slope.over_m = old.over_m;
             }
@@ -105,13 +104,13 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
     varied
 }
 
-/// What sort of world.
+/// The kind of world.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Temperate,
     Cold,
     Hot,
-    /// Without a sea, but not so hot.
+    /// Without a sea, and not too hot.
     Dry,
     /// Without air: a moon.
     Bare,
@@ -140,7 +139,7 @@ fn climate(kind: Kind, radius_km: f64, dice: &mut Dice) -> Climate {
 
 fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
     let earth = Atmosphere::default();
-    // Thin on cold worlds, thick on hot ones; dust makes the sky yellow and red.
+    // Thin on cold worlds, thick on hot ones; dust turns the sky yellow and red.
     let thickness = match kind {
         Kind::Hot => dice.between(0.6, 1.6),
         Kind::Dry => dice.between(0.1, 0.7),
@@ -202,7 +201,7 @@ mod tests {
         assert_eq!(vary(&planet, 9, 0.3), vary(&planet, 9, 0.3));
     }
 
-    /// All that the evaluator can do turns up, but for pictures, which there are none of.
+    /// Every feature of the evaluator occurs, except pictures.
     #[test]
     fn every_kind_of_layer_is_used() {
         let planets: Vec<_> = (0..64).map(random).collect();

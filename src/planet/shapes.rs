@@ -1,18 +1,18 @@
-//! The kinds of terrain layer and the parameters of each. How a kind is evaluated stands in the file of the same
-//! name in `terrain/landform`.
+//! The landforms, the kinds of terrain layer, and the parameters of each. `terrain/landform` evaluates them, in files
+//! of the same names.
 //!
-//! A new kind: its parameters here, one line in the list of kinds, one file in `terrain/landform`. The list of names,
-//! the panels, the file and the messages follow from these.
+//! A new landform needs its parameters and a line in the list here, and a file in `terrain/landform`. Panels, file
+//! format and messages follow.
 
 use super::kinds::kinds;
 use super::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 use super::picture::{PictureFile, PictureLayout};
 
-/// Writes the enum from the list of kinds, each of which is also the name of its parameters.
+/// Writes the enum from the list of landforms. Each name is also the name of a struct of parameters.
 macro_rules! shapes {
     ($( $(#[doc = $doc:literal])+ $kind:ident, )+) => {
         kinds! {
-            /// The kind of terrain that this layer is made of.
+            /// The landform of the layer.
             pub enum Shape: "shape", "Kind", Stage::Field;
             $( $(#[doc = $doc])+ $kind($kind), )+
         }
@@ -26,17 +26,17 @@ shapes! {
     Ridged,
     /// Impact craters of many sizes.
     Craters,
-    /// Steps cut into the ground that the layers before have made.
+    /// Steps cut into the ground of the earlier layers.
     Terraces,
     /// Rounded hills between creased valleys: octaves of folded noise.
     Billow,
-    /// Smooth valleys and rough peaks: octaves that count less where the ground is steep already.
+    /// Smooth valleys and rough peaks: octaves that are weaker where the ground is steep.
     Damped,
     /// Swirling, folded ground: octaves summed at points displaced by other noise.
     Warped,
     /// Continents and oceans with shelves, slopes and abyssal plains: the base of most planets.
     Continents,
-    /// Dunes: crests across the wind, gentle before it and steep behind.
+    /// Dunes: crests across the wind, gentle on the windward side and steep on the lee.
     Dunes,
     /// Eroded mountains: gullies and ridges that run down the slope and branch.
     Gullies,
@@ -48,8 +48,31 @@ shapes! {
     HeightMap,
 }
 
+/// Writes the parameters of a landform that sums octaves of lacunarity 2: those before the octaves, the three of the
+/// octaves with these defaults, and the rest.
+macro_rules! octaves {
+    (
+        $(#[doc = $doc:literal])+
+        pub struct $name:ident: $octaves:literal octaves, gain $gain:literal { $($before:tt)* } then { $($rest:tt)* }
+    ) => {
+        params! {
+            $(#[doc = $doc])+
+            pub struct $name {
+                $($before)*
+                /// Number of octaves; each further one halves the smallest feature (at lacunarity 2).
+                octaves: u32 = $octaves, "Octaves", Unit::None, count(1, 24), Stage::Field;
+                /// Amplitude of each octave relative to the previous one: higher is rougher.
+                gain: f64 = $gain, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
+                /// Frequency of each octave relative to the previous one.
+                lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+                $($rest)*
+            }
+        }
+    };
+}
+
 impl Shape {
-    /// An amplitude that suits the kind at its default size: what a new layer begins with.
+    /// The amplitude of a new layer, which suits the default size of the landform.
     pub fn usual_amplitude_m(&self) -> f64 {
         match self {
             Shape::Continents(_) | Shape::HeightMap(_) => 5000.0,
@@ -62,34 +85,23 @@ impl Shape {
     }
 }
 
-params! {
-    /// Fractal Brownian motion: octaves of gradient noise, each finer and weaker than the one before, summed and
-    /// divided by the sum of their strengths.
-    pub struct Fbm {
-        /// Distance from crest to crest of the coarsest octave.
+octaves! {
+    /// Fractal Brownian motion: octaves of gradient noise, each finer and weaker than the previous one, summed and
+    /// divided by the sum of their amplitudes.
+    pub struct Fbm: 12 octaves, gain 0.5 {
+        /// Wavelength of the coarsest octave.
         wavelength_km: f64 = 2000.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
-        octaves: u32 = 12, "Octaves", Unit::None, count(1, 24), Stage::Field;
-        /// Strength of each octave against the one before: higher is rougher.
-        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
-        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-    }
+    } then {}
 }
 
-params! {
-    /// Ridged multifractal (Musgrave): noise folded at zero into crests; each octave is strong where the one before
-    /// was, so that valleys stay smooth and crests grow sharp. Shifted to about -1 (valley) to 1 (crest).
-    pub struct Ridged {
+octaves! {
+    /// Ridged multifractal (Musgrave): noise folded at zero into crests. Each octave is scaled by the previous one, so
+    /// that valleys stay smooth and crests grow sharp. From about -1 (valley) to 1 (crest).
+    pub struct Ridged: 12 octaves, gain 0.5 {
         /// Distance between neighbouring ranges of the coarsest octave.
         wavelength_km: f64 = 800.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
-        octaves: u32 = 12, "Octaves", Unit::None, count(1, 24), Stage::Field;
-        /// Strength of each octave against the one before: higher is rougher.
-        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
-        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// How much a crest of one octave strengthens the next: 0 is rough everywhere, 2 keeps valleys smooth.
+    } then {
+        /// How much a crest of one octave amplifies the next: 0 is rough everywhere, 2 keeps valleys smooth.
         feedback: f64 = 2.0, "Feedback", Unit::None, linear(0.0, 4.0), Stage::Field;
     }
 }
@@ -99,116 +111,99 @@ params! {
     pub struct Craters {
         /// Diameter of the widest craters.
         diameter_km: f64 = 200.0, "Diameter", Unit::Kilometres, log(0.001, 50_000.0), Stage::Field;
-        /// How many sizes there are; each one more halves the smallest crater (at lacunarity 2).
+        /// Number of sizes; each further one halves the smallest crater (at lacunarity 2).
         octaves: u32 = 7, "Octaves", Unit::None, count(1, 20), Stage::Field;
-        /// Depth of each size against the one before.
+        /// Depth of each size relative to the previous one.
         gain: f64 = 0.55, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Smallness of each size against the one before.
+        /// Frequency of each size relative to the previous one.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// Share of the ground that has been hit, for each size; with a power of counts, by the widest.
+        /// Share of the ground covered by craters of each size; with a power of counts, by those of the widest size.
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
-        /// How much more numerous craters are the smaller they are: the power of their cumulative count, about 2.4 on
-        /// moons, until the ground is full of them. At 0 the sizes are mixed evenly.
+        /// Exponent of the cumulative count of craters by diameter, about 2.4 on moons; counts stop where the ground is
+        /// full. At 0 every size covers an equal share.
         power: f64 = 2.4, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
-        /// Height of the rim against the depth of the bowl.
+        /// Height of the rim relative to the depth of the bowl.
         rim: f64 = 0.28, "Rim", Unit::None, linear(0.0, 0.6), Stage::Field;
-        /// How far the ejecta reach, in radii of the crater.
+        /// Reach of the ejecta in crater radii.
         ejecta: f64 = 1.6, "Ejecta", Unit::None, linear(1.1, 1.6), Stage::Field;
-        /// How much of the radius of the widest craters is flat floor; small craters are bowls.
+        /// Share of the radius that is flat floor in the widest craters; small craters are bowls.
         floor: f64 = 0.45, "Flat floor", Unit::None, linear(0.0, 0.8), Stage::Field;
-        /// Height of the peak in the middle of the widest craters against their depth.
+        /// Height of the central peak of the widest craters relative to their depth.
         peak: f64 = 0.3, "Central peak", Unit::None, linear(0.0, 1.0), Stage::Field;
-        /// How worn the oldest craters are: shallow, without a rim. Each crater has its own age up to this.
+        /// Erosion of the oldest craters, which are shallow and rimless at 1. Each crater has its own age up to this.
         age: f64 = 0.7, "Age", Unit::None, linear(0.0, 1.0), Stage::Field;
-        /// Share of craters that are fresh whatever the age of the rest.
+        /// Share of craters that are fresh, whatever the age of the others.
         fresh: f64 = 0.1, "Fresh", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 
 params! {
-    /// Terraces: the height made by the layers before is cut into flat treads with steep risers between them, one step
-    /// for each `amplitude_m`. The layer's noise is the way from that height to its step, -0.5 to 0.5, so that it
-    /// belongs with the blend Add. Masks on it look at the noise of its waviness.
+    /// Terraces: cuts the height of the earlier layers into flat treads with steep risers, one step for each
+    /// `amplitude_m`. The layer's value is the difference from that height to its step, -0.5 to 0.5, so the blend
+    /// should be Add. Masks that refer to the layer read the noise of its waviness.
     pub struct Terraces {
-        /// How flat the treads are and how steep the risers: 0 leaves the ground as it is, 1 makes stairs.
+        /// Flatness of the treads and steepness of the risers: 0 changes nothing, 1 makes stairs.
         sharpness: f64 = 0.8, "Sharpness", Unit::None, linear(0.0, 1.0), Stage::Height;
-        /// How far noise raises and lowers the steps, as a share of a step.
+        /// How far noise raises and lowers the steps, as a share of a step's height.
         waviness: f64 = 0.5, "Waviness", Unit::None, linear(0.0, 4.0), Stage::Height;
-        /// Distance from crest to crest of that noise's coarsest octave.
+        /// Wavelength of the coarsest octave of that noise.
         wavelength_km: f64 = 30.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves that noise has; each one more halves the smallest feature.
+        /// Number of octaves of that noise; each further one halves the smallest feature.
         octaves: u32 = 4, "Octaves", Unit::None, count(1, 24), Stage::Field;
     }
 }
 
-params! {
-    /// Billow noise: each octave folded at zero, the other way round than `Ridged`, so that hills are round and the
-    /// valleys between them creases. From -1 (valleys) to 1 (tops).
-    pub struct Billow {
+octaves! {
+    /// Billow noise: each octave is folded at zero like `Ridged`, but upside down, so that hills are round and the
+    /// valleys between them are creases. From -1 (valleys) to 1 (tops).
+    pub struct Billow: 8 octaves, gain 0.4 {
         /// Distance between neighbouring hills of the coarsest octave.
         wavelength_km: f64 = 100.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
-        octaves: u32 = 8, "Octaves", Unit::None, count(1, 24), Stage::Field;
-        /// Strength of each octave against the one before: higher is rougher.
-        gain: f64 = 0.4, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
-        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-    }
+    } then {}
 }
 
-params! {
-    /// Slope-damped fractal noise (Quilez): an octave counts less where those before it have made the ground
-    /// steep, as if rain had worn the slopes down into wide, smooth valleys below rough peaks. About -1 to 1;
-    /// damping lowers the mean.
-    pub struct Damped {
-        /// Distance from crest to crest of the coarsest octave.
+octaves! {
+    /// Slope-damped fractal noise (Quilez): an octave is weaker where the previous octaves are steep, which leaves
+    /// wide, smooth valleys below rough peaks. About -1 to 1; damping lowers the mean.
+    pub struct Damped: 12 octaves, gain 0.5 {
+        /// Wavelength of the coarsest octave.
         wavelength_km: f64 = 400.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
-        octaves: u32 = 12, "Octaves", Unit::None, count(1, 24), Stage::Field;
-        /// Strength of each octave against the one before: higher is rougher.
-        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
-        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// How strongly slope smooths: 0 is plain fractal noise.
+    } then {
+        /// Strength of the damping by slope: 0 is plain fractal noise.
         damping: f64 = 0.12, "Damping", Unit::None, log(0.0, 4.0), Stage::Field;
     }
 }
 
-params! {
-    /// Fractal noise at points displaced by another fractal noise, which draws its features out into swirls
-    /// and folds. About -1 to 1.
-    pub struct Warped {
-        /// Distance from crest to crest of the coarsest octave.
+octaves! {
+    /// Fractal noise at points that another fractal noise displaces into swirls and folds. About -1 to 1.
+    pub struct Warped: 12 octaves, gain 0.5 {
+        /// Wavelength of the coarsest octave.
         wavelength_km: f64 = 1000.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
-        octaves: u32 = 12, "Octaves", Unit::None, count(1, 24), Stage::Field;
-        /// Strength of each octave against the one before: higher is rougher.
-        gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
-        lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
+    } then {
         /// How far points are displaced.
         warp_km: f64 = 300.0, "Warp", Unit::Kilometres, log(0.0, 100_000.0), Stage::Field;
         /// Distance over which the displacement changes.
         warp_wavelength_km: f64 = 1000.0, "Warp wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves the displacement has: 1 bends, more curl and fray.
+        /// Number of octaves of the displacement: 1 bends the terrain, more curl and fray it.
         warp_octaves: u32 = 3, "Warp octaves", Unit::None, count(1, 8), Stage::Field;
     }
 }
 
 params! {
-    /// Continents and oceans: warped fractal noise, put through a profile with shares of the surface as on the
-    /// Earth. -1 is the abyssal plain, 0 the coast; a continental slope leads up to the shelf, a coastal plain
-    /// to the interior, up to 1.
+    /// Continents and oceans: warped fractal noise, mapped through a profile whose shares of the surface are like the
+    /// Earth's. -1 is the abyssal plain, 0 the coast, 1 the highest interior. A continental slope leads up to the
+    /// shelf, a coastal plain to the interior.
     pub struct Continents {
         /// Size of the continents.
         wavelength_km: f64 = 5500.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves are summed; each one more halves the smallest feature (at lacunarity 2).
+        /// Number of octaves; each further one halves the smallest feature (at lacunarity 2).
         octaves: u32 = 14, "Octaves", Unit::None, count(1, 24), Stage::Field;
-        /// Strength of each octave against the one before: higher frays the coasts and scatters islands.
+        /// Amplitude of each octave relative to the previous one: higher frays the coasts and scatters islands.
         gain: f64 = 0.56, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
+        /// Frequency of each octave relative to the previous one.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// Displacement of the coasts against the wavelength: 0 is blobs, more draws out peninsulas, gulfs and straits.
+        /// Displacement of the coasts relative to the wavelength: 0 makes blobs, more makes peninsulas, gulfs and
+        /// straits.
         warp: f64 = 0.3, "Warp", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Share of the surface that lies above 0.
         land: f64 = 0.32, "Land", Unit::None, linear(0.02, 0.98), Stage::Field;
@@ -218,113 +213,113 @@ params! {
 }
 
 params! {
-    /// Dunes: crests that stand across the wind, fork and end as real ones do, from -1 (trough) to 1 (crest).
+    /// Dunes: crests across the wind that fork and end, from -1 (trough) to 1 (crest).
     pub struct Dunes {
         /// Distance from crest to crest of the largest dunes.
         wavelength_km: f64 = 1.5, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many sizes of dunes ride on one another.
+        /// Number of sizes of dunes; smaller ones lie on larger ones.
         octaves: u32 = 2, "Octaves", Unit::None, count(1, 8), Stage::Field;
-        /// Height of each size against the one before.
+        /// Height of each size relative to the previous one.
         gain: f64 = 0.2, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Smallness of each size against the one before.
+        /// Frequency of each size relative to the previous one.
         lacunarity: f64 = 4.0, "Lacunarity", Unit::None, linear(1.5, 10.0), Stage::Field;
         /// Heading towards which the wind blows: 0 is north, 90 east.
         wind_deg: f64 = 90.0, "Wind", Unit::Degrees, linear(-180.0, 360.0), Stage::Field;
-        /// How much steeper the lee is than the side before the wind: 0 is as steep, 1 breaks off at a sharp crest.
+        /// Steepness of the lee relative to the windward side: 0 is equal, 1 is a sharp crest with a steep lee.
         asymmetry: f64 = 0.8, "Asymmetry", Unit::None, linear(0.0, 1.0), Stage::Field;
-        /// How far the crests bend to and fro.
+        /// How far the crests bend.
         waviness: f64 = 0.5, "Waviness", Unit::None, linear(0.0, 2.0), Stage::Field;
     }
 }
 
 params! {
-    /// Mountains as running water carves them: smooth relief, and gullies that run down its slopes and branch.
+    /// Mountains carved by running water: a smooth base, and gullies that run down its slopes and branch.
     pub struct Gullies {
-        /// Distance from crest to crest of the relief that is carved.
+        /// Wavelength of the base that is carved.
         wavelength_km: f64 = 60.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves the relief has. Those much coarser than the gullies lead them; finer
-        /// ones roughen the ground.
+        /// Number of octaves of the base. Octaves much coarser than the gullies direct them; finer ones roughen the
+        /// ground.
         octaves: u32 = 2, "Octaves", Unit::None, count(1, 16), Stage::Field;
-        /// Strength of each octave, of the relief as of the gullies, against the one before.
+        /// Amplitude of each octave of base and gullies relative to the previous one.
         gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave, of the relief as of the gullies, against the one before.
+        /// Frequency of each octave of base and gullies relative to the previous one.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
-        /// Distance between neighbouring gullies of the coarsest kind.
+        /// Distance between neighbouring gullies of the coarsest octave.
         gully_km: f64 = 8.0, "Gullies", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many octaves of gullies branch off one another.
+        /// Number of octaves of gullies; each branches off the previous one.
         gully_octaves: u32 = 5, "Gully octaves", Unit::None, count(1, 16), Stage::Field;
-        /// How deep the gullies are against their width: 1 is about as steep as the relief.
+        /// Depth of the gullies relative to their width: at 1 they are about as steep as the base.
         depth: f64 = 1.0, "Depth", Unit::None, linear(0.0, 4.0), Stage::Field;
     }
 }
 
 params! {
-    /// Valleys along the zero lines of warped noise: 0 outside them, -1 on the floor of the largest.
+    /// Valleys along the zero lines of warped noise: 0 outside the valleys, -1 on the floor of the largest.
     pub struct Canyons {
         /// Distance between the largest valleys.
         wavelength_km: f64 = 200.0, "Wavelength", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// How many sizes of valley there are: 1 is the largest alone, each one more adds tributaries.
+        /// Number of sizes of valleys: 1 is only the largest, each further one adds tributaries.
         octaves: u32 = 3, "Octaves", Unit::None, count(1, 12), Stage::Field;
-        /// Depth of tributaries against the valleys that they lead to.
+        /// Depth of tributaries relative to the valleys that they join.
         gain: f64 = 0.6, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Smallness of tributaries, in width and distance, against the valleys that they lead to.
+        /// How many times smaller tributaries are, in width and distance, than the valleys that they join.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// Width of the largest valleys from rim to rim.
         width_km: f64 = 8.0, "Width", Unit::Kilometres, log(0.001, 10_000.0), Stage::Field;
-        /// Share of the width that is flat floor: 0 is a valley like a V, near 1 a trench between cliffs.
+        /// Share of the width that is flat floor: 0 is a V-shaped valley, near 1 a trench between cliffs.
         steepness: f64 = 0.35, "Steepness", Unit::None, linear(0.0, 0.95), Stage::Field;
-        /// How far the valleys wind: 0 is nearly straight.
+        /// Strength of the meanders: 0 is nearly straight.
         meander: f64 = 0.5, "Meander", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 
 params! {
-    /// Cells: each point of the ground belongs to the nearest of many scattered centres.
+    /// Cells: each point belongs to the nearest of many scattered centres.
     pub struct Cells {
         /// Distance between neighbouring centres of the coarsest octave, on average.
         cell_km: f64 = 800.0, "Cell size", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
-        /// What is made of the cells.
+        /// Plates, cracks or domes.
         style: CellStyle = CellStyle::Plates, "Style", Unit::None, Domain::Choice, Stage::Field;
-        /// Width of the slopes between plates, or of the cracks, in cells. Domes have none.
+        /// Width of the slopes between plates, or of the cracks, in cells. Bumps ignore it.
         width: f64 = 0.2, "Border width", Unit::None, log(0.005, 1.0), Stage::Field;
-        /// How irregular the cells are: at 0 the centres stand in rows.
+        /// Irregularity of the cells: at 0 the centres are a regular grid.
         jitter: f64 = 1.0, "Jitter", Unit::None, linear(0.0, 1.0), Stage::Field;
-        /// How many octaves are summed, each of smaller cells.
+        /// Number of octaves, each of smaller cells.
         octaves: u32 = 1, "Octaves", Unit::None, count(1, 12), Stage::Field;
-        /// Strength of each octave against the one before: higher is rougher.
+        /// Amplitude of each octave relative to the previous one: higher is rougher.
         gain: f64 = 0.5, "Gain", Unit::None, linear(0.05, 0.95), Stage::Field;
-        /// Fineness of each octave against the one before.
+        /// Frequency of each octave relative to the previous one.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
     }
 }
 
 choice! {
-    /// What is made of cells.
+    /// The form of the cells.
     pub enum CellStyle {
-        /// Each cell is a plain at a random level, -1 to 1, and slopes join them.
+        /// Each cell is a plain at a random level, -1 to 1; slopes connect them.
         Plates = "Plates",
-        /// The borders are cracks, from 0 (the ground) down to -1.
+        /// The borders are cracks, from 0 (ground) down to -1.
         Cracks = "Cracks",
-        /// Each cell is a dome, from 1 (its top) down to about 0 where it meets the next.
+        /// Each cell is a dome, from 1 (top) down to about 0 at the border.
         Bumps = "Bumps",
     }
 }
 
 params! {
-    /// A height map: a grey picture of the whole planet, smoothed by about one of its pixels. Without a picture it is 0
+    /// A height map: a grey picture of the whole planet, smoothed by about one pixel. Without a picture it is 0
     /// everywhere.
     pub struct HeightMap {
         /// The picture: PNG (8 or 16 bits; black is 0, white is 1) or OpenEXR (channel Y, or else L, R or the first;
-        /// numbers as they are), of at most 16384 x 8192 pixels. The path counts from the preset's folder.
+        /// unscaled), of at most 16384 x 8192 pixels. The path is relative to the preset's folder, or absolute.
         file: PictureFile = PictureFile::default(), "File", Unit::None, Domain::File { max_chars: 256 }, Stage::Field;
         /// How the picture covers the planet. Equirectangular: twice as wide as high, north up, longitude 0 in the
         /// middle. CubeCross: 4 x 3 squares; -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X. CubeStrip: the
-        /// same squares in one row or column, in the order +X, -X, +Y, -Y, +Z, -Z. +X is at longitude 0, +Y at 90°
-        /// east, +Z at the north pole; faces are seen from outside, as flat 90° pictures.
+        /// six squares in one row or column, in the order +X, -X, +Y, -Y, +Z, -Z. +X is at longitude 0, +Y at 90°
+        /// east, +Z at the north pole. Each face is a flat 90° view from outside.
         layout: PictureLayout = PictureLayout::Equirectangular, "Layout", Unit::None, Domain::Choice, Stage::Field;
-        /// What black (0) means, as a value of this layer.
+        /// Value of the layer where the picture is black (0).
         low: f64 = 0.0, "Black", Unit::None, linear(-1.0, 1.0), Stage::Field;
-        /// What white (1) means, as a value of this layer.
+        /// Value of the layer where the picture is white (1).
         high: f64 = 1.0, "White", Unit::None, linear(-1.0, 1.0), Stage::Field;
     }
 }

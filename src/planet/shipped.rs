@@ -12,13 +12,13 @@ pub struct Shipped {
 }
 
 impl Shipped {
-    /// Reads it; a test proves that this cannot fail.
+    /// Parses the preset. A test proves that this never fails.
     pub fn load(&self) -> Result<Planet, LoadError> {
         Planet::from_text(self.file, self.text)
     }
 }
 
-/// All of them, the default planet first.
+/// All shipped presets, the default planet first.
 pub const ALL: &[Shipped] = &[
     Shipped { file: "aurel.ron", text: include_str!("../../planets/aurel.ron") },
     Shipped { file: "maren.ron", text: include_str!("../../planets/maren.ron") },
@@ -27,7 +27,7 @@ pub const ALL: &[Shipped] = &[
     Shipped { file: "pallor.ron", text: include_str!("../../planets/pallor.ron") },
 ];
 
-/// The planet that is there at the start: the first of [`ALL`].
+/// The planet shown at the start: the first of [`ALL`].
 pub fn default_planet() -> Planet {
     ALL.first().and_then(|shipped| shipped.load().ok()).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
-//! The colour of a star by its temperature: a black body's chromaticity (Kim et al., Design of advanced color temperature
-//! control system for HDTV applications, 2002) in linear sRGB, its greatest component 1.
+//! The colour of a star by its temperature: the chromaticity of a black body (Kim et al., Design of advanced color
+//! temperature control system for HDTV applications, 2002) in linear sRGB, scaled so that the greatest component is 1.
 
 /// The temperatures, in kelvin, for which the fit holds.
 pub const STAR_KELVIN: std::ops::RangeInclusive<f64> = 1700.0..=25_000.0;

@@ -1,6 +1,6 @@
 //! The biome table: a grid of one-letter keys, written as rows of text so that a change is a readable diff.
 
-use super::param::{ParamPath, Params, Visit};
+use super::param::{Form, Look, ParamPath, Params, PartType, Visit};
 use serde::{Deserialize, Serialize};
 
 /// Rows of keys, all of equal length. Row 0 is the hottest (or highest), column 0 the driest.
@@ -19,6 +19,11 @@ impl Table {
     /// A table with `key` in every cell.
     pub fn uniform(key: char, columns: usize, rows: usize) -> Self {
         Self { rows: vec![std::iter::repeat_n(key, columns).collect(); rows] }
+    }
+
+    /// A table of rows as they stand in a file.
+    pub(super) fn from_rows(rows: Vec<String>) -> Self {
+        Self { rows }
     }
 
     /// The rows as text, first the hottest (or highest).
@@ -51,7 +56,16 @@ impl Table {
     }
 }
 
-/// The table holds no sliders of its own: the painter and the validator know it as a whole.
+/// The table is one value without a slider: the painter edits it, `validate` checks it.
 impl Params for Table {
     fn each_param(&mut self, _path: &mut ParamPath, _visit: &mut Visit<'_>) {}
+    fn each_value(&self, _path: &mut ParamPath, _look: &mut Look<'_>) {}
+}
+
+impl PartType for Table {
+    const FORM: Form = Form::Table;
+
+    fn every_kind() -> Vec<Self> {
+        vec![Self::uniform('a', 1, 1)]
+    }
 }

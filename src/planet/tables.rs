@@ -1,5 +1,5 @@
-//! Biome tables to start from, each with a palette of its own. The texts in `tables/` are biome sections as a preset has them;
-//! what they leave out is the default. Climates after Whittaker (Communities and Ecosystems, 1975) and Holdridge's life zones,
+//! Starting biome tables, each with its own palette. The texts in `tables/` are biome sections of a preset; missing
+//! fields have their defaults. Climates after Whittaker (Communities and Ecosystems, 1975) and Holdridge's life zones,
 //! coarsened; colours by eye.
 
 use super::Biomes;
@@ -7,21 +7,21 @@ use super::Biomes;
 /// A named biome table with its palette.
 #[derive(Clone, Copy, Debug)]
 pub struct StartingTable {
-    /// What it is called, as a person reads it.
+    /// Display name.
     pub name: &'static str,
-    /// What to expect of it, in a few words.
+    /// A short description.
     pub note: &'static str,
     text: &'static str,
 }
 
 impl StartingTable {
-    /// Palette, table and the meaning of its rows; a test proves that this cannot fail.
+    /// The biome section. A test proves that it always parses.
     pub fn biomes(&self) -> Option<Biomes> {
         ron::from_str(self.text).ok()
     }
 }
 
-/// All of them, the Earth's first.
+/// All starting tables, the Earth's first.
 pub const STARTING_TABLES: &[StartingTable] = &[
     StartingTable {
         name: "Earth",

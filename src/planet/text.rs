@@ -1,29 +1,29 @@
-//! The text of a preset: RON as ron writes it, with the description of each parameter above its first occurrence.
+//! The text of a preset: RON with the description of each parameter above its first occurrence.
 //!
-//! The comments are put in afterwards, at the places that [`locate`] finds. ron's own metadata by path cannot tell the
-//! first element of a list from the rest, nor one shape of a layer from another.
+//! Comments are inserted afterwards, at the offsets that [`locate`] finds: ron's own metadata by path cannot tell the
+//! first element of a list from the others, nor one landform from another.
 
 use super::explain::options;
-use super::migrate::FileV3;
-use super::param::{Domain, Param, ValueMut};
-use super::{Biomes, EditorNotes, Layer, Mask, Planet, VERSION, locate};
+use super::migrate::CurrentFile;
+use super::param::{Domain, Param, ValueRef};
+use super::{Mask, Planet, VERSION, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
-/// Longest line of a comment, without its indentation.
+/// Longest line of a comment in characters, without indentation.
 const COMMENT_CHARS: usize = 100;
 
-/// A space at which no line is broken.
+/// A space at which lines are not broken.
 const GLUE: &str = "\u{1}";
 
 /// Writes a planet.
 pub(crate) fn write(planet: &Planet) -> String {
-    // Raw strings rather than escapes: a name stays readable.
+    // Raw strings instead of escapes keep names readable.
     let config = PrettyConfig::new().new_line("\n").escape_strings(false);
     let mut bare = String::new();
-    // Writing plain data into a string cannot fail; should it, what came out is refused when it is read.
-    let _ = options().to_writer_pretty(&mut bare, &FileV3::from(planet.clone()), config);
+    // Writing plain data into a string cannot fail. If it did, the text would be refused when it is read.
+    let _ = options().to_writer_pretty(&mut bare, &CurrentFile::from(planet.clone()), config);
     let mut text = header();
     let mut done = 0;
     for (at, comment) in comments(planet, &bare) {
@@ -47,17 +47,17 @@ fn header() -> String {
     )
 }
 
-/// Each parameter and part of the planet, where its name first stands.
+/// The comment of each parameter and part, with the offset of its first name.
 fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
-    // In the planet each path has its own description; in the file it is written once.
+    // Each path has a description; each description is written once.
     let mut params: HashMap<String, String> = HashMap::new();
-    planet.clone().each(&mut |path, param, value| {
-        params.insert(path.to_string(), comment(param, &value));
+    planet.each_value(&mut |path, param, value| {
+        params.insert(path.to_string(), comment(param, value));
     });
-    let parts = [Planet::PARTS, Layer::PARTS, Biomes::PARTS, EditorNotes::PARTS].into_iter().flatten();
-    let mut parts: HashMap<&str, String> = parts.map(|(name, doc)| (*name, (*doc).to_owned())).collect();
+    let mut parts: HashMap<&str, String> =
+        Planet::all_parts().into_iter().map(|part| (part.name, part.doc.to_owned())).collect();
     if let Some(masks) = parts.get_mut("masks") {
-        // Each element says its kind, where no comment stands.
+        // Elements of the list name their kind, which has no comment of its own.
         let _ = write!(masks, " ({})", Mask::NAMES.join(", ").replace(' ', GLUE));
     }
     let mut written = HashSet::new();
@@ -75,17 +75,17 @@ fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// `Distance from crest to crest. (0.001 to 100000 km)`
-fn comment(param: &Param, value: &ValueMut<'_>) -> String {
+/// The comment of a parameter: `Wavelength of the coarsest octave. (0.001 to 100000 km)`
+fn comment(param: &Param, value: ValueRef<'_>) -> String {
     let mut text = param.doc.to_owned();
     let range = match (value, param.domain) {
-        (ValueMut::Choice(choice), _) => choice.names().join(", "),
-        // Nothing to be learnt from these.
+        (ValueRef::Choice(choice), _) => choice.names().join(", "),
+        // These have no range worth a comment.
         (_, Domain::Text { .. } | Domain::File { .. } | Domain::Color) => String::new(),
         _ => param.range_text(),
     };
     if !range.is_empty() {
-        // The range stays on one line, if it can.
+        // Short ranges stay on one line.
         let range = if range.len() <= COMMENT_CHARS / 2 { range.replace(' ', GLUE) } else { range };
         let _ = write!(text, " ({range})");
     }

@@ -1,30 +1,30 @@
-//! What serde cannot see: ranges, names that refer to each other, the table's shape.
+//! Checks that serde cannot make: ranges, references between names, the shape of the biome table.
 //!
-//! Ranges come from the description of each parameter; what concerns several of them at once stands here.
+//! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
 use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
 use std::collections::HashSet;
 
-/// A planet that cannot be evaluated: it was changed to something that no preset may say.
+/// A planet that cannot be evaluated: a valid preset never describes it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("the planet is not valid: {}", first_of(problems))]
 pub struct InvalidPlanet {
-    /// Everything that is wrong with it: where, and what would be right.
+    /// All problems: the path, what is wrong and what would be right.
     pub problems: Vec<(ParamPath, String)>,
 }
 
 fn first_of(problems: &[(ParamPath, String)]) -> String {
     match problems {
-        [] => "nothing is known of why".to_owned(),
+        [] => "the reason is unknown".to_owned(),
         [(path, message)] => format!("{path}: {message}"),
         [(path, message), more @ ..] => format!("{path}: {message} (and {} more)", more.len()),
     }
 }
 
 impl Planet {
-    /// Whether the planet is one that can be saved and evaluated. What [`Planet::load`] gives always is.
+    /// Whether the planet can be saved and evaluated. A planet from [`Planet::load`] always can.
     ///
     /// # Errors
     /// Everything that is wrong with it.
@@ -34,16 +34,16 @@ impl Planet {
     }
 }
 
-/// Everything that is wrong with a planet: where, and what would be right. In the order of the file, as far as one
-/// problem belongs to one place.
+/// All problems of a planet: the path, what is wrong and what would be right. In the order of the file where a problem
+/// has one path.
 pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     let mut found = Found(Vec::new());
-    // A list that is far too long would only bury its own problem under those of its elements.
+    // The problems of the elements of a list that is too long would bury the problem of the list.
     limits(planet, &mut found);
     if !found.0.is_empty() {
         return found.0;
     }
-    planet.clone().each(&mut |path, param, value| {
+    planet.each_value(&mut |path, param, value| {
         if let Some(message) = value.get().problem(param) {
             found.0.push((path.clone(), message));
         }
@@ -120,7 +120,7 @@ fn masks(layers: &[Layer], index: usize, layer: &Layer, found: &mut Found) {
     }
 }
 
-/// What is wrong with the name of a layer in a mask of another one.
+/// What is wrong with the layer name in a mask, if anything.
 fn stranger(layers: &[Layer], own: usize, name: &str) -> Option<String> {
     let others: Vec<&str> =
         layers.iter().enumerate().filter(|(i, _)| *i != own).map(|(_, layer)| layer.name.as_str()).collect();
@@ -137,7 +137,7 @@ fn stranger(layers: &[Layer], own: usize, name: &str) -> Option<String> {
     })
 }
 
-/// Each distance over which a slope is measured takes a gradient of its own from every layer before.
+/// Each distance over which a slope is measured costs a gradient of every earlier layer.
 fn slope_distances(layers: &[Layer], found: &mut Found) {
     let mut seen: Vec<f64> = Vec::new();
     for (index, layer) in layers.iter().enumerate() {
@@ -199,7 +199,7 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
     table(biomes, &keys, found);
 }
 
-/// Rules that are on name biomes. What a rule that is off holds does not matter; loading forgets it
+/// Rules that are on must name biomes. The key of a rule that is off does not matter; loading resets it
 /// ([`parts::Biomes::forget_idle_keys`]).
 fn references(biomes: &parts::Biomes, keys: &HashSet<char>, found: &mut Found) {
     let known: String = biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();

@@ -1,20 +1,19 @@
 //! Climate: temperature and moisture at the surface, and the row and column of the biome table that follow.
 
-use super::coast::Coast;
 use super::field::Field;
 use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
-use crate::planet::{Planet, TableRows};
+use crate::planet::{CLIMATE_BELTS, Planet, TableRows};
+use crate::world::World;
 use glam::DVec3;
-use std::sync::Arc;
 
 /// The climate of a planet, compiled.
 #[derive(Clone, Debug)]
 pub(crate) struct CompiledClimate {
     noises: Option<[Landform; 2]>,
-    /// Distance to the coast, if the climate depends on it.
-    pub(crate) coast: Option<Arc<Coast>>,
+    /// The world maps that climate reads.
+    pub(crate) world: World,
 }
 
 /// Climate noise at a batch of points. It depends on the seed, region size and octaves of the climate alone.
@@ -46,11 +45,11 @@ impl CompiledClimate {
             let seed = super::noise::mix(u64::from(planet.seed)) ^ (u64::from(climate.seed) << 1) ^ kind;
             Landform::fbm(seed, planet.radius_km / climate.wavelength_km, climate.octaves)
         };
-        Self { noises: varies.then(|| [noise(0), noise(1)]), coast: None }
+        Self { noises: varies.then(|| [noise(0), noise(1)]), world: World::default() }
     }
 
     /// Whether the planet's moisture depends on the distance to the coast.
-    pub(crate) fn needs_coast(planet: &Planet) -> bool {
+    pub(crate) fn reads_coast(planet: &Planet) -> bool {
         planet.water.is_some() && planet.climate.sea_moisture > 0.0
     }
 
@@ -69,9 +68,10 @@ impl CompiledClimate {
         }
     }
 
-    /// Distance to the coast of each point as an angle; empty if the climate does not depend on it.
+    /// Distance to the coast of each point in radians; empty if the climate does not read it, or if no map serves yet.
     pub(crate) fn inland_rad<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = f64> + 'a {
-        self.coast.iter().flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir)))
+        let coast = self.world.coast.map().into_iter();
+        coast.flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir)))
     }
 }
 
@@ -96,21 +96,63 @@ impl ClimateInputs<'_> {
 /// A distance beyond the reach of any coast.
 pub(crate) const NO_SEA: f64 = f64::INFINITY;
 
-/// The climate parameters of a planet, converted for evaluation.
+/// The climate at sea level: the climate parameters whose results tiles hold, converted for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rules {
+pub(crate) struct SeaLevelClimate {
     equator_c: f64,
     /// Temperature of a pole less that of the equator.
     warmer_c: f64,
-    lapse_c_per_km: f64,
     temperature_variation_c: f64,
     moisture: f64,
     belts: f64,
     moisture_variation: f64,
-    drying_per_km: f64,
-    /// Moisture that the sea adds at the coast, and the angle at which that ends.
+    /// Moisture that the sea adds at the coast.
     sea_moisture: f64,
+    /// How far moisture from the sea reaches inland.
     sea_reach_rad: f64,
+}
+
+impl SeaLevelClimate {
+    pub(crate) fn new(planet: &Planet) -> Self {
+        let climate = &planet.climate;
+        Self {
+            equator_c: climate.equator_c,
+            warmer_c: climate.pole_c - climate.equator_c,
+            temperature_variation_c: climate.temperature_variation_c,
+            moisture: climate.moisture,
+            belts: climate.belts * 0.5,
+            moisture_variation: climate.moisture_variation,
+            sea_moisture: climate.sea_moisture,
+            sea_reach_rad: climate.sea_reach_km / planet.radius_km,
+        }
+    }
+
+    /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature and
+    /// moisture, at a distance to the coast in radians ([`NO_SEA`] where there is none).
+    #[inline(always)]
+    pub(crate) fn at(&self, sin_lat: f64, noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
+        self.lifted(sin_lat, [0.0; 2], noise, inland_rad)
+    }
+
+    /// As [`Self::at`], colder by `less[0]` °C and drier by `less[1]`.
+    #[inline(always)]
+    fn lifted(&self, sin_lat: f64, less: [f64; 2], noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
+        let sin2_lat = sin_lat * sin_lat;
+        let temperature_c =
+            self.equator_c + self.warmer_c * sin2_lat - less[0] + self.temperature_variation_c * noise[0];
+        let left = (1.0 - inland_rad / self.sea_reach_rad).max(0.0);
+        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1] - less[1]
+            + self.sea_moisture * left * left;
+        [temperature_c, moisture]
+    }
+}
+
+/// The climate parameters of a planet, converted for evaluation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rules {
+    sea_level: SeaLevelClimate,
+    lapse_c_per_km: f64,
+    drying_per_km: f64,
     /// The level that heights count from: the sea's, or 0.
     sea_m: f64,
     /// Temperature at the end of the table's last row, and the span from there to the end of the first.
@@ -130,16 +172,9 @@ impl Rules {
         let (lowest, highest) =
             if by_temperature { (biomes.coldest_c, biomes.hottest_c) } else { (biomes.lowest_m, biomes.highest_m) };
         Self {
-            equator_c: climate.equator_c,
-            warmer_c: climate.pole_c - climate.equator_c,
+            sea_level: SeaLevelClimate::new(planet),
             lapse_c_per_km: climate.lapse_c_per_km,
-            temperature_variation_c: climate.temperature_variation_c,
-            moisture: climate.moisture,
-            belts: climate.belts * 0.5,
-            moisture_variation: climate.moisture_variation,
             drying_per_km: climate.drying_per_km,
-            sea_moisture: climate.sea_moisture,
-            sea_reach_rad: climate.sea_reach_km / planet.radius_km,
             sea_m: planet.sea_level_m().unwrap_or(0.0),
             coldest_c: biomes.coldest_c,
             range_c: biomes.hottest_c - biomes.coldest_c,
@@ -155,7 +190,9 @@ impl Rules {
     pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> PointClimate {
         // Above the sea bed the surface is the sea's.
         let above_m = height_m - self.sea_m;
-        let [temperature_c, moisture] = self.at_km(sin_lat, above_m.max(0.0) / 1000.0, noise, inland_rad);
+        let above_km = above_m.max(0.0) / 1000.0;
+        let less = [self.lapse_c_per_km * above_km, self.drying_per_km * above_km];
+        let [temperature_c, moisture] = self.sea_level.lifted(sin_lat, less, noise, inland_rad);
         let temperature = (temperature_c - self.coldest_c) / self.range_c;
         let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
         PointClimate {
@@ -164,19 +201,6 @@ impl Rules {
             moisture: moisture.clamp(0.0, 1.0),
             row: row.clamp(0.0, 1.0),
         }
-    }
-
-    /// Temperature in °C and moisture (not limited to 0 to 1), `above_km` above the level that heights count from.
-    #[inline(always)]
-    pub(crate) fn at_km(&self, sin_lat: f64, above_km: f64, noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
-        let sin2_lat = sin_lat * sin_lat;
-        let temperature_c = self.equator_c + self.warmer_c * sin2_lat - self.lapse_c_per_km * above_km
-            + self.temperature_variation_c * noise[0];
-        let left = (1.0 - inland_rad / self.sea_reach_rad).max(0.0);
-        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1]
-            - self.drying_per_km * above_km
-            + self.sea_moisture * left * left;
-        [temperature_c, moisture]
     }
 
     /// Lowest and greatest moisture and row at a point, for any noise up to `most_noise` either way and any distance
@@ -202,9 +226,9 @@ impl Rules {
     }
 }
 
-/// Moisture by latitude, -1 to 1: the cubic in sin² latitude through 1 at the equator, -1 at 25°, 0.6 at 50° and -1
-/// at the poles.
+/// Moisture by latitude, -1 to 1: see [`CLIMATE_BELTS`].
 #[inline(always)]
 fn belt(sin2_lat: f64) -> f64 {
-    1.0 + sin2_lat * (-19.404_782 + sin2_lat * (52.369_621 + sin2_lat * -34.964_839))
+    let [c0, c1, c2, c3] = CLIMATE_BELTS;
+    c0 + sin2_lat * (c1 + sin2_lat * (c2 + sin2_lat * c3))
 }

@@ -1,73 +1,94 @@
-//! Heights on a grid of far-apart points, without what such points cannot show.
+//! The ground as world maps read it: heights of the layers at far-apart points, without detail that such points cannot
+//! show and without biome relief.
 //!
-//! The fields of the layers are kept from one planet to the next, as those of tiles are: an edit of an amplitude, a blend
-//! or a mask evaluates no noise here either, and one of a layer's shape that layer alone.
+//! The fields of the layers are kept from one revision to the next, as those of tiles are. An edit of an amplitude, a
+//! blend or a mask evaluates no noise here, and an edit of a layer's shape that layer alone.
 
 use super::field::Field;
 use super::height::{self, CompiledLayer, LayerStack};
 use super::kept::KeptFields;
 use super::points::Points;
 use super::simd::Simd;
+use crate::world::cells::Cells;
+use crate::world::{Ground, Inputs, KeepGoing};
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// The fields behind the heights, batch by batch.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct CoarseFields {
-    batches: Vec<KeptFields>,
-    /// Octaves of noise times points that were evaluated for them, beyond what was there before.
-    pub(crate) octave_samples: usize,
+/// Points evaluated at a time: few enough for the fields of all layers to stay in the second-level cache.
+const BATCH: usize = 768;
+
+/// The layer fields at the cells of world maps, kept for the next revision.
+#[derive(Debug, Default)]
+pub(crate) struct CellFields {
+    /// Batch by batch, for each side of a cube of cells.
+    sides: Mutex<BTreeMap<usize, Vec<KeptFields>>>,
+    octave_samples: AtomicUsize,
 }
 
-impl CoarseFields {
+impl CellFields {
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<usize, Vec<KeptFields>>> {
+        self.sides.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Resident size.
     pub(crate) fn bytes(&self) -> usize {
-        self.batches.iter().map(KeptFields::bytes).sum()
+        self.lock().values().flatten().map(KeptFields::bytes).sum()
     }
 
-    /// Forgets the fields.
-    pub(crate) fn forget(&mut self) {
-        self.batches.clear();
+    /// Drops all fields.
+    pub(crate) fn clear(&self) {
+        self.lock().clear();
     }
 
-    /// The same, for which nothing had to be evaluated.
-    pub(crate) fn as_known(&self) -> Self {
-        Self { octave_samples: 0, ..self.clone() }
+    /// Octaves of noise times points evaluated since the last call.
+    pub(crate) fn take_octave_samples(&self) -> usize {
+        self.octave_samples.swap(0, Ordering::Relaxed)
     }
 }
 
-/// Heights at batches of points `spacing_rad` apart, in order, and the fields they are made of; on all cores. Fields that
-/// `before` has are taken from there: it must be of the same points and spacing.
-pub(crate) fn coarse_heights_m(
-    stack: &LayerStack,
-    simd: Simd,
-    batches: &[Points],
-    spacing_rad: f64,
-    before: Option<&CoarseFields>,
-) -> (Vec<f64>, CoarseFields) {
-    let now = Instant::now();
-    let batch = |(number, points): (usize, &Points)| {
-        let mut kept = before.and_then(|before| before.batches.get(number)).cloned().unwrap_or_default();
-        let mut octave_samples = 0;
-        let mut field = |layer: &CompiledLayer| {
+/// The layers of a planet as world maps read them.
+pub(crate) struct LayerGround<'a> {
+    pub(crate) inputs: &'a Inputs,
+    pub(crate) stack: &'a LayerStack,
+    pub(crate) simd: Simd,
+    /// Where fields are taken from and kept.
+    pub(crate) fields: &'a CellFields,
+}
+
+impl Ground for LayerGround<'_> {
+    fn inputs(&self) -> &Inputs {
+        self.inputs
+    }
+
+    fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+        let mut kept = self.fields.lock().remove(&cells.side).unwrap_or_default();
+        kept.resize_with(cells.dirs.len().div_ceil(BATCH), KeptFields::default);
+        let batches = cells.dirs.par_chunks(BATCH).zip(&mut kept);
+        let heights_m = batches.map(|(dirs, kept)| {
+            keep_going().then(|| self.batch_heights_m(&Points::new(dirs.to_vec()), cells.spacing_rad(), kept))
+        });
+        let heights_m: Option<Vec<Vec<f64>>> = heights_m.collect();
+        self.fields.lock().insert(cells.side, kept);
+        heights_m.map(|batches| batches.concat())
+    }
+}
+
+impl LayerGround<'_> {
+    fn batch_heights_m(&self, points: &Points, spacing_rad: f64, kept: &mut KeptFields) -> Vec<f64> {
+        let field = |layer: &CompiledLayer| {
             let spacings_rad = layer.spacings_rad(&[spacing_rad]);
             kept.find(&layer.landform, &spacings_rad).unwrap_or_else(|| {
-                octave_samples += layer.landform.octave_count() * points.len();
-                Arc::new(Field::seen_only(&layer.landform, simd, points, &spacings_rad))
+                let octave_samples = layer.landform.octave_count() * points.len();
+                self.fields.octave_samples.fetch_add(octave_samples, Ordering::Relaxed);
+                Arc::new(Field::seen_only(&layer.landform, self.simd, points, &spacings_rad))
             })
         };
-        let fields: Vec<_> = stack.layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect();
-        let heights = height::combine(stack, simd, points, &fields, &[], |_, _| {});
-        kept.adopt(&stack.layers, &fields, now);
-        (heights.height_m, kept, octave_samples)
-    };
-    let found: Vec<(Vec<f64>, KeptFields, usize)> = batches.par_iter().enumerate().map(batch).collect();
-    let (mut heights_m, mut coarse) = (Vec::new(), CoarseFields::default());
-    for (of_batch_m, kept, octave_samples) in found {
-        heights_m.extend(of_batch_m);
-        coarse.batches.push(kept);
-        coarse.octave_samples += octave_samples;
+        let layers = &self.stack.layers;
+        let fields: Vec<_> = layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect();
+        kept.adopt(layers, &fields, Instant::now());
+        height::combine(self.stack, self.simd, points, &fields, &[], |_, _| {}).height_m
     }
-    (heights_m, coarse)
 }

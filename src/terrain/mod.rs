@@ -13,7 +13,8 @@
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `query`, `raycast`: the queries of [`Terrain`]
 //! - `kept`: the fields that a tile keeps from one edit to the next
-//! - `coast`, `coarse`: distance to the coast, and the coarse heights that it is made from
+//! - `coarse`: the heights that world maps read
+//! - [`revision`]: what changed between two revisions of a planet
 //! - `bench`: noise alone, for measuring
 //!
 //! [`Terrain`] is the public interface. Tiles and queries take the same pipeline, and every query has a finite
@@ -24,8 +25,7 @@ pub mod bench;
 pub(crate) mod biome;
 pub(crate) mod border;
 pub(crate) mod climate;
-mod coarse;
-pub(crate) mod coast;
+pub(crate) mod coarse;
 pub(crate) mod evaluate;
 pub(crate) mod field;
 pub(crate) mod height;
@@ -38,22 +38,25 @@ pub(crate) mod points;
 mod query;
 mod raycast;
 pub(crate) mod relief;
+pub mod revision;
 mod scalar;
 pub mod simd;
 
 use crate::planet::{InvalidPlanet, Planet};
+use crate::world::{Inputs, KeepGoing, MapWork, World};
 pub use height::curve_at;
 
 use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
-use coarse::{CoarseFields, coarse_heights_m};
-use coast::Coast;
+use coarse::{CellFields, LayerGround};
 use glam::DVec3;
 use height::LayerStack;
 use landform::Landform;
 use points::unit;
 pub use query::{Sample, Scratch, Wanted};
 use relief::Relief;
+pub use revision::Revision;
+use revision::{Compiled, Keys, TileContent, TileKeys};
 use simd::Simd;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -69,8 +72,9 @@ pub struct Terrain {
     pub(crate) climate: CompiledClimate,
     /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
-    /// What the shores were found with, if they matter.
-    coarse: CoarseFields,
+    keys: Keys,
+    content: TileContent,
+    map_inputs: Inputs,
     rules: Rules,
     biomes: CompiledBiomes,
     height_bounds_m: (f64, f64),
@@ -83,67 +87,79 @@ impl Terrain {
     /// A planet that was changed to something that no preset may say: all that is wrong with it. One that was loaded
     /// and not changed since is valid.
     pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
-        planet.check()?;
-        Ok(Self::compile(planet, None))
+        Self::try_new_with(planet, &CellFields::default(), &mut MapWork::default())
     }
 
-    /// As [`Terrain::try_new`], but takes over from the terrain of a similar planet what is the same and took time to
-    /// find.
+    /// As [`Terrain::try_new`]: waits for the finest world maps.
+    pub(crate) fn try_new_with(
+        planet: Arc<Planet>,
+        fields: &CellFields,
+        work: &mut MapWork,
+    ) -> Result<Self, InvalidPlanet> {
+        let mut terrain = Self::try_draft(planet, &World::default())?;
+        while let Some(next) = terrain.with_next_map(fields, &|| true, work) {
+            terrain = next;
+        }
+        Ok(terrain)
+    }
+
+    /// Compiles a planet with the world maps of an earlier revision, which serve until its own are solved.
     ///
     /// # Errors
     /// As [`Terrain::try_new`].
-    pub fn try_after(planet: Arc<Planet>, before: &Terrain) -> Result<Self, InvalidPlanet> {
+    pub(crate) fn try_draft(planet: Arc<Planet>, world: &World) -> Result<Self, InvalidPlanet> {
         planet.check()?;
-        Ok(Self::compile(planet, Some(before)))
-    }
-
-    /// The planet must be valid: numbers out of their ranges break what the evaluator takes for granted.
-    fn compile(planet: Arc<Planet>, before: Option<&Terrain>) -> Self {
-        let stack = LayerStack::new(&planet);
-        let climate = CompiledClimate::new(&planet);
-        let relief = Relief::new(&planet, &climate, stack.limits_m());
-        let coarse = CoarseFields::default();
+        let Compiled { stack, mut climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
+        climate.world = world.serving(&map_inputs);
         let simd = Simd::detect();
-        let (rules, biomes) = (Rules::new(&planet), CompiledBiomes::new(&planet));
+        let (rules, biomes, height_bounds_m) = (Rules::new(&planet), CompiledBiomes::new(&planet), (0.0, 0.0));
         let mut terrain =
-            Self { planet, simd, stack, climate, relief, coarse, rules, biomes, height_bounds_m: (0.0, 0.0) };
+            Self { planet, simd, stack, climate, relief, keys, content, map_inputs, rules, biomes, height_bounds_m };
         terrain.height_bounds_m = terrain.with_relief(terrain.stack.bounds_m());
-        // Found here rather than when first asked for: asked on a worker of a thread pool, it
-        // would wait for its own pool.
-        if let Some(sea_m) = terrain.planet.sea_level_m().filter(|_| CompiledClimate::needs_coast(&terrain.planet)) {
-            let known = before.filter(|before| before.climate.coast.is_some());
-            if let Some(before) = known.filter(|before| before.has_coast_of(&terrain)) {
-                terrain.climate.coast = before.climate.coast.clone();
-                terrain.coarse = before.coarse.as_known();
-            } else {
-                let (points, known) = (Coast::points(), known.map(|before| &before.coarse));
-                let (heights_m, coarse) =
-                    coarse_heights_m(&terrain.stack, terrain.simd, points, 0.5 * coast::CELL_RAD, known);
-                terrain.climate.coast = Some(Arc::new(Coast::new(sea_m, &heights_m)));
-                terrain.coarse = coarse;
-            }
+        Ok(terrain)
+    }
+
+    /// The revision of the planet that the terrain was compiled from.
+    pub fn revision(&self) -> Revision {
+        Revision::with(self.planet.clone(), self.keys.clone())
+    }
+
+    /// The content keys of the planet.
+    pub fn keys(&self) -> &Keys {
+        &self.keys
+    }
+
+    /// The world maps that serve.
+    pub(crate) fn world(&self) -> &World {
+        &self.climate.world
+    }
+
+    /// Whether the world maps that serve are the planet's own, at their finest level.
+    pub fn has_final_maps(&self) -> bool {
+        self.world().is_final(&self.map_inputs)
+    }
+
+    /// The same terrain with the next level of its own world maps. None if its maps are final, or if `keep_going` said
+    /// no. `fields` keeps layer fields for the next revision.
+    pub(crate) fn with_next_map(
+        &self,
+        fields: &CellFields,
+        keep_going: &KeepGoing<'_>,
+        work: &mut MapWork,
+    ) -> Option<Self> {
+        if self.has_final_maps() {
+            return None;
         }
-        terrain
+        let ground = LayerGround { inputs: &self.map_inputs, stack: &self.stack, simd: self.simd, fields };
+        let world = self.world().step(&ground, keep_going, work)?;
+        let mut terrain = self.clone();
+        terrain.climate.world = world;
+        Some(terrain)
     }
 
-    /// Resident size of what the shores were found with.
-    pub(crate) fn coarse_bytes(&self) -> usize {
-        self.coarse.bytes()
-    }
-
-    /// Forgets what the shores were found with: the next planet finds it anew.
-    pub(crate) fn forget_coarse(&mut self) {
-        self.coarse.forget();
-    }
-
-    /// Octaves of noise times points that were evaluated to compile it.
-    pub(crate) fn octave_samples(&self) -> usize {
-        self.coarse.octave_samples
-    }
-
-    /// Whether both have the same shores: everything that they depend on.
-    fn has_coast_of(&self, other: &Terrain) -> bool {
-        self.stack == other.stack && self.planet.sea_level_m() == other.planet.sea_level_m()
+    /// Content keys of the tiles that the terrain makes, with the world maps that serve.
+    pub(crate) fn tile_keys(&self) -> TileKeys {
+        self.content.keys(self.world().coast.key())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.

@@ -89,7 +89,7 @@ impl Relief {
             extent,
             rules: Rules::new(planet),
             climate_noises: climate.noises().cloned(),
-            has_coast: CompiledClimate::needs_coast(planet),
+            has_coast: CompiledClimate::reads_coast(planet),
             limits_m,
         })
     }

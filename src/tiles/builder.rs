@@ -1,9 +1,12 @@
-//! Surfaces in the background: one thread that takes the newest request, works on all cores in slices, and hands over complete
-//! sets of tiles.
+//! Builds surfaces in the background: one thread takes the newest request, works on all cores in slices, and hands over
+//! complete sets of tiles.
 //!
-//! A slice ends when its time is up or as soon as a newer request is there; either way it ends with a complete, perhaps
-//! coarser, surface. Only the first slice of a request has a moment of grace, so that a slider that is held shows every edit
-//! however heavy the planet is. No stale work is carried on, and no surface is ever made of two planets.
+//! A slice ends when its time is up or a newer request arrives. It always ends with a complete surface, perhaps a
+//! coarser one. Only the first slice of a request has a grace period, so that a slider that is held shows every edit,
+//! however heavy the planet is. Stale work is dropped, and no surface mixes two revisions.
+//!
+//! World maps are solved after the first slice. Until then the maps of the revision before serve; then the climate of
+//! the tiles is computed again.
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
 use super::horizon::HorizonFinder;
@@ -11,25 +14,26 @@ use super::refine::refine;
 use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
 use crate::lod::tile::{DetailTile, Tile};
-use crate::planet::param::{Stage, Stages};
-use crate::planet::{InvalidPlanet, Planet, diff};
+use crate::planet::{InvalidPlanet, Planet};
 use crate::terrain::Terrain;
+use crate::terrain::coarse::CellFields;
+use crate::world::KeepGoing;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long the first slice of a request may take before what is there is shown: a frame or two.
+/// Time limit of the first slice of a request: about two frames at 60 Hz.
 const FIRST_SLICE: Duration = Duration::from_millis(30);
-/// How long it runs even if a newer request is waiting.
+/// Time for which the first slice runs even if a newer request is waiting.
 const GRACE: Duration = Duration::from_millis(25);
-/// How long detail is sought even if another view is waiting.
+/// Time for which detail is computed even if another view is waiting.
 const DETAIL_GRACE: Duration = Duration::from_millis(15);
-/// How long each further slice may take: something is on screen by then, and fewer steps disturb less.
+/// Time limit of each further slice. Something is on screen by then, and fewer swaps disturb less.
 const NEXT_SLICE: Duration = Duration::from_millis(80);
 
-/// Builds surfaces in the background: the newest planet and view win, stale work is dropped.
+/// Builds surfaces in the background. The newest planet and view win; stale work is dropped.
 pub struct Builder {
     shared: Arc<Shared>,
 }
@@ -38,9 +42,9 @@ pub struct Builder {
 struct Shared {
     state: Mutex<State>,
     changed: Condvar,
-    /// Grows with each request; work asks it whether it is still wanted.
+    /// Number of the newest request. Work compares its own number to learn whether it is still wanted.
     newest: AtomicU64,
-    /// The newest request with another planet than the one before.
+    /// Number of the newest request whose planet differs from the one before.
     newest_planet: AtomicU64,
 }
 
@@ -48,9 +52,9 @@ struct Shared {
 struct State {
     request: Option<Request>,
     surface: Option<Arc<Surface>>,
-    /// The newest request all of whose tiles are there.
+    /// Number of the newest request whose tiles are all built, with final world maps.
     tiled: u64,
-    /// The newest request that is done with.
+    /// Number of the newest request that is finished or was given up.
     finished: u64,
     memory: Memory,
     error: Option<String>,
@@ -74,26 +78,26 @@ impl Shared {
         self.newest.load(Ordering::Relaxed) == number
     }
 
-    /// Whether what is found of a request's planet will still serve, if perhaps another view.
+    /// Whether results for the planet of a request still serve, perhaps for another view.
     fn is_newest_planet(&self, number: u64) -> bool {
         self.newest_planet.load(Ordering::Relaxed) <= number
     }
 }
 
 impl State {
-    /// The request that is to be worked on.
+    /// The request to work on.
     fn pending(&self) -> Option<&Request> {
         self.request.as_ref().filter(|request| request.number != self.finished)
     }
 }
 
 impl Builder {
-    /// Starts the worker. `wake` is called from another thread whenever a new surface is ready.
+    /// Starts the worker thread. It calls `wake` whenever a new surface is ready.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self::with_budget(DEFAULT_BUDGET_BYTES, wake)
     }
 
-    /// The same with another limit to what is kept for later. With zero every edit is a rebuild from nothing.
+    /// The same with another cache budget. With a budget of zero every edit is a rebuild from nothing.
     pub fn with_budget(budget_bytes: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self::start(Worker::new(budget_bytes), wake)
     }
@@ -111,7 +115,7 @@ impl Builder {
         Self { shared }
     }
 
-    /// Asks for a planet as seen from a view. Cheap when nothing changed since the last call; call it every frame.
+    /// Requests a planet as seen from a view. Cheap if nothing changed since the last call; call it every frame.
     pub fn request(&self, planet: &Arc<Planet>, view: &View) {
         let mut state = self.shared.lock();
         let before = state.request.as_ref();
@@ -132,23 +136,23 @@ impl Builder {
         self.shared.lock().surface.clone()
     }
 
-    /// Whether work is under way.
+    /// Whether a request is being worked on.
     pub fn is_busy(&self) -> bool {
         self.shared.lock().pending().is_some()
     }
 
-    /// Whether all tiles of the newest request are there; their detail may follow.
+    /// Whether all tiles of the newest request are built. Their horizon angles and detail textures may follow.
     pub fn has_all_tiles(&self) -> bool {
         let state = self.shared.lock();
         state.pending().is_none_or(|request| request.number == state.tiled)
     }
 
-    /// What is kept for later.
+    /// Memory use of the cache.
     pub fn memory(&self) -> Memory {
         self.shared.lock().memory
     }
 
-    /// Why the newest request was given up. Another request is another try.
+    /// Why the newest request was given up. The next request tries again.
     pub fn error(&self) -> Option<String> {
         self.shared.lock().error.clone()
     }
@@ -163,25 +167,28 @@ impl Drop for Builder {
     }
 }
 
-/// How a slice is worked off; tests put another in its place.
+/// The function that builds tiles; tests replace it.
 type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
 
-/// What the thread has.
+/// State of the worker thread.
 struct Worker {
     cache: Cache,
     terrain: Option<Arc<Terrain>>,
-    /// All tiles of a request whose horizons and detail are being found.
+    /// Layer fields at the cells of world maps, kept for the next revision.
+    cell_fields: CellFields,
+    /// The finished tiles of a request whose horizon angles and detail textures are being computed.
     complete: Option<(u64, Surface, Option<HorizonFinder>)>,
     refine: Refine,
 }
 
 impl Worker {
     fn new(budget_bytes: usize) -> Self {
-        Self { cache: Cache::new(budget_bytes), terrain: None, complete: None, refine }
+        let cache = Cache::new(budget_bytes);
+        Self { cache, terrain: None, cell_fields: CellFields::default(), complete: None, refine }
     }
 
     fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
-        // The request under way, and what it has taken so far.
+        // Number of the current request, and what it has taken so far.
         let mut under_way = (0, BuildStats::default());
         loop {
             let request = {
@@ -216,8 +223,9 @@ impl Worker {
                 }
                 Ok(Err(invalid)) => Some(invalid.to_string()),
                 Err(panic) => {
-                    // What it was in the middle of is not to be trusted.
+                    // The state may be inconsistent.
                     self.cache.clear();
+                    self.cell_fields.clear();
                     self.terrain = None;
                     self.complete = None;
                     Some(text_of(panic.as_ref()))
@@ -233,7 +241,8 @@ impl Worker {
         }
     }
 
-    /// A surface, and whether it has all that the request asks for. First come all tiles, then their detail.
+    /// Builds a surface. Returns whether it has everything that the request asks for: first all tiles, then their
+    /// detail.
     fn slice(
         &mut self,
         shared: &Shared,
@@ -242,26 +251,30 @@ impl Worker {
         mut stats: BuildStats,
     ) -> Result<(Surface, bool), InvalidPlanet> {
         let begun = Instant::now();
-        let (terrain, compiled_samples) = self.compile(&request.planet)?;
+        let mut terrain = self.compile(&request.planet)?;
+        let planet_wanted = || shared.is_newest_planet(request.number);
         if is_first {
             self.cache.begin_request();
             stats.compile_secs = begun.elapsed().as_secs_f64();
-            stats.octave_samples += compiled_samples;
+        } else {
+            terrain = self.solve_maps(terrain, &planet_wanted, &mut stats);
         }
         let keep_going = || {
             let elapsed = begun.elapsed();
             let wanted = shared.is_newest(request.number);
             if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
-        // Once all tiles are there, only their detail is left to find.
+        // Once all tiles are built, only their detail is missing.
         let (mut surface, finder) = match self.complete.take().filter(|(number, ..)| *number == request.number) {
             Some((_, surface, finder)) => (surface, finder),
             None => {
-                let surface = (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+                let mut surface =
+                    (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+                surface.complete &= terrain.has_final_maps();
                 if !surface.complete {
                     return Ok((surface, false));
                 }
-                // They are shown before time is spent on their detail.
+                // Show the tiles before spending time on their detail.
                 if is_first || surface.stats.tiles_built > stats.tiles_built {
                     self.complete = Some((request.number, surface.clone(), None));
                     return Ok((surface, false));
@@ -271,57 +284,48 @@ impl Worker {
         };
         let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, &request.view));
         let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
-        // While the eye moves, a moment of each view goes into what serves the next one, too; after an edit none of it does.
-        let wanted = || shared.is_newest_planet(request.number);
-        let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && wanted());
-        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &wanted);
+        // While the camera moves, each view gives some time to detail that serves the next view, too; an edit gives
+        // none.
+        let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && planet_wanted());
+        let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &planet_wanted);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &wanted) && has_horizons;
+        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &planet_wanted) && has_horizons;
         self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
         Ok((surface, done))
     }
 
-    /// The evaluator of a planet, and how many octave samples it took to find; tiles stay valid when nothing that they hold has changed.
-    fn compile(&mut self, planet: &Arc<Planet>) -> Result<(Arc<Terrain>, usize), InvalidPlanet> {
-        let before = self.terrain.clone();
-        let (terrain, samples) = match before {
-            Some(terrain) if Arc::ptr_eq(terrain.planet(), planet) => (terrain, 0),
-            before => {
-                profiling::scope!("compile");
-                let mut terrain = match &before {
-                    Some(before) => Terrain::try_after(planet.clone(), before),
-                    None => Terrain::try_new(planet.clone()),
-                }?;
-                // Where there is little room, it is for tiles.
-                if terrain.coarse_bytes() > self.cache.budget_bytes() / 8 {
-                    terrain.forget_coarse();
-                }
-                self.cache.set_aside(terrain.coarse_bytes());
-                let terrain = Arc::new(terrain);
-                if let Some(before) = before {
-                    self.cache.invalidate(stale_stages(&before, &terrain));
-                }
-                let samples = terrain.octave_samples();
-                (terrain, samples)
-            }
-        };
+    /// Compiles a planet. World maps of the revision before serve until [`Worker::solve_maps`].
+    fn compile(&mut self, planet: &Arc<Planet>) -> Result<Arc<Terrain>, InvalidPlanet> {
+        if let Some(terrain) = self.terrain.as_ref().filter(|terrain| Arc::ptr_eq(terrain.planet(), planet)) {
+            return Ok(terrain.clone());
+        }
+        profiling::scope!("compile");
+        let world = self.terrain.as_ref().map(|before| before.world().clone()).unwrap_or_default();
+        Ok(self.serve(Terrain::try_draft(planet.clone(), &world)?))
+    }
+
+    /// Solves the next level of the world maps. Returns the same terrain if `wanted` said no.
+    fn solve_maps(&mut self, terrain: Arc<Terrain>, wanted: &KeepGoing<'_>, stats: &mut BuildStats) -> Arc<Terrain> {
+        let next = terrain.with_next_map(&self.cell_fields, wanted, &mut stats.maps);
+        stats.octave_samples += self.cell_fields.take_octave_samples();
+        // With a small budget, tiles need the room more.
+        if self.cell_fields.bytes() > self.cache.budget_bytes() / 8 {
+            self.cell_fields.clear();
+        }
+        next.map_or(terrain, |next| self.serve(next))
+    }
+
+    /// Makes a terrain the current one. Tiles whose content keys stay the same stay valid.
+    fn serve(&mut self, terrain: Terrain) -> Arc<Terrain> {
+        let terrain = Arc::new(terrain);
+        self.cache.set_keys(terrain.tile_keys());
+        self.cache.set_aside(self.cell_fields.bytes());
         self.terrain = Some(terrain.clone());
-        Ok((terrain, samples))
+        terrain
     }
 }
 
-/// Which stages that tiles hold differ between two planets.
-fn stale_stages(before: &Terrain, after: &Terrain) -> Stages {
-    let touched = diff::touched_stages(before.planet(), after.planet());
-    // Heights depend on both more and less than single parameters say: on the order of the layers and on which one a mask's
-    // name means, on climate and table where biomes have relief, but on no layer that is off.
-    let same = before.stack.joins_like(&after.stack) && before.relief == after.relief;
-    let height = Stages::of(&[Stage::Height]);
-    let touched = if same { touched.without(height.and(Stages::of(&[Stage::Field]))) } else { touched.and(height) };
-    touched.with_consequences().within(Stages::OF_TILES)
-}
-
-/// What a panic said.
+/// The message of a panic.
 fn text_of(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))

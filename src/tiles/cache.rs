@@ -1,37 +1,37 @@
-//! Tiles kept from one request to the next: valid ones to be shown again, stale ones for the stages that an edit left intact.
+//! The tiles of earlier requests: valid ones to be shown again, stale ones for the stages whose inputs did not change.
 //!
-//! One budget covers all of it. What exceeds it goes in the order of what it costs to lose: fields of earlier planets, then
-//! what unseen tiles were made from, then unseen tiles, at last what the tiles on screen were made from. The tiles that the
-//! present request needs always stay.
+//! One memory budget covers everything. When it is exceeded, entries are dropped in ascending order of the cost to
+//! rebuild what is on screen: fields of earlier revisions, the inputs of unseen tiles, unseen tiles, and at last the
+//! inputs of tiles on screen. Tiles that the current request needs always stay.
 
 use super::make::{Before, Parts, make_tile};
 use super::stats::{Memory, Work};
 use crate::lod::View;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::{DetailTile, Tile, Vertex};
-use crate::planet::param::{Stage, Stages};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::kept::KeptFields;
+use crate::terrain::revision::TileKeys;
 use std::collections::{HashMap, HashSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Most bytes kept unless somebody says otherwise: several screens of a planet of ten layers.
+/// Default budget: several screens of a planet of ten layers.
 pub const DEFAULT_BUDGET_BYTES: usize = 256 << 20;
 
 #[derive(Default)]
 struct Entry {
     tile: Option<Arc<Tile>>,
-    /// What the tile was made from.
+    /// The inputs of the tile.
     parts: Option<Arc<Parts>>,
     fields: KeptFields,
     detail: Option<Arc<DetailTile>>,
-    /// Of the present planet or of an earlier one.
+    /// Of this revision or of an earlier one.
     horizon: Option<Arc<HorizonTile>>,
-    /// The stages in which the tile's planet differs from the present one.
-    stale: Stages,
+    /// Content keys of the tile and its parts.
+    keys: TileKeys,
     /// The request that last asked for it.
     used: u64,
 }
@@ -44,7 +44,7 @@ impl Entry {
         tile + detail + horizon + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.fields.bytes()
     }
 
-    /// Keeps the tile alone.
+    /// Drops everything but the tile.
     fn strip(&mut self) {
         self.detail = None;
         self.horizon = None;
@@ -53,37 +53,39 @@ impl Entry {
     }
 }
 
-/// What was chosen last.
+/// The last LOD cut.
 #[derive(Clone)]
 pub(crate) struct Shown {
-    /// The view it was chosen for.
+    /// The view that it was made for.
     pub(crate) view: View,
-    /// How lenient the triangle budget made the choice: see `refine`.
-    pub(crate) leniency: u32,
-    /// The nodes that were split.
+    /// Its LOD bias, as a step of `refine`.
+    pub(crate) bias: u32,
+    /// The nodes that are split.
     pub(crate) split: HashSet<NodeId>,
 }
 
 #[derive(Default)]
 struct State {
     entries: HashMap<NodeId, Entry>,
+    /// Content keys of valid tiles.
+    keys: TileKeys,
     shown: Option<Arc<Shown>>,
-    /// Size of all entries.
+    /// Resident size of all entries.
     bytes: usize,
-    /// Grows with each request.
+    /// Number of the current request.
     request: u64,
 }
 
-/// A map from nodes to tiles that may be shared between threads.
+/// A cache of tiles by node, shared between threads.
 pub(crate) struct Cache {
     state: Mutex<State>,
     budget_bytes: usize,
-    /// What of the budget something else takes.
+    /// Part of the budget that is used outside of the cache.
     aside_bytes: AtomicUsize,
 }
 
 impl Cache {
-    /// An empty one. With a budget of zero nothing outlives a request but the tiles that it shows.
+    /// An empty cache. With a budget of zero only the tiles of the current request are kept.
     pub(crate) fn new(budget_bytes: usize) -> Self {
         Self { state: Mutex::default(), budget_bytes, aside_bytes: AtomicUsize::new(0) }
     }
@@ -95,42 +97,42 @@ impl Cache {
     /// The valid tile of a node.
     pub(crate) fn tile(&self, id: NodeId) -> Option<Arc<Tile>> {
         let mut state = self.lock();
-        let request = state.request;
-        let entry = state.entries.get_mut(&id).filter(|entry| entry.stale.is_empty())?;
+        let (request, keys) = (state.request, state.keys);
+        let entry = state.entries.get_mut(&id).filter(|entry| entry.keys == keys)?;
         let tile = entry.tile.clone()?;
         entry.used = request;
         Some(tile)
     }
 
-    /// The detail of a tile, if it is there and shows the same ground.
+    /// The detail texture of a tile, if it was made from the same heights.
     pub(crate) fn detail(&self, tile: &Tile) -> Option<Arc<DetailTile>> {
         let state = self.lock();
         let detail = state.entries.get(&tile.id)?.detail.clone();
         detail.filter(|detail| detail.heights_serial == tile.heights_serial)
     }
 
-    /// Keeps the detail of a node's tile.
+    /// Keeps the detail texture of a node.
     pub(crate) fn keep_detail(&self, id: NodeId, detail: &Arc<DetailTile>) {
         self.keep_with(id, |entry| entry.detail = Some(detail.clone()));
     }
 
-    /// The horizon last found for a node, perhaps on an earlier planet.
+    /// The last horizon tile of a node, perhaps of an earlier revision.
     pub(crate) fn horizon(&self, id: NodeId) -> Option<Arc<HorizonTile>> {
         self.lock().entries.get(&id)?.horizon.clone()
     }
 
-    /// The same, or that of the nearest node above which has one.
+    /// The same, or that of the nearest ancestor that has one.
     pub(crate) fn nearest_horizon(&self, id: NodeId) -> Option<Arc<HorizonTile>> {
         let state = self.lock();
         std::iter::successors(Some(id), |id| id.parent()).find_map(|id| state.entries.get(&id)?.horizon.clone())
     }
 
-    /// Keeps the horizon of a node.
+    /// Keeps the horizon tile of a node.
     pub(crate) fn keep_horizon(&self, horizon: &Arc<HorizonTile>) {
         self.keep_with(horizon.id, |entry| entry.horizon = Some(horizon.clone()));
     }
 
-    /// Keeps something with a node's tile, if there is one.
+    /// Adds something to the entry of a node, if there is one.
     fn keep_with(&self, id: NodeId, keep: impl FnOnce(&mut Entry)) {
         let mut state = self.lock();
         let Some(entry) = state.entries.get_mut(&id) else { return };
@@ -143,17 +145,21 @@ impl Cache {
         }
     }
 
-    /// Builds a node's tile from what is known of it and of its parent; adds what that took to `work`. False if `keep_going` (asked
-    /// before each layer) said no before the end; what was found until then is kept.
+    /// Builds a node's tile from what is known of the node and its parent, and adds what that took to `work`. Returns
+    /// false if `keep_going`, asked before each layer, said no; the fields found until then are kept.
     pub(crate) fn build(&self, id: NodeId, terrain: &Terrain, work: &mut Work, keep_going: &dyn Fn() -> bool) -> bool {
-        let (parent, parts, mut fields, stale) = {
+        let (parent, parts, tile, keys, mut fields) = {
             let state = self.lock();
             let parent = id.parent().and_then(|id| state.entries.get(&id)?.parts.clone());
-            let entry = state.entries.get(&id);
-            let fields = entry.map(|entry| entry.fields.clone()).unwrap_or_default();
-            (parent, entry.and_then(|entry| entry.parts.clone()), fields, entry.map_or(Stages::NONE, |e| e.stale))
+            let known = state
+                .entries
+                .get(&id)
+                .map(|entry| (entry.parts.clone(), entry.tile.clone(), entry.keys, entry.fields.clone()));
+            let (parts, tile, keys, fields) = known.unwrap_or_default();
+            (parent, parts, tile, keys, fields)
         };
-        let before = Before { parent: parent.as_deref(), parts: parts.as_deref(), fields: &fields, stale };
+        let before =
+            Before { parent: parent.as_deref(), parts: parts.as_deref(), tile: tile.as_deref(), keys, fields: &fields };
         let (found, made) = make_tile(terrain, id, &before, work, keep_going);
         fields.adopt(&terrain.stack.layers, &found, Instant::now());
 
@@ -166,8 +172,8 @@ impl Cache {
         let done = made.is_some();
         if let Some((tile, parts)) = made {
             entry.tile = Some(Arc::new(tile));
-            entry.parts = Some(Arc::new(parts));
-            entry.stale = Stages::NONE;
+            entry.parts = parts.map(Arc::new);
+            entry.keys = terrain.tile_keys();
             work.tiles += 1;
         }
         let bytes_after = entry.bytes();
@@ -178,28 +184,26 @@ impl Cache {
         done
     }
 
-    /// The planet changed in these stages: no tile is valid any more that holds one of them.
-    pub(crate) fn invalidate(&self, stages: Stages) {
+    /// From now on, only tiles with these content keys are valid.
+    pub(crate) fn set_keys(&self, keys: TileKeys) {
         let mut state = self.lock();
-        for entry in state.entries.values_mut() {
-            entry.stale = entry.stale.and(stages);
-        }
-        if stages.contains(Stage::Height) {
+        if state.keys.heights != keys.heights {
             state.shown = None;
         }
+        state.keys = keys;
     }
 
-    /// What was chosen last for the present heights.
+    /// The last LOD cut for the current heights.
     pub(crate) fn shown(&self) -> Option<Arc<Shown>> {
         self.lock().shown.clone()
     }
 
-    /// Remembers what was chosen.
+    /// Remembers a LOD cut.
     pub(crate) fn show(&self, shown: Shown) {
         self.lock().shown = Some(Arc::new(shown));
     }
 
-    /// A new request begins: what it does not ask for may be dropped.
+    /// Begins a new request: entries that it does not ask for may be dropped.
     pub(crate) fn begin_request(&self) {
         self.lock().request += 1;
     }
@@ -212,22 +216,22 @@ impl Cache {
         state.bytes = 0;
     }
 
-    /// What it may come to.
+    /// The budget.
     pub(crate) fn budget_bytes(&self) -> usize {
         self.budget_bytes
     }
 
-    /// So much of the budget something else takes from now on.
+    /// Sets the part of the budget that is used outside of the cache.
     pub(crate) fn set_aside(&self, bytes: usize) {
         self.aside_bytes.store(bytes, Ordering::Relaxed);
     }
 
-    /// What is left of the budget.
+    /// The budget that is left for entries.
     fn room_bytes(&self) -> usize {
         self.budget_bytes.saturating_sub(self.aside_bytes.load(Ordering::Relaxed))
     }
 
-    /// How much is kept, what was set aside included.
+    /// Memory use, including what is used outside of the cache.
     pub(crate) fn memory(&self) -> Memory {
         let state = self.lock();
         Memory {
@@ -241,7 +245,7 @@ impl Cache {
 }
 
 impl State {
-    /// Drops things until the rest fits the budget with some room, so that it need not be done for every tile.
+    /// Drops entries until an eighth of the budget is free, so that trimming is rare.
     fn trim(&mut self, budget_bytes: usize) {
         let target = budget_bytes - budget_bytes / 8;
         let now = Instant::now();
@@ -261,7 +265,7 @@ impl State {
 
         let mut oldest: Vec<(u64, NodeId)> = self.entries.iter().map(|(id, entry)| (entry.used, *id)).collect();
         oldest.sort_unstable();
-        // The tiles of the request before are still on screen.
+        // The tiles of the previous request are still on screen.
         let unseen = oldest.partition_point(|(used, _)| used + 1 < self.request);
         let unneeded = oldest.partition_point(|(used, _)| *used < self.request);
         self.drop_while_over(target, &oldest[..unseen], Entry::strip);

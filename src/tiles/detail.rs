@@ -1,4 +1,4 @@
-//! The detail tile of one node: slopes and heights finer than its mesh, from the evaluator.
+//! The detail texture of one node: slopes and heights finer than its mesh, from the evaluator.
 
 use crate::lod::range::spacing_rad;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_IMAGE, DETAIL_SIDE, DetailTile, TILE_QUADS, Tile, slope_basis};
@@ -10,27 +10,27 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Points evaluated at a time: few enough for the fields of all layers to stay in the second-level cache.
 const BATCH: usize = 1024;
-/// Slopes beyond this are as good as vertical.
+/// Greatest slope stored; steeper ground is as good as vertical.
 const STEEPEST: f64 = 1000.0;
-/// The greatest number a half float holds.
+/// The greatest number of a half float.
 const MOST: f64 = 65504.0;
 
-/// What is known of one texel.
+/// One texel.
 #[derive(Clone, Copy, Default)]
 struct Texel {
     height_m: f64,
     /// Along the two tangents.
     slope: [f64; 2],
-    /// How steep the ground is there, all told.
+    /// Slope of the ground with every octave.
     steepest: f64,
 }
 
-/// Finds what a tile's mesh is too coarse to show; nothing if `wanted`, asked again and again, says no.
+/// Computes the detail texture of a tile; None once `wanted`, asked repeatedly, says no.
 pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> bool) -> Option<DetailTile> {
     profiling::scope!("detail");
     static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let own_texels = texels(terrain, tile.id, 1, wanted)?;
-    // The parent has every second texel of every second row, and lines between them.
+    // The parent has every second texel of every second row, with linear interpolation between.
     let parents = texels(terrain, tile.id, 2, wanted)?;
     let base_m = (0.5 * (tile.min_height_m + tile.max_height_m)) as f32;
     let (mut slopes, mut heights) = (Vec::with_capacity(own_texels.len()), Vec::with_capacity(own_texels.len()));
@@ -48,7 +48,7 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> b
     Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
 }
 
-/// Every so many texels of a node and around it, row by row, without the slopes that they are too far apart to show.
+/// Every `stride`th texel of a node and its apron, row by row. Slopes omit octaves that this spacing cannot show.
 fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> bool) -> Option<Vec<Texel>> {
     let quads = (DETAIL_SIDE - 1) / stride;
     let apron = DETAIL_APRON / stride;
@@ -73,7 +73,7 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
     Some(texels)
 }
 
-/// What is shown at a texel of the image by texels twice as far apart.
+/// The value that texels of twice the spacing interpolate at a texel.
 fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
     const WIDE_SIDE: usize = DETAIL_IMAGE.div_ceil(2);
     let mut mean = Texel::default();
@@ -99,7 +99,7 @@ mod tests {
         (DETAIL_APRON + y) * DETAIL_IMAGE + DETAIL_APRON + x
     }
 
-    /// Neighbours share their borders: the same slopes from either side, whatever face they lie on.
+    /// Neighbours have equal slopes on their common border, on whatever faces they lie.
     #[test]
     fn borders_are_shared_and_the_rise_is_small() {
         let planet = Arc::new(shipped::default_planet());
@@ -136,14 +136,14 @@ mod tests {
             neighbours += 1;
         }
         assert!(neighbours > 0, "no neighbour of the same level was compared");
-        // On a vertex it is the mesh, but for what is too fine to be seen.
+        // At a vertex it equals the mesh, except for octaves that are too fine to be seen.
         let relief_m = tile.max_height_m - tile.min_height_m;
         let [greater, rest, ..] = detail.heights[texel(0, 0)].map(f64::from);
         let rise_m = f64::from(detail.base_m) + greater + rest - f64::from(tile.vertices[0].height_m);
         assert!(rise_m.abs() < 0.2 * relief_m + 50.0, "{rise_m} of {relief_m}");
     }
 
-    /// A child that has not come in yet shows what its parent shows.
+    /// A child begins with what its parent shows.
     #[test]
     fn a_child_begins_as_its_parents_quarter() {
         let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();

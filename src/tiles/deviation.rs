@@ -1,7 +1,8 @@
-//! How far the vertices of a tile stand out from the mesh of the level before, and how near the eye must come for the children's.
+//! Deviations: heights of a tile's vertices above their chords in the coarser mesh, and the deviations to expect of its
+//! children.
 //!
-//! Everything is found from the tile itself: the ends of a vertex's chord are vertices of the tile, too. What neighbours share comes
-//! out the same in both, to the bit, whichever of the two ends comes first there.
+//! Everything follows from the tile itself, because the ends of a chord are vertices of the same tile. Values that
+//! neighbours share are bit-identical in both, whichever end of a chord comes first.
 
 use crate::lod::chords::{Chord, chords};
 use crate::lod::morph::COARSEST_MORPHING;
@@ -9,7 +10,7 @@ use crate::lod::select::{UNKNOWN_M, foresee};
 use crate::lod::tile::{BLOCK_QUADS, BLOCKS_SIDE, TILE_SIDE, TILE_VERTICES, Tile};
 use glam::DVec3;
 
-/// Fills in what a tile's vertices and blocks carry of it. `dirs_planet` and `height_m` are those of its vertices.
+/// Sets the deviations of the vertices and blocks of a tile. `dirs_planet` and `height_m` are those of its vertices.
 pub(super) fn find_deviations(tile: &mut Tile, radius_m: f64, dirs_planet: &[DVec3], height_m: &[f64]) {
     if dirs_planet.len() != TILE_VERTICES || height_m.len() != TILE_VERTICES || tile.vertices.len() != TILE_VERTICES {
         return;
@@ -18,7 +19,7 @@ pub(super) fn find_deviations(tile: &mut Tile, radius_m: f64, dirs_planet: &[DVe
     let mut deviations_m = [0.0_f32; TILE_VERTICES];
     let mut most_m = [0.0_f32; COARSEST_MORPHING as usize + 1];
     for chord in chords((id.x + id.y) % 2 == 1) {
-        // Vertices of level 0 stand out from nothing.
+        // Vertices of level 0 have no chord.
         if 1_u32 << id.level <= u32::from(chord.stride) {
             continue;
         }
@@ -37,16 +38,16 @@ pub(super) fn find_deviations(tile: &mut Tile, radius_m: f64, dirs_planet: &[DVe
         let first = i / BLOCKS_SIDE * BLOCK_QUADS * TILE_SIDE + i % BLOCKS_SIDE * BLOCK_QUADS;
         block.radius_m = block_radius_m(first, radius_m, dirs_planet, height_m);
     }
-    // Before they have come out, vertices are as far from their places as all levels on the way add up to.
+    // While they morph, vertices are displaced by up to the sum of the deviations of all levels on the way.
     tile.bounding_radius_m += f64::from(most_m.iter().sum::<f32>());
 }
 
-/// How far a vertex stands above its chord, along its own vertical.
+/// Height of a vertex above its chord, along its own vertical.
 #[inline]
 fn above_chord_m(chord: &Chord, radius_m: f64, dirs: &[DVec3], height_m: &[f64]) -> f64 {
     let (a, b) = (usize::from(chord.younger), usize::from(chord.elder));
     let (mut a, mut b) = ((dirs[a], radius_m + height_m[a]), (dirs[b], radius_m + height_m[b]));
-    // In the same order for everybody, so that rounding is the same.
+    // In a fixed order, so that rounding is the same for all tiles.
     if (b.0.x, b.0.y, b.0.z) < (a.0.x, a.0.y, a.0.z) {
         (a, b) = (b, a);
     }
@@ -60,10 +61,10 @@ fn above_chord_m(chord: &Chord, radius_m: f64, dirs: &[DVec3], height_m: &[f64])
     radius_m + height_m[usize::from(chord.vertex)] - (from_m + share * (to_m - from_m))
 }
 
-/// What the deviations of the ends of its chord let one expect of a vertex in a tile of a level.
+/// The deviation to expect of a vertex from the deviations of its chord's ends.
 #[inline]
 fn foreseen_m(chord: &Chord, level: u8, deviations_m: &[f32; TILE_VERTICES]) -> f32 {
-    // Born in level 1: nothing is known of its elders.
+    // Born in level 1: the deviations of the ends are unknown.
     if 1_u32 << level <= 2 * u32::from(chord.stride) {
         return UNKNOWN_M;
     }

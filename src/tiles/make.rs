@@ -1,15 +1,16 @@
-//! One tile from one node: directions, layer fields, climate noise, height, climate, mesh (see `mesh`). Stages whose inputs did not change are
-//! taken from the tile that stood there before, and samples that the parent has from the parent.
+//! One tile from one node: directions, layer fields, climate noise, heights, climate, mesh (see `mesh`). The result of
+//! a stage is taken from the node's tile of an earlier revision if its content key is the same. The climate noise of
+//! points that the parent has is taken from the parent.
 
-use super::mesh::mesh;
+use super::mesh::{VertexClimate, mesh, with_climate};
 use super::stats::Work;
 use crate::lod::range::spacing_rad;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile};
-use crate::planet::param::{Stage, Stages};
+use crate::planet::Key;
+use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::climate::{ClimateField, ClimateInputs};
-use crate::terrain::coast::Coast;
 use crate::terrain::evaluate::Kept;
 use crate::terrain::field::Field;
 use crate::terrain::height::Heights;
@@ -17,12 +18,13 @@ use crate::terrain::kept::KeptFields;
 use crate::terrain::landform::Landform;
 use crate::terrain::points::Points;
 use crate::terrain::relief::{Relief, ReliefFields};
+use crate::terrain::revision::TileKeys;
 use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a tile was made from (the fields of its layers apart), kept so that an edit re-runs only the stages it makes stale.
-#[derive(Debug)]
+/// What a tile was made from, the fields of its layers apart; kept so that an edit runs only the stages it makes stale.
+#[derive(Clone, Debug)]
 pub(crate) struct Parts {
     points: Arc<Points>,
     heights: Arc<Heights>,
@@ -31,13 +33,14 @@ pub(crate) struct Parts {
     relief_fields: ReliefFields,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
-    coast: Option<Arc<Coast>>,
-    /// Distance to the sea at each vertex, as an angle.
+    /// Key of the coast map behind `inland_rad`.
+    coast: Option<Key>,
+    /// Distance from the sea at each vertex in radians.
     inland_rad: Arc<Vec<f64>>,
 }
 
 impl Parts {
-    /// Resident size, for the cache's budget.
+    /// Resident size.
     pub(crate) fn bytes(&self) -> usize {
         let point = size_of::<DVec3>() + 3 * size_of::<f64>();
         let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
@@ -47,30 +50,33 @@ impl Parts {
     }
 }
 
-/// What is known of a node before its tile is built.
+/// What the cache has of a node before its tile is built.
 pub(crate) struct Before<'a> {
-    /// What the parent's tile was made from, perhaps for an earlier planet.
+    /// What the parent's tile was made from, perhaps for an earlier revision.
     pub(crate) parent: Option<&'a Parts>,
-    /// What the tile that stood there was made from.
+    /// What the node's tile was made from.
     pub(crate) parts: Option<&'a Parts>,
-    /// Fields of this planet's layers and of others.
+    /// The node's tile.
+    pub(crate) tile: Option<&'a Tile>,
+    /// The content keys of `parts` and `tile`.
+    pub(crate) keys: TileKeys,
+    /// Fields of this revision's layers and of others.
     pub(crate) fields: &'a KeptFields,
-    /// The stages in which the planet of `parts` differs from this one.
-    pub(crate) stale: Stages,
 }
 
-/// The fields of a planet's layers, as far as they are known.
+/// The fields of a planet's layers; None for those that are not known.
 pub(crate) type Fields = Vec<Option<Arc<Field>>>;
 
-/// Builds the tile of a node, and adds what that took to `work`. Gives the fields of the layers, and no tile if `keep_going`,
-/// asked before each layer, said no; then only some of the fields are there.
+/// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is asked
+/// before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay gets only
+/// a new climate; it has parts only if it had them before.
 pub(crate) fn make_tile(
     terrain: &Terrain,
     id: NodeId,
     before: &Before<'_>,
     work: &mut Work,
     keep_going: &dyn Fn() -> bool,
-) -> (Fields, Option<(Tile, Parts)>) {
+) -> (Fields, Option<(Tile, Option<Parts>)>) {
     profiling::scope!("tile");
     let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
     let simd = terrain.simd();
@@ -80,6 +86,36 @@ pub(crate) fn make_tile(
     let layers = &terrain.stack.layers;
     let mut fields: Fields =
         layers.iter().map(|layer| before.fields.find(&layer.landform, &layer.spacings_rad(&spacings_rad))).collect();
+    let climate_noises = terrain.climate.noises().cloned();
+    let has_same_noises = |parts: &&Parts| parts.climate_noises == climate_noises;
+    let climate = match before.parts.filter(has_same_noises) {
+        Some(parts) => parts.climate.clone(),
+        None => {
+            let parent = before.parent.filter(has_same_noises).map(|parts| &*parts.climate);
+            let (climate, samples) = work.run(Stage::ClimateNoise, || {
+                profiling::scope!("climate noise");
+                climate_field(terrain, id, &points, parent)
+            });
+            work.octave_samples += samples;
+            Arc::new(climate)
+        }
+    };
+
+    // Heights that change anywhere, however far away, make another coast.
+    let coast = terrain.world().coast.key();
+    let inland_rad = match before.parts {
+        Some(parts) if parts.coast == coast => parts.inland_rad.clone(),
+        _ => Arc::new(terrain.climate.inland_rad(&points.dirs).collect()),
+    };
+
+    let same_heights = before.keys.heights == terrain.tile_keys().heights;
+    if let Some(tile) = before.tile.filter(|_| same_heights) {
+        let climate_of = VertexClimate { noise: &climate, inland_rad: &inland_rad };
+        let tile = work.run(Stage::Climate, || with_climate(tile, simd, terrain.planet(), &points.dirs, &climate_of));
+        let parts = before.parts.map(|parts| Parts { climate_noises, climate, coast, inland_rad, ..parts.clone() });
+        return (fields, Some((tile, parts)));
+    }
+
     for (layer, slot) in layers.iter().zip(&mut fields) {
         if slot.is_none() && layer.needed {
             if !keep_going() {
@@ -92,28 +128,6 @@ pub(crate) fn make_tile(
             *slot = Some(Arc::new(field));
         }
     }
-
-    let climate_noises = terrain.climate.noises().cloned();
-    let of_this_planet = |parts: &&Parts| parts.climate_noises == climate_noises;
-    let climate = match before.parts.filter(of_this_planet) {
-        Some(parts) => parts.climate.clone(),
-        None => {
-            let parent = before.parent.filter(of_this_planet).map(|parts| &*parts.climate);
-            let (climate, samples) = work.run(Stage::ClimateNoise, || {
-                profiling::scope!("climate noise");
-                climate_field(terrain, id, &points, parent)
-            });
-            work.octave_samples += samples;
-            Arc::new(climate)
-        }
-    };
-
-    // The shore is another one whenever heights change anywhere, however far from this tile.
-    let coast = terrain.climate.coast.clone();
-    let inland_rad = match before.parts {
-        Some(parts) if same_coast(parts.coast.as_ref(), coast.as_ref()) => parts.inland_rad.clone(),
-        _ => Arc::new(terrain.climate.inland_rad(&points.dirs).collect()),
-    };
 
     let mut relief_fields: ReliefFields = Vec::new();
     for noise in terrain.relief.iter().flat_map(Relief::noises) {
@@ -130,7 +144,7 @@ pub(crate) fn make_tile(
 
     static NEXT_HEIGHTS: AtomicU64 = AtomicU64::new(1);
     let (heights, heights_serial) = match before.parts {
-        Some(parts) if !before.stale.contains(Stage::Height) => (parts.heights.clone(), parts.heights_serial),
+        Some(parts) if same_heights => (parts.heights.clone(), parts.heights_serial),
         _ => work.run(Stage::Height, || {
             profiling::scope!("height");
             let mut kept = Kept {
@@ -145,24 +159,11 @@ pub(crate) fn make_tile(
 
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        let tile = mesh(terrain, id, &points.dirs, &heights, &climate, &inland_rad);
-        Tile { heights_serial, ..tile }
+        let climate = VertexClimate { noise: &climate, inland_rad: &inland_rad };
+        Tile { heights_serial, ..mesh(terrain, id, &points.dirs, &heights, &climate) }
     });
-    (
-        fields,
-        Some((
-            tile,
-            Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad },
-        )),
-    )
-}
-
-fn same_coast(a: Option<&Arc<Coast>>, b: Option<&Arc<Coast>>) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-        (None, None) => true,
-        _ => false,
-    }
+    let parts = Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad };
+    (fields, Some((tile, Some(parts))))
 }
 
 fn directions(id: NodeId) -> Vec<DVec3> {
@@ -170,8 +171,8 @@ fn directions(id: NodeId) -> Vec<DVec3> {
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
 }
 
-/// The climate's noise at a tile's points, and how many octave samples that took. Every second point of every second row
-/// is the parent's, where its noise is at hand.
+/// The climate noise at a tile's points, and the octave samples that it took. Every second point of every second row is
+/// a point of the parent: its noise is copied if the parent's is known.
 fn climate_field(
     terrain: &Terrain,
     id: NodeId,

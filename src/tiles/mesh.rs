@@ -1,47 +1,47 @@
-//! The vertices of a tile from its heights, gradients and climate: in chunks, each loop over plain arrays.
+//! The vertices of a tile from its heights, gradients and climate, in chunks over plain arrays.
 
 use super::deviation::find_deviations;
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
+use crate::planet::Planet;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
-use crate::terrain::climate::{ClimateField, NO_SEA, Rules};
+use crate::terrain::climate::{ClimateField, NO_SEA, SeaLevelClimate};
 use crate::terrain::height::Heights;
 use crate::terrain::lane::{CHUNK, Lane};
-use crate::terrain::simd::for_each_simd;
+use crate::terrain::simd::{Simd, for_each_simd};
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Adding this to an f32 below 2^22 leaves the nearest whole number in the low bits.
+/// Adding this to an f32 below 2^22 leaves the nearest integer in the low bits.
 const ROUNDER_F32: f32 = 12_582_912.0;
 
-/// Makes the mesh of a node; whose heights it has is for the caller to say. `dirs_planet`, `heights` (with the gradients of the tile's own spacing and of its parent's) and
-/// `climate` are those of its vertices, and so is `inland_rad` unless it is empty.
+static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
+
+/// Makes the tile of a node. `dirs`, `heights` (with the gradients at the tile's own spacing and at its parent's) and
+/// `climate` are those of its vertices. The caller sets [`Tile::heights_serial`].
 pub(super) fn mesh(
     terrain: &Terrain,
     id: NodeId,
     dirs: &[DVec3],
     heights: &Heights,
-    climate: &ClimateField,
-    inland_rad: &[f64],
+    climate: &VertexClimate<'_>,
 ) -> Tile {
-    static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
     let (simd, planet) = (terrain.simd(), terrain.planet());
-    let (radius_m, rules) = (planet.radius_m(), Rules::new(planet));
+    let (radius_m, rules) = (planet.radius_m(), SeaLevelClimate::new(planet));
     let (min_height_m, max_height_m) = heights.range_m(simd);
     let center_planet_m = id.direction(0.5, 0.5) * (radius_m + 0.5 * (min_height_m + max_height_m));
 
     let mut lanes = Lanes::default();
     let mut vertices = Vec::with_capacity(TILE_VERTICES);
-    for start in (0..dirs.len()).step_by(CHUNK) {
-        let range = start..(start + CHUNK).min(dirs.len());
+    for range in chunks(dirs.len()) {
         let (dirs, height_m) = (&dirs[range.clone()], &heights.height_m[range.clone()]);
         place(simd, radius_m, center_planet_m, dirs, height_m, &mut lanes);
         for (band, [x, y, z]) in heights.gradients.iter().enumerate().take(2) {
             let gradient = [&x[range.clone()], &y[range.clone()], &z[range.clone()]];
             face(simd, radius_m, dirs, height_m, gradient, &mut lanes.normal_oct[band]);
         }
-        let noise = [&climate.temperature[range.clone()], &climate.moisture[range.clone()]];
-        weather(simd, &rules, dirs, noise, inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), &mut lanes);
+        climate.chunk(simd, &rules, dirs, range, &mut lanes);
         vertices.extend((0..dirs.len()).map(|i| lanes.vertex(i)));
     }
     let mut tile = Tile {
@@ -59,7 +59,44 @@ pub(super) fn mesh(
     tile
 }
 
-/// What is known of a chunk's vertices.
+/// The same tile with another climate: its heights, and all that follows from them, stay.
+pub(super) fn with_climate(
+    tile: &Tile,
+    simd: Simd,
+    planet: &Planet,
+    dirs: &[DVec3],
+    climate: &VertexClimate<'_>,
+) -> Tile {
+    let mut tile = Tile { serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed), ..Tile::clone(tile) };
+    let (rules, mut lanes) = (SeaLevelClimate::new(planet), Lanes::default());
+    for range in chunks(dirs.len().min(tile.vertices.len())) {
+        climate.chunk(simd, &rules, &dirs[range.clone()], range.clone(), &mut lanes);
+        for (i, vertex) in tile.vertices[range].iter_mut().enumerate() {
+            (vertex.temperature_c, vertex.moisture) = (lanes.temperature_c[i], lanes.moisture[i]);
+        }
+    }
+    tile
+}
+
+fn chunks(points: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..points).step_by(CHUNK).map(move |start| start..(start + CHUNK).min(points))
+}
+
+/// The inputs of the climate at the vertices of a tile.
+pub(super) struct VertexClimate<'a> {
+    pub(super) noise: &'a ClimateField,
+    /// Distance from the sea in radians; empty if climate does not read it.
+    pub(super) inland_rad: &'a [f64],
+}
+
+impl VertexClimate<'_> {
+    fn chunk(&self, simd: Simd, rules: &SeaLevelClimate, dirs: &[DVec3], range: Range<usize>, lanes: &mut Lanes) {
+        let noise = [&self.noise.temperature[range.clone()], &self.noise.moisture[range.clone()]];
+        weather(simd, rules, dirs, noise, self.inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), lanes);
+    }
+}
+
+/// The values of a chunk of vertices.
 struct Lanes {
     high_m: [Lane<f32>; 3],
     low_m: [Lane<f32>; 3],
@@ -104,7 +141,7 @@ impl Lanes {
     }
 }
 
-/// Positions, each f64 as two f32.
+/// Positions, each f64 as the sum of two f32.
 #[inline(always)]
 fn place_body(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], lanes: &mut Lanes) {
     let n = dirs.len().min(height_m.len()).min(CHUNK);
@@ -124,7 +161,7 @@ fn place_body(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], 
 }
 for_each_simd!(fn place(radius_m: f64, center_m: DVec3, dirs: &[DVec3], height_m: &[f64], lanes: &mut Lanes) = place_body);
 
-/// Normals on the octahedron, unfolded (Cigolle et al. 2014), as two snorm numbers.
+/// Octahedral normals (Cigolle et al. 2014) as two snorm numbers.
 #[inline(always)]
 fn face_body(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32]; 3], normal_oct: &mut [Lane<i16>; 2]) {
     let [gx, gy, gz] = gradient;
@@ -154,15 +191,15 @@ fn face_body(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32];
 }
 for_each_simd!(fn face(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient: [&[f32]; 3], normal_oct: &mut [Lane<i16>; 2]) = face_body);
 
-/// Temperature and moisture at the level that climate counts from.
+/// Temperature and moisture at sea level.
 #[inline(always)]
-fn weather_body(rules: &Rules, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) {
+fn weather_body(rules: &SeaLevelClimate, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) {
     let [temperature, moisture] = noise;
     let n = dirs.len().min(temperature.len()).min(moisture.len()).min(inland_rad.len()).min(CHUNK);
     for i in 0..n {
-        let [temperature_c, moisture] = rules.at_km(dirs[i].z, 0.0, [temperature[i], moisture[i]], inland_rad[i]);
+        let [temperature_c, moisture] = rules.at(dirs[i].z, [temperature[i], moisture[i]], inland_rad[i]);
         lanes.temperature_c[i] = temperature_c as f32;
         lanes.moisture[i] = moisture as f32;
     }
 }
-for_each_simd!(fn weather(rules: &Rules, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) = weather_body);
+for_each_simd!(fn weather(rules: &SeaLevelClimate, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) = weather_body);

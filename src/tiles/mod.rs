@@ -1,11 +1,12 @@
 //! Tiles from nodes, on all cores, off the caller's thread.
 //!
-//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices; `deviation`: how they stand out from coarser meshes
-//! - `detail`: what is finer than the mesh of one node; `horizon`: how high the ground around it stands
-//! - `cache`: tiles kept for later, and for the stages an edit leaves intact
-//! - `refine`: a complete set of tiles for a view
-//! - [`builder`]: all of it in the background
-//! - `stats`: what it took
+//! - `make`: one tile from one node, stage by stage; `mesh`: its vertices; `deviation`: their heights above coarser
+//!   meshes
+//! - `detail`: detail textures; `horizon`: horizon angles
+//! - `cache`: tiles of earlier requests, whole or as inputs for stages
+//! - `refine`: the LOD cut of a view
+//! - [`builder`]: surfaces in the background
+//! - `stats`: time and memory
 pub mod builder;
 mod cache;
 mod detail;
@@ -28,56 +29,59 @@ use crate::lod::{Culling, Ranges, Tile, View};
 use crate::planet::{InvalidPlanet, Planet};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use crate::terrain::coarse::CellFields;
+pub use crate::world::MapWork;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A complete set of tiles that covers the whole planet without a gap; what the renderer draws.
+/// A complete set of tiles that covers the whole planet without a gap. The renderer draws it.
 #[derive(Clone)]
 pub struct Surface {
-    /// The evaluator the tiles were made with.
+    /// The terrain that the tiles were made with.
     pub terrain: Arc<Terrain>,
-    /// The tiles that are shown, each with its edge mask for [`crate::lod::stitch::triangle_indices`].
+    /// The leaves, each with its edge mask for [`crate::lod::stitch::triangle_indices`].
     pub leaves: Vec<Leaf>,
-    /// Whether every tile is as fine as the view asks; if not, a finer surface follows.
+    /// Whether every tile is as fine as the view asks and the world maps are final. If not, a better surface follows.
     pub complete: bool,
-    /// The view it was made for.
+    /// The view that it was made for.
     pub view: View,
-    /// How far from the eye the levels show: what chose the tiles must shape them, too.
+    /// The ranges of the LOD cut, which also shape the morph.
     pub ranges: Ranges,
-    /// When it was asked for; the times in `stats` count from there.
+    /// When it was requested. The times in `stats` count from here.
     pub asked: Instant,
-    /// What it took.
+    /// Time that it took.
     pub stats: BuildStats,
 }
 
-/// A tile as it stands among its neighbours.
+/// A leaf of the LOD cut: a tile and its neighbourhood.
 #[derive(Clone, Debug)]
 pub struct Leaf {
     /// The mesh.
     pub tile: Arc<Tile>,
-    /// Bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
+    /// Parent edges, as bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
-    /// The tile whose detail is to be shown: this one, or an ancestor where the mesh is finer than shading needs.
+    /// The tile whose detail texture is to be shown: this one, or an ancestor if the mesh is finer than shading needs.
     pub relief: Arc<Tile>,
-    /// What is finer than the mesh: that of `relief`, or of an ancestor of it until it is there.
+    /// The detail texture of `relief`, or of an ancestor of it until that is there.
     pub detail: Option<Arc<DetailTile>>,
-    /// Its horizon, or that of a node above it, once one is there; perhaps of an earlier planet while the new one is found.
+    /// Its horizon angles, or those of an ancestor; perhaps of an earlier revision while new ones are computed.
     pub horizon: Option<Arc<HorizonTile>>,
 }
 
 impl Leaf {
-    /// Whether the detail that is to be shown is there.
+    /// Whether the detail texture that is to be shown is there.
     fn has_own_detail(&self) -> bool {
         self.detail.as_ref().is_some_and(|detail| detail.heights_serial == self.relief.heights_serial)
     }
 }
 
 impl Surface {
-    /// The eye that vertices come out for ([`crate::lod::morph`]) when the surface is looked at from a place: that place, unless it is so
-    /// far from where the tiles were chosen for that they would not know each other's older vertices.
+    /// The eye position for the morph ([`crate::lod::morph`]) when the surface is seen from `eye_planet_m`: that
+    /// position, clamped to the distance from the LOD cut's own eye within which tiles know the older vertices of their
+    /// neighbours.
     pub fn morphing_eye_m(&self, eye_planet_m: DVec3) -> DVec3 {
         let chosen_m = self.view.camera.position_planet_m;
         let finest = self.leaves.iter().map(|leaf| leaf.tile.id.level).max().unwrap_or(0);
@@ -91,21 +95,23 @@ impl Surface {
 /// # Errors
 /// As [`Terrain::try_new`].
 pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPlanet> {
-    let terrain = Arc::new(Terrain::try_new(planet.clone())?);
+    let (mut stats, fields) = (BuildStats::default(), CellFields::default());
+    let terrain = Arc::new(Terrain::try_new_with(planet.clone(), &fields, &mut stats.maps)?);
+    stats.octave_samples = fields.take_octave_samples();
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
-    let mut stats = BuildStats::default();
-    stats.octave_samples = terrain.octave_samples();
+    cache.set_keys(terrain.tile_keys());
     Ok(refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true))
 }
 
-/// Finds the horizons and the detail of all tiles that a view shows of a surface, and waits for them.
+/// Computes the horizon angles and detail textures of all tiles that a view shows, and waits for them.
 pub fn add_detail(surface: &mut Surface, view: &View) {
     horizon::HorizonFinder::new(surface, view).find(surface, &|_| None, &|_| {}, &|| true, &|| true);
     find_detail(surface, view, &|_, _| {}, &|| true, &|| true);
 }
 
-/// Finds the detail of what a view shows of a surface, nearest tiles first, for as long as `keep_going` says so; a tile that
-/// was begun is finished while it is `wanted`. Each is also given to `keep`. Whether all of it is there now.
+/// Computes the detail textures of the tiles that a view shows, nearest tiles first, while `keep_going` says yes; a
+/// texture that was begun is finished while `wanted` says yes. Each is passed to `keep`. Returns whether all of them
+/// are there.
 pub(crate) fn find_detail(
     surface: &mut Surface,
     view: &View,
@@ -121,7 +127,7 @@ pub(crate) fn find_detail(
     let mut missing: Vec<Arc<Tile>> = missing.into_values().collect();
     let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
     missing.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)).then(a.id.cmp(&b.id)));
-    // In rounds of a tile for each thread: strictly in order, and it can be stopped in between.
+    // In rounds of one tile for each thread, which keeps the order and can be stopped in between.
     let side = rayon::current_num_threads().max(1);
     missing.chunks(side).all(|round| {
         if !keep_going() {

@@ -1,8 +1,8 @@
-//! From a view to a complete set of tiles: the restricted quadtree, refined level by level.
+//! The LOD cut of a view, refined level by level: a restricted quadtree.
 //!
-//! Each level is built on all cores before the next one is looked at, so that whatever time allows, the tiles of the levels
-//! done so far cover the whole planet without a gap. A node is split only together with the neighbours that this makes
-//! necessary: no two neighbours are ever more than one level apart. Within a level, what is nearest to the eye comes first.
+//! Each level is built on all cores before the next level is examined, so that the levels built so far cover the whole
+//! planet without a gap whenever time runs out. A node is split only together with the neighbours that must be split so
+//! that neighbours differ by at most one level. Within a level, nodes near the camera come first.
 
 use super::cache::{Cache, Shown};
 use super::stats::{BuildStats, Work};
@@ -17,8 +17,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Most tiles that the picture may show; a tile is 2,048 triangles. Of the tiles of a surface up to half lie around the picture,
-/// coarser the farther: they are there for when the eye turns, and are not drawn.
+/// Triangle budget: the most tiles that the picture may show, of 2,048 triangles each. Up to half of the tiles of a
+/// surface lie outside the picture, coarser with distance; they are there for when the camera turns, and are not drawn.
 pub fn budget_tiles(quality: Quality) -> usize {
     match quality {
         Quality::Low => 300,
@@ -27,16 +27,17 @@ pub fn budget_tiles(quality: Quality) -> usize {
     }
 }
 
-/// Beyond its budget a view is given larger errors, by steps of an eighth of an octave...
-fn leniency_factor(step: u32) -> f64 {
+/// LOD bias: the factor on the allowed screen-space error that makes the LOD cut fit the triangle budget, in steps of
+/// an eighth of an octave.
+fn bias_factor(step: u32) -> f64 {
     (f64::from(step) * 0.125).exp2()
 }
-/// ...of which there are so many.
-const MOST_LENIENT: u32 = 48;
+/// Greatest step of the LOD bias: a factor of 64.
+const MAX_BIAS: u32 = 48;
 
-/// Builds the tiles that a view needs, as far as `keep_going` allows (it is asked before each layer of each tile beyond the
-/// coarsest; after it says no, no finer level is begun). Tiles are taken from and left in `cache`. `stats` goes on from what
-/// was done before for the request made at `asked`.
+/// Builds the tiles of a view. `keep_going` is asked before each layer of each tile; once it says no, no finer level is
+/// begun, but the coarsest level is always built. Tiles are taken from `cache` and stored there. `stats` continues from
+/// earlier slices of the request made at `asked`.
 pub(crate) fn refine(
     terrain: &Arc<Terrain>,
     view: &View,
@@ -51,13 +52,13 @@ pub(crate) fn refine(
     let shown = cache.shown().filter(|shown| is_near(&shown.view, view, lowest_radius_m));
     let mut builder = LevelBuilder { terrain, cache, asked, stats: &mut stats, secs: 0.0 };
     let budget = budget_tiles(view.quality);
-    let mut choose = |leniency: u32| {
-        let ranges = Ranges::new(view, terrain.planet().radius_m(), leniency_factor(leniency));
+    let mut choose = |bias: u32| {
+        let ranges = Ranges::new(view, terrain.planet().radius_m(), bias_factor(bias));
         let selection = Selection::new(view, &ranges, lowest_radius_m, shown.as_ref().map(|shown| &shown.split));
-        choose(&mut builder, &selection, (ranges, leniency), view, keep_going)
+        choose(&mut builder, &selection, (ranges, bias), view, keep_going)
     };
-    let choice = within_budget(&mut choose, budget, shown.as_ref().map_or(0, |shown| shown.leniency));
-    // Splits forced by neighbours; few, and needed for a set without cracks, so never cut short.
+    let choice = within_budget(&mut choose, budget, shown.as_ref().map_or(0, |shown| shown.bias));
+    // Splits forced by neighbours. They are few and prevent cracks, so they are never cut short.
     let mut forced: Vec<NodeId> =
         choice.split.iter().flat_map(|id| id.children()).filter(|id| cache.tile(*id).is_none()).collect();
     forced.sort_unstable();
@@ -70,27 +71,27 @@ pub(crate) fn refine(
     stats.select_secs += begun.elapsed().as_secs_f64() - building_secs;
     stats.duration_secs = asked.elapsed().as_secs_f64();
     stats.slices += 1;
-    let Choice { ranges, complete, leniency, split, .. } = choice;
+    let Choice { ranges, complete, bias, split, .. } = choice;
     if complete {
-        cache.show(Shown { view: *view, leniency, split });
+        cache.show(Shown { view: *view, bias, split });
     }
     Surface { terrain: terrain.clone(), leaves, complete, view: *view, ranges, asked, stats }
 }
 
-/// The nodes of a view.
+/// A LOD cut.
 struct Choice {
     ranges: Ranges,
-    leniency: u32,
+    bias: u32,
     split: HashSet<NodeId>,
-    /// Those among them whose own detail is too coarse, too.
+    /// Split nodes whose detail texture is too coarse, too.
     shaded_finer: HashSet<NodeId>,
-    /// Tiles that the picture shows.
+    /// Number of tiles that the picture shows.
     seen: usize,
-    /// Whether time sufficed.
+    /// Whether it was finished in time.
     complete: bool,
 }
 
-/// Whether what was chosen for one view is worth keeping for another: not after a jump.
+/// Whether the LOD cut of one view is a good start for another: not after a jump.
 fn is_near(before: &View, after: &View, lowest_radius_m: f64) -> bool {
     let (from, to) = (&before.camera, &after.camera);
     let altitude_m = to.position_planet_m.length() - lowest_radius_m;
@@ -100,8 +101,8 @@ fn is_near(before: &View, after: &View, lowest_radius_m: f64) -> bool {
         && from.position_planet_m.distance(to.position_planet_m) < 0.25 * altitude_m
 }
 
-/// The strictest choice that keeps to the budget: from lenient ones on, so that few tiles are built that are not shown. One that
-/// did for the view before is kept while it is no waste.
+/// The finest LOD cut that fits the triangle budget. The search starts at a coarse cut, so that few tiles are built
+/// that are not shown. The LOD bias of the view before is kept while its cut fits and uses most of the budget.
 fn within_budget(choose: &mut dyn FnMut(u32) -> Choice, budget: usize, before: u32) -> Choice {
     let fits = |choice: &Choice| choice.seen <= budget;
     if before > 0 {
@@ -110,10 +111,10 @@ fn within_budget(choose: &mut dyn FnMut(u32) -> Choice, budget: usize, before: u
             return choice;
         }
     }
-    let mut choice = choose(MOST_LENIENT);
+    let mut choice = choose(MAX_BIAS);
     let mut too_strict = None;
-    while choice.complete && choice.leniency > too_strict.map_or(0, |step| step + 1) {
-        let step = too_strict.map_or(choice.leniency / 2, |step| u32::midpoint(step, choice.leniency));
+    while choice.complete && choice.bias > too_strict.map_or(0, |step| step + 1) {
+        let step = too_strict.map_or(choice.bias / 2, |step| u32::midpoint(step, choice.bias));
         let stricter = choose(step);
         if fits(&stricter) {
             choice = stricter;
@@ -124,17 +125,17 @@ fn within_budget(choose: &mut dyn FnMut(u32) -> Choice, budget: usize, before: u
     choice
 }
 
-/// Chooses and builds level by level; gives up where the budget is passed.
+/// Builds a LOD cut level by level; gives up when the budget is exceeded.
 fn choose(
     builder: &mut LevelBuilder<'_>,
     selection: &Selection<'_>,
-    (ranges, leniency): (Ranges, u32),
+    (ranges, bias): (Ranges, u32),
     view: &View,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Choice {
     let (cache, budget) = (builder.cache, budget_tiles(view.quality));
     let mut choice =
-        Choice { ranges, leniency, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
+        Choice { ranges, bias, split: HashSet::new(), shaded_finer: HashSet::new(), seen: 0, complete: true };
     let eye = view.camera.position_planet_m;
     let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
     let mut level: Vec<NodeId> = NodeId::roots().to_vec();
@@ -144,21 +145,21 @@ fn choose(
         let (mut wanted, leaves): (Vec<Arc<Tile>>, Vec<_>) = tiles.partition(|tile| selection.wants_split(tile));
         choice.seen += leaves.iter().filter(|tile| selection.sees(tile)).count();
         if wanted.is_empty() {
-            // Counted anew: neighbours have been split, too.
+            // Counted again, because neighbours have been split, too.
             choice.seen = leaf_ids(&choice.split)
                 .filter(|id| nearest_tile(*id, cache).is_some_and(|tile| selection.sees(&tile)))
                 .count();
             return choice;
         }
-        // The most lenient choice there is has to do whatever it comes to.
-        if choice.seen + wanted.len() > budget && leniency < MOST_LENIENT {
+        // The coarsest cut must serve, whatever its size.
+        if choice.seen + wanted.len() > budget && bias < MAX_BIAS {
             choice.seen += wanted.len();
             return choice;
         }
         wanted.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
         let children: Vec<NodeId> = wanted.iter().flat_map(|tile| tile.id.children()).collect();
         if !builder.build(&children, keep_going) {
-            // Out of time: go on with what is there.
+            // Out of time: continue with the tiles that are there.
             choice.complete = false;
             wanted.retain(|tile| tile.id.children().iter().all(|child| cache.tile(*child).is_some()));
         }
@@ -172,7 +173,7 @@ fn choose(
     }
 }
 
-/// Distance from the planet's centre of the lowest ground or sea that can hide what is behind it.
+/// Distance from the planet's centre of the lowest ground or sea, which hides what is behind it.
 pub fn lowest_radius_m(terrain: &Terrain) -> f64 {
     let planet: &Planet = terrain.planet();
     let lowest_m = terrain.height_bounds_m().0;
@@ -185,13 +186,13 @@ struct LevelBuilder<'a> {
     cache: &'a Cache,
     asked: Instant,
     stats: &'a mut BuildStats,
-    /// Time spent so far.
+    /// Seconds spent so far.
     secs: f64,
 }
 
 impl LevelBuilder<'_> {
-    /// Builds those of the nodes that the cache lacks, in their order. False if `keep_going` said no before the end; what was
-    /// built until then stays in the cache.
+    /// Builds the nodes that the cache lacks, in order. Returns false if `keep_going` said no before the end; tiles
+    /// built until then stay in the cache.
     fn build(&mut self, nodes: &[NodeId], keep_going: &(dyn Fn() -> bool + Sync)) -> bool {
         let missing: Vec<NodeId> = nodes.iter().filter(|id| self.cache.tile(**id).is_none()).copied().collect();
         if missing.is_empty() {
@@ -199,7 +200,7 @@ impl LevelBuilder<'_> {
         }
         let begun = Instant::now();
         let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        // Each thread takes the next node: strictly in order, which splitting the list between threads would not be.
+        // Each thread takes the next node, which keeps the order; splitting the list between threads would not.
         let works = rayon::broadcast(|_| {
             let mut work = Work::since(self.asked);
             while !stopped.load(Ordering::Relaxed)
@@ -217,7 +218,7 @@ impl LevelBuilder<'_> {
     }
 }
 
-/// Marks a node as split, and with it every node that must be so that neighbours differ by one level at most.
+/// Marks a node as split, and with it every node that must be split so that neighbours differ by at most one level.
 fn split_with_neighbours(id: NodeId, split: &mut HashSet<NodeId>) {
     if !split.insert(id) {
         return;
@@ -232,18 +233,18 @@ fn split_with_neighbours(id: NodeId, split: &mut HashSet<NodeId>) {
     }
 }
 
-/// The nodes that are left whole.
+/// The leaves of a LOD cut.
 fn leaf_ids(split: &HashSet<NodeId>) -> impl Iterator<Item = NodeId> {
     let nodes = NodeId::roots().into_iter().chain(split.iter().flat_map(|id| id.children()));
     nodes.filter(|id| !split.contains(id))
 }
 
-/// The tile of a node, or while it is not there that of the nearest node above it.
+/// The tile of a node, or of its nearest ancestor that has one.
 fn nearest_tile(id: NodeId, cache: &Cache) -> Option<Arc<Tile>> {
     std::iter::successors(Some(id), |id| id.parent()).find_map(|id| cache.tile(id))
 }
 
-/// The nodes that are shown, each with the edges beyond which the neighbour is coarser, and with its detail as far as it is there.
+/// The leaves, each with its parent edges and, if it is there, its detail texture.
 fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
     let split = &choice.split;
     let mut ids: Vec<NodeId> = leaf_ids(split).collect();
@@ -266,7 +267,7 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
         .collect()
 }
 
-/// The tile of a node that is to be shaded, and its detail or that of the nearest ancestor that has some.
+/// The tile whose detail texture is shown, and that texture or the one of the nearest ancestor that has one.
 type Relief = (Arc<Tile>, Option<Arc<DetailTile>>);
 
 fn relief(id: NodeId, cache: &Cache) -> Option<Relief> {

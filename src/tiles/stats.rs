@@ -1,7 +1,8 @@
-//! What building took: how often each stage ran, when and for how long, and what is kept in memory.
+//! Statistics of a build: runs and times of each stage, and memory use.
 
 use super::horizon::HorizonWork;
 use crate::planet::param::{Stage, Stages};
+use crate::world::MapWork;
 use std::time::Instant;
 
 /// What building a surface took, over all slices of its request.
@@ -11,36 +12,38 @@ pub struct BuildStats {
     pub tiles: usize,
     /// Vertices in the surface.
     pub vertices: usize,
-    /// Tiles (re)built for it: its own, and their ancestors.
+    /// Tiles built or given a new climate: those of the surface and their ancestors.
     pub tiles_built: usize,
-    /// Octaves of noise times points that were evaluated, for tiles and to compile the planet.
+    /// Octaves of noise times points that were evaluated, for tiles and world maps.
     pub octave_samples: usize,
     /// Seconds from the request to the finished surface.
     pub duration_secs: f64,
-    /// Seconds it took to compare the planet with the one before and to compile it.
+    /// Seconds it took to compile the planet.
     pub compile_secs: f64,
-    /// Seconds it took to choose the nodes.
+    /// Seconds it took to choose the LOD cut.
     pub select_secs: f64,
-    /// Slices that the work was done in; each ended in a complete surface.
+    /// Slices that the work took. Each ended with a complete surface.
     pub slices: usize,
-    /// What its horizons took, in the background once its tiles were there.
+    /// What solving its world maps took.
+    pub maps: MapWork,
+    /// What its horizon angles took, after its tiles.
     pub horizons: HorizonWork,
     stages: PerStage,
 }
 
-/// One for each stage of [`Stage::ALL`]; only those of [`Stages::OF_TILES`] ever run here.
+/// One entry for each stage of [`Stage::ALL`]; only those of [`Stages::OF_TILES`] run here.
 type PerStage = [StageWork; Stage::ALL.len()];
 
 /// What one stage took, on all threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageWork {
-    /// How often it ran: once for each tile, and [`Stage::Field`] once for each layer of each tile.
+    /// Number of runs: one for each tile, and for [`Stage::Field`] one for each layer of each tile.
     pub runs: usize,
     /// Seconds it ran, summed over all threads.
     pub busy_secs: f64,
-    /// When it first began, in seconds from the request.
+    /// Start of the first run, in seconds from the request.
     pub begin_secs: f64,
-    /// When it last ended, in seconds from the request.
+    /// End of the last run, in seconds from the request.
     pub end_secs: f64,
 }
 
@@ -52,11 +55,10 @@ impl BuildStats {
 
     /// The stages that ran.
     pub fn ran(&self) -> Stages {
-        let ran = |stage: &Stage| self.stage(*stage).runs > 0;
-        Stage::ALL.into_iter().filter(ran).fold(Stages::NONE, |all, stage| all.and(Stages::of(&[stage])))
+        Stage::ALL.into_iter().filter(|stage| self.stage(*stage).runs > 0).collect()
     }
 
-    /// Takes over what was done for it.
+    /// Adds the work of a thread.
     pub(crate) fn add(&mut self, work: &Work) {
         self.tiles_built += work.tiles;
         self.octave_samples += work.octave_samples;
@@ -79,7 +81,7 @@ impl StageWork {
     }
 }
 
-/// What one thread has done.
+/// The work of one thread.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
     origin: Instant,
@@ -91,12 +93,12 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// Nothing yet; times count from `origin`.
+    /// No work; times count from `origin`.
     pub(crate) fn since(origin: Instant) -> Self {
         Self { origin, tiles: 0, octave_samples: 0, stages: Default::default() }
     }
 
-    /// Runs a stage of a tile and notes it.
+    /// Runs a stage of a tile and records it.
     pub(crate) fn run<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
         let begun = Instant::now();
         let result = work();
@@ -107,17 +109,17 @@ impl Work {
     }
 }
 
-/// What the builder keeps for later.
+/// Memory use of the builder.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// Bytes in tiles and in what they and the planet's shores were made from.
+    /// Bytes in tiles, their inputs, and the layer fields behind world maps.
     pub used_bytes: usize,
-    /// Most bytes it may come to, unless what is shown takes more.
+    /// Greatest number of bytes, unless the tiles on screen need more.
     pub budget_bytes: usize,
-    /// Tiles.
+    /// Number of tiles.
     pub tiles: usize,
-    /// Horizons of nodes.
+    /// Number of horizon tiles.
     pub horizons: usize,
-    /// Layer fields of the present planet and of earlier ones.
+    /// Number of layer fields, of this revision and of earlier ones.
     pub fields: usize,
 }

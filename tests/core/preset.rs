@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use tellus::planet::param::ValueMut;
+use tellus::planet::param::ValueRef;
 use tellus::planet::{LoadError, Planet, Precision, Shape, random, shipped};
 
 fn fixture(name: &str) -> PathBuf {
@@ -20,8 +20,8 @@ fn message(text: &str) -> String {
 /// Every parameter of a planet as a line of text.
 fn values(planet: &Planet) -> String {
     let mut text = String::new();
-    planet.clone().each(&mut |path, _, value| match &value {
-        ValueMut::Choice(choice) => writeln!(text, "{path} = {}", choice.names()[choice.index()]).unwrap(),
+    planet.each_value(&mut |path, _, value| match value {
+        ValueRef::Choice(choice) => writeln!(text, "{path} = {}", choice.names()[choice.index()]).unwrap(),
         _ => writeln!(text, "{path} = {:?}", value.get()).unwrap(),
     });
     writeln!(text, "biomes.table = {:?}", planet.biomes.table.rows()).unwrap();

@@ -4,6 +4,7 @@
 use crate::support::edits::{every_edit, full_planet, is_idle};
 use proptest::prelude::*;
 use std::sync::Arc;
+use std::sync::mpsc::sync_channel;
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, Vertex, View};
 use tellus::planet::param::{Stage, Stages};
@@ -44,7 +45,7 @@ fn each_parameter_runs_the_stages_it_declares_and_no_others() {
     // One looks at it for longer than at any edit, or those would be what is remembered.
     std::thread::sleep(Duration::from_millis(1500));
     let edits = every_edit(&planet);
-    planet.clone().each(&mut |path, _, _| {
+    planet.each_value(&mut |path, _, _| {
         let path = path.to_string();
         assert!(is_idle(&path) || edits.iter().any(|edit| edit.path == path), "{path} has an edit");
     });
@@ -76,7 +77,8 @@ fn an_edit_of_one_layer_evaluates_that_layer_alone() {
         let mut edited = planet.clone();
         edited.layers[layer].seed += 100;
         let stats = ask(&builder, &edited, &view);
-        assert_eq!(stats.stage(Stage::Field).runs, stats.tiles_built);
+        assert!(stats.stage(Stage::Field).runs > 0);
+        assert_eq!(stats.stage(Stage::Field).runs, stats.stage(Stage::Height).runs);
         ask(&builder, &planet, &view);
     }
 }
@@ -110,7 +112,7 @@ fn layers_that_are_moved_removed_and_brought_back_evaluate_no_noise() {
     let mut retyped = planet.clone();
     retyped.layers[0].shape = Shape::Fbm(Fbm { octaves: 2, ..Fbm::default() });
     let stats = ask(&builder, &retyped, &view);
-    assert_eq!(stats.stage(Stage::Field).runs, stats.tiles_built);
+    assert_eq!(stats.stage(Stage::Field).runs, stats.stage(Stage::Height).runs);
 }
 
 #[test]
@@ -208,6 +210,45 @@ fn every_surface_on_the_way_is_whole_and_of_one_planet() {
             assert_eq!(leaf.tile.vertices[16 * 33 + 16].height_m, height_m as f32);
         }
     }
+}
+
+#[test]
+fn world_maps_are_solved_for_what_they_read_and_never_before_the_first_surface() {
+    let planet = full_planet();
+    let view = view(30.0, 3.0);
+    // After each surface the builder waits for the test to look at it.
+    let (bell, surfaces) = sync_channel(0);
+    let builder = Builder::new(move || {
+        let _ = bell.send(()).and_then(|()| bell.send(()));
+    });
+    let all_surfaces = |planet: &Planet| {
+        builder.request(&Arc::new(planet.clone()), &view);
+        let mut seen = Vec::new();
+        while !builder.has_all_tiles() {
+            surfaces.recv().unwrap();
+            seen.extend(builder.surface());
+            surfaces.recv().unwrap();
+        }
+        seen.retain(|surface| surface.terrain.planet().as_ref() == planet);
+        seen
+    };
+    let runs = |seen: &[Arc<Surface>]| seen.iter().map(|surface| surface.stats.maps.runs).collect::<Vec<_>>();
+    let first = all_surfaces(&planet);
+    assert_eq!((runs(&first)[0], runs(&first).last()), (0, Some(&1)), "the first surface does not wait for the map");
+    let mut edited = planet.clone();
+    edited.climate.sea_moisture = 0.4;
+    edited.clouds = None;
+    assert_eq!(runs(&all_surfaces(&edited)).last(), Some(&0), "the coast stays where it is");
+    edited.layers[0].amplitude_m += 100.0;
+    let moved = all_surfaces(&edited);
+    assert_eq!((runs(&moved)[0], moved[0].complete), (0, false), "the old map serves until the new one is whole");
+    let last = &moved[moved.len() - 1];
+    assert_eq!((last.stats.maps.runs, last.complete), (1, true));
+    assert!(bits(last) == bits(&build_now(&Arc::new(edited.clone()), &view).unwrap()));
+    edited.climate.sea_moisture = 0.0;
+    edited.layers[0].amplitude_m += 100.0;
+    assert_eq!(runs(&all_surfaces(&edited)).last(), Some(&0), "nothing reads the coast");
+    drop(surfaces);
 }
 
 /// What may happen to a builder.

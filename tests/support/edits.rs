@@ -1,11 +1,12 @@
 //! A planet with everything on, and an edit of each of its parameters.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
-use tellus::planet::diff;
+use std::sync::Arc;
 use tellus::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
 use tellus::planet::{
     Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Steep, Table, TableRows, Water, param::Choice as _,
 };
+use tellus::terrain::Revision;
 
 /// A planet on which every parameter has something to do: each kind of layer, masks, all biomes in the table.
 pub fn full_planet() -> Planet {
@@ -67,15 +68,16 @@ pub struct Edit {
     pub planet: Planet,
 }
 
-/// Slopes of its own are nothing to the first biome of the full planet, which has the rock of all.
+/// Parameters that the full planet does not read: its first biome shows the shared rock where it is steep, and the rows
+/// of its table go by temperature.
 pub fn is_idle(path: &str) -> bool {
-    path.starts_with("biomes.palette[0].steep_")
+    path.starts_with("biomes.palette[0].steep_") || ["biomes.lowest_m", "biomes.highest_m"].contains(&path)
 }
 
 /// An edit of each parameter of a planet that has another value to take, and one of the biome table.
 pub fn every_edit(planet: &Planet) -> Vec<Edit> {
     let mut places: Vec<(ParamPath, Stages)> = Vec::new();
-    planet.clone().each(&mut |path, param, _| places.push((path.clone(), param.stages)));
+    planet.each_value(&mut |path, param, _| places.push((path.clone(), param.stages)));
     let mut edits: Vec<Edit> = places
         .into_iter()
         .filter_map(|(path, stages)| {
@@ -91,20 +93,33 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
             if let Some((name, old, new)) = renamed {
                 follow(&mut edited, name, &old, &new);
             }
-            // What stands beside the parameter; but heights follow biomes and climate only where a biome has a relief.
+            // With a biome relief, heights follow climate and biomes, and only the content keys tell how far.
             let reliefs = planet.biomes.palette.iter().any(|biome| biome.relief_m > 0.0);
-            let relief = reliefs || path.to_string().contains("relief");
-            let stages = if relief { diff::touched_stages(planet, &edited) } else { stages };
+            let by_keys = reliefs || path.to_string().contains("relief");
             let declared = stages.with_consequences();
+            let declared = if by_keys {
+                declared.without(Stages::OF_TILES).and(changes(planet, &edited).within(Stages::OF_TILES))
+            } else {
+                declared
+            };
             let path = path.to_string();
             (edited != *planet && !is_idle(&path)).then_some(Edit { path, declared, planet: edited })
         })
         .collect();
     let mut painted = planet.clone();
     painted.biomes.table.set_key(0, 0, planet.biomes.palette[1].key);
-    let declared = diff::touched_stages(planet, &painted).with_consequences();
+    let declared = changes(planet, &painted);
     edits.push(Edit { path: "biomes.table".to_owned(), declared, planet: painted });
     edits
+}
+
+/// The stages that the content keys of two valid planets differ in.
+fn changes(before: &Planet, after: &Planet) -> Stages {
+    let revision = |planet: &Planet| Revision::try_new(Arc::new(planet.clone()));
+    match (revision(before), revision(after)) {
+        (Ok(before), Ok(after)) => after.changes_since(&before),
+        _ => Stages::NONE,
+    }
 }
 
 /// Lets everything that refers to a biome by its key or to a layer by its name refer to the new one: without that the planet

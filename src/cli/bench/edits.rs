@@ -3,8 +3,8 @@
 use super::{median, opening_view, p95};
 use crate::lod::View;
 use crate::lod::tile::TILE_VERTICES;
-use crate::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueMut};
-use crate::planet::{Planet, diff, validate};
+use crate::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueRef};
+use crate::planet::{Planet, validate};
 use crate::tiles::{BuildStats, Builder, DEFAULT_BUDGET_BYTES};
 use serde_json::json;
 use std::collections::HashSet;
@@ -102,33 +102,27 @@ impl Bench {
 fn one_of_every_kind(planet: &Planet) -> Vec<(ParamPath, Stages)> {
     let mut kinds = HashSet::new();
     let mut found = Vec::new();
-    planet.clone().each(&mut |path, param, value| {
+    planet.each_value(&mut |path, param, value| {
         let part = path.segments().first().cloned();
-        let kind = (part, path.segments().len(), param.stages, kind(&value));
-        if nudged(param, &value, 1).is_some() && kinds.insert(kind) {
-            found.push(path.clone());
+        let kind = (part, path.segments().len(), param.stages, kind(value));
+        if nudged(param, value, 1).is_some() && kinds.insert(kind) {
+            found.push((path.clone(), param.stages.with_consequences()));
         }
     });
+    found.retain(|(path, _)| edited(planet, path, 1).is_some());
     found
-        .into_iter()
-        .filter_map(|path| {
-            let after = edited(planet, &path, 1)?;
-            let stages = diff::touched_stages(planet, &after).with_consequences();
-            Some((path, stages))
-        })
-        .collect()
 }
 
-fn kind(value: &ValueMut<'_>) -> u8 {
+fn kind(value: ValueRef<'_>) -> u8 {
     match value {
-        ValueMut::Number(_) => 0,
-        ValueMut::Count(_) => 1,
-        ValueMut::Flag(_) => 2,
-        ValueMut::Triple(_) => 3,
-        ValueMut::Text(_) => 4,
-        ValueMut::Letter(_) => 5,
-        ValueMut::Choice(_) => 6,
-        ValueMut::Curve(_) => 7,
+        ValueRef::Number(_) => 0,
+        ValueRef::Count(_) => 1,
+        ValueRef::Flag(_) => 2,
+        ValueRef::Triple(_) => 3,
+        ValueRef::Text(_) => 4,
+        ValueRef::Letter(_) => 5,
+        ValueRef::Choice(_) => 6,
+        ValueRef::Curve(_) => 7,
     }
 }
 
@@ -137,7 +131,7 @@ fn edited(planet: &Planet, path: &ParamPath, step: usize) -> Option<Planet> {
     let mut edited = planet.clone();
     edited.each(&mut |at, param, mut value| {
         if at == path
-            && let Some(new) = nudged(param, &value, step)
+            && let Some(new) = nudged(param, value.as_ref(), step)
         {
             value.set(&new);
         }
@@ -145,7 +139,7 @@ fn edited(planet: &Planet, path: &ParamPath, step: usize) -> Option<Planet> {
     (edited != *planet && validate::problems(&edited).is_empty()).then_some(edited)
 }
 
-fn nudged(param: &Param, value: &ValueMut<'_>, step: usize) -> Option<Value> {
+fn nudged(param: &Param, value: ValueRef<'_>, step: usize) -> Option<Value> {
     let share = 0.01 * step as f64;
     Some(match (value.get(), param.domain) {
         (Value::Number(v), Domain::Number { min, max, .. }) => {
@@ -157,7 +151,7 @@ fn nudged(param: &Param, value: &ValueMut<'_>, step: usize) -> Option<Value> {
         (Value::Flag(v), _) => Value::Flag(!v),
         (Value::Triple(v), _) => Value::Triple(v.map(|c| c * (1.0 - share))),
         (Value::Choice(index), _) => match value {
-            ValueMut::Choice(choice) => Value::Choice((index + 1) % choice.names().len().max(1)),
+            ValueRef::Choice(choice) => Value::Choice((index + 1) % choice.names().len().max(1)),
             _ => return None,
         },
         (Value::Curve(points), _) if points.is_empty() => {

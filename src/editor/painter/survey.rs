@@ -1,8 +1,7 @@
 //! The shares of the planet's land in each cell of the biome table and in each biome: samples of the evaluator at
 //! directions of equal areas, on another thread.
 
-use crate::planet::param::Stages;
-use crate::planet::{Planet, diff};
+use crate::planet::Planet;
 use crate::sphere::spread;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
@@ -63,61 +62,57 @@ impl Survey {
 
 /// Surveys planets on another thread, and keeps the newest result.
 pub struct Surveyor {
-    planets: Sender<Arc<Planet>>,
+    terrains: Sender<Arc<Terrain>>,
     answers: Receiver<Survey>,
-    asked: Option<Arc<Planet>>,
+    asked: Option<Arc<Terrain>>,
     survey: Option<Survey>,
 }
 
 impl Surveyor {
     /// Starts the thread, which calls `wake` after each survey and ends with the surveyor.
     pub fn new(wake: impl Fn() + Send + 'static) -> Self {
-        let (planets, asked) = channel::<Arc<Planet>>();
+        let (terrains, asked) = channel::<Arc<Terrain>>();
         let (answered, answers) = channel();
         let spawned = std::thread::Builder::new().name("tellus-survey".to_owned()).spawn(move || {
-            let mut kept: Option<Terrain> = None;
-            while let Ok(planet) = asked.recv() {
-                // Only the newest planet matters.
-                let planet = asked.try_iter().last().unwrap_or(planet);
-                let terrain = match &kept {
-                    Some(before) => Terrain::try_after(planet, before),
-                    None => Terrain::try_new(planet),
-                };
-                // A planet with problems has no terrain: the newest result stays.
-                let Ok(terrain) = terrain else { continue };
+            while let Ok(terrain) = asked.recv() {
+                // Only the newest matters.
+                let terrain = asked.try_iter().last().unwrap_or(terrain);
                 if answered.send(Survey::of(&terrain)).is_err() {
                     return;
                 }
-                kept = Some(terrain);
                 wake();
             }
         });
         // Without the thread there are no shares, and nothing else breaks.
         debug_assert!(spawned.is_ok());
-        Self { planets, answers, asked: None, survey: None }
+        Self { terrains, answers, asked: None, survey: None }
     }
 
-    /// Asks for a survey of a planet, unless the newest request was for equal ground.
-    pub fn ask(&mut self, planet: &Arc<Planet>) {
-        if !self.asked.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, planet) || same_ground(asked, planet)) {
+    /// Asks for a survey of a terrain, unless the newest request was for equal ground, or its world maps are not final yet.
+    pub fn ask(&mut self, terrain: &Arc<Terrain>) {
+        if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(|asked| same_ground(asked, terrain)) {
             // Fails only if the thread could not be started.
-            let _ = self.planets.send(planet.clone());
+            let _ = self.terrains.send(terrain.clone());
+            self.asked = Some(terrain.clone());
         }
-        self.asked = Some(planet.clone());
         if let Some(survey) = self.answers.try_iter().last() {
             self.survey = Some(survey);
         }
     }
 
-    /// The newest result; it may be of a planet of a moment ago.
+    /// The newest result; it may be of an earlier revision.
     pub fn survey(&self) -> Option<&Survey> {
         self.survey.as_ref()
     }
 }
 
-/// Whether two planets have the same survey.
-fn same_ground(a: &Planet, b: &Planet) -> bool {
-    a.biomes == b.biomes && diff::touched_stages(a, b).within(Stages::OF_TILES).is_empty()
+/// Whether a survey would find the same: equal tiles, and equal rules from there to the biome.
+fn same_ground(a: &Arc<Terrain>, b: &Arc<Terrain>) -> bool {
+    let same_rules = |a: &Planet, b: &Planet| a.biomes == b.biomes && a.climate == b.climate;
+    Arc::ptr_eq(a, b)
+        || (same_rules(a.planet(), b.planet())
+            && a.planet().sea_level_m() == b.planet().sea_level_m()
+            && !b.keys().changes_since(a.keys()).touches_tiles())
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub struct TurnedOff {
 /// The planet's own parameters: name, seed, radius. The other parts have panels of their own, and the editor's notes
 /// none.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    let skip = ["star", "layers", "climate", "biomes", "water", "atmosphere", "clouds", "editor"];
+    let skip: Vec<&str> = Planet::PARTS.iter().map(|part| part.name).collect();
     let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());
 }

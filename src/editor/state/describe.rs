@@ -10,15 +10,15 @@ pub fn change(before: &Planet, after: &Planet) -> String {
     }
     let changes = diff::diff(before, after);
     match changes.as_slice() {
-        [only] => match param_at(after, &only.path) {
+        [only] => match param_at(after, only) {
             // The step must not contain the name itself, which changes with each letter: each would be a step.
-            Some((param, _)) if param.name == "name" && only.path.segments().len() > 1 => {
-                let biome = only.path.segments().first() == Some(&Segment::Field("biomes"));
+            Some((param, _)) if param.name == "name" && only.segments().len() > 1 => {
+                let biome = only.segments().first() == Some(&Segment::Field("biomes"));
                 format!("Rename {}", if biome { "biome" } else { "layer" })
             }
             Some((param, _)) => {
                 let label = lower_first(param.label);
-                match owner(after, &only.path) {
+                match owner(after, only) {
                     Some(owner) => format!("Change {label} of {owner}"),
                     None => format!("Change {label}"),
                 }
@@ -26,9 +26,9 @@ pub fn change(before: &Planet, after: &Planet) -> String {
             None => "Change planet".to_owned(),
         },
         [first, rest @ ..] => {
-            let part = owner(after, &first.path);
+            let part = owner(after, first);
             match part {
-                Some(part) if rest.iter().all(|c| owner(after, &c.path).as_deref() == Some(part.as_str())) => {
+                Some(part) if rest.iter().all(|path| owner(after, path).as_deref() == Some(part.as_str())) => {
                     format!("Change {part}")
                 }
                 _ => "Change planet".to_owned(),
@@ -52,7 +52,7 @@ pub fn owner(planet: &Planet, path: &ParamPath) -> Option<String> {
 
 fn param_at(planet: &Planet, wanted: &ParamPath) -> Option<(&'static Param, Value)> {
     let mut found = None;
-    planet.clone().each(&mut |path, param, value| {
+    planet.each_value(&mut |path, param, value| {
         if path == wanted {
             found = Some((param, value.get()));
         }

@@ -1,7 +1,8 @@
 //! Measured times: from an edit to its picture on screen, and from frame to frame.
 
 use super::timeline::{Drawing, Timeline};
-use crate::planet::{Planet, diff};
+use crate::planet::Planet;
+use crate::terrain::{Revision, Terrain};
 use crate::tiles::Surface;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -46,7 +47,7 @@ impl EditClock {
         }
         let made_for = |edit: &Edit| Arc::ptr_eq(surface.terrain.planet(), &edit.planet);
         let shown = self.pending.iter().rposition(|edit| {
-            made_for(edit) || (Arc::ptr_eq(planet, &edit.planet) && same_tiles(surface.terrain.planet(), planet))
+            made_for(edit) || (Arc::ptr_eq(planet, &edit.planet) && same_tiles(&surface.terrain, planet))
         });
         if let Some(index) = shown {
             let edit = &self.pending[index];
@@ -100,9 +101,10 @@ impl EditClock {
     }
 }
 
-/// Whether two planets have the same tiles.
-pub(super) fn same_tiles(before: &Planet, after: &Planet) -> bool {
-    !diff::touched_stages(before, after).touches_tiles()
+/// Whether the tiles of a terrain are those of another revision, too.
+pub(super) fn same_tiles(terrain: &Terrain, planet: &Arc<Planet>) -> bool {
+    let revision = Revision::try_new(planet.clone());
+    revision.is_ok_and(|revision| !revision.keys().changes_since(terrain.keys()).touches_tiles())
 }
 
 /// The time from frame to frame while frames follow each other without a pause.

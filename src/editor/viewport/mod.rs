@@ -286,7 +286,7 @@ impl Viewport {
     fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View) {
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
         let shown = surface.terrain.planet().clone();
-        let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&shown, valid) { valid } else { &shown };
+        let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&surface.terrain, valid) { valid } else { &shown };
         let (settings, marked) = (&self.settings, self.painter.marked.clone());
         let scene = Scene { surface, planet, view, frozen: self.frozen, settings, marked };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);

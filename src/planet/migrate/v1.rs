@@ -1,92 +1,24 @@
 //! Presets of version 1: layers of three kinds, six blends, masks by the noise of another layer. Frozen: never edit it.
 
+use super::frozen::{Migrate, frozen, frozen_choice, frozen_kinds};
 use super::v2;
-use crate::planet::{self, Atmosphere, Biomes, Climate, Clouds, LayerMask, Star, Version, Water};
-use serde::Deserialize;
+use crate::planet::Version;
 
-/// The whole file.
-#[derive(Deserialize)]
+/// The whole file. The parts without a type here were the same in version 2.
+#[derive(serde::Deserialize)]
 #[serde(rename = "Planet", default, deny_unknown_fields)]
 pub(super) struct File {
     version: Version,
     name: String,
     seed: u32,
     radius_km: f64,
-    star: Star,
+    star: v2::Star,
     layers: Vec<Layer>,
-    climate: Climate,
-    biomes: Biomes,
-    water: Option<Water>,
-    atmosphere: Option<Atmosphere>,
-    clouds: Option<Clouds>,
-}
-
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Layer {
-    name: String,
-    enabled: bool,
-    seed: u32,
-    amplitude_m: f64,
-    bias: f64,
-    blend: Blend,
-    shape: Shape,
-    masks: Vec<Mask>,
-}
-
-#[derive(Deserialize)]
-enum Blend {
-    Add,
-    Subtract,
-    Multiply,
-    Max,
-    Min,
-    Replace,
-}
-
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Mask {
-    layer: String,
-    from: f64,
-    to: f64,
-    invert: bool,
-}
-
-#[derive(Deserialize)]
-enum Shape {
-    Fbm(Fbm),
-    Ridged(Ridged),
-    Craters(Craters),
-}
-
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Fbm {
-    wavelength_km: f64,
-    octaves: u32,
-    gain: f64,
-    lacunarity: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Ridged {
-    wavelength_km: f64,
-    octaves: u32,
-    gain: f64,
-    lacunarity: f64,
-    feedback: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Craters {
-    diameter_km: f64,
-    octaves: u32,
-    gain: f64,
-    lacunarity: f64,
-    density: f64,
+    climate: v2::Climate,
+    biomes: v2::Biomes,
+    water: Option<v2::Water>,
+    atmosphere: Option<v2::Atmosphere>,
+    clouds: Option<v2::Clouds>,
 }
 
 impl Default for File {
@@ -96,10 +28,10 @@ impl Default for File {
             name: "Unnamed".to_owned(),
             seed: 1,
             radius_km: 6371.0,
-            star: Star::default(),
+            star: v2::Star::default(),
             layers: Vec::new(),
-            climate: Climate::default(),
-            biomes: Biomes::default(),
+            climate: v2::Climate::default(),
+            biomes: v2::Biomes::default(),
             water: None,
             atmosphere: None,
             clouds: None,
@@ -107,19 +39,47 @@ impl Default for File {
     }
 }
 
-impl Default for Layer {
-    fn default() -> Self {
-        Self {
-            name: "Layer".to_owned(),
-            enabled: true,
-            seed: 1,
-            amplitude_m: 1000.0,
-            bias: 0.0,
-            blend: Blend::Add,
-            shape: Shape::Fbm(Fbm::default()),
-            masks: Vec::new(),
+impl Migrate<v2::File> for File {
+    fn migrate(self) -> v2::File {
+        v2::File {
+            version: self.version.migrate(),
+            name: self.name,
+            seed: self.seed,
+            radius_km: self.radius_km,
+            star: self.star,
+            layers: self.layers.migrate(),
+            climate: self.climate,
+            biomes: self.biomes,
+            water: self.water,
+            atmosphere: self.atmosphere,
+            clouds: self.clouds,
+            ..v2::File::default()
         }
     }
+}
+
+frozen! {
+    "Layer" Layer => v2::Layer {
+        name: String = "Layer".to_owned(),
+        enabled: bool = true,
+        seed: u32 = 1,
+        amplitude_m: f64 = 1000.0,
+        bias: f64 = 0.0,
+        blend: Blend = Blend::Add,
+        shape: Shape = Shape::Fbm(Fbm::default()),
+        masks: Vec<Mask> = Vec::new(),
+    } adding { softness_m: 100.0, curve: Vec::new() }
+}
+
+frozen_choice! { Blend => v2::Blend { Add, Subtract, Multiply, Max, Min, Replace } }
+
+#[derive(serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Mask {
+    layer: String,
+    from: f64,
+    to: f64,
+    invert: bool,
 }
 
 impl Default for Mask {
@@ -128,105 +88,43 @@ impl Default for Mask {
     }
 }
 
-impl Default for Fbm {
-    fn default() -> Self {
-        Self { wavelength_km: 2000.0, octaves: 12, gain: 0.5, lacunarity: 2.0 }
+impl Migrate<v2::Mask> for Mask {
+    fn migrate(self) -> v2::Mask {
+        let Mask { layer, from, to, invert } = self;
+        v2::Mask::Layer(v2::LayerMask { layer, from, to, invert })
     }
 }
 
-impl Default for Ridged {
-    fn default() -> Self {
-        Self { wavelength_km: 800.0, octaves: 12, gain: 0.5, lacunarity: 2.0, feedback: 2.0 }
+frozen_kinds! {
+    Shape => v2::Shape { Fbm(Fbm), Ridged(Ridged), Craters(Craters) }
+}
+
+frozen! {
+    "Fbm" Fbm => v2::Fbm {
+        wavelength_km: f64 = 2000.0,
+        octaves: u32 = 12,
+        gain: f64 = 0.5,
+        lacunarity: f64 = 2.0,
     }
 }
 
-impl Default for Craters {
-    fn default() -> Self {
-        Self { diameter_km: 200.0, octaves: 7, gain: 0.55, lacunarity: 2.0, density: 0.7 }
+frozen! {
+    "Ridged" Ridged => v2::Ridged {
+        wavelength_km: f64 = 800.0,
+        octaves: u32 = 12,
+        gain: f64 = 0.5,
+        lacunarity: f64 = 2.0,
+        feedback: f64 = 2.0,
     }
 }
 
-impl From<File> for v2::File {
-    fn from(file: File) -> Self {
-        let File { version: _, name, seed, radius_km, star, layers, climate, biomes, water, atmosphere, clouds } = file;
-        let layers = layers.into_iter().map(planet::Layer::from).collect();
-        let height_curve = Vec::new();
-        let editor = None;
-        let version = Version(2);
-        Self {
-            version,
-            name,
-            seed,
-            radius_km,
-            height_curve,
-            star,
-            layers,
-            climate,
-            biomes,
-            water,
-            atmosphere,
-            clouds,
-            editor,
-        }
-    }
-}
-
-impl From<Layer> for planet::Layer {
-    fn from(layer: Layer) -> Self {
-        let Layer { name, enabled, seed, amplitude_m, bias, blend, shape, masks } = layer;
-        let masks = masks.into_iter().map(planet::Mask::from).collect();
-        let (blend, shape) = (blend.into(), shape.into());
-        Self { name, enabled, seed, amplitude_m, bias, blend, shape, masks, curve: Vec::new(), ..Self::default() }
-    }
-}
-
-impl From<Blend> for planet::Blend {
-    fn from(blend: Blend) -> Self {
-        match blend {
-            Blend::Add => Self::Add,
-            Blend::Subtract => Self::Subtract,
-            Blend::Multiply => Self::Multiply,
-            Blend::Max => Self::Max,
-            Blend::Min => Self::Min,
-            Blend::Replace => Self::Replace,
-        }
-    }
-}
-
-impl From<Mask> for planet::Mask {
-    fn from(mask: Mask) -> Self {
-        let Mask { layer, from, to, invert } = mask;
-        Self::Layer(LayerMask { layer, from, to, invert })
-    }
-}
-
-impl From<Shape> for planet::Shape {
-    fn from(shape: Shape) -> Self {
-        match shape {
-            Shape::Fbm(Fbm { wavelength_km, octaves, gain, lacunarity }) => {
-                Self::Fbm(planet::Fbm { wavelength_km, octaves, gain, lacunarity })
-            }
-            Shape::Ridged(Ridged { wavelength_km, octaves, gain, lacunarity, feedback }) => {
-                Self::Ridged(planet::Ridged { wavelength_km, octaves, gain, lacunarity, feedback })
-            }
-            Shape::Craters(Craters { diameter_km, octaves, gain, lacunarity, density }) => {
-                // Version 1 knew bowls of one shape.
-                let (power, rim, ejecta, floor, peak, age, fresh) = (0.0, 0.28, 1.6, 0.0, 0.0, 0.0, 0.0);
-                Self::Craters(planet::Craters {
-                    diameter_km,
-                    octaves,
-                    gain,
-                    lacunarity,
-                    density,
-                    power,
-                    rim,
-                    ejecta,
-                    floor,
-                    peak,
-                    age,
-                    fresh,
-                })
-            }
-        }
-    }
+frozen! {
+    /// Craters of one shape: bowls.
+    "Craters" Craters => v2::Craters {
+        diameter_km: f64 = 200.0,
+        octaves: u32 = 7,
+        gain: f64 = 0.55,
+        lacunarity: f64 = 2.0,
+        density: f64 = 0.7,
+    } adding { power: 0.0, rim: 0.28, ejecta: 1.6, floor: 0.0, peak: 0.0, age: 0.0, fresh: 0.0 }
 }

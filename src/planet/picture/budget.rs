@@ -1,16 +1,16 @@
-//! What the pictures of one planet may take, so that no preset exhausts memory or patience, whatever its files say.
+//! Memory and work limits of the pictures of one planet, so that no preset exhausts either, whatever its files say.
 //!
 //! - One picture has at most [`MAX_PIXELS`].
 //! - All pictures of a planet keep at most [`MAX_BYTES`] of pixels: two bytes for a pixel of a PNG, four for one of an
-//!   OpenEXR. Coarser levels add a third. While a picture is read and its levels are made, about as much again is used
-//!   for a moment: no planet's pictures ever take more than 1.5 GiB.
-//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers, in all channels, used or not: this
+//!   OpenEXR. Coarser levels add a third. Reading a picture and making its levels takes about as much again for a
+//!   moment: no planet's pictures ever take more than 1.5 GiB.
+//! - The files of a planet hold at most [`MAX_WORK_BYTES`] of unpacked numbers in all channels, used or not: this
 //!   bounds the time.
 //!
 //! Sizes come from the files' headers and are taken from the budget before anything is decoded. Equal pictures count
 //! once, however many layers use them.
 
-use super::Picture;
+use super::pixels::Picture;
 
 /// Most pixels of one picture: 16384 x 8192.
 pub const MAX_PIXELS: u64 = 1 << 27;
@@ -19,7 +19,7 @@ pub const MAX_BYTES: u64 = 512 << 20;
 /// Most bytes that the files of all pictures of a planet may hold, unpacked.
 pub const MAX_WORK_BYTES: u64 = 4 << 30;
 
-/// What is left for more pictures of one planet.
+/// The budget that is left for further pictures of one planet.
 #[derive(Clone, Debug)]
 pub struct Budget {
     bytes: u64,
@@ -35,8 +35,8 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Counts a picture that is there; an error if there is no room for it.
-    pub(super) fn keep(&mut self, picture: &Picture) -> Result<(), String> {
+    /// Counts a loaded picture; an error if there is no room for it.
+    pub(in crate::planet) fn keep(&mut self, picture: &Picture) -> Result<(), String> {
         if !self.counted.contains(&picture.hash) {
             self.take(picture.bytes, 0)?;
             self.counted.push(picture.hash);
@@ -44,8 +44,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes room for a picture that is to be decoded: the bytes that it will keep, and those that its file holds
-    /// unpacked.
+    /// Takes room for a picture before it is decoded: the bytes of its pixels, and the unpacked bytes of its file.
     pub(super) fn take(&mut self, bytes: u64, work_bytes: u64) -> Result<(), String> {
         if bytes > self.bytes {
             return Err(format!(
@@ -70,7 +69,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Gives back what [`Self::take`] took to keep: the picture could not be read, or is one that is there already.
+    /// Gives back the pixel bytes that [`Self::take`] took: the picture could not be read, or is loaded already.
     pub(super) fn give_back(&mut self, bytes: u64) {
         self.bytes = (self.bytes + bytes).min(MAX_BYTES);
     }

@@ -1,10 +1,10 @@
-//! The pixels of a picture while they are decoded, in the order in which its raster keeps them: nothing is held twice.
+//! The pixels of a picture during decoding, in the order of its raster, so that nothing is held twice.
 
-use super::PictureLayout;
 use super::budget::MAX_PIXELS;
+use super::pixels::PictureLayout;
 use crate::sphere::raster::{Raster, Texel};
 
-/// Fewest pixels on the side of a cube's face, and on the height of an equirectangular picture.
+/// Fewest pixels on the side of a cube face, and in the height of an equirectangular picture.
 const LEAST_SIDE: usize = 4;
 
 /// Width and height of a picture that fits its layout and is not too large.
@@ -49,19 +49,18 @@ impl Size {
     }
 }
 
-/// What is decoded so far.
+/// The pixels decoded so far.
 pub(super) struct Canvas<T> {
     size: Size,
     layout: PictureLayout,
-    /// Pixels along a square of a cube's picture, and the face (in their order) of each square; None where there is
-    /// none.
+    /// Pixels along a square of a cube picture, and the face of each square; None for a square without a face.
     side: usize,
     faces: Vec<Vec<Option<usize>>>,
     texels: Vec<T>,
 }
 
 impl<T: Texel> Canvas<T> {
-    /// An empty one.
+    /// An empty canvas.
     pub(super) fn new(size: Size, layout: PictureLayout) -> Result<Self, String> {
         // The column and row of each face in squares, in the order of the faces.
         let (side, squares): (usize, [(usize, usize); 6]) = match layout {
@@ -86,7 +85,7 @@ impl<T: Texel> Canvas<T> {
         Ok(Self { size, layout, side, faces, texels })
     }
 
-    /// Puts values beside each other, from a row and column on. What lies on no face is dropped.
+    /// Writes values side by side from a row and column on. Values outside of all faces are dropped.
     pub(super) fn put(&mut self, row: usize, mut column: usize, mut values: &[T]) {
         while !values.is_empty() && row < self.size.height && column < self.size.width {
             let (x, y) = (column % self.side, row % self.side);
@@ -103,7 +102,7 @@ impl<T: Texel> Canvas<T> {
         }
     }
 
-    /// The raster, and sixty-four bits that differ for different pictures; `bits`: of a value.
+    /// The raster, and a 64-bit hash of the picture. `bits` are those of a value.
     pub(super) fn finish(self, bits: impl Fn(T) -> u64) -> (Raster<T>, u64) {
         let start = [self.layout as u64, self.size.width as u64, self.size.height as u64].into_iter();
         let hash =

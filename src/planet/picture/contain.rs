@@ -1,7 +1,7 @@
-//! Panics of decoders as errors: a broken file must not take the program with it.
+//! Turns panics of decoders into errors, so that a broken file does not end the program.
 //!
-//! OpenEXR decoders meet numbers that no header vouches for, and some panic on them. The panic is caught where the
-//! decoder was called, on whichever thread. A host that is built with `panic = "abort"` has no such net.
+//! OpenEXR decoders read numbers that no header guarantees, and some panic on them. The panic is caught where the
+//! decoder was called, on any thread. A host built with `panic = "abort"` has no such protection.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,13 +10,13 @@ thread_local! {
     static CONTAINED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether a panic of this thread will be caught and told as a problem of a picture. A panic hook should keep quiet
-/// then, as the program's does.
+/// Whether a panic of this thread will be caught and reported as a problem of a picture. A panic hook should stay
+/// silent then, as the program's does.
 pub fn is_contained() -> bool {
     CONTAINED.get()
 }
 
-/// What `decode` gives; an error if it panics. Nothing that `decode` was changing may be used after an error.
+/// The result of `decode`, or an error if it panics. Values that `decode` was changing must not be used after an error.
 pub(super) fn contained<T>(decode: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     let before = CONTAINED.replace(true);
     let result = catch_unwind(AssertUnwindSafe(decode));

@@ -1,12 +1,12 @@
-//! OpenEXR files, block by block: of the channels only the one that heights are taken from is kept.
+//! OpenEXR files, block by block. Only the channel with the heights is kept.
 //!
-//! The header is checked before any block is read: sizes of blocks bound what a decoder allocates. Blocks are decoded
-//! in groups on all cores, each with its panics contained: see [`super::contain`].
+//! The header is checked before any block is read, because block sizes bound what a decoder allocates. Blocks are
+//! decoded in groups on all cores; panics are contained ([`super::contain`]).
 
 use super::budget::{Budget, MAX_WORK_BYTES};
 use super::canvas::{Canvas, Size};
 use super::contain::contained;
-use super::{Picture, PictureLayout, Texels};
+use super::pixels::{Picture, PictureLayout, Texels};
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::Reader;
 use exr::block::{BlockIndex, UncompressedBlock};
@@ -18,15 +18,15 @@ use rayon::prelude::*;
 use std::fs::File;
 use std::io::{BufReader, Read as _, Seek as _};
 
-/// Greatest number a float picture may hold: metres at an amplitude of 1, and far more than any planet bears.
+/// Greatest absolute value of a float picture: metres at an amplitude of 1, far more than any planet needs.
 const MAX_VALUE: f32 = 1e6;
 /// Most bytes of all headers together.
 const MAX_HEADER_BYTES: u64 = 16 << 20;
 /// Most bytes of a block of all channels, unpacked.
 const MAX_BLOCK_BYTES: usize = 64 << 20;
-/// Most bytes of the blocks that are decoded at the same time, unless it is one alone.
+/// Most bytes of blocks that are decoded at the same time; a single block may be larger.
 const MAX_GROUP_BYTES: usize = 128 << 20;
-/// Bytes that a block counts for at least: a small block takes as long as one of this size.
+/// Least size counted for a block in bytes: a smaller block takes as long as one of this size.
 const LEAST_BLOCK_WORK: u64 = 32 << 10;
 /// Most blocks of a picture.
 const MAX_BLOCKS: u64 = MAX_WORK_BYTES / LEAST_BLOCK_WORK;
@@ -45,12 +45,12 @@ pub(super) fn read(mut file: BufReader<File>, layout: PictureLayout, budget: &mu
     Ok(Picture { texels: Texels::Float(raster), hash, bytes })
 }
 
-/// Where in the file the heights are.
+/// The location of the heights in the file.
 struct Source {
     layer: usize,
     size: Size,
     sample: SampleType,
-    /// Bytes of a pixel in all channels, and in those that stand before the one of the heights.
+    /// Bytes of a pixel in all channels, and in the channels before that of the heights.
     pixel_bytes: usize,
     bytes_before: usize,
     /// Width and height of a block.
@@ -59,7 +59,7 @@ struct Source {
 }
 
 impl Source {
-    /// Checks all that a decoder relies on.
+    /// Checks everything that a decoder relies on.
     fn find(about: &MetaData, layout: PictureLayout) -> Result<Self, String> {
         let usable = |header: &Header| !header.deep && !header.channels.list.is_empty();
         let layer = about.headers.iter().position(usable).ok_or("has no channel of plain pixels")?;
@@ -84,7 +84,7 @@ impl Source {
                 "has a channel with fewer numbers than pixels; save the picture anew, without subsampling".to_owned()
             );
         }
-        // Channels stand in the order of the alphabet: the first of RGBA would be A.
+        // Channels are in alphabetical order: the first of RGBA would be A.
         let channels = &header.channels.list;
         let named = |name: &str| channels.iter().position(|channel| channel.name.eq_case_insensitive(name));
         let channel = ["Y", "L", "R"].into_iter().find_map(named).unwrap_or(0);
@@ -93,7 +93,7 @@ impl Source {
         Ok(Self { layer, size, sample, pixel_bytes, bytes_before, block, work_bytes })
     }
 
-    /// Whether a block belongs to the heights, in full resolution.
+    /// Whether a block contains heights in full resolution.
     fn wants(&self, chunk: &Chunk) -> bool {
         let finest = match &chunk.compressed_block {
             CompressedBlock::Tile(tile) => tile.coordinates.is_largest_resolution_level(),
@@ -137,7 +137,7 @@ fn block_size(header: &Header) -> [usize; 2] {
     }
 }
 
-/// Blocks must neither be empty nor take more memory than is reasonable: decoders allocate what the header says.
+/// Blocks must not be empty, nor take unreasonable memory: decoders allocate what the header says.
 fn check_blocks(header: &Header) -> Result<(), String> {
     let [width, height] = block_size(header);
     let bytes = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(pixel_bytes(header)));
@@ -194,7 +194,7 @@ fn decode(chunk: Chunk, about: &MetaData, source: &Source) -> Result<(BlockIndex
     Ok((block.index, source.numbers(&block)?))
 }
 
-/// Blocks compressed with DWA begin with the sizes of their parts, and the decoder allocates what they say.
+/// Blocks compressed with DWA begin with the sizes of their sections, and the decoder allocates them.
 fn check_dwa(chunk: &Chunk, header: &Header) -> Result<(), String> {
     if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
         return Ok(());
@@ -208,8 +208,7 @@ fn check_dwa(chunk: &Chunk, header: &Header) -> Result<(), String> {
     let [width, height] = block_size(header).map(|side| side.next_multiple_of(8) as u64);
     let samples = width * height * header.channels.list.len() as u64;
     let bytes = samples * 4;
-    // Bytes of channels kept as they are, run lengths packed and unpacked; coefficients of squares of 8 by 8, and
-    // their means.
+    // Bytes of unchanged channels; packed and unpacked run lengths; coefficients of squares of 8 by 8, and their means.
     let limits = [(1, bytes), (6, 2 * bytes), (7, bytes), (8, samples), (9, samples)];
     match limits.into_iter().find(|&(i, most)| number(i) > most) {
         Some(_) => Err("is broken: a block is larger than it may be; save the picture anew".to_owned()),

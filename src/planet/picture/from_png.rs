@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::canvas::{Canvas, Size};
-use super::{Picture, PictureLayout, Texels};
+use super::pixels::{Picture, PictureLayout, Texels};
 use std::fs::File;
 use std::io::BufReader;
 
@@ -13,7 +13,7 @@ const PASSES: [[usize; 4]; 7] =
 /// Reads a picture; takes what it needs from the budget.
 pub(super) fn read(file: BufReader<File>, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
     let mut decoder = png::Decoder::new(file);
-    // Palettes become colours, fewer bits become 8.
+    // Palettes become colours; fewer bits become 8.
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
@@ -35,7 +35,7 @@ fn rows(decoder: png::Decoder<BufReader<File>>, size: Size, layout: PictureLayou
         true => u32::from(u16::from_be_bytes([pixel[2 * channel], pixel[2 * channel + 1]])),
         false => u32::from(pixel[channel]) * 257,
     };
-    // Colours count by their luminance (BT.709); how opaque they are counts nothing.
+    // Colours count by luminance (BT.709); alpha is ignored.
     let grey = |pixel: &[u8]| match channels {
         1 | 2 => sample(pixel, 0) as u16,
         _ => ((sample(pixel, 0) * 2126 + sample(pixel, 1) * 7152 + sample(pixel, 2) * 722 + 5000) / 10_000) as u16,
@@ -71,7 +71,7 @@ fn rows(decoder: png::Decoder<BufReader<File>>, size: Size, layout: PictureLayou
             }
         }
     }
-    // What follows the last row is checked, too.
+    // Chunks after the last row are checked, too.
     reader.next_row().map_err(|error| broken(&error))?;
     Ok(canvas)
 }

@@ -1,11 +1,11 @@
-//! Paths as they are written in a preset.
+//! Paths of pictures as a preset writes them.
 
 use std::path::{Component, Path, PathBuf};
 
-/// The path to a file as a preset in a folder writes it: relative where both have more than the root in common, with
-/// `/` on every system; otherwise whole.
+/// The path to a file as a preset in a folder writes it: relative if the two share more than the root, with `/` on
+/// every system; otherwise absolute.
 pub(super) fn written_from(file: &Path, folder: &Path) -> String {
-    // Links in either path would lead `..` astray.
+    // Links in either path would break `..`.
     let (real_file, real_folder) = (real(file), real(folder));
     let (file_steps, folder_steps): (Vec<_>, Vec<_>) =
         (real_file.components().collect(), real_folder.components().collect());
@@ -19,7 +19,7 @@ pub(super) fn written_from(file: &Path, folder: &Path) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
-/// Without links, as far as it exists.
+/// The path without links, as far as it exists.
 fn real(path: &Path) -> PathBuf {
     let path = tidy(path);
     let mut rest = PathBuf::new();
@@ -34,7 +34,7 @@ fn real(path: &Path) -> PathBuf {
     path
 }
 
-/// Without `.` and `a/..`.
+/// The path without `.` and `a/..`.
 pub(super) fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
     for step in path.components() {

@@ -1,12 +1,13 @@
-//! Opens the file of a picture and finds out what it is.
+//! Opens the file of a picture and chooses the decoder by its first bytes.
 
 use super::budget::Budget;
-use super::{Picture, PictureLayout, from_exr, from_png};
-use crate::planet::file::{Opened, open};
+use super::pixels::{Picture, PictureLayout};
+use super::{from_exr, from_png};
+use crate::planet::open::{Opened, open};
 use std::io::{self, BufReader, Read as _, Seek as _};
 use std::path::Path;
 
-/// Reads a picture in a layout; says what is wrong with it and what would be right.
+/// Reads a picture in a layout. An error says what is wrong with the file and what would be right.
 pub(super) fn read(path: &Path, layout: PictureLayout, budget: &mut Budget) -> Result<Picture, String> {
     let shown = path.display();
     let mut file = match open(path) {

@@ -1,8 +1,8 @@
-//! Pseudo-random numbers, the same on every machine, in forms that read well in a file.
+//! Pseudo-random numbers, the same on every machine, rounded so that they read well in a file.
 
 use crate::planet::param::{Domain, Param, Value};
 
-/// Rounded to three significant digits: a file should be pleasant to read.
+/// Rounds to three significant digits, to keep files readable.
 pub(super) fn three_digits(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
@@ -11,7 +11,7 @@ pub(super) fn three_digits(value: f64) -> f64 {
     (value * scale).round() / scale
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): tiny, and the same everywhere.
+/// SplitMix64 (Steele, Lea, Flood 2014).
 pub(super) struct Dice(pub(super) u64);
 
 impl Dice {
@@ -32,7 +32,7 @@ impl Dice {
         low + (high - low) * self.unit()
     }
 
-    /// In steps that read well: tenths of small numbers, hundredths of smaller ones.
+    /// Rounded: tenths of small numbers, hundredths of smaller ones.
     pub(super) fn rounded(&mut self, low: f64, high: f64) -> f64 {
         let step = if high - low > 5.0 { 1.0 } else { 100.0 };
         ((self.between(low, high) * step).round() / step).clamp(low, high)
@@ -55,7 +55,7 @@ impl Dice {
     }
 
     pub(super) fn seed(&mut self) -> u32 {
-        // Four digits are enough to differ and can be read out.
+        // Four digits suffice, and can be read out.
         (self.next() % 10_000) as u32
     }
 
@@ -71,7 +71,7 @@ impl Dice {
         [STARTS, MIDDLES, ENDS].map(|part| *self.pick(part)).concat()
     }
 
-    /// A value moved by up to `strength` of its range, or `None` where there is nothing to move.
+    /// A value moved by up to `strength` of its range; `None` if it cannot move.
     pub(super) fn moved(&mut self, param: &Param, value: &Value, strength: f64) -> Option<Value> {
         if strength == 0.0 {
             return None;

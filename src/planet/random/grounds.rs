@@ -1,15 +1,15 @@
-//! Biomes that follow from a climate: which grounds a world has, and where they lie in its table.
+//! Biomes that suit a climate: the palette of a world and its biome table.
 
 use super::Kind;
 use super::dice::{Dice, three_digits};
 use crate::planet::{Biome, Biomes, Climate, Detail, Table, TableRows};
 
-/// A biome with the climate in which it lies: it is found where it is colder than this and at least so moist.
+/// A biome with its climate: ground colder than this and at least this moist.
 struct Ground {
     key: char,
     name: &'static str,
     color: [f64; 3],
-    /// What it looks like from near, and the size of that.
+    /// Close-up pattern and its period.
     detail: (Detail, f64),
     below_c: f64,
     from_moisture: f64,
@@ -43,7 +43,7 @@ const LIVING: &[Ground] = &[
     ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), 500.0, 0.72),
 ];
 
-/// Shades of the ground of a world without weather, the darkest first.
+/// Ground colours of a world without weather, the darkest first.
 type Shades = [[f64; 3]; 5];
 
 const DESERTS: &[Shades] = &[
@@ -64,16 +64,16 @@ const MOONS: &[Shades] = &[
     [[0.06, 0.05, 0.045], [0.12, 0.10, 0.085], [0.19, 0.165, 0.14], [0.27, 0.24, 0.21], [0.38, 0.35, 0.32]],
 ];
 
-/// A palette and a table that follow from the climate.
+/// A palette and a biome table that suit the climate.
 pub(super) fn biomes(kind: Kind, climate: &Climate, dice: &mut Dice) -> Biomes {
     let mut biomes =
         if matches!(kind, Kind::Temperate | Kind::Cold) { living(climate, dice) } else { strata(kind, dice) };
-    // Switched on by hand, beaches and snow are of something.
+    // Beaches and snow name a biome even if they are off, so that they can be switched on by hand.
     biomes.name_missing(true);
     biomes
 }
 
-/// Ground that plants grow on, by temperature and moisture.
+/// Vegetated ground, by temperature and moisture.
 fn living(climate: &Climate, dice: &mut Dice) -> Biomes {
     const COLUMNS: usize = 16;
     const ROWS: usize = 12;
@@ -119,7 +119,7 @@ fn living(climate: &Climate, dice: &mut Dice) -> Biomes {
     Biomes { coldest_c, hottest_c, palette, table, cliff_detail: Detail::Rock, ..Biomes::default() }
 }
 
-/// Bands of ground that follow the height, frayed by what the climate calls moisture: dust and bedrock.
+/// Bands of ground by height, frayed by the moisture noise: dust and bedrock.
 fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
     const COLUMNS: usize = 12;
     const ROWS: usize = 12;

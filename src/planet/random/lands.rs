@@ -1,8 +1,8 @@
-//! The layers of a random planet: which kinds of ground suit a world, and how they build on each other.
+//! The layers of a random planet: which landforms suit a world, and how they build on each other.
 //!
-//! Each kind of world has a base, mountains where that lets them stand, what only it has (dunes, canyons, ice, craters),
-//! and hills over all. Sizes that go with the planet are shares of its radius; those that go with gravity and weather
-//! are kilometres.
+//! Each kind of world has a base, mountains where the base allows them, its own landforms (dunes, canyons, ice,
+//! craters), and hills everywhere. Sizes that scale with the planet are shares of its radius. Sizes that depend on
+//! gravity and weather are kilometres.
 
 use super::Kind;
 use super::dice::{Dice, three_digits};
@@ -11,9 +11,9 @@ use crate::planet::{
     Layer, LayerMask, Mask, Ridged, Shape, Terraces, Warped,
 };
 
-/// The layers of a kind of world; with a sea, its coasts are at height 0.
+/// The layers of a kind of world. With a sea, its coasts are at height 0.
 pub(super) fn layers(kind: Kind, sea: bool, radius_km: f64, dice: &mut Dice) -> Vec<Layer> {
-    // Smaller planets bear higher mountains, but not without end.
+    // Mountains are higher on smaller planets, up to a limit.
     let relief = libm::pow(6371.0 / radius_km, 0.3) * dice.between(0.75, 1.3);
     let mut lands = Lands { dice, radius_km, relief, layers: Vec::new() };
     match kind {
@@ -28,12 +28,12 @@ pub(super) fn layers(kind: Kind, sea: bool, radius_km: f64, dice: &mut Dice) -> 
 struct Lands<'a> {
     dice: &'a mut Dice,
     radius_km: f64,
-    /// How high things are against the same on an average world.
+    /// Heights relative to an average world.
     relief: f64,
     layers: Vec<Layer>,
 }
 
-/// Where another layer's noise goes from one number to another.
+/// A mask by another layer's noise, between two of its values.
 fn where_layer(layer: &str, from: f64, to: f64) -> Mask {
     Mask::Layer(LayerMask { layer: layer.to_owned(), from, to, invert: false })
 }
@@ -47,12 +47,12 @@ fn where_latitude(from_deg: f64, to_deg: f64) -> Mask {
 }
 
 impl Lands<'_> {
-    /// A size that goes with the planet.
+    /// A size that scales with the planet.
     fn across(&mut self, low: f64, high: f64) -> f64 {
         three_digits(self.radius_km * self.dice.between(low, high))
     }
 
-    /// A size that does not, unless the planet is too small for it.
+    /// A size in kilometres, limited on planets that are too small for it.
     fn km(&mut self, low: f64, high: f64) -> f64 {
         let most = self.radius_km * 0.1;
         three_digits(self.dice.rounded_log(low, high).min(most))
@@ -73,12 +73,12 @@ impl Lands<'_> {
         &mut self.layers[at]
     }
 
-    /// A layer that only serves as a mask.
+    /// A layer that serves only as a mask.
     fn hide(&mut self, name: &str, shape: Shape) {
         self.add(name, 1000.0, shape).enabled = false;
     }
 
-    /// A wet world: continents or islands with shelves, chains, and what weather makes of them.
+    /// A wet world: continents or islands with shelves, mountain chains, and erosion.
     fn continents(&mut self) {
         let islands = self.dice.chance(0.25);
         let shape = Continents {
@@ -91,7 +91,7 @@ impl Lands<'_> {
             ..Continents::default()
         };
         let depth_m = self.metres(3600.0, 5200.0);
-        // Most land lies low.
+        // Most land is low.
         self.add("Continents", depth_m, Shape::Continents(shape)).curve =
             vec![[-1.0, -1.0], [-0.05, -0.04], [0.0, 0.0], [0.06, 0.03], [0.2, 0.09], [0.5, 0.19], [1.0, 0.36]];
         self.chains("Continents", -0.08, 0.12);
@@ -181,7 +181,7 @@ impl Lands<'_> {
         self.hills(8.0, 18.0, 70.0, 140.0);
     }
 
-    /// A world of ice: domes, plates parted by cracks, peaks that stand out of it, snow before the wind.
+    /// A world of ice: domes, plates between cracks, peaks above the ice, drifted snow.
     fn ice(&mut self) {
         let shape = Continents {
             wavelength_km: self.across(0.6, 1.1),
@@ -218,7 +218,7 @@ impl Lands<'_> {
             ..Cells::default()
         };
         let height_m = self.metres(1000.0, 2200.0);
-        // A rim on either side, as where ice was pushed up.
+        // A rim on either side, as of ice that was pushed up.
         self.add("Cracks", height_m, Shape::Cells(cracks)).curve =
             vec![[-1.0, -1.0], [-0.6, -0.5], [-0.25, 0.25], [0.0, 0.0]];
         self.chains("Shields", 0.0, 0.1);
@@ -236,7 +236,7 @@ impl Lands<'_> {
         self.hills(5.0, 9.0, 40.0, 80.0);
     }
 
-    /// A world without air: maria, highlands, and craters of all sizes and ages over both.
+    /// A world without air: maria, highlands, and craters of all sizes and ages on both.
     fn moon(&mut self) {
         let maria = Fbm { wavelength_km: self.across(1.0, 1.8), octaves: 8, gain: 0.45, ..Fbm::default() };
         let height_m = self.metres(2800.0, 4200.0);
@@ -282,7 +282,8 @@ impl Lands<'_> {
         self.hills(6.0, 12.0, 35.0, 60.0);
     }
 
-    /// Where mountains stand, which other layers ask too, and the mountains: chains carved by water or rough peaks.
+    /// A hidden layer with the regions of mountains, which other layers mask by, too, and the mountains: chains carved
+    /// by water, or rough peaks.
     fn chains(&mut self, base: &str, from: f64, to: f64) {
         let (wavelength_km, gain) = (self.across(0.3, 0.5), self.share(0.38, 0.45));
         let chains = Ridged { wavelength_km, octaves: 4, gain, feedback: 1.6, ..Ridged::default() };
@@ -310,7 +311,7 @@ impl Lands<'_> {
         (layer.bias, layer.masks) = (0.65, masks);
     }
 
-    /// Shields with a crater on top, where a hidden layer lets them grow.
+    /// Shield volcanoes with a crater on top, in the regions of a hidden layer.
     fn volcanoes(&mut self, low_km: f64, high_km: f64, low_m: f64, high_m: f64) {
         let hot_spots = Ridged { wavelength_km: self.across(0.4, 0.8), octaves: 3, gain: 0.4, ..Ridged::default() };
         self.hide("Hot spots", Shape::Ridged(hot_spots));
@@ -321,7 +322,7 @@ impl Lands<'_> {
         layer.masks = vec![where_layer("Hot spots", 0.1, 0.7)];
     }
 
-    /// Rolling ground of one sort or another.
+    /// Rolling ground of one landform or another.
     fn uplands(&mut self, base: &str, from: f64, to: f64) {
         let wavelength_km = self.km(60.0, 160.0);
         let shape = match self.dice.pick(&[0, 0, 1, 2]) {
@@ -368,12 +369,12 @@ impl Lands<'_> {
             waviness: self.share(0.4, 0.9),
             ..Dunes::default()
         };
-        // Sand lies no steeper than about 33 degrees.
+        // Sand is never steeper than about 33°.
         let layer = self.add("Dunes", three_digits(wavelength_km * 38.0), Shape::Dunes(dunes));
         (layer.bias, layer.masks) = (0.4, masks);
     }
 
-    /// The largest craters, some of them nearly worn away.
+    /// The largest craters, some of them nearly eroded.
     fn old_craters(&mut self, low: f64, high: f64, low_m: f64, high_m: f64, masks: Vec<Mask>) {
         let craters = Craters {
             diameter_km: self.across(low, high),

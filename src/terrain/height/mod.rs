@@ -20,8 +20,9 @@ pub(crate) use join::{Batch, Heights, LayerFields, Scratch, combine};
 
 use super::field::Spacings;
 use super::landform::Landform;
-use crate::planet::{self, Layer, MAX_MASKS, Mask, Planet, Shape};
+use crate::planet::{self, Key, Layer, MAX_MASKS, Mask, Planet, Shape};
 use curve::CompiledCurve;
+use std::fmt;
 use std::sync::Arc;
 
 /// The layers of a planet, compiled.
@@ -122,14 +123,16 @@ impl LayerStack {
         stack
     }
 
-    /// Whether it makes the same heights. Layers that neither needs may differ.
-    pub(crate) fn joins_like(&self, other: &Self) -> bool {
-        let same = |(a, b): (&CompiledLayer, &CompiledLayer)| a == b || !(a.needed || b.needed);
-        self.radius_m == other.radius_m
-            && self.height_curve == other.height_curve
-            && self.slope_bands == other.slope_bands
-            && self.layers.len() == other.layers.len()
-            && self.layers.iter().zip(&other.layers).all(same)
+    /// Content keys of the fields that are needed, with the spacings of their gradients.
+    pub(crate) fn field_keys(&self) -> impl Iterator<Item = Key> {
+        self.layers.iter().filter(|layer| layer.needed).map(CompiledLayer::field_key)
+    }
+
+    /// Everything that heights follow from, to be hashed. Layers that are not needed leave only a gap, so that masks by
+    /// index still tell layers apart.
+    pub(crate) fn joined(&self) -> impl fmt::Debug {
+        let layers: Vec<_> = self.layers.iter().map(|layer| layer.needed.then(|| Key::of(layer))).collect();
+        (layers, self.slope_bands.clone(), self.height_curve.clone(), self.radius_m)
     }
 
     /// Finds the spacings of slope masks, and the layers below the last mask of each.
@@ -203,6 +206,10 @@ impl CompiledLayer {
             },
             masks: layer.masks.iter().filter_map(|mask| CompiledMask::new(planet, mask)).take(MAX_MASKS).collect(),
         }
+    }
+
+    fn field_key(&self) -> Key {
+        Key::of(&(&self.landform, &self.slope_spacings_rad))
     }
 
     fn looks_at_directions(&self) -> bool {

@@ -1,5 +1,5 @@
-//! The march outward over a patch: the tangent of the highest elevation under which ground is seen from each vertex of a node
-//! in one azimuth. All vertices go in step, so that a step is a shift of the grid and the loops are plain.
+//! The march outward over a patch: for each vertex of a node, the tangent of the highest elevation of ground in one
+//! azimuth. All vertices step together, so that a step is a shift of the grid and the loops run over plain arrays.
 
 use super::patch::Patch;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES};
@@ -9,7 +9,7 @@ use crate::terrain::simd::{Simd, for_each_simd};
 /// One value for each vertex of a node.
 pub(super) type PerVertex = Vec<f32>;
 
-/// How long a step of the face's coordinates is at each vertex: the metric tensor, per vertex spacing squared.
+/// The metric tensor of the face coordinates at each vertex: squared length of a step, per vertex spacing squared.
 pub(super) struct Metric {
     ss: PerVertex,
     st: PerVertex,
@@ -54,14 +54,14 @@ pub(super) struct Along {
 /// One step of a march.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    /// How far, in vertex spacings.
+    /// Distance in vertex spacings.
     pub(super) spacings: f32,
-    /// What becomes of an elevation above the level; below 1 where the mesh is too coarse to tell ground from its own slope.
+    /// Factor on the elevation above the level; below 1 where the mesh is too coarse to tell ground from its own slope.
     pub(super) weight: f32,
 }
 
-/// Raises `tangents` to what is seen over these steps. Where it does, `nearness` becomes the inverse of the distance in vertex
-/// spacings.
+/// Raises `tangents` to the elevations over these steps. Where it does, `nearness` becomes the inverse of the distance
+/// in vertex spacings.
 #[inline(always)]
 fn march_body(patch: &Patch, dir: [f32; 2], along: &Along, steps: &[Step], tangents: &mut [f32], nearness: &mut [f32]) {
     let at = |x: i64, y: i64| {
@@ -98,7 +98,7 @@ fn march_body(patch: &Patch, dir: [f32; 2], along: &Along, steps: &[Step], tange
 }
 for_each_simd!(pub(super) fn march_with(patch: &Patch, dir: [f32; 2], along: &Along, steps: &[Step], tangents: &mut [f32], nearness: &mut [f32]) = march_body);
 
-/// [`march_with`] the best instruction set there is.
+/// [`march_with`] the best instruction set of this machine.
 pub(super) fn march(
     patch: &Patch,
     dir: [f32; 2],

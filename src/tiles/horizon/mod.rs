@@ -1,11 +1,11 @@
-//! Horizon tiles: from the heights of a surface's tiles, coarse to fine, without evaluating any noise.
+//! Horizon angles from the heights of a surface's tiles, coarse to fine. No noise is evaluated.
 //!
-//! A node looks for itself only so far as its own mesh is the right one to look at: over the ground nearer than
-//! [`FAR`] vertex spacings, and on to twice that for its children, too. All that is farther away it takes from its parent, which has it
-//! from its own mesh and its parent's: each distance is seen at the level whose vertices are 1/16 to 1/32 of it apart. What a parent
-//! saw from its vertices is corrected for the height of the child's, by how near it was.
+//! A node marches over its own mesh only where that has the right resolution: over ground nearer than [`FAR`] vertex
+//! spacings, and on to twice that for its children. The horizon of farther ground comes from its parent, which has it
+//! from its own mesh and from its parent. Each distance is thus seen at the level whose vertex spacing is 1/16 to 1/32
+//! of it. The parent's result is corrected for the height of the child's vertices, weighted by nearness.
 //!
-//! - `pyramid`: the ground at every level; `patch`: around one node; `march`: over that
+//! - `pyramid`: heights at every level; `patch`: heights around one node; `march`: the march over a patch
 mod march;
 mod patch;
 mod pyramid;
@@ -26,17 +26,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-/// Vertex spacings from which on children leave the march to their parents (half as many of the parent's).
+/// Distance in vertex spacings beyond which children use the result of their parents (half of it in the parent's
+/// spacings).
 const FAR: usize = 16;
-/// First steps of the march in vertex spacings, and what they count: a mesh cannot tell what stands so near from the slope of
-/// the place itself, which shading knows better.
+/// First steps of the march in vertex spacings, and their weights: a mesh cannot tell what is so near from the local
+/// slope, which shading knows better.
 const FIRST: [(f32, f32); 4] = [(1.0, 0.25), (1.5, 0.5), (2.0, 0.75), (2.5, 1.0)];
-/// Beyond the edge of a face its coordinates can be trusted for this part of a face's width; no relief is seen from farther.
+/// Share of a face's width by which its coordinates are valid beyond its edge; farther ground is ignored.
 const REACH: f32 = 1.0 / 8.0;
-/// A horizon where nothing stands: straight down.
+/// Tangent of an empty horizon: straight down.
 const NOTHING: f32 = -1e4;
 
-/// What finding horizons took.
+/// Statistics of computing horizon tiles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HorizonWork {
     /// Tiles made.
@@ -45,20 +46,20 @@ pub struct HorizonWork {
     pub secs: f64,
 }
 
-/// Finds the horizons of what a view shows of a surface, coarse before fine and near before far.
+/// Computes the horizon tiles that a view shows of a surface, coarse before fine and near before far.
 pub(super) struct HorizonFinder {
     pyramid: Pyramid,
-    /// The nodes whose horizons are wanted and not found yet, a level after the other, the next one last.
+    /// Nodes whose horizon tiles are missing, level by level; the next level last.
     wanted: Vec<NodeId>,
     found: HashMap<NodeId, Arc<HorizonTile>>,
     radius_m: f64,
 }
 
-/// A horizon that is to be made: node, key, parent.
+/// A horizon tile to compute: node, key, parent.
 type Missing = (NodeId, u64, Option<Arc<HorizonTile>>);
 
 impl HorizonFinder {
-    /// For the tiles of a surface.
+    /// Starts with the tiles of a surface.
     pub(super) fn new(surface: &Surface, view: &View) -> Self {
         let mut wanted = wanted_nodes(surface, view);
         wanted.reverse();
@@ -66,8 +67,9 @@ impl HorizonFinder {
         Self { pyramid: Pyramid::new(surface), wanted, found: HashMap::new(), radius_m }
     }
 
-    /// Goes on for as long as `keep_going` says so; once `wanted`, asked far more often, says no, this finder is of no more use. `known` has horizons found earlier, and each new one is given to `keep`.
-    /// Leaves whose own is not there yet keep that of an earlier planet, or have that of a coarser node. Whether all are there now.
+    /// Continues while `keep_going` says yes. Once `wanted`, asked far more often, says no, the finder is of no more
+    /// use. `known` returns earlier horizon tiles; each new one is passed to `keep`. Leaves whose own tile is missing
+    /// keep that of an earlier revision, or get that of a coarser node. Returns whether all tiles are there.
     pub(super) fn find(
         &mut self,
         surface: &mut Surface,
@@ -100,7 +102,7 @@ impl HorizonFinder {
         done
     }
 
-    /// Takes so many nodes of one level that are not known, and on the way all that are.
+    /// Takes up to a number of unknown nodes of one level, and all known ones on the way.
     fn next_missing(&mut self, most: usize, known: &dyn Fn(NodeId) -> Option<Arc<HorizonTile>>) -> Vec<Missing> {
         let mut missing: Vec<Missing> = Vec::new();
         while let Some(&id) = self.wanted.last() {
@@ -121,7 +123,7 @@ impl HorizonFinder {
     }
 }
 
-/// The leaves that are seen and all nodes above them, level after level; the nearest to the eye first.
+/// The visible leaves and all their ancestors, level by level; nearest to the eye first.
 fn wanted_nodes(surface: &Surface, view: &View) -> Vec<NodeId> {
     let culling = Culling::new(view, lowest_radius_m(&surface.terrain));
     let eye = view.camera.position_planet_m;
@@ -138,7 +140,8 @@ fn wanted_nodes(surface: &Surface, view: &View) -> Vec<NodeId> {
     sorted.into_iter().map(|(id, _)| id).collect()
 }
 
-/// Gives a leaf its horizon; for as long as its own may still come, one of an earlier planet is worth more than a coarser one.
+/// Sets the horizon tile of a leaf. Until its own is computed, that of an earlier revision is better than a coarser
+/// one.
 fn attach(leaf: &mut Leaf, found: &HashMap<NodeId, Arc<HorizonTile>>, complete: bool) {
     let id = leaf.tile.id;
     let best = std::iter::successors(Some(id), |id| id.parent()).find_map(|id| found.get(&id));
@@ -148,8 +151,8 @@ fn attach(leaf: &mut Leaf, found: &HashMap<NodeId, Arc<HorizonTile>>, complete: 
     }
 }
 
-/// The horizon of a node from the grounds around it and from its parent's; nothing if one of them is not known, or if it is
-/// not `wanted` any more.
+/// Computes the horizon tile of a node from the ground around it and from its parent; None if one of them is unknown,
+/// or once `wanted` says no.
 fn make_horizon(
     pyramid: &Pyramid,
     id: NodeId,
@@ -211,7 +214,7 @@ fn direction(azimuth: usize) -> [f32; 2] {
     [cos as f32, sin as f32]
 }
 
-/// The steps of a march that ends after so many vertex spacings: near ones, and those that children, too, want.
+/// The steps of a march up to a distance in vertex spacings: near steps, and those that children need.
 fn steps(reach: usize) -> [Vec<Step>; 2] {
     let plain = |spacings: usize| Step { spacings: spacings as f32, weight: 1.0 };
     let first = FIRST.map(|(spacings, weight)| Step { spacings, weight });
@@ -220,7 +223,7 @@ fn steps(reach: usize) -> [Vec<Step>; 2] {
     [near, (FAR..2 * FAR).map(plain).filter(within).collect()]
 }
 
-/// Slopes of the ground at the vertices, metres for each step of the grid.
+/// Slopes of the ground at the vertices, in metres for each step of the grid.
 struct Slopes([PerVertex; 2]);
 
 impl Slopes {
@@ -244,11 +247,11 @@ impl Slopes {
     }
 }
 
-/// What a parent sees far away, from a child's vertices.
+/// The far horizon of a parent at the vertices of a child.
 struct Inherited<'a> {
     far: &'a [[f16; 2]],
     quarter: (usize, usize),
-    /// How much higher the parent's mesh is than the child's vertices.
+    /// Height of the parent's mesh above the vertices of the child.
     above_m: PerVertex,
 }
 
@@ -265,7 +268,7 @@ impl<'a> Inherited<'a> {
         let image = &self.far[azimuth * TILE_VERTICES..][..TILE_VERTICES];
         let [tangents, nearness] = [0, 1].map(|k| image.iter().map(|far| far[k].to_f32()).collect::<PerVertex>());
         let mut tangents = doubled(&tangents, self.quarter);
-        // In the child's spacings, half as long, all is half as near.
+        // In spacings of the child, which are half as long, everything is half as near.
         let nearness: PerVertex = doubled(&nearness, self.quarter).into_iter().map(|near| 0.5 * near).collect();
         for i in 0..TILE_VERTICES {
             tangents[i] += self.above_m[i] * nearness[i] * along.per_m[i];
@@ -274,7 +277,7 @@ impl<'a> Inherited<'a> {
     }
 }
 
-/// One quarter of a node's values, with the mean of its neighbours on every new vertex between.
+/// One quarter of a node's values; each new vertex between gets the mean of its neighbours.
 fn doubled(values: &[f32], (right, upper): (usize, usize)) -> PerVertex {
     let half = TILE_QUADS / 2;
     let at = |x: usize, y: usize| values[(y + upper * half) * TILE_SIDE + x + right * half];

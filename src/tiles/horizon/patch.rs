@@ -1,4 +1,4 @@
-//! The ground of a node and around it on one grid, so that a march over it is plain arithmetic on rows.
+//! The heights of a node and its surroundings on one grid, so that a march is plain arithmetic on rows.
 
 use super::pyramid::{Ground, Pyramid};
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE};
@@ -15,8 +15,8 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// The patch of a known node with a margin of at most a node's width. Beyond the node each place has the height of the
-    /// finest node there that is no finer than this one.
+    /// The patch of a known node with a margin of at most the width of the node. Beyond the node, each point has the
+    /// height of the finest known node there that is no finer than this one.
     pub(super) fn new(pyramid: &Pyramid, id: NodeId, margin: usize) -> Option<Self> {
         profiling::scope!("patch");
         let margin = margin.min(TILE_QUADS);
@@ -30,7 +30,8 @@ impl Patch {
             let on_face = (0..nodes_along).contains(&x) && (0..nodes_along).contains(&y);
             on_face.then_some(NodeId { x: x as u32, y: y as u32, ..id })
         };
-        // Other faces, then coarser ground, then nodes that are there: on a common border the finest wins, whoever asks.
+        // In order: other faces, coarser ground, known nodes. On a common border the finest wins, for every node that
+        // asks.
         for block in blocks().filter(|block| beside(*block).is_none()) {
             patch.fill(block, |x, y| across(pyramid, id, x, y));
         }
@@ -66,7 +67,7 @@ impl Patch {
     }
 }
 
-/// The height beyond the edge of the face, where its coordinates go on.
+/// The height beyond the edge of the face, at its extended coordinates.
 fn across(pyramid: &Pyramid, id: NodeId, x: i64, y: i64) -> f32 {
     let dir = id.direction(x as f64 / TILE_QUADS as f64, y as f64 / TILE_QUADS as f64);
     let (_, s, t) = cube::face_point(dir);
@@ -75,7 +76,7 @@ fn across(pyramid: &Pyramid, id: NodeId, x: i64, y: i64) -> f32 {
     interpolated(ground, (s + 1.0) * scale - f64::from(found.x), (t + 1.0) * scale - f64::from(found.y))
 }
 
-/// The height at a place in a node, 0 to 1 along both sides.
+/// The height at a point of a node, 0 to 1 along both sides.
 fn interpolated(ground: &Ground, u: f64, v: f64) -> f32 {
     let place = |w: f64| {
         let w = (w * TILE_QUADS as f64).clamp(0.0, TILE_QUADS as f64);

@@ -1,5 +1,5 @@
-//! The heights of a surface at every level: those of its tiles, and for each node above them every second vertex of its
-//! children. No noise is evaluated, and equal grounds have equal hashes whenever they were made.
+//! The heights of a surface at every level: those of its tiles, and for each ancestor every second vertex of its
+//! children. No noise is evaluated, and equal heights have equal hashes, whenever they were made.
 
 use crate::lod::Tile;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES};
@@ -27,7 +27,7 @@ impl Pyramid {
         profiling::scope!("pyramid");
         let sea_m = surface.terrain.planet().sea_level_m().map_or(f32::MIN, |level| level as f32);
         let mut nodes: HashMap<NodeId, Ground> = HashMap::new();
-        // Deepest first: a parent is made when all of its children are there.
+        // Deepest first: a parent is made once all of its children are there.
         let mut levels: BTreeMap<u8, Vec<NodeId>> = BTreeMap::new();
         for leaf in &surface.leaves {
             nodes.insert(leaf.tile.id, Ground::new(heights_of(&leaf.tile, sea_m), false));
@@ -49,12 +49,12 @@ impl Pyramid {
         self.nodes.get(&id)
     }
 
-    /// The ground of a node, or of the finest node above it that is known.
+    /// The ground of a node, or of its finest known ancestor.
     pub(super) fn deepest(&self, id: NodeId) -> Option<(NodeId, &Ground)> {
         std::iter::successors(Some(id), |id| id.parent()).find_map(|id| Some((id, self.get(id)?)))
     }
 
-    /// Stands for all grounds from which the near horizon of a node is made: its own, and those around it.
+    /// Hash of all ground from which the near horizon of a node is made: its own, and that around it.
     pub(super) fn hash_around(&self, id: NodeId) -> u64 {
         let own = self.get(id).map_or(0, |ground| ground.hash);
         around(id)
@@ -71,7 +71,7 @@ impl Ground {
     }
 }
 
-/// One more number in a hash.
+/// Adds a number to a hash.
 pub(super) fn mixed(hash: u64, number: u64) -> u64 {
     let folded = (hash.rotate_left(23) ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     folded ^ (folded >> 32)
@@ -101,7 +101,7 @@ fn joined(nodes: &HashMap<NodeId, Ground>, parent: NodeId) -> Option<Vec<f32>> {
 pub(super) fn around(id: NodeId) -> Vec<NodeId> {
     let beside = Edge::ALL.map(|edge| id.neighbour(edge));
     let mut all = beside.to_vec();
-    // What lies beside two of those is at a corner; at a corner of the cube nothing does.
+    // A node beside two of those is at a corner. At a corner of the cube there is none.
     let second: Vec<NodeId> = beside.iter().flat_map(|id| Edge::ALL.map(|edge| id.neighbour(edge))).collect();
     for (i, corner) in second.iter().enumerate() {
         if *corner != id && second[..i].contains(corner) && !all.contains(corner) {

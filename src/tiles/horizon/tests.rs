@@ -105,7 +105,8 @@ fn mountain_m(dir: DVec3) -> f64 {
     if r < 1.0 { 3000.0 * (1.0 - r * r) * (1.0 - r * r) } else { 0.0 }
 }
 
-/// Where the shadow of that mountain ends while the star stands so high over the place where it ends: by a march in small steps.
+/// Where the shadow of that mountain ends while the star stands so high over the place where it ends: by a march in
+/// small steps.
 fn shadow_end_m(elevation_rad: f64) -> f64 {
     let seen_rad = |distance_m: f64| {
         let own = RADIUS_M;

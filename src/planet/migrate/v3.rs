@@ -1,0 +1,55 @@
+//! Presets of version 3, the current one: the version, then the fields of [`Planet`].
+
+use crate::planet::param::Curve;
+use crate::planet::{
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Star, VERSION, Version, Water,
+};
+use serde::{Deserialize, Serialize};
+
+/// Writes the file from the fields of the planet. They are spelt out because serde's `flatten` loses positions.
+macro_rules! file {
+    ($($(#[$attr:meta])* $field:ident: $type:ty,)+) => {
+        /// The whole file.
+        #[derive(Serialize, Deserialize)]
+        #[serde(rename = "Planet", default, deny_unknown_fields)]
+        pub(crate) struct File {
+            pub(super) version: Version,
+            $($(#[$attr])* pub(super) $field: $type,)+
+        }
+
+        impl From<Planet> for File {
+            fn from(planet: Planet) -> Self {
+                Self { version: Version(VERSION), $($field: planet.$field,)+ }
+            }
+        }
+
+        impl From<File> for Planet {
+            fn from(file: File) -> Self {
+                Self { $($field: file.$field,)+ }
+            }
+        }
+    };
+}
+
+file! {
+    name: String,
+    seed: u32,
+    radius_km: f64,
+    precision: Precision,
+    height_curve: Curve,
+    star: Star,
+    layers: Vec<Layer>,
+    climate: Climate,
+    biomes: Biomes,
+    water: Option<Water>,
+    atmosphere: Option<Atmosphere>,
+    clouds: Option<Clouds>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    editor: Option<EditorNotes>,
+}
+
+impl Default for File {
+    fn default() -> Self {
+        Planet::default().into()
+    }
+}

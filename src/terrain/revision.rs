@@ -1,0 +1,211 @@
+//! What changed between two revisions of a planet: one comparison of content keys, which the tiles, the renderer and
+//! the editor share.
+//!
+//! Stages that tiles keep have keys of compiled content: of landforms, of the layer stack, of climate rules, of the
+//! world maps that they read. A renamed layer, a layer that is off or a parameter that nothing reads therefore changes
+//! no key. Textures of the renderer have keys of the parameters that declare their stage.
+
+use super::climate::{CompiledClimate, SeaLevelClimate};
+use super::height::LayerStack;
+use super::relief::Relief;
+use crate::planet::param::{ParamPath, Stage, Stages, Value};
+use crate::planet::{InvalidPlanet, Key, Planet};
+use crate::world::coast::Coast;
+use crate::world::{Inputs, Slot};
+use std::sync::Arc;
+
+/// One state of a planet, and the content keys of what is made from it.
+#[derive(Clone, Debug)]
+pub struct Revision {
+    planet: Arc<Planet>,
+    keys: Keys,
+}
+
+impl Revision {
+    /// Finds the keys of a planet. Far cheaper than its terrain: nothing is evaluated.
+    ///
+    /// # Errors
+    /// An invalid planet: every problem it has.
+    pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
+        planet.check()?;
+        let keys = Compiled::new(&planet).keys;
+        Ok(Self { planet, keys })
+    }
+
+    pub(super) fn with(planet: Arc<Planet>, keys: Keys) -> Self {
+        Self { planet, keys }
+    }
+
+    /// The planet.
+    pub fn planet(&self) -> &Arc<Planet> {
+        &self.planet
+    }
+
+    /// The content keys.
+    pub fn keys(&self) -> &Keys {
+        &self.keys
+    }
+
+    /// The stages that must run again to get from an earlier revision to this one.
+    pub fn changes_since(&self, before: &Revision) -> Stages {
+        self.keys.changes_since(&before.keys)
+    }
+}
+
+/// Content keys of the stages. Equal keys of a stage mean equal results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keys {
+    /// Of each field that is needed, in ascending order.
+    fields: Arc<[Key]>,
+    heights: Key,
+    climate_noise: Key,
+    climate: Key,
+    materials: Key,
+    cloud_map: Key,
+    air_tables: Key,
+}
+
+impl Keys {
+    /// The key of the biome textures.
+    pub fn materials(&self) -> Key {
+        self.materials
+    }
+
+    /// The key of the cloud coverage map.
+    pub fn cloud_map(&self) -> Key {
+        self.cloud_map
+    }
+
+    /// The key of the scattering LUTs.
+    pub fn air_tables(&self) -> Key {
+        self.air_tables
+    }
+
+    /// The stages whose results differ, and those that read them. [`Stage::Field`] is among them only if a field is
+    /// needed that the earlier revision did not need. [`Stage::Uniform`] and [`Stage::Label`] never are: uniforms are
+    /// written for each frame, and labels are not drawn.
+    pub fn changes_since(&self, before: &Keys) -> Stages {
+        let more_fields = self.fields.iter().any(|field| before.fields.binary_search(field).is_err());
+        let differs = [
+            (Stage::Field, more_fields),
+            (Stage::Height, self.heights != before.heights),
+            (Stage::ClimateNoise, self.climate_noise != before.climate_noise),
+            (Stage::Climate, self.heights != before.heights || self.climate != before.climate),
+            (Stage::Material, self.materials != before.materials),
+            (Stage::CloudMap, self.cloud_map != before.cloud_map),
+            (Stage::AirTables, self.air_tables != before.air_tables),
+        ];
+        differs.into_iter().filter(|(_, differs)| *differs).map(|(stage, _)| stage).collect()
+    }
+}
+
+/// Content keys of what a tile holds. They differ from the planet's own while world maps of an earlier revision serve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct TileKeys {
+    pub(crate) heights: Key,
+    pub(crate) climate: Key,
+}
+
+/// Content keys of what tiles are made from, world maps apart.
+#[derive(Clone, Debug)]
+pub(super) struct TileContent {
+    /// The layer stack.
+    stack: Key,
+    /// Biome relief, and whether it reads the distance to the coast.
+    relief: Option<(Key, bool)>,
+    /// Climate at sea level, with its noise.
+    climate: Key,
+}
+
+impl TileContent {
+    /// The keys of tiles whose climate reads this coast map.
+    pub(super) fn keys(&self, coast: Option<Key>) -> TileKeys {
+        let relief = self.relief.map(|(relief, reads_coast)| (relief, coast.filter(|_| reads_coast)));
+        TileKeys { heights: Key::of(&(self.stack, relief)), climate: Key::of(&(self.climate, coast)) }
+    }
+}
+
+/// A planet, compiled, before its world maps are known.
+pub(super) struct Compiled {
+    pub(super) stack: LayerStack,
+    pub(super) climate: CompiledClimate,
+    pub(super) relief: Option<Relief>,
+    pub(super) map_inputs: Inputs,
+    pub(super) content: TileContent,
+    pub(super) keys: Keys,
+}
+
+impl Compiled {
+    /// Compiles a valid planet.
+    pub(super) fn new(planet: &Planet) -> Self {
+        let stack = LayerStack::new(planet);
+        let climate = CompiledClimate::new(planet);
+        let relief = Relief::new(planet, &climate, stack.limits_m());
+        let relief_noises = relief.iter().flat_map(Relief::noises).map(|noise| Key::of(&**noise));
+        let mut fields: Vec<Key> = stack.field_keys().chain(relief_noises).collect();
+        fields.sort_unstable();
+
+        let heights = Key::of(&stack.joined());
+        let reads_coast = CompiledClimate::reads_coast(planet);
+        let map_inputs = Inputs { heights, sea_level_m: planet.sea_level_m(), reads_coast };
+        let climate_noise = Key::of(&climate.noises());
+        let content = TileContent {
+            stack: heights,
+            relief: relief.as_ref().map(|relief| (Key::of(relief), reads_coast)),
+            climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
+        };
+        let tiles = content.keys(Slot::<Coast>::final_key(&map_inputs));
+        let [materials, cloud_map, air_tables] = texture_keys(planet);
+        let keys = Keys {
+            fields: fields.into(),
+            heights: tiles.heights,
+            climate_noise,
+            climate: tiles.climate,
+            materials,
+            cloud_map,
+            air_tables,
+        };
+        Self { stack, climate, relief, map_inputs, content, keys }
+    }
+}
+
+/// Keys of the parameters that the biome textures, the cloud coverage map and the scattering LUTs read.
+fn texture_keys(planet: &Planet) -> [Key; 3] {
+    const STAGES: [Stage; 3] = [Stage::Material, Stage::CloudMap, Stage::AirTables];
+    let mut read: [Vec<(ParamPath, Value)>; 3] = Default::default();
+    planet.each_value(&mut |path, param, value| {
+        for (stage, read) in STAGES.iter().zip(&mut read) {
+            if param.stages.contains(*stage) {
+                read.push((path.clone(), value.get()));
+            }
+        }
+    });
+    let [materials, cloud_map, air_tables] = &read;
+    [Key::of(&(materials, &planet.biomes.table)), Key::of(cloud_map), Key::of(air_tables)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::shipped;
+
+    #[test]
+    fn a_name_and_a_layer_that_is_off_change_nothing() {
+        let mut planet = shipped::default_planet();
+        planet.layers.push(crate::planet::Layer { name: "Off".to_owned(), enabled: false, ..Default::default() });
+        let revision = |planet: &Planet| Revision::try_new(Arc::new(planet.clone())).unwrap();
+        let before = revision(&planet);
+        assert_eq!(revision(&planet).changes_since(&before), Stages::NONE);
+        let mut edited = planet.clone();
+        edited.name.push('!');
+        if let Some(off) = edited.layers.last_mut() {
+            (off.name, off.seed, off.amplitude_m) = ("Another".to_owned(), 77, 5.0);
+        }
+        assert_eq!(revision(&edited).changes_since(&before), Stages::NONE);
+        edited.layers[0].amplitude_m += 1.0;
+        let changes = revision(&edited).changes_since(&before);
+        assert_eq!(changes, Stages::of(&[Stage::Height, Stage::Climate]));
+        edited.layers[0].seed += 1;
+        assert!(revision(&edited).changes_since(&before).contains(Stage::Field));
+    }
+}

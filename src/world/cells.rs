@@ -1,0 +1,61 @@
+//! Cells of a cube around the sphere: the grid on which world maps are solved.
+
+use crate::sphere::raster::{cube_direction, cube_point};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The cells of six faces of `side` by `side`, face by face, row by row. The same for every planet.
+pub(crate) struct Cells {
+    /// Cells along the side of a face.
+    pub(crate) side: usize,
+    /// Unit directions of the centres.
+    pub(crate) dirs: Vec<DVec3>,
+    /// The eight cells around each cell. At a corner of the cube some of them coincide.
+    pub(crate) neighbours: Vec<[u32; 8]>,
+}
+
+impl Cells {
+    /// The cells of a side; computed once for each side and shared.
+    pub(crate) fn of(side: usize) -> Arc<Cells> {
+        static KNOWN: Mutex<BTreeMap<usize, Arc<Cells>>> = Mutex::new(BTreeMap::new());
+        // Computed outside the lock: its thread pool may hand this thread other work that asks for cells.
+        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(cells) = known().get(&side) {
+            return cells.clone();
+        }
+        let cells = Arc::new(Self::new(side));
+        known().entry(side).or_insert(cells).clone()
+    }
+
+    /// Half the angle that a cell in the middle of a face spans: detail finer than this is not seen by the cells.
+    pub(crate) fn spacing_rad(&self) -> f64 {
+        1.0 / self.side as f64
+    }
+
+    fn new(side: usize) -> Self {
+        let place = |cell: usize| (cell / (side * side), cell % side, cell / side % side);
+        let dir = |face, x: f64, y: f64| cube_direction(face, side, x + 0.5, y + 0.5);
+        let around = |cell: usize| {
+            let (face, column, row) = place(cell);
+            let steps = [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
+            steps.map(|(dx, dy)| {
+                let (x, y) = (column as f64 + f64::from(dx), row as f64 + f64::from(dy));
+                let (face, x, y) = cube_point(dir(face, x, y), side);
+                let index = |w: f64| (w as usize).min(side - 1);
+                ((face * side + index(y)) * side + index(x)) as u32
+            })
+        };
+        let center = |cell: usize| {
+            let (face, column, row) = place(cell);
+            dir(face, column as f64, row as f64)
+        };
+        let cells = 0..6 * side * side;
+        Self {
+            side,
+            dirs: cells.clone().into_par_iter().map(center).collect(),
+            neighbours: cells.into_par_iter().map(around).collect(),
+        }
+    }
+}

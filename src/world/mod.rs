@@ -1,0 +1,73 @@
+//! World maps: values for the whole globe, each solved from the whole planet.
+//!
+//! A world map is a raster over the sphere. Its value at one point may depend on the planet everywhere, so no query can
+//! evaluate it on the spot: it is solved once for each revision that changes what it reads, in the background, and then
+//! sampled. The maps of the revision before serve until the new ones are whole.
+//!
+//! - `map`: [`map::WorldMap`], what a map reads and how it is solved; [`Ground`], the planet as maps read it, which the
+//!   terrain implements
+//! - [`World`]: the maps that serve. A new map is one file and one line of `world_maps!` below
+//! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
+//! - `coast`: signed distance to the coast
+//!
+//! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
+//! the terrain's climate. The finest answer depends on the planet alone, never on the maps that served before.
+
+pub(crate) mod cells;
+pub(crate) mod coast;
+mod map;
+mod slot;
+
+use coast::Coast;
+pub(crate) use map::{Ground, Inputs, KeepGoing};
+pub use slot::MapWork;
+pub(crate) use slot::Slot;
+use std::fmt;
+
+/// Lists the maps, each after those that it reads.
+macro_rules! world_maps {
+    ($( $(#[doc = $doc:literal])+ $name:ident: $map:ty; )+) => {
+        /// The world maps that serve a planet: those of its own, or of an earlier revision until its own are whole.
+        #[derive(Clone, Default)]
+        pub(crate) struct World { $( $(#[doc = $doc])+ pub(crate) $name: Slot<$map>, )+ }
+
+        impl World {
+            /// The maps that may serve a planet at once: all but those that nothing reads any more.
+            pub(crate) fn serving(&self, inputs: &Inputs) -> Self {
+                Self { $( $name: self.$name.serving(inputs), )+ }
+            }
+
+            /// Whether every map is the finest one of this planet.
+            pub(crate) fn is_final(&self, inputs: &Inputs) -> bool {
+                $( self.$name.is_final(inputs) )&&+
+            }
+
+            /// Solves the next level of the first map that is not final. None if `keep_going` said no.
+            pub(crate) fn step(
+                &self,
+                ground: &dyn Ground,
+                keep_going: &KeepGoing<'_>,
+                work: &mut MapWork,
+            ) -> Option<Self> {
+                $( if !self.$name.is_final(ground.inputs()) {
+                    let mut world = self.clone();
+                    world.$name = self.$name.step(ground, keep_going, work)?;
+                    return Some(world);
+                } )+
+                Some(self.clone())
+            }
+        }
+    };
+}
+
+world_maps! {
+    /// Signed distance to the coast.
+    coast: Coast;
+}
+
+/// The maps are rasters: only which ones serve is printed.
+impl fmt::Debug for World {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("World").field("coast", &self.coast.key()).finish_non_exhaustive()
+    }
+}

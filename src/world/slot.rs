@@ -1,0 +1,155 @@
+//! One world map that serves, the key of what it was solved from, and its next level.
+
+use super::map::{Ground, Inputs, KeepGoing, WorldMap};
+use crate::planet::Key;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What solving world maps took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MapWork {
+    /// Levels of maps that were solved.
+    pub runs: usize,
+    /// Seconds it took.
+    pub busy_secs: f64,
+}
+
+/// A map, if there is one.
+pub(crate) struct Slot<M>(Option<Served<M>>);
+
+struct Served<M> {
+    key: Key,
+    level: usize,
+    map: Arc<M>,
+}
+
+impl<M> Clone for Slot<M> {
+    fn clone(&self) -> Self {
+        Self(self.0.as_ref().map(|Served { key, level, map }| Served { key: *key, level: *level, map: map.clone() }))
+    }
+}
+
+impl<M> Default for Slot<M> {
+    fn default() -> Self {
+        Self(None)
+    }
+}
+
+impl<M: WorldMap> Slot<M> {
+    const FINEST: usize = M::SIDES.len() - 1;
+
+    /// The map that serves.
+    pub(crate) fn map(&self) -> Option<&M> {
+        self.0.as_ref().map(|served| &*served.map)
+    }
+
+    /// Key of the map that serves: of what it was solved from, and of its level.
+    pub(crate) fn key(&self) -> Option<Key> {
+        self.0.as_ref().map(|served| key_at(served.key, served.level))
+    }
+
+    /// The [`Slot::key`] of a planet's own finest map.
+    pub(crate) fn final_key(inputs: &Inputs) -> Option<Key> {
+        M::key(inputs).map(|key| key_at(key, Self::FINEST))
+    }
+
+    pub(super) fn serving(&self, inputs: &Inputs) -> Self {
+        if M::key(inputs).is_some() { self.clone() } else { Self::default() }
+    }
+
+    pub(super) fn is_final(&self, inputs: &Inputs) -> bool {
+        self.key() == Self::final_key(inputs)
+    }
+
+    pub(super) fn step(&self, ground: &dyn Ground, keep_going: &KeepGoing<'_>, work: &mut MapWork) -> Option<Self> {
+        let Some(key) = M::key(ground.inputs()) else { return Some(Self::default()) };
+        let level = match &self.0 {
+            None => 0,
+            Some(served) if served.key == key => (served.level + 1).min(Self::FINEST),
+            // A whole map of an earlier revision shows more than a coarse one of this planet would.
+            Some(_) => Self::FINEST,
+        };
+        profiling::scope!("world map");
+        let begun = Instant::now();
+        let map = M::solve(ground, M::SIDES[level], keep_going);
+        work.busy_secs += begun.elapsed().as_secs_f64();
+        let map = Arc::new(map?);
+        work.runs += 1;
+        Some(Self(Some(Served { key, level, map })))
+    }
+}
+
+fn key_at(key: Key, level: usize) -> Key {
+    Key::of(&(key, level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cells::Cells;
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// A planet of which a map reads one number.
+    struct Number(Inputs);
+
+    impl Number {
+        fn new(number: Option<f64>) -> Self {
+            Self(Inputs { heights: Key::default(), sea_level_m: number, reads_coast: true })
+        }
+    }
+
+    impl Ground for Number {
+        fn inputs(&self) -> &Inputs {
+            &self.0
+        }
+        fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+            keep_going().then(|| vec![self.0.sea_level_m.unwrap_or(0.0); cells.dirs.len()])
+        }
+    }
+
+    /// The number and the level.
+    struct Echo(f64, usize);
+
+    impl WorldMap for Echo {
+        const SIDES: &'static [usize] = &[4, 8, 16];
+        fn key(inputs: &Inputs) -> Option<Key> {
+            inputs.sea_level_m.map(|number| Key::of(&number))
+        }
+        fn solve(ground: &dyn Ground, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self> {
+            Some(Self(*ground.heights_m(&Cells::of(side), keep_going)?.first()?, side))
+        }
+    }
+
+    fn served(slot: &Slot<Echo>) -> Option<(f64, usize)> {
+        slot.map().map(|echo| (echo.0, echo.1))
+    }
+
+    #[test]
+    fn a_first_map_comes_coarse_to_fine_and_an_old_one_serves_until_the_new_one_is_whole() {
+        let (one, two, none) = (Number::new(Some(1.0)), Number::new(Some(2.0)), Number::new(None));
+        let mut work = MapWork::default();
+        let step = |slot: &Slot<Echo>, ground: &Number, work: &mut MapWork| slot.step(ground, &|| true, work).unwrap();
+        let mut slot = Slot::<Echo>::default().serving(&one.0);
+        for side in [4, 8, 16] {
+            assert!(!slot.is_final(&one.0));
+            slot = step(&slot, &one, &mut work);
+            assert_eq!(served(&slot), Some((1.0, side)));
+        }
+        assert!(slot.is_final(&one.0) && !slot.is_final(&two.0));
+        assert_eq!(served(&slot.serving(&two.0)), Some((1.0, 16)), "the old map serves");
+        let new = step(&slot.serving(&two.0), &two, &mut work);
+        assert_eq!((served(&new), new.is_final(&two.0), work.runs), (Some((2.0, 16)), true, 4));
+        assert_eq!(served(&new.serving(&none.0)), None, "a map that nothing reads is dropped");
+        assert!(new.serving(&none.0).is_final(&none.0));
+    }
+
+    #[test]
+    fn a_map_that_is_not_wanted_any_more_is_given_up() {
+        let asked = AtomicUsize::new(0);
+        let mut work = MapWork::default();
+        let keep_going = || asked.fetch_add(1, Ordering::Relaxed) > 0;
+        let slot = Slot::<Echo>::default();
+        assert!(slot.step(&Number::new(Some(1.0)), &keep_going, &mut work).is_none());
+        assert_eq!((work.runs, asked.into_inner()), (0, 1));
+    }
+}
