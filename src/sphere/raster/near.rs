@@ -1,7 +1,11 @@
 //! Lowest and greatest samples of a raster near a direction: of the texels that count there, and where those are few,
 //! by how far a spline between them can rise.
 
-use super::{BLEND, CAP_ROWS, Cube, FRAMES, Globe, Level, MARGIN, OnFace, Place, Raster, Texel, bicubic, range};
+use super::cube::{BLEND, Cube, FRAMES, MARGIN, OnFace};
+use super::globe::{CAP_ROWS, Globe};
+use super::spline::bicubic;
+use super::texels::{Texel, range};
+use super::{Level, Place, Raster};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::ops::Range;
