@@ -1,4 +1,4 @@
-//! The cube layout of a raster.
+//! The cube layout of a raster: six square faces, blended along their edges.
 
 use super::spline::{bicubic, smoothstep};
 use super::texels::Texel;
@@ -8,10 +8,10 @@ use rayon::prelude::*;
 
 /// Half the width of the strip along an edge in which two faces are blended, in texels.
 pub(super) const BLEND: f64 = 2.0;
-/// Texels kept beyond each edge: what a spline at the end of the strip reaches.
+/// Texels kept beyond each edge: the reach of a spline at the end of the strip.
 pub(super) const MARGIN: usize = 4;
 
-/// The directions out of each face, to the right and up on it, in the order of [`Face`].
+/// Outward, right and up direction of each face, in the order of [`Face`].
 pub(super) const FRAMES: [[DVec3; 3]; 6] = [
     [DVec3::X, DVec3::Y, DVec3::Z],
     [DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z],
@@ -27,8 +27,8 @@ pub(super) struct Cube<T> {
     pub(super) texels: Vec<T>,
 }
 
-/// The unit direction through `(x, y)` of a face of `side` by `side` texels, y counted from the top; it may lie a
-/// little beyond the edges.
+/// The unit direction through `(x, y)` of a face of `side` by `side` texels, y counted from the top. The point may
+/// lie a little beyond the edges.
 pub fn cube_direction(face: usize, side: usize, x: f64, y: f64) -> DVec3 {
     let [out, right, up] = FRAMES[face];
     let along = |w: f64| 2.0 * w / side as f64 - 1.0;
@@ -68,7 +68,7 @@ impl<T: Texel> Cube<T> {
     #[inline(always)]
     pub(super) fn sample(&self, dir: DVec3) -> (f64, DVec3) {
         let half = 0.5 * self.side as f64;
-        // Most points lie where one face alone counts.
+        // Most points lie on one face alone.
         let face = Face::of_direction(dir) as usize;
         let on_face = OnFace::new(face, dir);
         let inner = 1.0 - BLEND / half;
@@ -78,7 +78,7 @@ impl<T: Texel> Cube<T> {
         self.sample_blended(dir)
     }
 
-    /// What one face has at a point on it.
+    /// The sample of one face at a point on it.
     #[inline(always)]
     fn sample_face(&self, face: usize, at: &OnFace) -> (f64, DVec3) {
         let half = 0.5 * self.side as f64;
@@ -100,7 +100,7 @@ impl<T: Texel> Cube<T> {
         })
     }
 
-    /// The mean of all faces that reach so far.
+    /// The weighted mean of all faces whose strips hold the direction.
     #[inline(never)]
     fn sample_blended(&self, dir: DVec3) -> (f64, DVec3) {
         let half = 0.5 * self.side as f64;
@@ -108,11 +108,11 @@ impl<T: Texel> Cube<T> {
         let (mut sum_gradient, mut total_gradient) = (DVec3::ZERO, DVec3::ZERO);
         for face in 0..FRAMES.len() {
             let at = OnFace::new(face, dir);
-            // Beyond this the blend has ended on the coarsest of cubes.
+            // Beyond this the blend has ended even on the coarsest cube.
             if at.depth < 0.25 {
                 continue;
             }
-            // How far within the strip, from 0 at its outer end to 1 at its inner.
+            // Position within the strip, from 0 at its outer end to 1 at its inner end.
             let within = |w: f64| ((1.0 - w.abs()) * half + BLEND) * (0.5 / BLEND);
             let ((ws, dws), (wt, dwt)) = (smoothstep(within(at.s)), smoothstep(within(at.t)));
             let weight = ws * wt;
@@ -133,7 +133,7 @@ impl<T: Texel> Cube<T> {
     }
 }
 
-/// A direction as a face sees it.
+/// A direction in the coordinates of a face.
 pub(super) struct OnFace {
     pub(super) depth: f64,
     /// To the right and up, -1 to 1 on the face.
@@ -149,7 +149,7 @@ impl OnFace {
         Self { depth, s: dir.dot(right) / depth, t: dir.dot(up) / depth }
     }
 
-    /// Of `s` and `t` by the direction.
+    /// Gradients of `s` and `t` by the direction.
     #[inline(always)]
     fn gradients(&self, face: usize) -> [DVec3; 2] {
         let [out, right, up] = FRAMES[face];
@@ -157,7 +157,7 @@ impl OnFace {
     }
 }
 
-/// Linear between the four nearest texels of a square, which goes on beyond its edges as it ends there.
+/// Bilinear interpolation in a square, constant beyond the outermost texels.
 fn bilinear<T: Texel>(face: &[T], side: usize, x: f64, y: f64) -> f64 {
     let last = (side - 1) as f64;
     let (x, y) = ((x - 0.5).clamp(0.0, last), (y - 0.5).clamp(0.0, last));

@@ -21,7 +21,7 @@ pub(super) struct Pole {
     pub(super) slope_y: f64,
 }
 
-/// Rows over which the spline passes into the plane around a pole.
+/// Rows over which the spline blends into the plane around a pole.
 pub(super) const CAP_ROWS: f64 = 2.0;
 
 impl<T: Texel> Globe<T> {
@@ -43,7 +43,7 @@ impl<T: Texel> Globe<T> {
         })
     }
 
-    /// Four texels of a row; rows and columns may lie beyond the edges.
+    /// Four texels of a row. Rows and columns may lie beyond the edges.
     #[inline(always)]
     pub(super) fn row(&self, row: isize, column: isize) -> [f64; 4] {
         let (height, width) = (self.height as isize, 2 * self.height as isize);
@@ -82,7 +82,7 @@ impl<T: Texel> Globe<T> {
         let y = if dir.z < 0.0 { self.height as f64 - rows_from_pole } else { rows_from_pole };
         let x = (place.lon_rad + PI) * rows_per_rad;
         let (value, by_x, by_y) = bicubic(x, y, |row, column| self.row(row, column));
-        // Rows to the south and columns to the east for each step of the direction.
+        // Gradients of rows to the south and columns to the east by the direction.
         let south = DVec3::new(dir.z * dir.x / flat, dir.z * dir.y / flat, -flat) * rows_per_rad;
         let east = DVec3::new(-dir.y / flat2, dir.x / flat2, 0.0) * rows_per_rad;
         let gradient = east * by_x + south * by_y;
@@ -113,12 +113,12 @@ impl Pole {
     }
 }
 
-/// Replaces each texel of a ring by the mean over `width` texels around it (1 or more; ends count by
-/// the part that is covered).
+/// Replaces each texel of a ring by the mean over `width` texels around it (1 or more); texels at the ends count by
+/// their covered part.
 fn average_along<T: Texel>(ring: &mut [T], width: f64) {
     let reach = ((width - 1.0) * 0.5).min((ring.len() / 2 - 1) as f64);
     let (whole, part) = (reach.floor() as usize, reach - reach.floor());
-    // The ring with its two ends repeated: texel `i` of it stands at `i + whole + 1`.
+    // The ring with both ends repeated: its texel `i` is at `i + whole + 1`.
     let n = ring.len();
     let old: Vec<f64> =
         ring[n - whole - 1..].iter().chain(ring.iter()).chain(&ring[..=whole]).map(|t| t.get()).collect();

@@ -1,19 +1,19 @@
-//! Rasters: numbers on grids that cover the whole sphere, sampled smoothly and with exact gradients.
+//! Rasters: grids of numbers over the whole sphere, sampled smoothly and with exact gradients.
 //!
-//! Samples are uniform cubic B-splines of the texels (de Boor 1978): twice continuously differentiable, so that
-//! shading shows no grid; never outside the range of the texels, so that nothing rings; and softer than the
-//! texels by about one of them.
+//! Samples are uniform cubic B-splines of the texels (de Boor 1978). They are twice continuously differentiable, so
+//! that shading shows no grid; they stay within the range of the texels, so that nothing rings; and they are softer
+//! than the texels by about one texel.
 //!
-//! - A *globe* is equirectangular: twice as wide as high, north up, longitude 0 in the middle, east to the right. Rows
-//!   go on beyond a pole on the opposite meridian. Towards the poles texels are averaged along their row until they are
-//!   as wide as high, and around each pole the spline passes into a plane: no pinwheel, no crease.
-//! - A *cube* is six square faces in the order of [`super::Face`], each what a camera in the centre sees of the
-//!   sphere's inside with an opening angle of 90°, mirrored: seen from outside. North is up; the right edge of the
-//!   four around the equator is east; the bottom edge of +Z and the top edge of -Z meet +X. Faces overlap by two
-//!   texels and are blended there.
+//! - A *globe* is equirectangular: twice as wide as high, north up, longitude 0 in the middle, east to the right.
+//!   Beyond a pole, rows continue on the opposite meridian. Towards the poles texels are averaged along their row
+//!   until they are as wide as high, and around each pole the spline blends into a plane: no pinwheel, no crease.
+//! - A *cube* is six square faces in the order of [`super::Face`], each seen from outside the sphere: the view of a
+//!   camera in the centre with a field of view of 90°, mirrored. North is up; the right edge of the four around the
+//!   equator is east; the bottom edge of +Z and the top edge of -Z meet +X. Faces overlap by two texels and are
+//!   blended there.
 //!
-//! Coarser levels, each half as fine, serve what is seen from afar. Everything is f64 with correctly rounded operations
-//! and `libm`: the same bits on every machine.
+//! Coarser levels, each half as fine, serve distant points. Everything is f64 with correctly rounded operations and
+//! `libm`: the same bits on every machine.
 
 mod cube;
 mod globe;
@@ -34,7 +34,7 @@ use texels::{range, shrunk};
 pub struct Raster<T> {
     /// The finest first.
     levels: Vec<Level<T>>,
-    /// Of the finest level's texels.
+    /// Ranges of the texels of the finest level.
     ranges: Ranges<T>,
     bounds: (f64, f64),
 }
@@ -44,7 +44,7 @@ enum Level<T> {
     Cube(Cube<T>),
 }
 
-/// Coarser levels end before a side has fewer texels than this.
+/// Least side of the coarsest level, in texels.
 const LEAST_SIDE: usize = 4;
 
 impl<T: Texel> Raster<T> {
@@ -90,13 +90,12 @@ impl<T: Texel> Raster<T> {
         Self { levels, ranges, bounds }
     }
 
-    /// Lowest and greatest number a sample can be.
+    /// Lowest and greatest value of a sample.
     pub fn bounds(&self) -> (f64, f64) {
         self.bounds
     }
 
-    /// The finest level whose texels are no closer together than points so far apart (as an
-    /// angle); 0 is the raster itself.
+    /// The finest level whose texels are no closer together than points `spacing_rad` apart; 0 is the raster itself.
     pub fn level_for(&self, spacing_rad: f64) -> usize {
         let too_fine = |level: &&Level<T>| {
             let texel_rad = match level {
@@ -108,7 +107,7 @@ impl<T: Texel> Raster<T> {
         self.levels.iter().take_while(too_fine).count().min(self.levels.len() - 1)
     }
 
-    /// Where a unit direction meets the raster, for samples of any level.
+    /// The position of a unit direction on the raster, for samples of any level.
     pub fn place(&self, dir: DVec3) -> Place {
         match &self.levels[0] {
             Level::Globe(_) => Place::on_globe(dir),
@@ -116,12 +115,13 @@ impl<T: Texel> Raster<T> {
         }
     }
 
-    /// The number at a place.
+    /// The value at a position.
     pub fn value(&self, place: &Place, level: usize) -> f64 {
         self.sample(place, level).0
     }
 
-    /// The number at a place, and its gradient by the direction (its part in the tangent plane is what counts).
+    /// The value at a position, and its gradient by the direction. Only the tangential part of the gradient means
+    /// anything.
     #[inline(always)]
     pub fn sample(&self, place: &Place, level: usize) -> (f64, DVec3) {
         match &self.levels[level] {
@@ -131,7 +131,7 @@ impl<T: Texel> Raster<T> {
     }
 }
 
-/// A direction, with what all levels of a raster need of it.
+/// A direction, with the angles that all levels of a raster need.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     dir: DVec3,

@@ -1,7 +1,6 @@
 //! Uniform cubic B-splines between texels (de Boor 1978).
 
-/// The four weights of a uniform cubic B-spline and their derivatives, `t` of the way from the
-/// second knot to the third.
+/// The four weights of a uniform cubic B-spline and their derivatives, at `t` from the second knot to the third.
 #[inline(always)]
 fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
     let (u, t2) = (1.0 - t, t * t);
@@ -14,15 +13,15 @@ fn spline(t: f64) -> ([f64; 4], [f64; 4]) {
     (weights, [-0.5 * u * u, 1.5 * t2 - 2.0 * t, 0.5 + t - 1.5 * t2, 0.5 * t2])
 }
 
-/// As `f64::floor`, for small numbers, without a call on machines that have no instruction for it.
+/// As `f64::floor` for small numbers, without a call on machines that lack the instruction.
 #[inline(always)]
 fn floor(x: f64) -> f64 {
     let whole = x as isize as f64;
     if whole > x { whole - 1.0 } else { whole }
 }
 
-/// The spline at `(x, y)` in texels (texel `i` lies at `i + 0.5`), and its derivatives by x and y. `row(y, x)` gives
-/// four texels of row `y` from column `x` on.
+/// The spline at `(x, y)` in texels (the centre of texel `i` is at `i + 0.5`), and its derivatives by x and y.
+/// `row(y, x)` gives four texels of row `y` from column `x` on.
 #[inline(always)]
 pub(super) fn bicubic(x: f64, y: f64, row: impl Fn(isize, isize) -> [f64; 4]) -> (f64, f64, f64) {
     let (x, y) = (x - 0.5, y - 0.5);

@@ -1,12 +1,12 @@
-//! Texels: numbers as they are stored, and whole grids of them.
+//! Texels: stored numbers, and whole grids of them.
 
 use rayon::prelude::*;
 
-/// A number as it is stored.
+/// A stored number.
 pub trait Texel: Copy + Send + Sync + Default + 'static {
-    /// The number.
+    /// Its value.
     fn get(self) -> f64;
-    /// The nearest that can be stored.
+    /// The nearest number that can be stored.
     fn of(value: f64) -> Self;
 }
 
@@ -30,7 +30,7 @@ impl Texel for f32 {
     }
 }
 
-/// The same picture with fewer texels, each the mean of those it covers.
+/// A smaller grid, each texel the mean of those it covers.
 pub(super) fn shrunk<T: Texel>(texels: &[T], from: [usize; 2], to: [usize; 2]) -> Vec<T> {
     let mut out = vec![T::default(); to[0] * to[1]];
     out.par_chunks_mut(to[0]).enumerate().for_each(|(row, out)| {
