@@ -69,9 +69,7 @@ fn physics(planet: &Planet, ray: SkyRay, traced: bool) -> Result<SkyAnswer, Fail
 fn shaders(planet: &Planet, ray: SkyRay) -> Result<SkyAnswer, Failure> {
     let gpu = headless::Gpu::open([1, 1])?;
     let failed = |error: &dyn std::fmt::Display| format!("the GPU ({}): {error}", gpu.name);
-    let mut renderer =
-        Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
-    let answers =
-        renderer.sky(planet, Quality::High, &[ray]).map_err(|error| failed(&error))?;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
+    let answers = renderer.sky(planet, Quality::High, &[ray]).map_err(|error| failed(&error))?;
     Ok(answers.first().copied().ok_or_else(|| failed(&"no answer"))?)
 }

@@ -27,29 +27,29 @@ pub(crate) struct WeatherMap {
 impl WeatherMap {
     /// A map with nothing in it yet.
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("weather map"),
-        size: wgpu::Extent3d { width: WEATHER_SIDE, height: WEATHER_SIDE, depth_or_array_layers: 6 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let cube = texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::Cube),
-        ..wgpu::TextureViewDescriptor::default()
-    });
-    let face = |layer| {
-        texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2),
-            base_array_layer: layer,
-            array_layer_count: Some(1),
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("weather map"),
+            size: wgpu::Extent3d { width: WEATHER_SIDE, height: WEATHER_SIDE, depth_or_array_layers: 6 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let cube = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
             ..wgpu::TextureViewDescriptor::default()
-        })
-    };
-    Self { cube, faces: (0..6).map(face).collect() }
+        });
+        let face = |layer| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: layer,
+                array_layer_count: Some(1),
+                ..wgpu::TextureViewDescriptor::default()
+            })
+        };
+        Self { cube, faces: (0..6).map(face).collect() }
     }
 }
 

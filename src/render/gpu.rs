@@ -159,10 +159,7 @@ pub(crate) fn depth_state(depth_compare: wgpu::CompareFunction) -> wgpu::DepthSt
 }
 
 /// A depth texture to draw into, cleared to infinity unless `load`.
-pub(crate) fn depth_attachment(
-    view: &wgpu::TextureView,
-    load: bool,
-) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+pub(crate) fn depth_attachment(view: &wgpu::TextureView, load: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     let load = if load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(0.0) };
     let depth_ops = Some(wgpu::Operations { load, store: wgpu::StoreOp::Store });
     wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }

@@ -186,13 +186,7 @@ impl Luts {
     }
 
     /// Nothing happens if what differs is not in the textures: names, or where rows begin.
-    fn write_biomes(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        patterns: &Patterns,
-        texels: BiomeTexels,
-    ) {
+    fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns, texels: BiomeTexels) {
         if texels == self.biome_texels {
             return;
         }
@@ -230,7 +224,8 @@ impl Groups {
         // With the first LUTs of the air only: the others are being filled, and the first stands in for them.
         let bind = |ready: usize| {
             let air = (0..air.len()).map(|i| &air[if i < ready { i } else { 0 }]);
-            let rest = [weather, &noise[0], &biomes.ids, &biomes.params, &materials.tint, &materials.surface, &noise[1]];
+            let rest =
+                [weather, &noise[0], &biomes.ids, &biomes.params, &materials.tint, &materials.surface, &noise[1]];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
             gpu::group(device, "LUTs", &patterns.layout, views)
         };

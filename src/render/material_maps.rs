@@ -91,7 +91,12 @@ impl Layer {
         let tint = tints.iter().zip(ranks).map(|(t, rank)| [0.5 * t[0], 0.5 * t[1], 0.5 * t[2], rank]).collect();
         let surface = spots.iter().zip(slopes).map(|(spot, [x, y])| {
             let signed = |w: f32, most: f32| 0.5 + 0.5 * (w / most).clamp(-1.0, 1.0);
-            [signed(x, PATTERN_STEEPEST), signed(y, PATTERN_STEEPEST), signed(spot.roughness, PATTERN_ROUGHNESS), spot.glow]
+            [
+                signed(x, PATTERN_STEEPEST),
+                signed(y, PATTERN_STEEPEST),
+                signed(spot.roughness, PATTERN_ROUGHNESS),
+                spot.glow,
+            ]
         });
         Self { tint: levels(tint), surface: levels(surface.collect()) }
     }

@@ -64,16 +64,14 @@ pub use gpu::read_texture;
 pub use luts::LutRuns;
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
-pub use scene::{
-    Body, BodyId, DebugView, MAX_SUNS, Matrices, Post, Projection, Scene, Sun, ViewId, split_position,
-};
+pub use scene::{Body, BodyId, DebugView, MAX_SUNS, Matrices, Post, Projection, Scene, Sun, ViewId, split_position};
 pub use shaders::air_wgsl;
 pub use sky_probe::SkyAnswer;
 pub use targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 pub use tone::Tone;
-pub use white_balance::white_balance;
 /// The GPU crate of all signatures.
 pub use wgpu;
+pub use white_balance::white_balance;
 
 /// What one frame drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

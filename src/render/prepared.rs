@@ -271,7 +271,9 @@ impl<'r> PreparedFrame<'r> {
         let radiance = if has_air { Target::Composite } else { Target::Radiance };
         let texture = |target| self.view.targets.get(Owned::Target(target));
         let textures = [Target::Radiance, Target::Depth, radiance].map(texture);
-        let [Some(opaque), Some(depth), Some(composite)] = textures else { return Ok((FrameStats::default(), radiance)) };
+        let [Some(opaque), Some(depth), Some(composite)] = textures else {
+            return Ok((FrameStats::default(), radiance));
+        };
         let stats = self.draw_opaque(encoder, &OpaqueTargets::cleared(opaque, depth))?;
         if has_air {
             self.draw_air(encoder, opaque, depth, composite)?;

@@ -28,12 +28,7 @@ impl Renderer {
     ///
     /// # Errors
     /// A planet that no preset may describe, a shader that does not compile, a device that does not answer.
-    pub fn sky(
-        &mut self,
-        planet: &Planet,
-        quality: Quality,
-        rays: &[SkyRay],
-    ) -> Result<Vec<SkyAnswer>, RenderError> {
+    pub fn sky(&mut self, planet: &Planet, quality: Quality, rays: &[SkyRay]) -> Result<Vec<SkyAnswer>, RenderError> {
         let columns = rays.len() as u32;
         if columns == 0 {
             return Ok(Vec::new());

@@ -50,7 +50,8 @@ impl TerrainPass {
             buffer(INSTANCE_BYTES, wgpu::VertexStepMode::Instance, &INSTANCE_ATTRIBUTES[..]),
             buffer(SHOWN_BYTES, wgpu::VertexStepMode::Vertex, &SHOWN_ATTRIBUTES[..]),
         ];
-        let formats = [Target::Radiance, Target::GroundSurface].map(|target| target.format().unwrap_or(RADIANCE_FORMAT));
+        let formats =
+            [Target::Radiance, Target::GroundSurface].map(|target| target.format().unwrap_or(RADIANCE_FORMAT));
         let make = |topology, cull_mode| {
             gpu::checked(device, ENTRY, || {
                 device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

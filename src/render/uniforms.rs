@@ -10,7 +10,7 @@ mod water;
 use super::scene::{self, MAX_SUNS, Scene, height_range_m, split_position};
 use super::shared::{BORDER_OCTAVES, CLOUD_BANDS, MOTTLE_OCTAVES, WAVES};
 use super::wgsl::uniform_struct;
-use super::{gpu, white_balance, wgsl};
+use super::{gpu, wgsl, white_balance};
 use crate::lod::Quality;
 use glam::{DQuat, DVec3, Mat4, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;

@@ -21,8 +21,7 @@ const SIZE_PX: [u32; 2] = [160, 100];
 fn gpu() -> MutexGuard<'static, Gpu> {
     static GPU: LazyLock<Mutex<Gpu>> = LazyLock::new(|| Mutex::new(Gpu::new()));
     let mut gpu = GPU.lock().unwrap_or_else(PoisonError::into_inner);
-    (gpu.post.metering, gpu.post.tone, gpu.post.smooth_edges) =
-        (Metering::default(), Tone::default(), true);
+    (gpu.post.metering, gpu.post.tone, gpu.post.smooth_edges) = (Metering::default(), Tone::default(), true);
     gpu
 }
 

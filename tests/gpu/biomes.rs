@@ -1,6 +1,6 @@
 //! A biome is the same wherever one asks: `Terrain::sample`, and the picture that shows biomes by themselves.
 
-use crate::support::{debug, Gpu, camera_over, frame_of, surface_of};
+use crate::support::{Gpu, camera_over, debug, frame_of, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};

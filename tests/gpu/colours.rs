@@ -1,6 +1,6 @@
 //! A region has the same colour from orbit as on the ground: pictures of one place, each four times as fine as the one before.
 
-use crate::support::{debug, Gpu, frame_of, surface_of};
+use crate::support::{Gpu, debug, frame_of, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};

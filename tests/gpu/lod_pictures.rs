@@ -1,7 +1,7 @@
 //! Level of detail in pictures: no hole, no pop, mountains beyond the horizon.
 
 use crate::support::dice::Dice;
-use crate::support::{debug, Gpu, camera_over, frame_of, lights, settled};
+use crate::support::{Gpu, camera_over, debug, frame_of, lights, settled};
 use glam::DVec3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tellus::lod::morph::shifts_m;
@@ -145,8 +145,7 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
             continue;
         }
         for (most, debug_view) in most.iter_mut().zip([DebugView::Shaded, DebugView::Normal]) {
-            let draw =
-                |surface: &Surface| draw(&debug(frame_of(surface, &planet, view(step), sun_dir()), debug_view));
+            let draw = |surface: &Surface| draw(&debug(frame_of(surface, &planet, view(step), sun_dir()), debug_view));
             most[0] = most[0].max(difference(&draw(&before), &draw(&after)));
             let unclear = !is_gentle(*most);
             if unclear {

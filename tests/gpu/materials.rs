@@ -1,6 +1,6 @@
 //! Biomes as materials, drawn: colour from near and far, and the biome of a query against the one in the picture.
 
-use crate::support::{view_of, Gpu, SIZE_PX, camera, frame, surface};
+use crate::support::{Gpu, SIZE_PX, camera, frame, surface, view_of};
 use std::sync::Arc;
 use tellus::planet::{Biome, Biomes, Detail, Planet, Steep, Table};
 use tellus::render::DebugView;

@@ -1,13 +1,13 @@
 //! The renderer on a real (software) adapter.
 
 use crate::support::edits::{every_edit, full_planet};
-use crate::support::{frame_of, view_of, debug, Gpu, camera, earth, frame, inside_disc, lights, surface};
+use crate::support::{Gpu, camera, debug, earth, frame, frame_of, inside_disc, lights, surface, view_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
-use tellus::sphere::LatLon;
 use tellus::planet::{Clouds, Fbm, Layer, Planet, Shape};
 use tellus::render::{BodyId, DebugView, Metering, RenderError};
+use tellus::sphere::LatLon;
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
 const POSES: [(f64, f64, f64); 8] = [
@@ -201,8 +201,7 @@ fn at_night_the_ground_is_lit_by_the_sky() {
         let surface = surface(&planet, &camera);
         let night = frame(&surface, &planet, camera, (0.0, 150.0));
         let is_ground: Vec<bool> = {
-            let seen =
-                gpu.draw(&debug(frame(&surface, &planet, camera, (0.0, 0.0)), DebugView::Coverage));
+            let seen = gpu.draw(&debug(frame(&surface, &planet, camera, (0.0, 0.0)), DebugView::Coverage));
             lights(&seen).iter().map(|light| *light > 0).collect()
         };
         gpu.post.metering = Metering::Instant;
