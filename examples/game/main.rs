@@ -1,5 +1,5 @@
-//! A game that draws its own things in front of a planet: towers that are lit by the planet's sun and sky, hidden by its
-//! mountains and hazed by its air.
+//! A game that draws its own things in front of a planet: towers that are lit by the planet's sun and sky, hidden by
+//! its mountains and hazed by its air.
 //!
 //! ```sh
 //! cargo run --example game              # a window; the arrow keys turn the camera
@@ -18,9 +18,7 @@ use std::sync::Arc;
 use tellus::glam::DVec3;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, shipped};
-use tellus::render::{
-    DEPTH_FORMAT, Metering, OpaqueTargets, RADIANCE_FORMAT, RenderError, Renderer, Scene, wgpu,
-};
+use tellus::render::{DEPTH_FORMAT, Metering, OpaqueTargets, RADIANCE_FORMAT, RenderError, Renderer, Scene, wgpu};
 use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
 use tellus::tiles::{Surface, add_detail, build_now};

@@ -46,8 +46,10 @@ impl Playing {
         let window = Arc::new(event_loop.create_window(attributes)?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle().with_env());
         let surface = instance.create_surface(Arc::clone(&window))?;
-        let options =
-            wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..wgpu::RequestAdapterOptions::default() };
+        let options = wgpu::RequestAdapterOptions {
+            compatible_surface: Some(&surface),
+            ..wgpu::RequestAdapterOptions::default()
+        };
         let adapter = pollster::block_on(instance.request_adapter(&options))?;
         let required_limits = Renderer::required_limits();
         let descriptor = wgpu::DeviceDescriptor { required_limits, ..wgpu::DeviceDescriptor::default() };

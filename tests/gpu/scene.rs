@@ -96,7 +96,10 @@ fn one_planet_stands_before_another() {
             through_air += 1;
         }
     }
-    assert!(hidden > 300 && alone > 1500 && through_air > 5, "{hidden} hidden, {alone} alone, {through_air} behind air");
+    assert!(
+        hidden > 300 && alone > 1500 && through_air > 5,
+        "{hidden} hidden, {alone} alone, {through_air} behind air"
+    );
 }
 
 /// A scene is lit by all of its suns.
