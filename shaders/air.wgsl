@@ -29,7 +29,8 @@ fn glare(dir: vec3f) -> vec3f {
     let off = length(dir - sun);
     let inside = saturate1(1.0 - off / REACH);
     if inside <= 0.0 { return vec3f(0.0); }
-    let shape = inside * inside * (0.5 * pow(1.0 + off * off * 8000.0, -1.5) + 0.06 * pow(1.0 + off * off * 250.0, -1.5));
+    let square = off * off;
+    let shape = inside * inside * (0.5 * pow(1.0 + square * 8000.0, -1.5) + 0.06 * pow(1.0 + square * 250.0, -1.5));
     // Position of the sun in the picture; no glare if the sun is outside.
     let right = body.ray_right;
     let top = body.ray_up;
@@ -100,7 +101,7 @@ struct Seen {
 // Result of a ray, without stars and glare.
 struct Along {
     light: vec3f,
-    // Luminance of the starlight scattered by the air
+    // Luminance of the sunlight scattered by the air
     air_only: f32,
     // Transmittance to the background
     transmittance: vec3f,
@@ -123,7 +124,8 @@ fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Al
     if body.air_height_km > 0.0 {
         for (var i = 0u; i < body.sun_count; i++) {
             use_sun(i);
-            air = air_light(body.eye_altitude_km, body.eye_up, dir, active_sun.dir, far, frame.air_steps, cloud_at, clouds.a);
+            let h = body.eye_altitude_km;
+            air = air_light(h, body.eye_up, dir, active_sun.dir, far, frame.air_steps, cloud_at, clouds.a);
             light += air.radiance * active_sun.irradiance;
         }
     }
@@ -133,12 +135,15 @@ fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Al
         let glow = select(1.0 - air.transmittance, vec3f(airglow(dir)), far >= NOTHING_KM);
         light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
     }
-    return Along(light + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene, air_only, air.transmittance * clouds.a);
+    let through = air.transmittance * clouds.a;
+    return Along(light + air.to_cloud * clouds.rgb + through * scene, air_only, through);
 }
 
 // Antialiases the limb from afar, where the bright rim of the air is narrower than a pixel: the mean of several rays
 // side by side across the limb. `center`: result of the pixel's central ray. `ground`: whether that ray hits ground.
-fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: Along) -> Along {
+fn across_limb(
+    pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: Along,
+) -> Along {
     const RAYS: i32 = 8;
     let radius = body.radius_km;
     let eye = body.eye_altitude_km + radius;
@@ -148,14 +153,18 @@ fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec
     // Distance in km between neighbouring pixels at the limb. Where it is small, mountains span pixels and the limb is
     // not that of the sphere.
     let step = frame.pixel_rad * ahead;
-    if body.air_height_km <= 0.0 || ahead <= 0.0 || step < 1.5 || abs(height) > body.air_height_km + 2.0 * step || (height < 0.0) != ground { return center; }
+    if body.air_height_km <= 0.0 || ahead <= 0.0 || step < 1.5 { return center; }
+    if abs(height) > body.air_height_km + 2.0 * step || (height < 0.0) != ground { return center; }
     // From within the air, the rim is as wide as the air is deep, and a ray pointing down meets the ground long before
     // the limb.
     let outside = smoothstep(body.air_height_km, 1.2 * body.air_height_km, body.eye_altitude_km);
     if outside <= 0.0 || height < -2.0 * step { return center; }
     let outwards = lowest / length(lowest);
     // Radiance of the ground from the next pixel inwards, and of the background from the next pixel outwards.
-    let towards = vec2f(dot(outwards, body.ray_right) / length(body.ray_right), -dot(outwards, body.ray_up) / length(body.ray_up));
+    let towards = vec2f(
+        dot(outwards, body.ray_right) / length(body.ray_right),
+        -dot(outwards, body.ray_up) / length(body.ray_up),
+    );
     let first = vec2i(frame.origin_px);
     let last = first + vec2i(frame.size_px) - 1;
     let inwards = 1.5 * normalize(towards);
@@ -175,12 +184,18 @@ fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec
         let meets = hits.y >= hits.x;
         // Rays above the top of the clouds see none.
         let over = height + aside * step > body.cloud_top_km;
-        let seen = along(ray, select(NOTHING_KM, hits.x, meets), select(space, surface, meets), select(clouds, vec4f(0.0, 0.0, 0.0, 1.0), over), select(cloud_at, NOTHING_KM, over));
+        let ray_far = select(NOTHING_KM, hits.x, meets);
+        let ray_clouds = select(clouds, vec4f(0.0, 0.0, 0.0, 1.0), over);
+        let seen = along(ray, ray_far, select(space, surface, meets), ray_clouds, select(cloud_at, NOTHING_KM, over));
         sum.light += seen.light / f32(RAYS);
         sum.air_only += seen.air_only / f32(RAYS);
         sum.transmittance += select(seen.transmittance, vec3f(0.0), meets) / f32(RAYS);
     }
-    return Along(mix(center.light, sum.light, outside), mix(center.air_only, sum.air_only, outside), mix(center.transmittance, sum.transmittance, outside));
+    return Along(
+        mix(center.light, sum.light, outside),
+        mix(center.air_only, sum.air_only, outside),
+        mix(center.transmittance, sum.transmittance, outside),
+    );
 }
 
 @fragment

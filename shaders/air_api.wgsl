@@ -54,7 +54,9 @@ fn haze_before(rel_m: vec3f) -> Haze {
     let dir = normalize(rel_m);
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun(i);
-        let air = air_light(body.eye_altitude_km, body.eye_up, dir, active_sun.dir, distance_km, frame.air_steps, NOTHING_KM, 1.0);
+        let air = air_light(
+            body.eye_altitude_km, body.eye_up, dir, active_sun.dir, distance_km, frame.air_steps, NOTHING_KM, 1.0,
+        );
         out.scattered += air.radiance * active_sun.irradiance;
         out.transmittance = air.transmittance;
     }

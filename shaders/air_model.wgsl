@@ -15,7 +15,8 @@ fn air_at(h: f32) -> Air {
     let height = max(h, 0.0);
     let rayleigh = body.rayleigh_per_km * exp(-height / body.rayleigh_scale_km);
     let haze = exp(-height / body.mie_scale_km);
-    let absorber = body.absorber_per_km * max(0.0, 1.0 - abs(height - body.absorber_height_km) / body.absorber_width_km);
+    let from_absorber = abs(height - body.absorber_height_km) / body.absorber_width_km;
+    let absorber = body.absorber_per_km * max(0.0, 1.0 - from_absorber);
     var air: Air;
     air.rayleigh = rayleigh;
     air.mie = body.mie_scattering_per_km * haze;

@@ -30,7 +30,8 @@ fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
         let lod = log2(max(footprint_m, 1e-6) * BORDER_TILE_SIDE / octave.period);
         let share = 1.0 - smoothstep(0.0, 3.0, lod);
         if share <= 0.0 { break; }
-        sum += weight * share * textureSampleLevel(border_tile, repeated, octave.offset + place_m / octave.period, max(lod, 0.0)).rg;
+        let at = octave.offset + place_m / octave.period;
+        sum += weight * share * textureSampleLevel(border_tile, repeated, at, max(lod, 0.0)).rg;
         place_m = OCTAVE_TURN * place_m;
         weight *= BORDER_GAIN;
     }

@@ -144,7 +144,9 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         use_sun(i);
         state = March(vec3f(0.0), 1.0, 0.0, 0.0);
         if first.y > first.x { state = march(state, dir, first.x, first.y, mu, jitter); }
-        if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu, jitter); }
+        if second.y > second.x && state.transmittance > 0.0 {
+            state = march(state, dir, second.x, second.y, mu, jitter);
+        }
         light += state.light;
     }
     var out: Output;

@@ -50,7 +50,8 @@ fn part_of(place: DetailPlace, number: i32) -> DetailPlace {
 
 fn detail_slopes_at(place: DetailPlace) -> vec4f {
     let apron = f32(DETAIL_APRON);
-    return textureSampleLevel(detail_slopes, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0);
+    let at = (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+    return textureSampleLevel(detail_slopes, clamped, at, place.layer, 0.0);
 }
 
 // Texels around the middle of a footprint, `reach` to each side: every texel of the tile, every second one (those of
@@ -157,7 +158,10 @@ fn heights_around(place: DetailPlace) -> Heights {
         }
     }
     let determinant = max(places.x * places.z - places.y * places.y, 1e-6);
-    let change = vec2f(places.z * by_place.x - places.y * by_place.y, places.x * by_place.y - places.y * by_place.x) / determinant;
+    let change = vec2f(
+        places.z * by_place.x - places.y * by_place.y,
+        places.x * by_place.y - places.y * by_place.x,
+    ) / determinant;
     return Heights(zero_m + sum, change, SWELL * sqrt(max(squares - sum * sum - dot(change, by_place), 0.0)));
 }
 
@@ -173,14 +177,19 @@ fn heights_at(place: DetailPlace, apart: f32) -> Heights {
     let around = heights_around(place);
     if apart >= 1.0 { return around; }
     let patch_m = patch_height(place);
-    return Heights(mix(patch_m.x, around.middle_m, apart), mix(patch_m.yz, around.change, apart), rough * mix(NEAR, 1.0, apart) * around.rest_m);
+    return Heights(
+        mix(patch_m.x, around.middle_m, apart),
+        mix(patch_m.yz, around.change, apart),
+        rough * mix(NEAR, 1.0, apart) * around.rest_m,
+    );
 }
 
 // Steepness (rise over run) shown by the detail texture at a pixel: its own (x) and the parent's (y). Means of the
 // steepness of texels; averaged slopes would be gentler.
 fn rises_at(place: DetailPlace) -> vec2f {
     let apron = f32(DETAIL_APRON);
-    let own = textureSampleLevel(detail_heights, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0).z;
+    let own_at = (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+    let own = textureSampleLevel(detail_heights, clamped, own_at, place.layer, 0.0).z;
     if place.parent <= 0.0 { return vec2f(own, 0.0); }
     let at = 0.5 * place.at;
     let f = fract(at);
@@ -213,7 +222,7 @@ struct Steepness {
 struct SlopeRules {
     cells_from: vec4f,
     cells_to: vec4f,
-    // Beach, snow
+    // x: beach, y: snow
     covers_from: vec2f,
     covers_to: vec2f,
     // Height above the middle of the pixel in metres from which the ground is cold enough for full snow (x), and below
@@ -269,7 +278,8 @@ fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
                 // Height of the texel above the plane.
                 let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
                 let above_m = heights.x + heights.y - steep.heights.middle_m - dot(steep.heights.change, away);
-                add_slope(&out, rules, cosine_of(rise), mix(NEAR * SWELL, SWELL, steep.apart) * above_m, tap.weight / f32(place.parts));
+                let swollen_m = mix(NEAR * SWELL, SWELL, steep.apart) * above_m;
+                add_slope(&out, rules, cosine_of(rise), swollen_m, tap.weight / f32(place.parts));
             }
         }
     }

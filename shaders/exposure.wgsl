@@ -105,7 +105,8 @@ fn compute() {
         if above > 0.0 {
             ev = max(ev - FOLLOWED_HIGHLIGHT * above, min(ev, DARKEST_MEAN_EV - mean));
         } else {
-            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, smoothstep(SNOW_SHARE.x, SNOW_SHARE.y, f32(bins[WHITE]) / counted));
+            let snow = smoothstep(SNOW_SHARE.x, SNOW_SHARE.y, f32(bins[WHITE]) / counted);
+            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, snow);
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
         ev = min(ev, BROAD_HIGHLIGHT_EV - broad);

@@ -26,7 +26,9 @@ fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_i
         let counts = u32(light.a * 16.0);
         if place >= 0.0 { atomicAdd(&here[min(u32(place), METER_BINS - 1u)], counts); }
         let weakest = min(light.r, min(light.g, light.b));
-        if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest { atomicAdd(&here[WHITE], counts); }
+        if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest {
+            atomicAdd(&here[WHITE], counts);
+        }
     }
     workgroupBarrier();
     if index <= METER_BINS { atomicAdd(&bins[index], atomicLoad(&here[index])); }

@@ -30,7 +30,8 @@ fn star_azimuth(slope_axis: vec3f, up: vec3f) -> f32 {
 
 fn horizon_image(place: vec2f, layer: i32, image: u32, far: f32) -> f32 {
     let corner = vec2f(vec2u(image % HORIZON_IMAGES_ALONG, image / HORIZON_IMAGES_ALONG)) * f32(TILE_SIDE);
-    let texel = (corner + 0.5 + saturate(place) * (f32(TILE_SIDE) - 1.0)) / (f32(TILE_SIDE) * f32(HORIZON_IMAGES_ALONG));
+    let side = f32(TILE_SIDE);
+    let texel = (corner + 0.5 + saturate(place) * (side - 1.0)) / (side * f32(HORIZON_IMAGES_ALONG));
     let found = textureSampleLevel(horizons, clamped, texel, layer, 0.0).rg;
     return mix(found.x, found.y, far);
 }

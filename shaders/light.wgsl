@@ -41,7 +41,8 @@ const MULTISCATTER_SCALE: f32 = 1024.0;
 // Radiance from two or more scatterings, the mean over all directions, for unit irradiance.
 fn multiscatter(h: f32, mu: f32) -> vec3f {
     let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / body.air_height_km)));
-    return textureSampleLevel(multiscatter_table, clamped, texel_from_unit(x, MULTISCATTER_SIZE), 0.0).rgb / MULTISCATTER_SCALE;
+    let at = texel_from_unit(x, MULTISCATTER_SIZE);
+    return textureSampleLevel(multiscatter_table, clamped, at, 0.0).rgb / MULTISCATTER_SCALE;
 }
 
 // Radiance of the night sky: mean over stars, dust and airglow. Sunlit white ground has radiance 1. On the Earth,

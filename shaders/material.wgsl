@@ -272,7 +272,8 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     var t = share;
     if frame.pattern_quality > 0.0 { t = share_by_height(a, b, share); }
     let tinted = mix(mixture.first_color * a.tint, mixture.second_color * b.tint, t);
-    out.albedo = max(mixture.albedo + both * (tinted - mix(mixture.first_color, mixture.second_color, share)), vec3f(0.0));
+    let plain = mix(mixture.first_color, mixture.second_color, share);
+    out.albedo = max(mixture.albedo + both * (tinted - plain), vec3f(0.0));
     out.roughness = clamp(mixture.roughness + mix(a.roughness, b.roughness, t), 0.04, 1.0);
     out.slope = mix(a.slope, b.slope, t);
     out.glow = mix(a.glow, b.glow, t);

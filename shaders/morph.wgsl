@@ -13,7 +13,8 @@ struct Tile {
 }
 
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
-// For each vertex: shift in metres, moisture and temperature at sea level, height in metres.
+// For each vertex: shift in metres; moisture and temperature at sea level, or at the reference sphere of a planet with
+// no sea; height in metres.
 @group(0) @binding(1) var<storage, read_write> shown: array<f32>;
 @group(0) @binding(2) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(3) var<uniform> eye: MorphEye;
@@ -30,7 +31,13 @@ fn share_of(word: u32, spacing_m: f32) -> f32 {
 }
 
 // Moisture, temperature and height of the vertex without morph, in the order of `shown`.
-fn own(word: u32) -> vec3f { return vec3f(vertices[word + VERTEX_MOISTURE], vertices[word + VERTEX_TEMPERATURE], vertices[word + VERTEX_HEIGHT]); }
+fn own(word: u32) -> vec3f {
+    return vec3f(
+        vertices[word + VERTEX_MOISTURE],
+        vertices[word + VERTEX_TEMPERATURE],
+        vertices[word + VERTEX_HEIGHT],
+    );
+}
 
 fn shown_of(word: u32) -> vec3f { return vec3f(shown[word + 1u], shown[word + 2u], shown[word + 3u]); }
 

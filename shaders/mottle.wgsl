@@ -65,7 +65,8 @@ fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
         let share = octave_share(lod);
         if share <= 0.0 { break; }
         if i >= 1u {
-            sum += (textureSampleLevel(noise_tile, repeated, (octave.offset + place / octave.period).yzx, lod).rg - 0.5) * share;
+            let at = (octave.offset + place / octave.period).yzx;
+            sum += (textureSampleLevel(noise_tile, repeated, at, lod).rg - 0.5) * share;
         }
         place = OCTAVE_TURN * place;
     }

@@ -71,7 +71,8 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         }
         if hits {
             let mus = clamp(((radius + h) * sun_mu + way * cosines) / radius, vec2f(-1.0), vec2f(1.0));
-            let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0) + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
+            let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0)
+                + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
             second += transmittance * light * body.ground_albedo * (share / (2.0 * PI));
         }
     }

@@ -42,7 +42,9 @@ fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -
             let k = length(along);
             let phase = dot(wave.vector_per_m, rel_m) + wave.phase + twist;
             let bent_k = along + twist_k;
-            let cycles = max(max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y))), max(abs(dot(along, step_x)), abs(dot(along, step_y)))) / (2.0 * PI);
+            let bent_turn = max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y)));
+            let straight_turn = max(abs(dot(along, step_x)), abs(dot(along, step_y)));
+            let cycles = max(bent_turn, straight_turn) / (2.0 * PI);
             twist = 1.3 * sin(phase) + 0.4 * twist;
             twist_k = 1.3 * cos(phase) * bent_k + 0.4 * twist_k;
             let weight = 1.0 - smoothstep(0.08, 0.28, cycles);

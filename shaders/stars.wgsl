@@ -73,5 +73,7 @@ fn galaxy_glow(dir: vec3f, band: f32) -> vec3f {
 fn stars(dir: vec3f, pixel_rad: f32) -> vec3f {
     let band = galaxy_band(dir);
     let share = mix(0.2, 0.45, band);
-    return star_layer(dir, 60.0, 1u, share, pixel_rad) + 0.6 * star_layer(dir.yzx, 130.0, 2u, share, pixel_rad) + galaxy_glow(dir, band);
+    let bright = star_layer(dir, 60.0, 1u, share, pixel_rad);
+    let faint = star_layer(dir.yzx, 130.0, 2u, share, pixel_rad);
+    return bright + 0.6 * faint + galaxy_glow(dir, band);
 }

@@ -22,7 +22,8 @@ struct Vertex {
     @location(10) detail_fade: vec4f,
     // Vertical shift of the vertex by the morph, metres (morph.wgsl).
     @location(11) shift_m: f32,
-    // Moisture and temperature at sea level, and height in metres, with morph.
+    // Moisture and temperature at sea level (at the reference sphere of a planet with no sea), and height in metres,
+    // all with morph.
     @location(12) shown: vec3f,
     // Horizon tile; see `exposed`.
     @location(13) horizon: vec4f,
@@ -32,7 +33,7 @@ struct Ground {
     @builtin(position) position: vec4f,
     @location(0) rel_m: vec3f,
     @location(1) normal: vec3f,
-    // Moisture, temperature in °C: at sea level
+    // Moisture and temperature in °C, at the same level
     @location(2) level_climate: vec2f,
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
@@ -170,13 +171,18 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
 }
 
 // Inputs of biome and surface rules at a pixel. `at`: location in the biome table.
-fn site_of(in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32) -> Site {
+fn site_of(
+    in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32,
+) -> Site {
     let over_sea_m = select(1e9, relief.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
     // As in `climate_at`.
     let colder = select(0.0, body.lapse_c_per_m, over_sea_m > 0.0);
     let drier = select(0.0, body.moisture_per_m, over_sea_m > 0.0);
     let by_height = vec3f(drier, body.row_per_c * colder - body.row_per_m, -colder);
-    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m, by_height, footprint_m, mottle);
+    return Site(
+        at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m,
+        by_height, footprint_m, mottle,
+    );
 }
 
 // The sea bed: sand near the shore (the beach's biome, if there is one), darker below.
@@ -223,7 +229,8 @@ fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> v
     let n_v = max(dot(n, v), 1e-3);
     let fit = vec4f(1.0, 0.0425, 1.04, -0.04) + roughness * vec4f(-1.0, -0.0275, -0.572, 0.022);
     let grazing = min(fit.x * fit.x, exp2(-9.28 * n_v)) * fit.x + fit.y;
-    let around = max(reflectance * (fit.z - 1.04 * grazing) + min(reflectance * 50.0, 1.0) * (fit.w + 1.04 * grazing), 0.0);
+    let offset = min(reflectance * 50.0, 1.0) * (fit.w + 1.04 * grazing);
+    let around = max(reflectance * (fit.z - 1.04 * grazing) + offset, 0.0);
     let n_l = dot(n, l);
     if n_l <= 0.0 { return vec2f(0.0, around); }
     let h = normalize(v + l);
@@ -385,7 +392,9 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     var n = relief.normal;
     let sea_level_m = body.sea_level_km * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO { return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m); }
+    if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO {
+        return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m);
+    }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
@@ -427,5 +436,7 @@ fn fragment(in: Ground) -> Output {
     use_sun(0u);
     let from_ground = exposed_at(in, up);
     let shaded = shade(in, from_ground);
-    return Output(vec4f(shaded.radiance, shaded.over_sea_m), vec4f(in.level_climate.y, 1.0 - from_ground.star, min(shaded.spread_m, 60000.0), 0.0));
+    let spread_m = min(shaded.spread_m, 60000.0);
+    let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star, spread_m, 0.0);
+    return Output(vec4f(shaded.radiance, shaded.over_sea_m), surface);
 }

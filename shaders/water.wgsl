@@ -10,11 +10,13 @@
 // `depths_m`: least and greatest depth in the pixel.
 fn water_body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
     // Refraction (Snell, refractive index 1.333): paths under water are steeper.
-    let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769) + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
+    let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769)
+        + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
     let shallow = body.water_absorption_per_m * min(way * depths_m.x, 1e5);
     let deeper = body.water_absorption_per_m * min(way * (depths_m.y - depths_m.x), 1e5);
     // Mean over all depths in between.
-    let left = exp(-shallow) * select((1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3)), 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
+    let mean = (1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3));
+    let left = exp(-shallow) * select(mean, 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
     return floor * left + body.water_color * downwelling / PI * (1.0 - left);
 }
 
@@ -50,7 +52,9 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
     var fresnel = 0.0;
     var mirror_mu = 0.0;
     if ice < 1.0 {
-        waves = waves_at(rel_m, up, pixel_step(rel_m, up, body.pixel_right), pixel_step(rel_m, up, body.pixel_up), border_jitter(rel_m, max(footprint_m, 15.0)).x);
+        let step_x = pixel_step(rel_m, up, body.pixel_right);
+        let step_y = pixel_step(rel_m, up, body.pixel_up);
+        waves = waves_at(rel_m, up, step_x, step_y, border_jitter(rel_m, max(footprint_m, 15.0)).x);
         fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
         // Rough water reflects a patch of sky above the mirror direction.
@@ -115,7 +119,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
             light += active_sun.irradiance * sun_transmittance(h, sun_mu) * sun_mu + sky_irradiance(h, sun_mu);
         }
         let dimmed = exp(body.water_absorption_per_m * min(body.eye_over_sea_km * 1000.0, 0.0));
-        return Output(vec4f(scene.rgb * left + body.water_color * light * dimmed / PI * (1.0 - left), height_m), ground.depth);
+        let water = body.water_color * light * dimmed / PI;
+        return Output(vec4f(scene.rgb * left + water * (1.0 - left), height_m), ground.depth);
     }
     if hits.y < hits.x || hits.x <= 0.0 {
         if terrain >= NOTHING_KM { discard; }
