@@ -19,7 +19,7 @@ pub(crate) const WRAP_FAR_M: f64 = 1_048_576.0;
 /// Features of the patch noise are about a quarter of its tile in size.
 const PATCHES_PER_TILE: f64 = 4.0;
 /// Period of a pattern's finer scale as a share of the coarser one. The finer scale is rotated by the angle of a 3-4-5
-/// triangle, so it repeats after [`WRAP_M`] / [`TURN`].
+/// triangle. Its period divides [`WRAP_M`] / [`TURN`], so that the rotated pattern repeats after [`WRAP_M`], too.
 const FINE: f64 = 0.31;
 const TURN: f64 = 5.0;
 

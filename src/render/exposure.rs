@@ -35,7 +35,7 @@ impl Metering {
 const ADAPTATION_SECS: f64 = 0.35;
 /// Bins of the histogram.
 pub(crate) const METER_BINS: u32 = 128;
-/// Distance of counted pixels in each direction, in pixels.
+/// Spacing of counted pixels in each direction, in pixels.
 pub(crate) const METER_STRIDE: u32 = 4;
 /// Invocations along a side of a workgroup.
 pub(crate) const METER_GROUP: u32 = 16;
