@@ -74,10 +74,10 @@ pub(super) struct Args {
         value_parser = args::field_of_view
     )]
     fov: f64,
-    /// Location where the star stands overhead [default: where the preset puts it at --time]
+    /// Location with the star overhead [default: from the preset, at --time]
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::location)]
     sun: Option<(f64, f64)>,
-    /// Seconds since time zero: the day passes, clouds drift, waves run
+    /// Time in seconds; it moves the star, the clouds and the waves
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
     /// Exposure in stops, 0 for a sunlit planet [default: metered from the picture]
