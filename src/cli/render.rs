@@ -122,8 +122,7 @@ impl ValueEnum for DebugView {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
     let gpu = headless::Gpu::open(args.size)?;
-    let mut renderer =
-        Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let view = view(args, &planet)?;
     let mut surface = build_now(&planet, &view).map_err(|error| error.to_string())?;
     add_detail(&mut surface, &view);
@@ -134,9 +133,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     scene.post.exposure_ev = args.exposure.unwrap_or(0.0);
     scene.post.tone = args.tone;
-    let pixels = gpu.picture(args.size, |target| {
-        renderer.render(target, &scene).map(drop).map_err(|error| error.to_string())
-    })?;
+    let pixels =
+        gpu.picture(args.size, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()))?;
     let png = encode(&pixels, args.size).map_err(|error| format!("cannot encode the picture: {error}"))?;
     write_atomically(&args.output, &png).map_err(|error| format!("{}: {error}", args.output.display()))?;
     Ok(())

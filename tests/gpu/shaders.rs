@@ -20,7 +20,8 @@ fn every_file_is_an_entry_or_included() {
         .expect("the shaders folder")
         .map(|file| file.expect("a file").file_name().into_string().expect("a plain name"))
         .collect();
-    let resolved = entries().into_iter().chain(["air_api.wgsl"]).map(|entry| shaders::resolve(entry).expect("resolves"));
+    let resolved =
+        entries().into_iter().chain(["air_api.wgsl"]).map(|entry| shaders::resolve(entry).expect("resolves"));
     let mut used: BTreeSet<String> = resolved.flat_map(|resolved| resolved.files).collect();
     // Generated from Rust definitions.
     assert!(used.remove("shared.wgsl"));

@@ -1,4 +1,4 @@
-//! A planet with everything on, and an edit of each of its parameters.
+//! A planet that uses every parameter, and an edit of each.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use tellus::planet::diff;
@@ -7,7 +7,7 @@ use tellus::planet::{
     Atmosphere, Biome, Blend, Clouds, Layer, Mask, Planet, Shape, Steep, Table, TableRows, Water, param::Choice as _,
 };
 
-/// A planet on which every parameter has something to do: each kind of layer, masks, all biomes in the table.
+/// A planet on which every parameter has an effect: all landforms, masks, all biomes in the biome table.
 pub fn full_planet() -> Planet {
     let mut planet = Planet {
         radius_km: 1500.0,
@@ -16,7 +16,7 @@ pub fn full_planet() -> Planet {
         clouds: Some(Clouds::default()),
         ..Planet::default()
     };
-    // A height map without its picture has nothing to do.
+    // A height map without its picture has no effect.
     let kinds = Shape::all().into_iter().filter(|shape| !matches!(shape, Shape::HeightMap(_)));
     for (i, mut shape) in kinds.enumerate() {
         shrink(&mut shape);
@@ -62,17 +62,17 @@ fn shrink(shape: &mut Shape) {
 /// An edit of one parameter.
 pub struct Edit {
     pub path: String,
-    /// What its description says that it makes run.
+    /// The stages that its description declares stale.
     pub declared: Stages,
     pub planet: Planet,
 }
 
-/// Slopes of its own are nothing to the first biome of the full planet, which has the rock of all.
+/// The first biome of the full planet uses the common rock, so its own slope limits have no effect.
 pub fn is_idle(path: &str) -> bool {
     path.starts_with("biomes.palette[0].steep_")
 }
 
-/// An edit of each parameter of a planet that has another value to take, and one of the biome table.
+/// One edit of each parameter that can take another value, and one of the biome table.
 pub fn every_edit(planet: &Planet) -> Vec<Edit> {
     let mut places: Vec<(ParamPath, Stages)> = Vec::new();
     planet.clone().each(&mut |path, param, _| places.push((path.clone(), param.stages)));
@@ -91,7 +91,7 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
             if let Some((name, old, new)) = renamed {
                 follow(&mut edited, name, &old, &new);
             }
-            // What stands beside the parameter; but heights follow biomes and climate only where a biome has a relief.
+            // The declared stages; but heights depend on biomes and climate only if a biome has relief.
             let reliefs = planet.biomes.palette.iter().any(|biome| biome.relief_m > 0.0);
             let relief = reliefs || path.to_string().contains("relief");
             let stages = if relief { diff::touched_stages(planet, &edited) } else { stages };
@@ -107,8 +107,7 @@ pub fn every_edit(planet: &Planet) -> Vec<Edit> {
     edits
 }
 
-/// Lets everything that refers to a biome by its key or to a layer by its name refer to the new one: without that the planet
-/// would not be valid.
+/// Updates all references to a renamed biome key or layer name, so that the planet stays valid.
 fn follow(planet: &mut Planet, name: &str, old: &Value, new: &Value) {
     match (name, old, new) {
         ("key", Value::Letter(old), Value::Letter(new)) => {
@@ -158,12 +157,12 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
             let is_free = |key: &char| planet.biomes.palette.iter().all(|biome| biome.key != *key);
             Value::Letter(('a'..='z').rev().find(is_free).unwrap_or(key))
         }
-        // Which biome it is: another one of the palette.
+        // A reference to a biome: another one of the palette.
         (Value::Letter(key), _) => {
             let others = planet.biomes.palette.iter().map(|biome| biome.key);
             Value::Letter(others.rev().find(|other| *other != key).unwrap_or(key))
         }
-        // A mask's layer: another one. A layer that masks refer to keeps its name, or they would follow nobody.
+        // A mask's layer: another one. A layer that masks refer to keeps its name.
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
         (Value::Text(text), _) => Value::Text(format!("{text}!")),
         (value, _) => value,
