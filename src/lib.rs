@@ -1,8 +1,9 @@
 //! Tellus: whole planets from one small file.
 //!
-//! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text through
-//! this crate and queries the same evaluator that drew the artist's picture. Heights are bit-identical on every machine. The
-//! drawn mesh has them at the vertices of its finest tiles; between vertices it stays within the screen-space error.
+//! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text
+//! through this crate and queries the same evaluator that drew the artist's picture. Heights are bit-identical on every
+//! machine. The drawn mesh has them at the vertices of its finest tiles; between vertices it stays within the
+//! screen-space error.
 //!
 //! ```
 //! use tellus::planet::Planet;
@@ -34,8 +35,8 @@
 //! - `editor` (feature `editor`): the application
 //! - `cli` (feature `cli`): the command line, which also starts the editor
 //!
-//! Lengths are metres and angles are radians, unless a name says otherwise. Names state frames (`sun_dir_planet`). The planet
-//! frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
+//! Lengths are metres and angles are radians, unless a name says otherwise. Names state frames (`sun_dir_planet`). The
+//! planet frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
 /// The vectors of all signatures.
 pub use glam;

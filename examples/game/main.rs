@@ -1,5 +1,5 @@
-//! A game that draws its own things in front of a planet: towers that are lit by the planet's sun and sky, hidden by its
-//! mountains and hazed by its air.
+//! A game that draws its own things in front of a planet: towers that are lit by the planet's sun and sky, hidden by
+//! its mountains and hazed by its air.
 //!
 //! ```sh
 //! cargo run --example game              # a window; the arrow keys turn the camera
