@@ -1,10 +1,11 @@
-//! What a game server does with a planet: load its preset, ask for the ground under places, put things on it.
+//! A game server with a planet: load the preset, query the ground at locations, put objects on it.
 //!
 //! ```sh
 //! cargo run --no-default-features --example query -- planets/aurel.ron
 //! ```
 //!
-//! Needs neither a GPU nor the editor. The heights are the ones that the editor draws, to the bit.
+//! Needs neither a GPU nor the editor. Heights are those of the editor's mesh: at its vertices to the bit, between
+//! them within the screen-space error.
 
 #![allow(clippy::print_stdout)]
 
@@ -12,7 +13,7 @@ use std::error::Error;
 use std::sync::Arc;
 use tellus::planet::{Planet, shipped};
 use tellus::sphere::LatLon;
-use tellus::terrain::Terrain;
+use tellus::terrain::{Scratch, Terrain, Wanted};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let planet = match std::env::args().nth(1) {
@@ -20,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => shipped::default_planet(),
     };
     let planet = Arc::new(planet);
-    // Compiled once, then shared: asking takes `&self` and works from any thread.
+    // Compiled once, then shared: queries take `&self` and run on any thread.
     let terrain = Terrain::try_new(Arc::clone(&planet))?;
 
     println!("{}, radius {} km", planet.name, planet.radius_km);
@@ -31,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let ground = terrain.sample(up);
         let biome = planet.biomes.palette.get(ground.biome).map_or("?", |biome| biome.name.as_str());
         let at_sea = planet.sea_level_m().is_some_and(|sea_m| ground.height_m < sea_m);
-        // Where a thing stands that is put on the ground there, in metres from the planet's centre.
+        // The position of an object on the ground, in metres from the planet's centre.
         let position_m = up * (planet.radius_m() + ground.height_m);
         println!(
             "{name:>10}: {:8.1} m{}, slope {:4.1}°, {:5.1} °C, {biome}, normal {:.3}, position {position_m:.1}",
@@ -43,10 +44,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
 
-    // Many places at once, on all cores: the highest of a thousand places along the equator.
+    // Many points at once, on all cores: a thousand along the equator.
     let around: Vec<_> =
         (0..1000).map(|i| LatLon::from_degrees(0.0, f64::from(i) * 0.36 - 180.0).direction()).collect();
-    let highest_m = terrain.heights_m(&around).into_iter().fold(f64::MIN, f64::max);
-    println!("highest place looked at on the equator: {highest_m:.1} m");
+    let samples = terrain.samples(&around, Wanted::HEIGHT.and_climate());
+    let highest_m = samples.iter().map(|sample| sample.height_m).fold(f64::MIN, f64::max);
+    let hottest_c = samples.iter().map(|sample| sample.temperature_c).fold(f64::MIN, f64::max);
+    println!("on the equator: highest ground {highest_m:.1} m, hottest {hottest_c:.1} °C");
+
+    // In a game loop: the caller's own memory, so that no frame allocates.
+    let (mut heights_m, mut scratch) = (vec![0.0; around.len()], Scratch::default());
+    terrain.heights_into(&around, &mut heights_m, &mut scratch);
+    let eye_m = around[0] * (planet.radius_m() + heights_m[0].max(planet.sea_level_m().unwrap_or(0.0)) + 50.0);
+    if let Some(distance_m) = terrain.raycast_with(eye_m, around[1] - around[0] * 1.01, &mut scratch) {
+        println!("a ray from 50 m meets the ground after {distance_m:.1} m");
+    }
     Ok(())
 }

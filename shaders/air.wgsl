@@ -1,5 +1,5 @@
-// The air in front of everything, from 2 m over the ground to outer space: one march for each pixel. Puts clouds in at
-// their distance, and stars and the star's disc behind it all. Reads the scene, writes a new one.
+// The air in front of the scene, from 2 m over the ground to outer space: one march for each pixel. Composites clouds
+// at their distance, and draws stars and the discs of the suns behind everything. Reads the scene and writes a new one.
 #include "surface.wgsl"
 #include "scattering.wgsl"
 #include "stars.wgsl"
@@ -7,7 +7,7 @@
 @group(2) @binding(2) var cloud_light: texture_2d<f32>;
 @group(2) @binding(3) var cloud_distance: texture_2d<f32>;
 
-// Disc of the star, darker and redder towards its limb (a linear law fitted to the Sun).
+// Radiance of a sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun).
 fn sun_disc(dir: vec3f) -> vec3f {
     let sun = active_sun.dir;
     let off = length(cross(dir, sun));
@@ -21,15 +21,17 @@ fn sun_disc(dir: vec3f) -> vec3f {
     return active_sun.irradiance * (active_sun.disc_gain * edge) * limb;
 }
 
-// Glow around the star's disc: light that the lens scatters, as far as the disc is not hidden. It falls to nothing without an edge.
+// Glare around a sun's disc: light scattered in the lens, scaled by the visible share of the disc. It falls smoothly to
+// zero at REACH (length of the difference of unit vectors).
 fn glare(dir: vec3f) -> vec3f {
     const REACH: f32 = 1.2;
     let sun = active_sun.dir;
     let off = length(dir - sun);
     let inside = saturate1(1.0 - off / REACH);
     if inside <= 0.0 { return vec3f(0.0); }
-    let shape = inside * inside * (0.5 * pow(1.0 + off * off * 8000.0, -1.5) + 0.06 * pow(1.0 + off * off * 250.0, -1.5));
-    // Where the star stands in the picture; nothing if it is not in it.
+    let square = off * off;
+    let shape = inside * inside * (0.5 * pow(1.0 + square * 8000.0, -1.5) + 0.06 * pow(1.0 + square * 250.0, -1.5));
+    // Position of the sun in the picture; no glare if the sun is outside.
     let right = body.ray_right;
     let top = body.ray_up;
     let depth = dot(sun, body.view_axis);
@@ -58,13 +60,13 @@ fn glare(dir: vec3f) -> vec3f {
 }
 
 struct Clouds {
-    // a: what they let through
+    // rgb: radiance; a: transmittance
     light: vec4f,
     at_km: f32,
 }
 
-// The clouds before a pixel. Neighbouring pixels marched a little apart; any three by three of them together have looked
-// everywhere along the way (the noise that sets them apart is made so), those before ground at another distance left out.
+// Mean over the clouds of 3x3 pixels. The march is jittered so that any 3x3 pixels together sample the whole ray (see
+// the noise in clouds.wgsl). Pixels whose ground is at another distance are left out.
 fn clouds_around(pixel: vec2i) -> Clouds {
     let first = vec2i(frame.origin_px);
     let last = first + vec2i(frame.size_px) - 1;
@@ -89,23 +91,25 @@ fn clouds_around(pixel: vec2i) -> Clouds {
 }
 
 struct Seen {
-    // a: how much the pixel counts for exposure
+    // rgb: radiance; a: weight of the pixel for metering
     @location(0) light: vec4f,
-    // Stars, as square roots: as bright as an eye sees them that is used to the light there is, so exposure does not follow them.
+    // Square roots of the stars' light. Stars are stored apart because metering must not change them: they are as
+    // bright as for an eye adapted to the scene.
     @location(1) stars: vec4f,
 }
 
-// What comes along a ray, but for stars and what the lens does.
+// Result of a ray, without stars and glare.
 struct Along {
     light: vec3f,
-    // Luminance of the starlight that the air scatters
+    // Luminance of the sunlight scattered by the air
     air_only: f32,
-    // Of what lies behind
+    // Transmittance to the background
     transmittance: vec3f,
 }
 
-// Brightness of the airglow before the sky, 0.4 overhead and 1.4 near the horizon. It is a shell near the top of the air: brighter
-// where the ray crosses it at a slant (van Rhijn, 1921), dimmed by the air below it, and not seen from above.
+// Brightness of the airglow in front of the sky: 0.4 overhead and 1.4 near the horizon. Airglow comes from a shell near
+// the top of the air. It is brighter where the ray crosses the shell at a slant (van Rhijn, 1921), dimmed by the air
+// below the shell, and invisible from above.
 fn airglow(dir: vec3f) -> f32 {
     let below = 1.0 - smoothstep(0.0, body.air_height_km, body.eye_altitude_km);
     let ratio = body.radius_km / (body.radius_km + 0.9 * body.air_height_km);
@@ -120,44 +124,54 @@ fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Al
     if body.air_height_km > 0.0 {
         for (var i = 0u; i < body.sun_count; i++) {
             use_sun(i);
-            air = air_light(body.eye_altitude_km, body.eye_up, dir, active_sun.dir, far, frame.air_steps, cloud_at, clouds.a);
+            let h = body.eye_altitude_km;
+            air = air_light(h, body.eye_up, dir, active_sun.dir, far, frame.air_steps, cloud_at, clouds.a);
             light += air.radiance * active_sun.irradiance;
         }
     }
     let air_only = luminance(light);
-    // Before the sky the air glows, before the ground it scatters what reaches it.
+    // In front of the sky, the airglow itself is seen; in front of the ground, the part of it that the air scatters.
     if body.air_height_km > 0.0 {
         let glow = select(1.0 - air.transmittance, vec3f(airglow(dir)), far >= NOTHING_KM);
         light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
     }
-    return Along(light + air.to_cloud * clouds.rgb + air.transmittance * clouds.a * scene, air_only, air.transmittance * clouds.a);
+    let through = air.transmittance * clouds.a;
+    return Along(light + air.to_cloud * clouds.rgb + through * scene, air_only, through);
 }
 
-// From afar the bright rim of the air is narrower than a pixel: rays across the limb, side by side in the pixel, see what share of it
-// there is. `center`: what the pixel's own ray found; `ground`: whether it met any.
-fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: Along) -> Along {
+// Antialiases the limb from afar, where the bright rim of the air is narrower than a pixel: the mean of several rays
+// side by side across the limb. `center`: result of the pixel's central ray. `ground`: whether that ray hits ground.
+fn across_limb(
+    pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: Along,
+) -> Along {
     const RAYS: i32 = 8;
     let radius = body.radius_km;
     let eye = body.eye_altitude_km + radius;
     let ahead = -eye * dot(dir, body.eye_up);
     let lowest = body.eye_up * eye + dir * ahead;
     let height = length(lowest) - radius;
-    // From a pixel to the next across the limb, km. Where mountains are wider than that, the limb is not the sphere's.
+    // Distance in km between neighbouring pixels at the limb. Where it is small, mountains span pixels and the limb is
+    // not that of the sphere.
     let step = frame.pixel_rad * ahead;
-    if body.air_height_km <= 0.0 || ahead <= 0.0 || step < 1.5 || abs(height) > body.air_height_km + 2.0 * step || (height < 0.0) != ground { return center; }
-    // Within the air the rim is as wide as the air is deep, and a ray down meets the ground long before the limb.
+    if body.air_height_km <= 0.0 || ahead <= 0.0 || step < 1.5 { return center; }
+    if abs(height) > body.air_height_km + 2.0 * step || (height < 0.0) != ground { return center; }
+    // From within the air, the rim is as wide as the air is deep, and a ray pointing down meets the ground long before
+    // the limb.
     let outside = smoothstep(body.air_height_km, 1.2 * body.air_height_km, body.eye_altitude_km);
     if outside <= 0.0 || height < -2.0 * step { return center; }
     let outwards = lowest / length(lowest);
-    // What the limb hides or shows to the next pixel inwards.
-    let towards = vec2f(dot(outwards, body.ray_right) / length(body.ray_right), -dot(outwards, body.ray_up) / length(body.ray_up));
+    // Radiance of the ground from the next pixel inwards, and of the background from the next pixel outwards.
+    let towards = vec2f(
+        dot(outwards, body.ray_right) / length(body.ray_right),
+        -dot(outwards, body.ray_up) / length(body.ray_up),
+    );
     let first = vec2i(frame.origin_px);
     let last = first + vec2i(frame.size_px) - 1;
     let inwards = 1.5 * normalize(towards);
     let inner = clamp(vec2i(floor(vec2f(pixel) + 0.5 - inwards)), first, last);
     let outer = clamp(vec2i(floor(vec2f(pixel) + 0.5 + inwards)), first, last);
     let surface = select(textureLoad(scene_color, inner, 0).rgb, scene, ground);
-    // Another body may stand behind the limb.
+    // Another body may be behind the limb.
     var behind = NIGHT_BACKGROUND * NIGHT_SKY;
     if body.is_backmost == 0u { behind = textureLoad(scene_color, outer, 0).rgb; }
     let space = select(scene, behind, ground);
@@ -168,14 +182,20 @@ fn across_limb(pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec
         let to_middle = eye * dot(ray, body.eye_up);
         let hits = ray_sphere(to_middle, body.eye_altitude_km * (2.0 * radius + body.eye_altitude_km));
         let meets = hits.y >= hits.x;
-        // Over the clouds there are none.
+        // Rays above the top of the clouds see none.
         let over = height + aside * step > body.cloud_top_km;
-        let seen = along(ray, select(NOTHING_KM, hits.x, meets), select(space, surface, meets), select(clouds, vec4f(0.0, 0.0, 0.0, 1.0), over), select(cloud_at, NOTHING_KM, over));
+        let ray_far = select(NOTHING_KM, hits.x, meets);
+        let ray_clouds = select(clouds, vec4f(0.0, 0.0, 0.0, 1.0), over);
+        let seen = along(ray, ray_far, select(space, surface, meets), ray_clouds, select(cloud_at, NOTHING_KM, over));
         sum.light += seen.light / f32(RAYS);
         sum.air_only += seen.air_only / f32(RAYS);
         sum.transmittance += select(seen.transmittance, vec3f(0.0), meets) / f32(RAYS);
     }
-    return Along(mix(center.light, sum.light, outside), mix(center.air_only, sum.air_only, outside), mix(center.transmittance, sum.transmittance, outside));
+    return Along(
+        mix(center.light, sum.light, outside),
+        mix(center.air_only, sum.air_only, outside),
+        mix(center.transmittance, sum.transmittance, outside),
+    );
 }
 
 @fragment
@@ -210,14 +230,15 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
             scattered += glare(dir);
         }
     }
-    // What the bodies farther away have left of the stars is multiplied by this.
+    // Factor on the stars left by the bodies farther away.
     var points = select(vec3f(1.0), vec3f(0.0), ground);
-    // The sky counts a little seen from beneath, from outer space not at all.
+    // Weight of the sky for metering: small from within the air, zero from outer space.
     var counts = 1.0;
     if !ground {
-        // Stars drown in a bright sky, and at dusk too, when exposure is long.
+        // Bright sky hides the stars, at dusk as well, when the exposure is long.
         let drowned = 1.0 / (1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered));
-        // As wide as a pixel of the display, not of this picture: as bright at every quality.
+        // Stars are as wide as a pixel of the display, not of this target, so that their brightness does not depend on
+        // the render scale.
         let shown = frame.pixel_rad * max(frame.render_scale, 1.0);
         let spread = select(1.0, 0.5, frame.render_scale < 1.0);
         points = drowned * seen.transmittance;

@@ -1,17 +1,18 @@
-// For shaders of a game: light and air around a point. Points are relative to the eye in the body's axes; a game turns its own
-// positions and normals into them. Radiance and irradiance are in the unit of the scene's targets: 1 is sunlit white ground.
+// For shaders of a game: light and air at a point. Points are relative to the eye in the body's axes; a game transforms
+// its positions and normals into them. Radiance and irradiance have the unit of the scene's targets: 1 is sunlit white
+// ground.
 #include "scattering.wgsl"
 #include "cloud_model.wgsl"
 
-// Light on a surface that no ground shades.
+// Irradiance on a surface that no ground shades.
 struct Light {
-    // Irradiance by the suns, clouds and the planet's shadow counted in
+    // From the suns, dimmed by air and clouds and shadowed by the planet
     sun: vec3f,
-    // Irradiance by the sky
+    // From the sky
     sky: vec3f,
 }
 
-// Altitude in km of a point relative to the eye, metres.
+// Altitude in km of a point relative to the eye in metres.
 fn altitude_of(rel_m: vec3f) -> f32 {
     let rel_km = rel_m * 0.001;
     let distance_km = length(rel_km);
@@ -19,7 +20,7 @@ fn altitude_of(rel_m: vec3f) -> f32 {
     return altitude_along(body.radius_km, body.eye_altitude_km, dot(rel_km, body.eye_up) / distance_km, distance_km);
 }
 
-// Light on a surface with the normal `n` at a point.
+// Irradiance at a point on a surface with the normal `n`.
 fn light_at(rel_m: vec3f, n: vec3f) -> Light {
     let rel_km = rel_m * 0.001;
     let up = normalize(body.eye_km + rel_km);
@@ -38,8 +39,9 @@ fn light_at(rel_m: vec3f, n: vec3f) -> Light {
     return out;
 }
 
-// The air between the eye and a point: what shows is radiance of the point x transmittance + scattered. The air stage does this for all
-// that has depth; what is drawn after it, such as glass, does it by itself.
+// Aerial perspective: radiance seen by the eye = radiance of the point * transmittance + scattered. The air pass
+// applies it to everything in the depth buffer; the shader of a thing drawn after the air pass, such as glass, must
+// apply it itself.
 struct Haze {
     scattered: vec3f,
     transmittance: vec3f,
@@ -52,7 +54,9 @@ fn haze_before(rel_m: vec3f) -> Haze {
     let dir = normalize(rel_m);
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun(i);
-        let air = air_light(body.eye_altitude_km, body.eye_up, dir, active_sun.dir, distance_km, frame.air_steps, NOTHING_KM, 1.0);
+        let air = air_light(
+            body.eye_altitude_km, body.eye_up, dir, active_sun.dir, distance_km, frame.air_steps, NOTHING_KM, 1.0,
+        );
         out.scattered += air.radiance * active_sun.irradiance;
         out.transmittance = air.transmittance;
     }

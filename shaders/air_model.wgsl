@@ -1,6 +1,6 @@
-// The air: density by altitude, phase functions, and the mapping of the table of optical depths.
-// Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020; table mapping:
-// Bruneton and Neyret, Precomputed Atmospheric Scattering, 2008.
+// Model of the air: density by altitude, phase functions, and the mapping of the optical-depth LUT. Methods: Hillaire,
+// A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020; LUT mapping: Bruneton and Neyret,
+// Precomputed Atmospheric Scattering, 2008.
 #include "uniforms.wgsl"
 #include "math.wgsl"
 
@@ -15,7 +15,8 @@ fn air_at(h: f32) -> Air {
     let height = max(h, 0.0);
     let rayleigh = body.rayleigh_per_km * exp(-height / body.rayleigh_scale_km);
     let haze = exp(-height / body.mie_scale_km);
-    let absorber = body.absorber_per_km * max(0.0, 1.0 - abs(height - body.absorber_height_km) / body.absorber_width_km);
+    let from_absorber = abs(height - body.absorber_height_km) / body.absorber_width_km;
+    let absorber = body.absorber_per_km * max(0.0, 1.0 - from_absorber);
     var air: Air;
     air.rayleigh = rayleigh;
     air.mie = body.mie_scattering_per_km * haze;
@@ -23,8 +24,8 @@ fn air_at(h: f32) -> Air {
     return air;
 }
 
-// Integral of exp(-extinction t) along a stretch: how far it shines, its own extinction counted. 1 - exp(-x) would lose every
-// digit where air is thin or the stretch short.
+// Integral of exp(-extinction t) over a segment: the length that contributes light, dimmed by the segment itself. The
+// series avoids the cancellation of 1 - exp(-x) in thin air and short segments.
 fn shining_length(extinction: vec3f, length_km: f32) -> vec3f {
     let x = extinction * length_km;
     let series = length_km * (1.0 - x * (0.5 - x * (1.0 / 6.0)));
@@ -43,7 +44,7 @@ fn mie_phase(cosine: f32) -> f32 {
 
 fn texel_from_unit(x: vec2f, size: vec2f) -> vec2f { return (x * (size - 1.0) + 0.5) / size; }
 
-// Where altitude and cosine to the zenith stand in the table of optical depths.
+// Texture coordinates in the optical-depth LUT of an altitude and a cosine to the zenith.
 fn depth_uv(h_km: f32, mu: f32) -> vec2f {
     let radius = body.radius_km;
     let top = body.air_height_km;
@@ -58,15 +59,16 @@ fn depth_uv(h_km: f32, mu: f32) -> vec2f {
     return texel_from_unit(saturate(x), OPTICAL_DEPTH_SIZE);
 }
 
-// Cosine of the horizon's zenith angle from an altitude.
+// Cosine of the zenith angle of the horizon, seen from an altitude in km.
 fn horizon_cosine(h: f32) -> f32 {
     let radius = body.radius_km;
     let height = max(h, 0.0);
     return -sqrt(height * (2.0 * radius + height)) / (radius + height);
 }
 
-// Share of the star's disc over the horizon of the smooth planet, where its middle is `over` the horizon (difference of
-// cosines); the mean over a stretch along which that changes by `change`.
+// Visible share of a sun's disc over the horizon of the smooth planet. `over`: cosine of the disc's centre to the
+// zenith minus that of the horizon. `change`: change of `over` along a segment; the result is the mean over the
+// segment.
 fn disc_share(over: f32, change: f32) -> f32 {
     let half = max(active_sun.radius_rad, 0.0015) + 0.5 * abs(change);
     return smoothstep(-half, half, over);

@@ -1,12 +1,15 @@
-// Where a place falls in the biome table: climate, moved to and fro by noise, so that neither the table's grid nor a line of equal
-// climate shows. The same noise, octaves and weights as src/terrain/border.rs, on the reference sphere.
+// Location in the biome table for a climate. Noise shifts it (border jitter), so that neither the grid of the table nor
+// a line of equal climate shows. Noise, octaves and weights are those of src/terrain/border.rs, evaluated on the
+// reference sphere.
 #include "uniforms.wgsl"
 #include "tables.wgsl"
 
-// Cells of the table from one pixel to the next; what is finer is blended. Set before the material is asked for.
+// Cells of the biome table from one pixel to the next; finer structure is blended. Must be set before the material is
+// evaluated.
 var<private> cells_per_pixel: vec2f;
 
-// From the point of the sphere under the eye to the one under a point of the ground, metres, without cancellation.
+// Vector in metres from the point of the reference sphere under the eye to the point under `rel_m`, without
+// cancellation.
 fn way_on_sphere_m(rel_m: vec3f) -> vec3f {
     let radius_m = body.radius_km * 1000.0;
     let up = body.eye_up;
@@ -16,7 +19,7 @@ fn way_on_sphere_m(rel_m: vec3f) -> vec3f {
     return radius_m / from_center_m * (rel_m - up * (grown / (from_center_m + eye_m)));
 }
 
-// How far the borders are moved, in cells; octaves finer than the footprint are left out, none for a footprint of 0.
+// Shift of the biome borders in cells. Octaves finer than the footprint fade out; a footprint of 0 keeps all octaves.
 fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
     if body.border_jitter_cells <= 0.0 { return vec2f(0.0); }
     var sum = vec2f(0.0);
@@ -27,21 +30,22 @@ fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
         let lod = log2(max(footprint_m, 1e-6) * BORDER_TILE_SIDE / octave.period);
         let share = 1.0 - smoothstep(0.0, 3.0, lod);
         if share <= 0.0 { break; }
-        sum += weight * share * textureSampleLevel(border_tile, repeated, octave.offset + place_m / octave.period, max(lod, 0.0)).rg;
+        let at = octave.offset + place_m / octave.period;
+        sum += weight * share * textureSampleLevel(border_tile, repeated, at, max(lod, 0.0)).rg;
         place_m = OCTAVE_TURN * place_m;
         weight *= BORDER_GAIN;
     }
     return sum;
 }
 
-// Place in the table, 0 to 1: column, row from the first. `climate`: moisture and 1 minus that row.
+// Location in the biome table, 0 to 1: column and row, the first row at 0. `climate`: moisture and 1 minus the row.
 fn table_place(climate: vec2f, rel_m: vec3f, footprint_m: f32) -> vec2f {
     let cells = vec2f(textureDimensions(biome_ids));
     let place = vec2f(climate.x, 1.0 - climate.y) + border_offset(rel_m, footprint_m) / cells;
     return clamp(place, vec2f(0.0), vec2f(1.0) - 0.5 / cells / cells);
 }
 
-// How much of the next cell there is at a share of the way from one cell's middle to the next one's.
+// Weight of the next cell at the share `f` of the way from the middle of one cell to the middle of the next.
 fn border_blend(f: vec2f) -> vec2f {
     if body.crisp_borders == 0u { return f; }
     let width = clamp(cells_per_pixel, vec2f(1e-4), vec2f(1.0));

@@ -1,10 +1,10 @@
-// The weather over the whole globe as six faces of a cube: how cloudy a place is, spread evenly over 0..1.
-// Fractal noise, torn along the curl of a potential so that it swirls but never bunches up.
+// The weather map: cloudiness over the whole globe as six faces of a cube, distributed evenly over 0..1. Fractal noise,
+// advected along the curl of a potential, so that it swirls without bunching up.
 #include "screen.wgsl"
 #include "math.wgsl"
 
 struct Face {
-    // The face's axes: centre, right, down
+    // The face's axes in the planet frame
     center: vec4f,
     right: vec4f,
     down: vec4f,
@@ -33,7 +33,7 @@ fn noise(p: vec3f, seed: u32) -> f32 {
     return mix(mix(x00, x10, u.y), mix(x01, x11, u.y), u.z);
 }
 
-// The way wind carries a point along the level lines of a noise on the sphere.
+// Displacement by wind along the level lines of a noise on the sphere.
 fn swirl(p: vec3f, dir: vec3f, seed: u32) -> vec3f {
     const E: f32 = 0.05;
     let here = noise(p, seed);
@@ -50,19 +50,19 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let side = f32(WEATHER_SIDE);
     let x = pixel.xy / side * 2.0 - 1.0;
     let dir = normalize(face.center.xyz + face.right.xyz * x.x + face.down.xyz * x.y);
-    // Smaller systems than the map can hold are drawn as large as it can.
+    // Weather systems smaller than the map can resolve are enlarged to the smallest size that it resolves.
     let cells = min(body.cloud_systems_per_radius, side * 0.2);
     let curl = body.cloud_curl;
     var p = dir * cells;
-    // Weather systems turn, then their arms turn, then their edges fray.
+    // Three scales of swirl: weather systems, their arms, and frayed edges.
     p += swirl(p * 0.7, dir, 1u) * curl * 0.55;
     p += swirl(p * 1.9, dir, 2u) * curl * 0.16;
     p += swirl(p * 5.1, dir, 3u) * curl * 0.045;
     var sum = 0.0;
     var amplitude = 1.0;
-    // Fronts are long along the parallels.
+    // Fronts are stretched along the parallels.
     var q = p * vec3f(0.85, 0.85, 1.3);
-    // No octave finer than the map can hold.
+    // Octaves finer than the map resolves are left out.
     let finest = side * 0.2;
     for (var i = 0u; i < 9u; i++) {
         if i > 0u && cells * exp2(f32(i)) > finest { break; }
@@ -70,7 +70,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         q = q.yzx * 2.03 + 17.3;
         amplitude *= 0.62;
     }
-    // Wet at the equator and in the middle latitudes, dry between them (Hadley and Ferrel cells).
+    // More cloud at the equator and in middle latitudes, less between them (Hadley and Ferrel cells).
     let belt = 0.10 * cos(6.0 * asin(clamp(dir.z, -1.0, 1.0)));
     let evenly = 0.5 + 0.5 * tanh((sum + belt) * 1.9);
     return vec4f(evenly, 0.0, 0.0, 1.0);

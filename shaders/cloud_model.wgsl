@@ -1,15 +1,15 @@
-// Where clouds are: the weather map gives the cover, a tiling noise carves single clouds out of it.
+// Density of the clouds: the weather map gives the cover, and a tiling noise carves single clouds out of it.
 #include "light.wgsl"
 
-// The layer turns about the pole with the wind.
+// Rotates a position about the pole: the wind carries the cloud layer.
 fn drifted(p: vec3f) -> vec3f {
     let c = body.cloud_drift.x;
     let s = body.cloud_drift.y;
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
-// Cover (0 clear, 1 closed) over a direction from the centre. The map is spread evenly over 0..1, so a threshold at
-// 1 - coverage leaves that share of the sky.
+// Cover (0 clear, 1 overcast) in a direction from the centre. The weather map is distributed evenly over 0..1, so a
+// threshold at 1 - coverage leaves that share of the sky clouded.
 fn cover_over(dir: vec3f) -> f32 {
     let weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
     const SOFT: f32 = 0.7;
@@ -17,12 +17,13 @@ fn cover_over(dir: vec3f) -> f32 {
     return cover * cover * (3.0 - 2.0 * cover);
 }
 
-// Density (0..1) where the cover is `cover`, at a point relative to the eye (km) and a height in the layer (0..1).
-// `footprint`: size in km below which nothing is resolved; there the noise is its mean and the edge widens instead.
+// Density (0..1) at a point relative to the eye (km) and at a height in the layer (0..1), where the weather map gives
+// `wide_cover`. `footprint`: size in km below which nothing is resolved; finer noise is replaced by its mean, and the
+// edge widens.
 fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f32 {
     if wide_cover <= 0.0 { return 0.0; }
     var place = drifted(rel);
-    // Bands wider than a puff bend the cover, so that puffs gather in groups; the others carve the puffs.
+    // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
     var bend = 0.0;
     var carve = 0.5;
     var strength = 1.0;
@@ -30,7 +31,7 @@ fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f3
     for (var i = 0; i < CLOUD_BANDS; i++) {
         let band = body.cloud_bands[i];
         let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
-        // A band fades before its tile is so small that one sees it repeat.
+        // A band fades out before its tile is small enough on screen for the repetition to show.
         let share = 1.0 - smoothstep(-1.0, 2.0, lod);
         if share <= 0.0 { break; }
         let n = textureSampleLevel(noise_tile, repeated, band.offset + place / band.period, lod);
@@ -43,20 +44,21 @@ fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f3
         }
         place = OCTAVE_TURN * place;
     }
-    // Nothing changes where all or nothing is covered.
+    // The bend has no effect where the cover is 0 or 1.
     let cover = saturate1(wide_cover + 4.0 * bend * wide_cover * (1.0 - wide_cover));
     let n = clamp(carve - (1.0 - cover) * 0.55 * max(height - 0.25, 0.0), 0.0, 1.0);
     const WIDTH: f32 = 0.3;
-    // Even a closed cover is thick here and thin there.
+    // Even overcast cloud varies in thickness.
     let bulk = 0.5 + n + 2.0 * bend * cover;
     let sharp = saturate1((n - 1.0 + cover) / WIDTH + cover * cover * cover) * max(bulk, 0.25);
-    // Puffs too small to see cover a share of the pixel: the density that lets through as much as they do together.
+    // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-body.cloud_optical_depth);
     let mean = -log(1.0 - cover * opaque) / body.cloud_optical_depth;
     return mix(sharp, mean, blurred);
 }
 
-// Share of direct starlight that the layer lets through to a point under (or in) it; the point relative to the eye.
+// Share of direct sunlight that the cloud layer transmits to a point below or within it. `rel`: point relative to the
+// eye, km; `h`: its altitude, km.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     if body.cloud_coverage <= 0.0 || h >= body.cloud_top_km { return 1.0; }
     let radius = body.radius_km;
@@ -70,8 +72,8 @@ fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     return exp(-body.cloud_optical_depth * density * left / max(dot(up, active_sun.dir), 0.05));
 }
 
-// Light that clouds above pass on after many scatterings, as a factor on the sky's irradiance and a share of direct light:
-// a two-stream estimate (x: what is left of the sky, y: share of direct light that arrives as skylight).
+// Two-stream estimate of light under clouds after multiple scattering. x: factor on the sky's irradiance; y: share of
+// direct sunlight that arrives as diffuse light.
 fn overcast(shadow: f32) -> vec2f {
     let spread = 1.0 / (1.0 + 0.12 * body.cloud_optical_depth);
     return vec2f(mix(mix(spread, 1.0, 0.35), 1.0, shadow), (1.0 - shadow) * spread);

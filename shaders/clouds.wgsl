@@ -1,19 +1,20 @@
-// Clouds: a march through an analytic shell, the same from beneath, within and above. Writes the light they send to the
-// eye (the air between not yet counted) with their transmittance, and their mean distance for air.wgsl.
+// Clouds: a march through a spherical shell, the same from below, within and above. Writes the radiance of the clouds
+// (without the air in front of them), their transmittance, and their mean distance for air.wgsl.
 #include "surface.wgsl"
 #include "cloud_model.wgsl"
 
-// Henyey and Greenstein, Diffuse radiation in the galaxy, 1941.
+// Phase function of Henyey and Greenstein, Diffuse radiation in the galaxy, 1941.
 fn lobe(cosine: f32, g: f32) -> f32 {
     let base = 1.0 + g * g - 2.0 * g * cosine;
     return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
 }
 
-// Factor on direct light that makes a thick layer under a high star as bright as clouds are: it reflects about 0.8.
+// Factor on direct light, so that a thick layer under a high sun reflects about 0.8, as real clouds do.
 const BRIGHTNESS: f32 = 1.8;
 
-// Way in km after `number` steps of a march that begins in the layer. The steps are the same in all directions and grow by a constant
-// ratio: steps that depend on the way to the far end are longest along the horizon and show as a line there.
+// Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
+// and grow by a constant ratio. Steps that depend on the distance to the far end would be longest along the horizon and
+// show as a line there.
 fn grown_km(number: f32) -> f32 {
     let ratio = body.cloud_step_growth;
     return body.cloud_first_step_km * (pow(ratio, number) - 1.0) / (ratio - 1.0);
@@ -22,7 +23,7 @@ fn grown_km(number: f32) -> f32 {
 struct March {
     light: vec3f,
     transmittance: f32,
-    // Sum of distance, and of what it is weighted with
+    // Weighted sum of distances, and sum of the weights
     distance: f32,
     weight: f32,
 }
@@ -36,11 +37,11 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     let sun = active_sun.dir;
     let steps = body.cloud_steps;
     let span = to_km - from_km;
-    // Even steps from afar, growing ones within the layer.
+    // Even steps from afar, growing steps from within the layer.
     let bend = span / (span + from_km + 1e-6);
     let extinction = body.cloud_optical_depth / thickness;
 
-    // Light that reaches the layer here; it hardly changes along the way.
+    // Light that reaches the layer at the middle of the segment; it varies little along the ray.
     let middle = dir * (from_km + mix(0.5 * span, min(grown_km(0.4 * steps), span), bend));
     let up = normalize(body.eye_km + middle);
     let sun_mu = dot(up, sun);
@@ -54,7 +55,8 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         1.0 / (4.0 * PI),
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
-    // From above one sees tops that a low star only grazes (Lommel and Seeliger's law); the march looks too coarsely at them to know.
+    // From above, one sees tops that a low sun only grazes (law of Lommel and Seeliger); the march is too coarse to
+    // resolve this.
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
@@ -73,13 +75,14 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let footprint = max(t * frame.pixel_rad, length_km * 0.3);
         let density = cloud_density(rel, cover, height, footprint);
         if density <= 0.002 { continue; }
-        // A second look towards the star shapes light and shade; from afar it looks as far as a pixel.
+        // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
         let reach = max(thickness * 0.4, t * frame.pixel_rad * 1.2);
         let ahead_height = saturate1(height + reach * sun_mu / thickness);
         let ahead = cloud_density(rel + sun * reach, cover, ahead_height, footprint);
         let room = (1.0 - height) * thickness * to_sun;
         let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * max(room - reach * 0.5, 0.0) * 0.55);
-        // Each further scattering sees a thinner cloud and a rounder phase (Wrenninge, Oz: The Great and Volumetric).
+        // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The Great
+        // and Volumetric).
         let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
             + 1.5 * phases.z * exp(-0.07 * sun_depth);
         let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
@@ -132,8 +135,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     first.y = min(first.y, far);
     second.y = min(second.y, far);
-    // Neighbouring pixels step a little apart, or the steps would show as terraces (interleaved gradient noise, Jimenez,
-    // Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
+    // Jitter between neighbouring pixels hides the steps, which would show as terraces (interleaved gradient noise,
+    // Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
     let jitter = fract(52.9829189 * fract(dot(floor(position.xy), vec2f(0.06711056, 0.00583715))));
     var light = vec3f(0.0);
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
@@ -141,7 +144,9 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         use_sun(i);
         state = March(vec3f(0.0), 1.0, 0.0, 0.0);
         if first.y > first.x { state = march(state, dir, first.x, first.y, mu, jitter); }
-        if second.y > second.x && state.transmittance > 0.0 { state = march(state, dir, second.x, second.y, mu, jitter); }
+        if second.y > second.x && state.transmittance > 0.0 {
+            state = march(state, dir, second.x, second.y, mu, jitter);
+        }
         light += state.light;
     }
     var out: Output;

@@ -1,4 +1,4 @@
-// Radiance as it is, without stars.
+// Copies the radiance of the scene, with no stars.
 #include "screen.wgsl"
 
 @group(1) @binding(0) var radiance: texture_2d<f32>;

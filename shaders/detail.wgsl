@@ -1,46 +1,46 @@
-// The ground of many tiles, four times as fine as their meshes: what a detail tile (src/lod/tile.rs) knows around a pixel.
+// The ground at a pixel from detail textures (src/lod/tile.rs), which have four times the density of the meshes.
 
-// Slopes along both tangents, and the same as the parents show them; height in metres as a sum of two, and how steep (rise over run) the
-// ground is at the very texel as far as slopes show it, and all told.
+// `detail_slopes`: slopes (rise over run) along both tangents (xy), and those of the parent's detail texture (zw).
+// `detail_heights`: height in metres as the sum of two values (xy), steepness (rise over run) of the slopes in the
+// texel (z), and steepness including finer slopes that are faded out of them (w).
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
-// What a pixel covers of a detail tile.
+// Footprint of a pixel in a detail texture.
 struct DetailPlace {
-    // -1 without a tile
+    // Layer; -1 without a detail texture
     layer: i32,
     // Its middle, in texels from the node's corner
     at: vec2f,
-    // From one end to the other along its longer side and across, in texels
+    // Vectors across the footprint along its longer side and perpendicular to that, in texels
     along: vec2f,
     across: vec2f,
-    // How far the parent has taken over by distance, 0 to 1
+    // Share to which the parent has taken over by distance, 0 to 1
     parent: f32,
-    // Its shorter side in texels, as a power of two
+    // log2 of the shorter side in texels
     width: f32,
-    // How many times as far apart as the tile's own the texels are that are looked at, as a power of two: beyond 1 where tiles are finer
-    // than pixels
+    // log2 of the stride between the sampled texels. Above 1 where texels are finer than pixels
     level: f32,
-    // Looked at along the longer side, one after the other (as anisotropic texture filters do)
+    // Samples along the longer side, as in anisotropic texture filters
     parts: i32,
 }
 
-// `right`, `below`: from pixel to pixel, texels; `parent`: by distance.
+// `right`, `below`: steps to the next pixel, in texels. `parent`: share of the parent by distance.
 fn detail_place(layer: f32, at: vec2f, right: vec2f, below: vec2f, parent: f32) -> DetailPlace {
     let is_right = dot(right, right) > dot(below, below);
     let along = select(below, right, is_right);
-    // What of the other side is not along the first.
+    // Component of the other side perpendicular to the longer one.
     let other = select(right, below, is_right);
     let length_along = max(length(along), 1e-6);
     let across = other - along * (dot(other, along) / (length_along * length_along));
-    // Texels two to each side are averaged: up to twice as long as wide is one part.
+    // The filter averages two texels to each side, so a footprint up to twice as long as wide needs one part.
     let fewest = length_along / max(length(across), length_along / 8.0);
     let parts = select(select(4, 2, fewest <= 4.0), 1, fewest <= 2.0 || length_along < 2.0);
     let width = log2(max(length(across), length_along / 8.0));
     return DetailPlace(i32(layer), at, along, across, parent, width, clamp(width, parent, 5.0), parts);
 }
 
-// One of its parts; `detail_slopes_at` is not for them.
+// One of the parts of a footprint. `detail_slopes_at` is not meant for parts.
 fn part_of(place: DetailPlace, number: i32) -> DetailPlace {
     var out = place;
     out.at += place.along * ((f32(number) + 0.5) / f32(place.parts) - 0.5);
@@ -50,12 +50,14 @@ fn part_of(place: DetailPlace, number: i32) -> DetailPlace {
 
 fn detail_slopes_at(place: DetailPlace) -> vec4f {
     let apron = f32(DETAIL_APRON);
-    return textureSampleLevel(detail_slopes, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0);
+    let at = (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+    return textureSampleLevel(detail_slopes, clamped, at, place.layer, 0.0);
 }
 
-// Texels around a pixel, so many to each side: every one of the tile, or every second (which are its parent's), or fourth...
+// Texels around the middle of a footprint, `reach` to each side: every texel of the tile, every second one (those of
+// its parent), every fourth and so on.
 struct Taps {
-    // In strides
+    // Middle, in strides
     at: vec2f,
     reach: f32,
     across: i32,
@@ -65,11 +67,11 @@ struct Taps {
 
 struct Tap {
     texel: vec2i,
-    // Of all taps: a tent
+    // Share of all taps, by a tent filter
     weight: f32,
 }
 
-// Those of the level that is just finer than the place's, or just coarser.
+// Taps of the level just finer than the footprint's level, or of the level just coarser.
 fn taps_around(place: DetailPlace, coarser: i32, reach: f32) -> Taps {
     let finer = floor(place.level);
     let share = select(1.0 + finer - place.level, place.level - finer, coarser == 1);
@@ -80,14 +82,14 @@ fn taps_around(place: DetailPlace, coarser: i32, reach: f32) -> Taps {
 fn tap_of(taps: Taps, number: i32) -> Tap {
     let texel = floor(taps.at) - (taps.reach - 1.0) + vec2f(f32(number % taps.across), f32(number / taps.across));
     let tent = max(1.0 - abs(taps.at - texel) / taps.reach, vec2f(0.0)) / taps.reach;
-    // Of a parent's, only those of no weight lie outside the image.
+    // Only the parent's texels of weight 0 lie outside the image.
     let last = i32(DETAIL_SIDE) + 2 * DETAIL_APRON - 1;
     let inside = clamp(vec2i(texel) * taps.stride + DETAIL_APRON, vec2i(0), vec2i(last));
     return Tap(inside, taps.share * tent.x * tent.y);
 }
 
-// Height over the tile's own zero (x), and how much it changes from texel to texel along both sides (yz): of the very patches between
-// texels that are drawn.
+// Height above the tile's base height in metres (x) and its change to the next texel along both sides (yz),
+// interpolated in the patches between texels that are drawn.
 fn patch_height(place: DetailPlace) -> vec3f {
     var sum = vec3f(0.0);
     for (var coarser = 0; coarser < 2; coarser++) {
@@ -108,29 +110,29 @@ fn patch_height(place: DetailPlace) -> vec3f {
 
 // Heights in and around a pixel.
 struct Heights {
-    // In the middle, over the tile's own zero
+    // In the middle of the pixel, metres above the tile's base height
     middle_m: f32,
-    // Of the plane that fits best, metres to the next texel
+    // Plane of best fit: change in metres to the next texel
     change: vec2f,
-    // Standard deviation from that plane
+    // Standard deviation from that plane, metres
     rest_m: f32,
 }
 
-// How far the plane goes above and below the middle within the pixel.
+// How far the plane rises and falls from the middle within the pixel, metres.
 fn plane_spread_m(heights: Heights, place: DetailPlace) -> f32 {
     return 0.5 * (abs(dot(heights.change, place.along)) + abs(dot(heights.change, place.across)));
 }
 
-// A plane that is fitted to so few texels (about nine, by their weights) takes up a third of the variance of what they deviate from the
-// true one.
+// A plane fitted to few texels (about nine, by weight) absorbs a third of the variance of their true deviation. This
+// factor restores the standard deviation.
 const SWELL: f32 = 1.25;
-// Where texels are seen apart, heights between them show a part of it already: what keeps colours of tests/colours.rs the same from level
-// to level.
+// Share of the deviation to add where texels are wider than pixels: heights interpolated between texels show part of it
+// already. Fitted so that colours stay the same from level to level (tests/gpu/colours.rs).
 const NEAR: f32 = 0.58;
 
-// Of the texels around, two to each side.
+// Fit over the texels around the pixel, two to each side.
 fn heights_around(place: DetailPlace) -> Heights {
-    // Counted from a texel nearby, or squares would lose it all.
+    // Heights are relative to a nearby texel, because squares of full heights would lose all precision.
     let near = textureLoad(detail_heights, tap_of(taps_around(place, 0, 1.0), 0).texel, place.layer, 0);
     let zero_m = near.x + near.y;
     var sum = 0.0;
@@ -156,13 +158,16 @@ fn heights_around(place: DetailPlace) -> Heights {
         }
     }
     let determinant = max(places.x * places.z - places.y * places.y, 1e-6);
-    let change = vec2f(places.z * by_place.x - places.y * by_place.y, places.x * by_place.y - places.y * by_place.x) / determinant;
+    let change = vec2f(
+        places.z * by_place.x - places.y * by_place.y,
+        places.x * by_place.y - places.y * by_place.x,
+    ) / determinant;
     return Heights(zero_m + sum, change, SWELL * sqrt(max(squares - sum * sum - dot(change, by_place), 0.0)));
 }
 
-// As exactly as they are known at the very place, or around it where texels are no wider than pixels: peaks, valleys and rivers as wide as
-// a texel would sparkle. What they deviate from the plane counts as long as texels are but a few pixels wide, for between them the ground
-// deviates, too. `apart`: 0 to 1.
+// Heights at the pixel: interpolated where texels are wider than pixels, fitted over the texels around where texels are
+// no wider, because peaks, valleys and rivers as wide as a texel would sparkle. The deviation from the plane still
+// counts while texels are a few pixels wide, because the ground between them deviates, too. `apart`: 0 to 1.
 fn heights_at(place: DetailPlace, apart: f32) -> Heights {
     let rough = smoothstep(-4.0, -3.0, place.width - place.parent);
     if rough <= 0.0 {
@@ -172,14 +177,19 @@ fn heights_at(place: DetailPlace, apart: f32) -> Heights {
     let around = heights_around(place);
     if apart >= 1.0 { return around; }
     let patch_m = patch_height(place);
-    return Heights(mix(patch_m.x, around.middle_m, apart), mix(patch_m.yz, around.change, apart), rough * mix(NEAR, 1.0, apart) * around.rest_m);
+    return Heights(
+        mix(patch_m.x, around.middle_m, apart),
+        mix(patch_m.yz, around.change, apart),
+        rough * mix(NEAR, 1.0, apart) * around.rest_m,
+    );
 }
 
-// How steep the detail shows the ground at a pixel, its own (x) and the parent's (y): means of what texels show. Slopes that are averaged
-// before would be gentler.
+// Steepness (rise over run) shown by the detail texture at a pixel: its own (x) and the parent's (y). Means of the
+// steepness of texels; averaged slopes would be gentler.
 fn rises_at(place: DetailPlace) -> vec2f {
     let apron = f32(DETAIL_APRON);
-    let own = textureSampleLevel(detail_heights, clamped, (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron), place.layer, 0.0).z;
+    let own_at = (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+    let own = textureSampleLevel(detail_heights, clamped, own_at, place.layer, 0.0).z;
     if place.parent <= 0.0 { return vec2f(own, 0.0); }
     let at = 0.5 * place.at;
     let f = fract(at);
@@ -193,33 +203,34 @@ fn rises_at(place: DetailPlace) -> vec2f {
     return vec2f(own, parents);
 }
 
-// What the ground around a pixel is known to be as steep as, everything counted in: slopes too fine to be shown still decide what
-// share of the ground is steep.
+// Steepness of the ground around a pixel, including slopes too fine to be drawn: they still decide the share of steep
+// ground.
 struct Steepness {
     place: DetailPlace,
-    // Rise over run that the detail shows at the pixel, its own and the parent's
+    // Rise over run in the detail texture at the pixel: its own and the parent's
     shown: vec2f,
     heights: Heights,
     // 0 where texels are wider than pixels, 1 where they are finer
     apart: f32,
-    // How many texels away the last are that have a say: 1 is what is nearest, 2 has no speckles where the ground is finer than texels.
+    // Texels to each side that count: 1 takes the nearest only, 2 avoids speckles where the ground is finer than texels
     reach: f32,
-    // Where there is no detail
+    // Cosine of the slope where there is no detail texture
     cosine: f32,
 }
 
-// Rules that ask for the cosine of the slope: how much a rule holds goes from 0 at `from` to 1 at `to`, whichever is greater.
+// Surface rules by the cosine of the slope. A rule applies from 0 at `from` to 1 at `to`; either may be the greater.
 struct SlopeRules {
     cells_from: vec4f,
     cells_to: vec4f,
-    // Beach, snow
+    // x: beach, y: snow
     covers_from: vec2f,
     covers_to: vec2f,
-    // Snow lies only where it is cold, too: all of it where the ground is this far above the middle, none where it is this far (metres)
+    // Height above the middle of the pixel in metres from which the ground is cold enough for full snow (x), and below
+    // which it is too warm for any (y)
     snow_m: vec2f,
 }
 
-// How much of the ground each rule holds for.
+// Share of the ground to which each rule applies.
 struct SlopeShares {
     cells: vec4f,
     covers: vec2f,
@@ -240,8 +251,8 @@ fn add_slope(shares: ptr<function, SlopeShares>, rules: SlopeRules, cosine: f32,
     (*shares).covers += weight * covers * covers * (3.0 - 2.0 * covers) * vec2f(1.0, cold * cold * (3.0 - 2.0 * cold));
 }
 
-// Rules are asked at texels, where slopes are known, and what they answer is mixed: the other way round, slopes that are mixed first
-// would make less rock and more snow of rough ground, the farther away the more.
+// Rules are evaluated at texels, where slopes are known, and their results are averaged. Averaging the slopes first
+// would give rough ground less rock and more snow, and more so with distance.
 fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
     var out = SlopeShares(vec4f(0.0), vec2f(0.0));
     let place = steep.place;
@@ -258,16 +269,17 @@ fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
                 if tap.weight <= 0.0 { continue; }
                 let heights = textureLoad(detail_heights, tap.texel, place.layer, 0);
                 var rise = heights.w;
-                // Where texels are wider than pixels, the pixel's own place between them counts.
+                // Where texels are wider than pixels, the position of the pixel between them counts.
                 if steep.apart < 1.0 && taps.stride == 1 { rise += (1.0 - steep.apart) * (steep.shown.x - heights.z); }
                 if steep.apart < 1.0 && taps.stride == 2 {
                     let parents = textureLoad(detail_slopes, tap.texel, place.layer, 0).zw;
                     rise += (1.0 - steep.apart) * (steep.shown.y - length(parents));
                 }
-                // What lies below and above the plane.
+                // Height of the texel above the plane.
                 let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
                 let above_m = heights.x + heights.y - steep.heights.middle_m - dot(steep.heights.change, away);
-                add_slope(&out, rules, cosine_of(rise), mix(NEAR * SWELL, SWELL, steep.apart) * above_m, tap.weight / f32(place.parts));
+                let swollen_m = mix(NEAR * SWELL, SWELL, steep.apart) * above_m;
+                add_slope(&out, rules, cosine_of(rise), swollen_m, tap.weight / f32(place.parts));
             }
         }
     }

@@ -1,11 +1,11 @@
-// From what is to be shown to the target: shrunk or enlarged to its size, encoded, dithered.
+// From linear display values to the caller's target: resampled to its size, encoded as sRGB, dithered.
 #include "screen.wgsl"
 #include "math.wgsl"
 
-// rgb, linear
+// rgb: linear display values
 @group(1) @binding(0) var shown: texture_2d<f32>;
 
-// Whether the target encodes sRGB by itself.
+// Whether the format of the target encodes sRGB in hardware.
 override TARGET_ENCODES_SRGB: bool = false;
 
 fn encode_srgb(c: vec3f) -> vec3f {
@@ -26,15 +26,15 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if frame.render_scale == 1.0 {
         light = textureLoad(shown, pixel, 0).rgb;
     } else {
-        // Between four pixels of twice the size that shows their mean, of half the size the shares by nearness.
+        // At render scale 2, the sample lies between four pixels and is their mean; at 0.5, it is bilinear.
         let at = position.xy * frame.render_scale / vec2f(textureDimensions(shown));
         light = textureSampleLevel(shown, clamped, at, 0.0).rgb;
     }
     var encoded = encode_srgb(light);
     if frame.debug_view == VIEW_SHADED {
-        // Triangular noise of one step hides the 256 steps of the display.
+        // Triangular noise with the amplitude of one step hides the 256 steps of the display.
         let bits = hash3(vec3u(vec2u(pixel), 7u));
-        // None on black, which is exact.
+        // No noise on black, so that black stays exactly black.
         let strength = min(encoded, vec3f(1.0 / 255.0));
         encoded += (unit_from_hash(bits) - unit_from_hash(hash3(bits + 1u))) * strength;
     }

@@ -1,8 +1,9 @@
-// From the histogram to an exposure that the eye would settle at, and some way from the last exposure towards it.
+// Metering: computes from the histogram the exposure that the eye would adapt to, and moves the last exposure towards
+// it.
 #include "meter.wgsl"
 
 struct Exposure {
-    // Factor on radiance, and the same in stops
+    // Factor on radiance, and the same factor in stops
     factor: f32,
     ev: f32,
 }
@@ -11,46 +12,50 @@ struct Exposure {
 @group(0) @binding(1) var<storage, read_write> exposure: Exposure;
 @group(0) @binding(2) var<uniform> step: MeterStep;
 
-// Mean luminance that needs no correction, in stops: middle grey in sunlight.
+// Mean luminance in stops that needs no correction: middle grey in sunlight. All levels below are relative to sunlit
+// white ground.
 const NORMAL_EV: f32 = -2.5;
-// Share of a difference that exposure corrects, for means darker than normal. The first stops are those of dark and bright ground in
-// the same sunlight: forest stays dark and snow stays white. Further ones are dusk, and the last ones night.
+// Share of the difference from NORMAL_EV that exposure corrects, for darker means. The first stops are dark ground in
+// sunlight (forest stays dark and snow stays white), the next ones dusk, the last ones night.
 const DARK_GROUND_EV: f32 = 2.0;
 const FOLLOWED_DARK_GROUND: f32 = 0.4;
 const NIGHT_EV: f32 = 9.0;
 const FOLLOWED_DUSK: f32 = 0.90;
 const FOLLOWED_NIGHT: f32 = 0.73;
-// The same for brighter means.
+// Share that exposure corrects for brighter means.
 const FOLLOWED_BRIGHT: f32 = 0.1;
-// Highlights: share of counted pixels that are brighter, stops that they may reach after the correction, and share of what they exceed
-// it by that exposure takes back. Below it exposure closes a share of the gap: a small one, or all of it where much is white, since
-// snow and clouds must look white.
+// Highlights: the share of counted pixels that are brighter, the level in stops that they may reach after the
+// correction, and the share of the excess that exposure takes back. If they stay below that level, exposure closes a
+// share of the gap: a small share, or all of it where much of the picture is white, because snow and clouds must look
+// white.
 const HIGHLIGHTS: f32 = 0.04;
 const HIGHLIGHT_EV: f32 = -0.2;
 const FOLLOWED_HIGHLIGHT: f32 = 0.75;
-// Mean that it does not go below for their sake: the sea around a setting star.
+// The correction for highlights does not take the mean below this level: the sea around a setting sun.
 const DARKEST_MEAN_EV: f32 = -3.4;
-// Wider highlights, such as the sky around a low star, never exceed this luminance.
+// Broader highlights, such as the sky around a low sun, never exceed this level.
 const BROAD_HIGHLIGHTS: f32 = 0.12;
 const BROAD_HIGHLIGHT_EV: f32 = -0.5;
 const LIFTED_HIGHLIGHT: f32 = 0.2;
 const LIFTED_SNOW: f32 = 1.0;
-// Shares of white pixels from ground to snow.
+// Share of white pixels at which the lift changes from that for ground to that for snow.
 const SNOW_SHARE: vec2f = vec2f(0.2, 0.45);
 const WIDEST_LIFT_EV: f32 = 2.0;
-// Beside dark ground a bright sky keeps its colours: most stops of correction if the sky's luminance were 1, and more for each stop less.
+// A bright sky over dark ground keeps its colours: greatest correction in stops for a sky of luminance 1, and its
+// growth for each stop less.
 const SKY_EV: f32 = 3.8;
 const SKY_FOLLOWED: f32 = 0.49;
 const LEAST_EV: f32 = -4.0;
 const MOST_EV: f32 = 14.5;
-// Share of pixels that are glints and the star itself: the brightest others set the range.
+// Share of pixels taken for glints and the sun itself. The brightest of the rest set the top of the range.
 const GLINTS: f32 = 0.003;
-// Stops below them, or below sunlit white if they are brighter, that do not count: the night side beside a crescent.
+// Range in stops below that top, or below sunlit white if the top is brighter. Darker pixels do not count: the night
+// side beside a crescent.
 const SHADOW_EV: f32 = 7.0;
 
 fn stops(bin: u32) -> f32 { return DARKEST_EV + (f32(bin) + 0.5) / BINS_PER_EV; }
 
-// Bin that `count` of the counted pixels exceed, no lower than the bin `first`.
+// Index of the bin that `count` of the counted pixels exceed, at least `first`.
 fn bin_below(count: f32, first: u32) -> u32 {
     var over = 0.0;
     var bin = METER_BINS - 1u;
@@ -61,7 +66,7 @@ fn bin_below(count: f32, first: u32) -> u32 {
     return bin;
 }
 
-// Stops of correction for a mean luminance, in stops.
+// Correction in stops for a mean luminance in stops.
 fn corrected(mean_ev: f32) -> f32 {
     let off = NORMAL_EV - mean_ev;
     if off < 0.0 { return off * FOLLOWED_BRIGHT; }
@@ -79,7 +84,7 @@ fn compute() {
     let first = u32(max(range_top - SHADOW_EV * BINS_PER_EV, 0.0));
     var counted = 0.0;
     for (var i = first; i < METER_BINS; i++) { counted += f32(bins[i]); }
-    // Mean of the stops between the tenth and the ninetieth percentile.
+    // Mean in stops between the tenth and the ninetieth percentile.
     var sum = 0.0;
     var weight = 0.0;
     var passed = 0.0;
@@ -100,7 +105,8 @@ fn compute() {
         if above > 0.0 {
             ev = max(ev - FOLLOWED_HIGHLIGHT * above, min(ev, DARKEST_MEAN_EV - mean));
         } else {
-            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, smoothstep(SNOW_SHARE.x, SNOW_SHARE.y, f32(bins[WHITE]) / counted));
+            let snow = smoothstep(SNOW_SHARE.x, SNOW_SHARE.y, f32(bins[WHITE]) / counted);
+            let share = mix(LIFTED_HIGHLIGHT, LIFTED_SNOW, snow);
             ev += share * min(-above, WIDEST_LIFT_EV);
         }
         ev = min(ev, BROAD_HIGHLIGHT_EV - broad);

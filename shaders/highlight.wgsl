@@ -1,7 +1,8 @@
-// Lights up the places whose cells of the biome table are marked in the editor.
+// Highlights the ground of those cells of the biome table that are marked in the editor.
 #include "border.wgsl"
 
-// `light` at a place of the table, lit up if its cell is marked. `white`: what counts as bright in this picture.
+// Highlights `light` if the cell at `place` in the biome table (0 to 1) is marked. `white`: bright level of this
+// picture.
 fn lit_up(light: vec3f, place: vec2f, white: vec3f) -> vec3f {
     if body.marked == 0u { return light; }
     let cells = vec2f(textureDimensions(biome_ids));

@@ -1,11 +1,11 @@
-// Counts how much of the picture is how bright, for automatic exposure. The scene's alpha says how much a pixel counts.
+// Histogram of the picture's luminance, for automatic exposure. The scene's alpha is the weight of a pixel.
 #include "meter.wgsl"
 
 @group(0) @binding(0) var scene: texture_2d<f32>;
 @group(0) @binding(1) var<storage, read_write> bins: array<atomic<u32>, METER_BINS + 1u>;
 @group(0) @binding(2) var<uniform> step: MeterStep;
 
-// Snow and clouds in sunlight: least luminance, and least share of the strongest channel that the weakest has.
+// White pixels (sunlit snow and clouds): least luminance, and least ratio of the weakest to the strongest channel.
 const WHITE_LUMINANCE: f32 = 0.28;
 const WHITE_SHARE: f32 = 0.65;
 
@@ -15,18 +15,20 @@ var<workgroup> here: array<atomic<u32>, METER_BINS + 1u>;
 fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_index) index: u32) {
     if index <= METER_BINS { atomicStore(&here[index], 0u); }
     workgroupBarrier();
-    // One pixel in so many each way is enough.
+    // A sparse grid of pixels, METER_STRIDE apart, is enough.
     let pixel = at.xy * METER_STRIDE + METER_STRIDE / 2u;
     if all(pixel < step.size_px) {
         let light = textureLoad(scene, vec2i(step.origin_px + pixel), 0);
-        // Colours lose themselves when their strongest channel is too bright, whatever their luminance.
+        // The strongest channel counts as well, because colours clip when it is too bright, whatever their luminance.
         let strongest = max(light.r, max(light.g, light.b));
         let bright = mix(luminance(light.rgb), strongest, 0.6);
         let place = (log2(max(bright, 1e-12)) - DARKEST_EV) * BINS_PER_EV;
         let counts = u32(light.a * 16.0);
         if place >= 0.0 { atomicAdd(&here[min(u32(place), METER_BINS - 1u)], counts); }
         let weakest = min(light.r, min(light.g, light.b));
-        if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest { atomicAdd(&here[WHITE], counts); }
+        if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest {
+            atomicAdd(&here[WHITE], counts);
+        }
     }
     workgroupBarrier();
     if index <= METER_BINS { atomicAdd(&bins[index], atomicLoad(&here[index])); }

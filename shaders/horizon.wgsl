@@ -1,17 +1,20 @@
-// What the ground around a place leaves of star and sky: from horizon tiles (src/lod/horizon.rs).
+// Visibility of the sun and of the sky over the surrounding ground, from the horizon angles of horizon tiles
+// (src/lod/horizon.rs).
 #include "air_model.wgsl"
 
-// Images side by side, one for each azimuth and the openness; each texel the tile's own value and its parent's.
+// Atlas of images, one for each azimuth and one for the sky visibility. Each texel has the tile's own value (r) and the
+// parent's (g).
 @group(3) @binding(0) var horizons: texture_2d_array<f32>;
 
 struct Exposed {
-    // Share of the star's disc that the ground leaves of what the smooth planet would
+    // Visible share of the sun's disc, relative to the share over the horizon of the smooth planet
     star: f32,
-    // Share of the sky's light
+    // Sky visibility
     sky: f32,
 }
 
-// Azimuth of the star in the coordinates of the face, in steps from one image to the next; see `face_step` in src/lod/horizon.rs.
+// Azimuth of the sun in the coordinates of the cube face, in steps from one image to the next; see `face_step` in
+// src/lod/horizon.rs.
 fn star_azimuth(slope_axis: vec3f, up: vec3f) -> f32 {
     let across = abs(slope_axis).zxy;
     let out = cross(slope_axis, across);
@@ -20,20 +23,22 @@ fn star_azimuth(slope_axis: vec3f, up: vec3f) -> f32 {
     let place = vec2f(dot(up, slope_axis), dot(up, across)) / dot(up, out);
     let bend = 1.0 + FACE_BEND * place * place;
     let step = (towards.xy - place * towards.z) / (bend * sqrt(bend));
-    // Under a star in the zenith any will do.
+    // With the sun in the zenith, any azimuth will do.
     let angle = atan2(step.y, step.x + select(0.0, 1e-20, all(step == vec2f(0.0))));
     return fract(angle / (2.0 * PI) + 1.0) * f32(HORIZON_AZIMUTHS);
 }
 
 fn horizon_image(place: vec2f, layer: i32, image: u32, far: f32) -> f32 {
     let corner = vec2f(vec2u(image % HORIZON_IMAGES_ALONG, image / HORIZON_IMAGES_ALONG)) * f32(TILE_SIDE);
-    let texel = (corner + 0.5 + saturate(place) * (f32(TILE_SIDE) - 1.0)) / (f32(TILE_SIDE) * f32(HORIZON_IMAGES_ALONG));
+    let side = f32(TILE_SIDE);
+    let texel = (corner + 0.5 + saturate(place) * (side - 1.0)) / (side * f32(HORIZON_IMAGES_ALONG));
     let found = textureSampleLevel(horizons, clamped, texel, layer, 0.0).rg;
     return mix(found.x, found.y, far);
 }
 
-// Sine of the horizon's elevation: a cubic through the four nearest azimuths (Catmull and Rom, A class of local interpolating
-// splines, 1974). A straight line between two of them would cut off the peaks, and shadows would pulsate while the star moves.
+// Sine of the horizon's elevation: a cubic through the four nearest azimuths (Catmull and Rom, A class of local
+// interpolating splines, 1974). Linear interpolation would cut off the peaks, and shadows would pulsate while the sun
+// moves.
 fn horizon_sine(place: vec2f, layer: i32, azimuth: f32, far: f32) -> f32 {
     let first = u32(azimuth) + HORIZON_AZIMUTHS - 1u;
     let f = fract(azimuth);
@@ -46,8 +51,9 @@ fn horizon_sine(place: vec2f, layer: i32, azimuth: f32, far: f32) -> f32 {
     return dot(outer, vec2f(a, d)) + dot(inner, vec2f(b, c));
 }
 
-// At a place of a tile (0 to 1) whose parent has taken over by `far`. `tile`: layer, -1 for none; width of the tile in that of the
-// node the horizon is of, and where it lies there. `h`: altitude in km.
+// Visibility at `tile_place` (0 to 1) of a tile. `tile`: layer (-1 for none), width of the tile as a share of the node
+// that has the horizon tile, and the tile's corner in that node. `tile_far`: share to which the parent has taken over.
+// `h`: altitude in km.
 fn exposed(tile: vec4f, slope_axis: vec3f, tile_place: vec2f, tile_far: f32, up: vec3f, h: f32) -> Exposed {
     if tile.x < 0.0 { return Exposed(1.0, 1.0); }
     let layer = i32(tile.x);

@@ -1,8 +1,8 @@
-// Table: irradiance of the sky on level ground, by cosine to the star and altitude.
+// LUT of the sky's irradiance on level ground, by the sun's cosine to the zenith and altitude.
 #include "screen.wgsl"
 #include "ring.wgsl"
 
-// Gauss and Legendre's places between 0 and 1, and what each counts.
+// Nodes of Gauss-Legendre quadrature between 0 and 1, and their weights.
 const PLACES: array<vec2f, 4> = array<vec2f, 4>(
     vec2f(0.0694318442, 0.1739274226),
     vec2f(0.3300094782, 0.3260725774),
@@ -20,7 +20,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
     var sum = vec3f(0.0);
     for (var i = 0u; i < 4u; i++) {
-        // The square root spreads rings by the cosine, as irradiance counts them.
+        // Nodes are spaced in the squared cosine: the square root weights each ring by its cosine, as irradiance does.
         let place = PLACES[i];
         sum += ring_light(h, sqrt(place.x), sun_mu, 5u, 8u) * place.y;
     }

@@ -1,6 +1,7 @@
-// What the ground is made of at a pixel: the biomes of the table's cells around its climate, what the rules for steep ground,
-// beaches and snow make of them, and the patterns of the two strongest. The rules are those of src/terrain/ground.rs, with soft
-// edges where it has half-way marks. Must match the texels of src/render/biome_table.rs.
+// Material of the ground at a pixel: the biomes of the cells around its location in the biome table, surface rules
+// (steep ground, beaches, snow), and the patterns of the two strongest biomes. The surface rules are those of
+// src/terrain/ground.rs; they have soft edges centred on the thresholds there. Layout of the texels:
+// src/render/biome_table.rs.
 #include "detail.wgsl"
 #include "mottle.wgsl"
 #include "border.wgsl"
@@ -8,35 +9,36 @@
 
 fn biome_param(id: i32, row: i32) -> vec4f { return textureLoad(biome_params, vec2i(id, row), 0); }
 
-// What decides about the ground at a pixel.
+// Inputs of the biome and the surface rules at a pixel.
 struct Site {
-    // Place in the table: moisture, and 1 minus the row
+    // Location in the biome table: moisture, and 1 minus the row
     table: vec2f,
     rel_m: vec3f,
-    // Of the ground against the horizontal
+    // Cosine of the angle between the ground and the horizontal
     slope_cosine: f32,
     steep: Steepness,
     temperature_c: f32,
-    // Height over the level of the sea, metres; beyond every beach where there is no sea
+    // Height above sea level in metres; above every beach on a planet with no sea
     over_sea_m: f32,
-    // How far the ground within the pixel goes above and below that: by its slope alone, and with all that is no wider than pixels
+    // Half the range of heights within the pixel in metres: from the slope alone, and with all relief no wider than
+    // pixels
     plane_m: f32,
     spread_m: f32,
-    // What a metre of height adds to the place in the table (xy) and to the temperature (z)
+    // Change by a metre of height: of the location in the biome table (xy) and of the temperature in °C (z)
     by_height: vec3f,
     footprint_m: f32,
-    // -1 to 1
+    // Macro variation, -1 to 1
     mottle: f32,
 }
 
 struct Material {
     albedo: vec3f,
     roughness: f32,
-    // Reflectance at a right angle
+    // Reflectance at normal incidence
     specular: f32,
-    // Rise over run of the pattern, as a gradient in the planet frame
+    // Slope of the pattern (rise over run), as a gradient in the planet frame
     slope: vec3f,
-    // Radiance of its own
+    // Emitted radiance
     glow: vec3f,
 }
 
@@ -45,20 +47,21 @@ fn biome_at(cell: vec2i) -> i32 {
     return i32(textureLoad(biome_ids, clamp(cell, vec2i(0), last), 0).r * 255.0 + 0.5);
 }
 
-// From 0 at `from` to 1 at `to`, whichever is greater.
+// Smooth step from 0 at `from_x` to 1 at `to_x`; either may be the greater.
 fn soft(from_x: f32, to_x: f32, x: f32) -> f32 {
     let span = to_x - from_x;
     let t = saturate1((x - from_x) / select(span, 1e-6, span == 0.0));
     return t * t * (3.0 - 2.0 * t);
 }
 
-// Integral of what a beach's height alone makes of it, from its middle on: all up to 0.7 of its half width, nothing from 1.3 on.
+// Integral over height of the beach's share, from sea level to `height_m`: the share is 1 up to 0.7 of the beach's
+// height `edge_m` and 0 from 1.3 of it on.
 fn beach_to(edge_m: f32, height_m: f32) -> f32 {
     let u = saturate1((abs(height_m) / edge_m - 0.7) / 0.6);
     return sign(height_m) * edge_m * (min(abs(height_m) / edge_m, 0.7) + 0.6 * (u - u * u * u + 0.5 * u * u * u * u));
 }
 
-// How much of the ground is beach by height. Where a pixel is wider than a beach, its share of the land that is in the pixel.
+// Share of beach by height. Where a pixel spans more than a beach, its share of the land in the pixel.
 fn beach_by_height(site: Site) -> f32 {
     let beach = biome_param(BIOME_RULES, 0);
     if beach.x < 0.0 { return 0.0; }
@@ -70,19 +73,20 @@ fn beach_by_height(site: Site) -> f32 {
     return saturate1((beach_to(edge_m, high_m) - beach_to(edge_m, land_m)) / max(high_m - land_m, 1e-4));
 }
 
-// How far above the middle of a pixel snow covers all of the ground (x), and how far none (y): metres.
+// Height above the middle of a pixel from which snow covers all ground (x), and below which there is none (y), in
+// metres.
 fn snow_heights(site: Site) -> vec2f {
     let snow = biome_param(BIOME_RULES, 1);
     if snow.x < 0.0 { return vec2f(2e9, 1e9); }
     let line_c = snow.y + 0.35 * snow.z * site.mottle;
-    // As if the edge were as much softer as temperatures in the pixel differ by its slope.
+    // The edge is widened by the range of temperatures within the pixel that is due to its slope.
     let colder = min(site.by_height.z, -1e-6);
     let plane_c = site.plane_m * colder;
     let soft_c = 0.5 * sqrt(snow.z * snow.z + 6.7 * plane_c * plane_c + 1e-6);
     return (vec2f(line_c - soft_c, line_c + soft_c) - site.temperature_c) / colder;
 }
 
-// The rules for slopes of the biomes around (rows 5 of their numbers), and of beach and snow.
+// Slope rules of the four biomes around (row 5 of their parameters), of beaches and of snow.
 fn slope_rules(cells: array<vec4f, 4>, site: Site) -> SlopeRules {
     let covers = biome_param(BIOME_RULES, 2);
     let shift = 0.04 * site.mottle;
@@ -92,7 +96,7 @@ fn slope_rules(cells: array<vec4f, 4>, site: Site) -> SlopeRules {
     return SlopeRules(from_x, to_x, covers.yw - covers_shift, covers.xz - covers_shift, snow_heights(site));
 }
 
-// The biome by the same rules without soft edges: what a query answers.
+// Biome by the same rules with hard edges: the answer of a query.
 fn biome_of(site: Site) -> i32 {
     var id = biome_at(vec2i(floor(site.table * vec2f(textureDimensions(biome_ids)))));
     let rule = biome_param(id, 5);
@@ -115,7 +119,7 @@ fn covers_hard(site: Site) -> vec2<bool> {
     return vec2<bool>(is_beach, is_snow);
 }
 
-// Sums over all biomes at a place, and the two strongest.
+// Weighted sums over all biomes at a pixel, and the two strongest biomes.
 struct Mixture {
     albedo: vec3f,
     roughness: f32,
@@ -136,7 +140,7 @@ fn patch_share(tile_m: f32, patches: f32, site: Site) -> f32 {
     return mix(smoothstep(-edge, edge, patches - noise), patches, away);
 }
 
-// Adds a biome with its weight.
+// Adds a biome with a weight.
 fn put(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
     let plain = biome_param(id, 0);
     let patches = biome_param(id, 1);
@@ -161,11 +165,11 @@ fn put(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
     }
 }
 
-// The cells of the table around a place, as a texture's linear filter has them.
+// The four cells of the biome table around a location, weighted as by bilinear filtering.
 struct Cells {
     ids: array<i32, 4>,
     shares: vec4f,
-    // Rows 5 of their numbers
+    // Row 5 of their parameters
     rules: array<vec4f, 4>,
 }
 
@@ -182,14 +186,14 @@ fn cells_at(table: vec2f) -> Cells {
     return out;
 }
 
-// `steep`: how much of each cell's ground is steep; `cover`: how much is beach and snow.
+// `steep`: share of steep ground for each cell. `cover`: shares of beach and snow.
 fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
     var ids: array<i32, MIXTURE_ENTRIES>;
     var weights: array<f32, MIXTURE_ENTRIES>;
     let bare = (1.0 - cover.x) * (1.0 - cover.y);
     for (var i = 0; i < 4; i++) {
         let weight = bare * cells.shares[i];
-        // What gives way to nothing has no rule.
+        // A biome without a steep rule keeps its steep ground.
         let into = cells.rules[i].x;
         let gone = select(0.0, steep[i], into >= 0.0);
         ids[2 * i] = cells.ids[i];
@@ -201,7 +205,7 @@ fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
     weights[8] = cover.x * (1.0 - cover.y);
     ids[9] = max(i32(biome_param(BIOME_RULES, 1).x), 0);
     weights[9] = cover.y;
-    // Most often all are the same.
+    // Usually all are the same biome.
     for (var i = 1; i < 8; i++) {
         if ids[i] == ids[0] { weights[0] += weights[i]; weights[i] = 0.0; }
     }
@@ -212,8 +216,8 @@ fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
     return mixture;
 }
 
-// The mixture at a pixel. Where it has more height in it than a cell of the table, that of a few layers from the lowest to the highest
-// ground: peaks and valleys no wider than pixels would sparkle.
+// Mixture at a pixel. Where the heights in the pixel span more than a cell of the biome table, the mean of several
+// height bands from the lowest to the highest ground, because peaks and valleys no wider than pixels would sparkle.
 fn mixture_at(site: Site) -> Mixture {
     let cells = cells_at(site.table);
     let rules = slope_rules(cells.rules, site);
@@ -223,7 +227,7 @@ fn mixture_at(site: Site) -> Mixture {
     let size = vec2f(textureDimensions(biome_ids));
     let spread = site.spread_m * site.by_height.xy;
     let crossed = max(abs(spread.x) * size.x, abs(spread.y) * size.y);
-    // Above and below the middle one, which has the patterns.
+    // Bands above and below the middle band, which alone has patterns.
     let half = i32(clamp(ceil(crossed - 0.25), 0.0, 2.0));
     let share = 1.0 / f32(2 * half + 1);
     for (var i = -half; i <= half; i++) {
@@ -246,13 +250,14 @@ fn mixture_at(site: Site) -> Mixture {
     return sum;
 }
 
-// Everything at a pixel. `rel_x`, `rel_y`: from pixel to pixel, metres; `n`, `up`: of the ground and of the sphere.
+// Material at a pixel. `rel_x`, `rel_y`: steps to the next pixel in metres. `n`, `up`: normals of the ground and of the
+// sphere.
 fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> Material {
     let mixture = mixture_at(site);
     let both = mixture.weights.x + mixture.weights.y;
     let share = mixture.weights.y / max(both, 1e-6);
     let seen = Seen(site.rel_m, n, up, rel_x, rel_y, site.footprint_m);
-    // Low quality has the pattern of the strongest alone.
+    // Low quality draws the pattern of the strongest biome only.
     let strongest = select(0, 1, share > 0.5);
     var patterns: array<Pattern, 2>;
     patterns[0] = no_pattern();
@@ -267,7 +272,8 @@ fn material_at(site: Site, n: vec3f, up: vec3f, rel_x: vec3f, rel_y: vec3f) -> M
     var t = share;
     if frame.pattern_quality > 0.0 { t = share_by_height(a, b, share); }
     let tinted = mix(mixture.first_color * a.tint, mixture.second_color * b.tint, t);
-    out.albedo = max(mixture.albedo + both * (tinted - mix(mixture.first_color, mixture.second_color, share)), vec3f(0.0));
+    let plain = mix(mixture.first_color, mixture.second_color, share);
+    out.albedo = max(mixture.albedo + both * (tinted - plain), vec3f(0.0));
     out.roughness = clamp(mixture.roughness + mix(a.roughness, b.roughness, t), 0.04, 1.0);
     out.slope = mix(a.slope, b.slope, t);
     out.glow = mix(a.glow, b.glow, t);

@@ -1,9 +1,10 @@
-// The patterns of the ground: a tiling picture for each kind, seen along three axes, at two scales that never repeat together,
-// and carried downhill where it flows. Must match src/render/material_maps.rs and biome_table.rs.
+// Patterns of the ground: a tiling texture for each kind, projected along three axes (triplanar), at two scales whose
+// periods never coincide, and advected downhill where the material flows. Layout of the texels:
+// src/render/material_maps.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
 #include "tables.wgsl"
 
-// A piece of ground as a pixel sees it.
+// The ground under a pixel.
 struct Seen {
     rel_m: vec3f,
     n: vec3f,
@@ -14,22 +15,23 @@ struct Seen {
 }
 
 struct Pattern {
-    // Mean 1
+    // Factor on the albedo, with mean 1
     tint: vec3f,
-    // 0 to 1, evenly spread; 0.5 without a pattern
+    // Height of the pattern, distributed evenly over 0 to 1; 0.5 without a pattern
     height: f32,
     slope: vec3f,
     roughness: f32,
     glow: vec3f,
-    // 0 from near, 1 where only the mean is left
+    // 0 in the foreground, 1 where only the mean is left
     far: f32,
     shown: f32,
 }
 
 fn no_pattern() -> Pattern { return Pattern(vec3f(1.0), 0.5, vec3f(0.0), 0.0, vec3f(0.0), 1.0, 0.0); }
 
-// How much of the second shows where it has this share (at most a half) on the whole: where it is so much higher than the first.
-// Of two heights that are spread evenly, or one and a plane, so much of the ground is beyond the threshold.
+// Weight of the second pattern where its share is `share` on average (at most a half): it shows where it is higher than
+// the first by a threshold. With two heights distributed evenly, or one such height and a plane, exactly that share of
+// the ground is above the threshold.
 fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
     let patterns = a.shown + b.shown;
     if patterns < 0.5 { return share; }
@@ -38,11 +40,11 @@ fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
     return mix(smoothstep(threshold - edge, threshold + edge, b.height - a.height), share, max(a.far, b.far));
 }
 
-// Turned by the angle of the triangle with sides 3, 4 and 5: what repeats after 1024 m still does.
+// Rotation by the angle of the triangle with sides 3, 4 and 5: a pattern that repeats after 1024 m still does.
 fn turned(p: vec2f) -> vec2f { return vec2f(0.6 * p.x + 0.8 * p.y, 0.6 * p.y - 0.8 * p.x); }
 fn turned_back(p: vec2f) -> vec2f { return vec2f(0.6 * p.x - 0.8 * p.y, 0.6 * p.y + 0.8 * p.x); }
 
-// The two coordinates of a plane across an axis, and back.
+// The two coordinates in the plane perpendicular to an axis, and back.
 fn flat_on(p: vec3f, axis: u32) -> vec2f {
     if axis == 0u { return p.yz; }
     if axis == 1u { return p.zx; }
@@ -54,8 +56,8 @@ fn raised_from(p: vec2f, axis: u32) -> vec3f {
     return vec3f(p.xy, 0.0);
 }
 
-// How much each plane shows: the one that the ground faces, and others where it faces both; sharply, or patterns show through
-// each other. Low quality has one.
+// Weights of the three projections, with narrow blends, because otherwise patterns show through each other. Low quality
+// uses the strongest projection alone.
 fn plane_shares(n: vec3f) -> vec3f {
     var w = n * n;
     w = w * w * w;
@@ -65,7 +67,7 @@ fn plane_shares(n: vec3f) -> vec3f {
     return w / (w.x + w.y + w.z);
 }
 
-// The nth of the axes whose planes show: taps that count for nothing are left out, not multiplied by zero.
+// The nth axis with a positive weight: taps of weight 0 are skipped, not multiplied by zero.
 fn shown_axis(planes: vec3f, nth: u32) -> u32 {
     let is_shown = planes > vec3f(0.0);
     let x = u32(is_shown.x);
@@ -73,8 +75,9 @@ fn shown_axis(planes: vec3f, nth: u32) -> u32 {
     return select(select(2u, 1u, nth < xy), 0u, nth < x);
 }
 
-// Seen from the side, a pixel is long: so many taps along it stay sharper than one as wide as it is long. One is enough where pixels
-// are hardly longer than wide, and where the whole pixel lies within a texel.
+// Number of taps along the longer side of a pixel's footprint: several taps stay sharper than one as wide as the
+// footprint is long. One is enough where pixels are hardly longer than wide, and where the whole pixel lies within a
+// texel.
 fn taps_along(seen: Seen, texel_m: f32, most: u32) -> u32 {
     let x = length(seen.rel_x);
     let y = length(seen.rel_y);
@@ -82,23 +85,23 @@ fn taps_along(seen: Seen, texel_m: f32, most: u32) -> u32 {
     return min(most, select(select(4u, 2u, needed < 2.8), 1u, needed < 1.4));
 }
 
-// How hot what glows is, here against elsewhere (mean 1): thin crust here and thick there, without which a glow, the brightest
-// thing by night, shows the lattice on which its pattern repeats.
+// Temperature of glowing ground relative to the mean (1): the crust varies in thickness. Without this, the glow, the
+// brightest thing at night, shows the lattice of the repeating pattern.
 fn heat(seen: Seen, period_m: f32, glow: f32) -> f32 {
     if glow <= 0.0 { return 1.0; }
     var sum = 0.0;
     for (var i = 0u; i < 2u; i++) {
-        // A whole number of tiles to what the eye's place is wrapped to.
+        // A whole number of noise tiles fits into the 1024 m by which the position of the eye is wrapped.
         let tiles = max(round(select(0.09, 0.021, i == 1u) * 1024.0 / period_m), 1.0);
         let at = (body.eye_wrap_m + seen.rel_m) * (tiles / 1024.0);
         sum += textureSampleLevel(noise_tile, repeated, at.yzx, max(log2(seen.footprint_m * tiles / 16.0), 0.0)).g;
     }
-    // Both are spread evenly over 0 to 1.
+    // Both values are distributed evenly over 0 to 1.
     return 2.0 * smoothstep(0.35, 1.65, sum);
 }
 
-// The pattern of a biome (a column of `biome_params`); -1 has none. One loop over all taps: a program that has each of them spelled
-// out takes a software driver minutes to compile.
+// The pattern of a biome (a column of `biome_params`); -1 has none. All taps share one loop, because a software driver
+// takes minutes to compile the unrolled taps.
 fn pattern_of(id: i32, seen: Seen) -> Pattern {
     var out = no_pattern();
     if id < 0 { return out; }
@@ -106,10 +109,10 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let size = textureLoad(biome_params, vec2i(id, 3), 0);
     let glow = textureLoad(biome_params, vec2i(id, 4), 0);
     let lod = log2(seen.footprint_m * PATTERN_SIDE / size.x);
-    // Where not even the coarsest level would show more than its mean, a glow excepted.
+    // At this distance the coarsest level shows only its mean. Glow is still drawn.
     if layer < 0 || (lod > 8.5 && size.w <= 0.0) { return out; }
 
-    // Downhill; each of two copies is carried for a while and starts anew while the other is shown.
+    // Flow downhill: two copies of the pattern are advected and reset in turn, and each fades out before its reset.
     let flows = size.z > 0.0 && lod < 6.0;
     let downhill = seen.n - seen.up * dot(seen.n, seen.up);
     let steep = length(downhill);
@@ -117,7 +120,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let turn = fract(frame.time_secs * size.z / (0.5 * size.x));
 
     let planes = plane_shares(seen.n);
-    // The finer scale is for what is right before one's feet; it also hides that the coarser one repeats.
+    // The finer scale is for the ground at one's feet; it also hides the repetition of the coarser scale.
     let scales = select(1u, 2u, frame.pattern_quality > 0.0 && lod < 7.0);
     let steps = taps_along(seen, select(size.x, glow.w, scales == 2u) / PATTERN_SIDE, 1u << u32(frame.pattern_quality));
     let axes = u32(planes.x > 0.0) + u32(planes.y > 0.0) + u32(planes.z > 0.0);
@@ -162,7 +165,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);
     out.height = rest.x;
     out.roughness = (rest.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
-    // Cooler is redder.
+    // Cooler ground glows redder.
     out.glow = heat(seen, size.x, size.w) * rest.z * size.w * pow(glow.rgb, vec3f(1.7 - 0.9 * saturate1(rest.z)));
     out.far = smoothstep(1.0, 5.0, lod);
     out.shown = 1.0;

@@ -1,34 +1,36 @@
-// Constants and ray geometry. Everything that meets a sphere works from the altitude over it, never from |p|^2 - R^2,
-// which loses every digit in 32 bits near the ground.
+// Constants and ray geometry. Intersections with spheres are computed from the altitude over the sphere, never from
+// |p|^2 - R^2, which loses all digits in 32 bits near the ground.
 
 const PI: f32 = 3.14159265;
-// Farther than anything.
+// Distance of a ray that hits nothing.
 const NOTHING_KM: f32 = 1e9;
 
 fn saturate1(x: f32) -> f32 { return clamp(x, 0.0, 1.0); }
 
 fn luminance(c: vec3f) -> f32 { return dot(c, vec3f(0.2126, 0.7152, 0.0722)); }
 
-// Near and far distance at which a ray meets a sphere; far < near when it does not.
-// `b`: dot(origin from the centre, ray direction); `c`: |origin|^2 - radius^2, which the caller gets as
-// (h - h_sphere) * (2R + h + h_sphere) from altitudes.
+// Near and far distance at which a ray meets a sphere; far < near without a hit. `b`: dot(origin from the centre, ray
+// direction). `c`: |origin|^2 - radius^2, computed by the caller as (h - h_sphere) * (2R + h + h_sphere) from
+// altitudes.
 fn ray_sphere(b: f32, c: f32) -> vec2f {
     let discriminant = b * b - c;
     if discriminant < 0.0 { return vec2f(1.0, -1.0); }
-    // The root that does not cancel, and the other from the product of both.
+    // One root without cancellation; the other follows from the product of the roots.
     let q = -b - select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
     let other = select(c / q, 0.0, q == 0.0);
     return vec2f(min(q, other), max(q, other));
 }
 
-// Altitude after a way `t` from altitude `h` over a sphere of radius `radius` when the cosine to the zenith was `mu`.
+// Altitude at distance `t` along a ray that starts at altitude `h` over a sphere of radius `radius`. `mu`: cosine of
+// the ray to the zenith at its start.
 fn altitude_along(radius: f32, h: f32, mu: f32, t: f32) -> f32 {
     let r = radius + h;
     let grown = t * (t + 2.0 * r * mu);
     return h + grown / (r + sqrt(max(r * r + grown, 0.0)));
 }
 
-// Samples crowd about `middle`, such as the lowest point of a way, where air is densest: t = middle + w|w|.
+// Distance t = middle + w|w|: even steps in w place samples densely around `middle`, such as the lowest point of a ray,
+// where the air is densest.
 fn bent(w: f32, middle: f32) -> f32 { return middle + w * abs(w); }
 
 // Integer hash (pcg3d, Jarzynski and Olano, Hash Functions for GPU Rendering, 2020).

@@ -1,6 +1,5 @@
-// What each vertex shows before it has come out of the coarser mesh in full: how far it is drawn above its true place, and its
-// height and climate as the coarser mesh has them. A workgroup for each tile. The same arithmetic as src/lod/morph.rs, which says
-// what it is about.
+// Geomorphing: for each vertex its vertical shift towards the parent's mesh, and its height and climate blended in the
+// same way. One workgroup for each tile. The arithmetic and its source are in src/lod/morph.rs.
 
 #include "shared.wgsl"
 
@@ -8,20 +7,21 @@ const LANES: u32 = 64u;
 
 struct Tile {
     first_vertex: u32,
-    // From vertex to vertex, metres.
+    // Distance between neighbouring vertices, metres.
     spacing_m: f32,
     padding: vec2u,
 }
 
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
-// For each vertex: shift, metres; moisture and temperature on the level that climate counts from; height, metres.
+// For each vertex: shift in metres; moisture and temperature at sea level, or at the reference sphere of a planet with
+// no sea; height in metres.
 @group(0) @binding(1) var<storage, read_write> shown: array<f32>;
 @group(0) @binding(2) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(3) var<uniform> eye: MorphEye;
 
 fn three(word: u32) -> vec3f { return vec3f(vertices[word], vertices[word + 1u], vertices[word + 2u]); }
 
-// How far a vertex has come out: 0 not at all, 1 in full.
+// Share of the morph by which a vertex has reached its exact position: 0 on the parent's mesh, 1 exact.
 fn share_of(word: u32, spacing_m: f32) -> f32 {
     let rel_m = (three(word) - eye.high_m) + (three(word + VERTEX_LOW) - eye.low_m);
     let distance_m = sqrt(dot(rel_m, rel_m));
@@ -30,8 +30,14 @@ fn share_of(word: u32, spacing_m: f32) -> f32 {
     return saturate((begin_m - distance_m) / (begin_m * eye.width_share));
 }
 
-// Climate and height as the vertex itself has them, in the order of `shown`.
-fn own(word: u32) -> vec3f { return vec3f(vertices[word + VERTEX_MOISTURE], vertices[word + VERTEX_TEMPERATURE], vertices[word + VERTEX_HEIGHT]); }
+// Moisture, temperature and height of the vertex without morph, in the order of `shown`.
+fn own(word: u32) -> vec3f {
+    return vec3f(
+        vertices[word + VERTEX_MOISTURE],
+        vertices[word + VERTEX_TEMPERATURE],
+        vertices[word + VERTEX_HEIGHT],
+    );
+}
 
 fn shown_of(word: u32) -> vec3f { return vec3f(shown[word + 1u], shown[word + 2u], shown[word + 3u]); }
 
@@ -55,7 +61,7 @@ fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
             let y = i / side;
             let odd = vec2u(x & 1u, y & 1u);
             if all(odd == vec2u(0u)) { continue; }
-            // The coarser quad's diagonal goes from the middle of a block of two by two to its corner.
+            // The diagonal of the coarser quad runs from the middle of a block of two by two quads to its corner.
             let turned = odd.x == 1u && odd.y == 1u && ((x / 2u + y / 2u) & 1u) == 1u;
             let from_x = select(x - odd.x, x + odd.x, turned);
             let to_x = select(x + odd.x, x - odd.x, turned);

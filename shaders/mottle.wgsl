@@ -1,19 +1,20 @@
-// Natural unevenness of ground and ice: octaves of a tiling noise with mip levels. The mip level follows the pixel's
-// footprint, so that what is finer than a pixel gives exactly its mean: no shimmer, and no change of colour with distance.
+// Macro variation of ground and ice: octaves of a tiling noise with mip levels. The mip level follows the pixel's
+// footprint, so structure finer than a pixel gives exactly its mean: no shimmer, and no change of colour with distance.
 #include "uniforms.wgsl"
 #include "tables.wgsl"
 
-// Height of the bumps of an octave, as a share of its period.
+// Height of an octave's bumps, as a share of its period.
 const BUMPS: f32 = 0.02;
 
-// How much of an octave is shown: it fades before its tile is so small that one sees it repeat.
+// Weight of an octave: it fades out before its tile is small enough on screen for the repetition to show.
 fn octave_share(lod: f32) -> f32 { return 1.0 - smoothstep(-0.5, 3.0, lod); }
 
 fn octave_at(octave: Octave, place: vec3f, lod: f32) -> f32 {
     return textureSampleLevel(noise_tile, repeated, octave.offset + place / octave.period, lod).g;
 }
 
-// About -1 to 1 with mean 0, at a point relative to the eye; `footprint_m`: width of a pixel there.
+// Macro variation, about -1 to 1 with mean 0, at a point relative to the eye. `footprint_m`: width of a pixel at the
+// point.
 fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
     var sum = 0.0;
     var place = rel_m;
@@ -28,8 +29,9 @@ fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
     return clamp(sum * 1.1, -1.0, 1.0);
 }
 
-// Rise over run along two tangents of the small bumps that belong to it. By differences over a texel to either side: less would show the
-// texels' edges, and differences from pixel to pixel the triangles'.
+// Slope (rise over run) along two tangents of the small bumps of the macro variation. Central differences over one
+// texel to either side: a smaller step would show the edges of texels, and screen-space derivatives would show
+// triangles.
 fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f {
     var rise = vec2f(0.0);
     var place = rel_m;
@@ -63,7 +65,8 @@ fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
         let share = octave_share(lod);
         if share <= 0.0 { break; }
         if i >= 1u {
-            sum += (textureSampleLevel(noise_tile, repeated, (octave.offset + place / octave.period).yzx, lod).rg - 0.5) * share;
+            let at = (octave.offset + place / octave.period).yzx;
+            sum += (textureSampleLevel(noise_tile, repeated, at, lod).rg - 0.5) * share;
         }
         place = OCTAVE_TURN * place;
     }

@@ -1,9 +1,10 @@
-// Table: light scattered twice or more (Hillaire 2020, section 5.5), by cosine to the star and altitude.
+// LUT of light scattered twice or more (Hillaire 2020, section 5.5), by the sun's cosine to the zenith and altitude.
 #include "screen.wgsl"
 #include "light.wgsl"
 
-// Rings of equal height, as in src/atmosphere/multiscatter.rs. What is seen changes from one side of the horizon to the other, so
-// that each side has its own: Gauss and Legendre's places between 0, the horizon, and 1, and what each counts.
+// Directions are sampled in rings of equal elevation, as in src/atmosphere/multiscatter.rs. Radiance jumps at the
+// horizon, so each side of it has its own Gauss-Legendre nodes between the horizon (0) and the zenith or nadir (1),
+// with their weights.
 const UPPER: u32 = 7u;
 const LOWER: u32 = 5u;
 const PLACES: array<vec2f, 12> = array<vec2f, 12>(
@@ -70,10 +71,11 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         }
         if hits {
             let mus = clamp(((radius + h) * sun_mu + way * cosines) / radius, vec2f(-1.0), vec2f(1.0));
-            let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0) + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
+            let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0)
+                + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
             second += transmittance * light * body.ground_albedo * (share / (2.0 * PI));
         }
     }
-    // Each further scattering returns the same share, so the sum is a geometric series.
+    // Each further order of scattering returns the same share, so the sum is a geometric series.
     return vec4f(second / (1.0 - min(returned, vec3f(0.999))) * MULTISCATTER_SCALE, 1.0);
 }

@@ -1,5 +1,5 @@
-// Table: optical depth from an altitude to the top of the air, by cosine to the zenith. Depths are stored, not transmittances:
-// between texels they change evenly, and 16 bits hold those of the deepest red sunset.
+// LUT of the optical depth from an altitude to the top of the air, by cosine to the zenith. Optical depth is stored,
+// not transmittance: it is smoother between texels, and 16 bits hold the depth of the deepest red sunset.
 #include "screen.wgsl"
 #include "air_model.wgsl"
 
@@ -19,7 +19,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     var mu = 1.0;
     if way > 0.0 { mu = clamp((horizon2 - rho * rho - way * way) / (2.0 * r * way), -1.0, 1.0); }
 
-    // Steps crowd about the lowest point of the way, where air is densest.
+    // Steps are dense around the lowest point of the path, where the air is densest.
     const STEPS: u32 = 40u;
     let middle = clamp(-r * mu, 0.0, way);
     let start = -sqrt(middle);

@@ -1,8 +1,9 @@
-// Light of the sky from all sides at once, for the tables.
+// Mean light of the sky over all azimuths, for LUTs.
 #include "light.wgsl"
 
-// Mean radiance of the sky at a cosine to the zenith (0 to 1) over all azimuths, from an altitude, for unit irradiance. One march
-// serves all azimuths. `around`: points along half of the ring; the other half is its mirror image.
+// Mean radiance of the sky over all azimuths at a cosine to the zenith (0 to 1), seen from an altitude in km, for unit
+// irradiance. One march serves all azimuths. `around`: samples along half of the ring; the other half is its mirror
+// image.
 fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
     let radius = body.radius_km;
     let top = body.air_height_km;
@@ -12,7 +13,7 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
     let flat = sqrt(max(0.0, 1.0 - mu * mu)) * sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
     var sum = vec3f(0.0);
     var transmittance = vec3f(1.0);
-    // Distance and height of the stretch before, to know how the star's height changes.
+    // Distance and altitude of the previous step, for the change of the sun's elevation along the step.
     var last_t = 0.0;
     var last_height = h;
     for (var i = 0u; i < steps; i++) {

@@ -1,7 +1,7 @@
-// March through the air along a ray.
+// Single and multiple scattering along a ray through the air.
 #include "light.wgsl"
 
-// Part of a ray within the air: from, to, in km; to <= from when there is none.
+// Range of a ray within the air: start and end in km; end <= start without air.
 fn way_through_air(h: f32, mu: f32, far: f32) -> vec2f {
     let radius = body.radius_km;
     let top = body.air_height_km;
@@ -10,14 +10,15 @@ fn way_through_air(h: f32, mu: f32, far: f32) -> vec2f {
 }
 
 struct AirLight {
-    // What the air scatters towards the eye, for unit irradiance
+    // Radiance scattered towards the eye, for unit irradiance
     radiance: vec3f,
-    // Of the whole way, and of the way to the cloud
+    // Transmittance of the whole path, and of the path to the cloud
     transmittance: vec3f,
     to_cloud: vec3f,
 }
 
-// Marches up to `far` along a ray; `up` at the eye. Of the air behind a cloud at `cloud_at` only `cloud_through` is seen.
+// Marches a ray up to `far` km. `up`: zenith at the eye. Light of the air behind a cloud at `cloud_at` km is multiplied
+// by `cloud_through`.
 fn air_light(
     h: f32, up: vec3f, dir: vec3f, sun: vec3f, far: f32, steps: f32, cloud_at: f32, cloud_through: f32,
 ) -> AirLight {
@@ -43,7 +44,7 @@ fn air_light(
         let height = altitude_along(radius, h, mu, t);
         let sun_mu = clamp(((radius + h) * sun_up + t * cosine) / (radius + height), -1.0, 1.0);
         let air = air_at(height);
-        // The shadow of the planet begins somewhere within a stretch: the mean over it, or few steps would show as bands.
+        // The planet's shadow begins somewhere within a segment; the mean over the segment avoids bands with few steps.
         let over = sun_mu - horizon_cosine(height);
         let visible = disc_share(over, select(over - last_over, 0.0, i == 0.0));
         last_over = over;
@@ -63,7 +64,7 @@ fn air_light(
     return out;
 }
 
-// The same down to the smooth ground or out into space, without clouds.
+// Radiance scattered along a ray to the smooth ground or out into space, without clouds.
 fn scattered_from(h: f32, up: vec3f, dir: vec3f, sun: vec3f, steps: f32) -> vec3f {
     let radius = body.radius_km;
     let mu = dot(dir, up);

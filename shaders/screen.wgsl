@@ -1,4 +1,4 @@
-// A triangle over the whole target, and the ray through each pixel.
+// A triangle that covers the whole target, and the ray through each pixel.
 #include "uniforms.wgsl"
 
 @vertex
@@ -7,17 +7,17 @@ fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f 
     return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 
-// Offset in metres from the point `rel_m` of a plane with normal `n` to the point of the plane one pixel aside. `across`: step of the
-// pixel's ray, `body.pixel_right` or `body.pixel_up`.
+// Offset in metres from the point `rel_m` of a plane with normal `n` to the point of the plane one pixel away.
+// `across`: change of the ray to that pixel, `body.pixel_right` or `body.pixel_up`.
 fn pixel_step(rel_m: vec3f, n: vec3f, across: vec3f) -> vec3f {
     let away_m = dot(rel_m, body.view_axis);
     let ray = rel_m / away_m;
-    // A plane seen nearly along itself would step to infinity.
+    // For a plane seen edge-on the step would be infinite.
     let towards = max(-dot(ray, n), 0.02 * length(ray));
     return away_m * (across + ray * (dot(across, n) / towards));
 }
 
-// Ray through a pixel of the scene, not normalised: one unit of it is one unit of depth.
+// Ray through a pixel of the scene, not normalised: its depth (distance along the view axis) is 1.
 fn pixel_ray(pixel: vec2f) -> vec3f {
     let ndc = (pixel - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
     return body.ray_center + body.ray_right * ndc.x + body.ray_up * ndc.y;

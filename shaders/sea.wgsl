@@ -1,8 +1,9 @@
-// The sea's surface: waves, reflection, ice.
+// The surface of the sea: waves, reflection, ice.
 #include "cloud_model.wgsl"
 #include "mottle.wgsl"
 
-// Heights of three sets of wave groups, some hundred metres wide; the mean of their squares is 1. `footprint_m`: width of a pixel there.
+// Amplitudes of three sets of wave groups, some hundred metres wide; their mean square is 1. `footprint_m`: width of a
+// pixel at the point.
 fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
     let octave = body.mottle[2];
     let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
@@ -14,26 +15,26 @@ fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
 
 struct Waves {
     normal: vec3f,
-    // Variance of the slope of all waves too small to be seen
+    // Variance of the slope of all waves too small to be drawn
     rest: f32,
 }
 
 // Sum of plane waves in the planet frame. A wave shorter than a few pixels fades into roughness (Bruneton, Neyret,
-// Holzschuch, Real-time Realistic Ocean Lighting, 2010), so that the mean stays and nothing shimmers.
-// `step_x`, `step_y`: from pixel to pixel along the sea, metres. `broad`: slow noise that makes crests wander. It must change little
+// Holzschuch, Real-time Realistic Ocean Lighting, 2010), so that the mean stays and nothing shimmers. `step_x`,
+// `step_y`: steps to the next pixel along the sea, metres. `broad`: slow noise that bends crests. It must change little
 // over a wavelength, or crests follow the contours of the noise like the grain of wood.
 fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -> Waves {
     let total = body.wave_slope_variance;
     var slope = vec3f(0.0);
     var seen = 0.0;
     if min(length(step_x), length(step_y)) < 20.0 {
-        // Three quarters of the variance are in waves long enough to be drawn.
-        // Each wave bends the next one's crests, or they would cross in a pattern.
+        // Three quarters of the variance belong to waves long enough to be drawn. Each wave bends the crests of the
+        // next; straight crests would cross in a pattern.
         var twist = broad * 16.0;
-        // Its gradient: bent crests lie closer together here and there, and fade where they do.
+        // Gradient of `twist`. It changes the distance between crests; waves fade where crests are too close.
         var twist_k = vec3f(0.0);
         let each = 0.75 * total / f32(WAVES);
-        // Waves come in groups: one long wave alone would be a grid of straight lines.
+        // Waves come in groups: a single long wave would be a grid of straight lines.
         let groups = wave_groups(rel_m, min(length(step_x), length(step_y)));
         for (var i = 0u; i < WAVES; i++) {
             let wave = body.waves[i];
@@ -41,7 +42,9 @@ fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -
             let k = length(along);
             let phase = dot(wave.vector_per_m, rel_m) + wave.phase + twist;
             let bent_k = along + twist_k;
-            let cycles = max(max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y))), max(abs(dot(along, step_x)), abs(dot(along, step_y)))) / (2.0 * PI);
+            let bent_turn = max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y)));
+            let straight_turn = max(abs(dot(along, step_x)), abs(dot(along, step_y)));
+            let cycles = max(bent_turn, straight_turn) / (2.0 * PI);
             twist = 1.3 * sin(phase) + 0.4 * twist;
             twist_k = 1.3 * cos(phase) * bent_k + 0.4 * twist_k;
             let weight = 1.0 - smoothstep(0.08, 0.28, cycles);
@@ -63,7 +66,7 @@ fn fresnel_sea(cosine: f32, variance: f32) -> f32 {
     return 0.02 + 0.98 * grazing / (1.0 + 22.7 * pow(sigma, 1.5));
 }
 
-// Radiance of the star's glint per irradiance: Gaussian slopes (Cox and Munk, 1954) as a Beckmann distribution.
+// Radiance of the sun's glint for unit irradiance: Gaussian slopes (Cox and Munk, 1954) as a Beckmann distribution.
 fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
     let n_l = dot(n, l);
     let n_v = max(dot(n, v), 0.03);
@@ -72,12 +75,12 @@ fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
     let c2 = max(dot(n, middle) * dot(n, middle), 1e-4);
     let slopes = exp(-(1.0 - c2) / (c2 * variance)) / (PI * variance * c2 * c2);
     let fresnel = 0.02 + 0.98 * pow(1.0 - saturate1(dot(v, middle)), 5.0);
-    // Waves hide each other at grazing angles (a cheap fit of Smith's term).
+    // Waves hide each other at grazing angles (approximation of Smith's term).
     let hidden = 1.0 / (1.0 + variance * (1.0 / max(n_l * n_l, 0.01) + 1.0 / (n_v * n_v)) * 0.25);
     return fresnel * slopes * hidden / (4.0 * n_v);
 }
 
-// Share of the sea that is frozen at a temperature, with an edge that noise breaks up.
+// Share of ice at a temperature, with an edge broken up by noise.
 fn frozen(temperature_c: f32, mottle: f32, broad: f32) -> f32 {
     let broken = temperature_c + broad * 3.0 + mottle * 1.2;
     return 1.0 - smoothstep(-0.4, 0.4, broken - body.freezing_c);

@@ -1,4 +1,5 @@
-// Table: radiance of the sky from the reference sphere, the mean over all azimuths, by cosine to star and zenith.
+// LUT of the sky's radiance seen from the reference sphere, the mean over all azimuths, by the cosines of sun and view
+// to the zenith.
 #include "screen.wgsl"
 #include "ring.wgsl"
 

@@ -1,8 +1,9 @@
-// What the air scatters along given rays, by the very functions that the picture is drawn with; see src/render/sky_probe.rs.
+// Radiance and transmittance of the air along given rays, by the functions that draw the picture; see
+// src/render/sky_probe.rs.
 #include "screen.wgsl"
 #include "scattering.wgsl"
 
-// One ray for each column. Row 0: direction, altitude in km; row 1: direction of the star; the zenith is +Z.
+// One ray for each column. Row 0: direction, altitude in km. Row 1: direction of the sun. The zenith is +Z.
 @group(2) @binding(0) var rays: texture_2d<f32>;
 
 struct Answer {

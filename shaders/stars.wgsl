@@ -1,8 +1,8 @@
-// Stars: one to a cell of a grid on a cube around the planet, a soft point as wide as a pixel, so that they stay as
-// bright when the picture is larger or smaller.
+// Stars: at most one in each cell of a grid on a cube around the planet, drawn as a soft point as wide as a pixel, so
+// that brightness does not depend on the size of the picture.
 #include "math.wgsl"
 
-// `share`: of the cells that have a star.
+// `share`: share of the cells that have a star.
 fn star_layer(dir: vec3f, cells: f32, seed: u32, share: f32, pixel_rad: f32) -> vec3f {
     let a = abs(dir);
     var axis = 0u;
@@ -15,14 +15,14 @@ fn star_layer(dir: vec3f, cells: f32, seed: u32, share: f32, pixel_rad: f32) -> 
     let bits = hash3(vec3u(vec2u(cell), face * 977u + seed));
     let r = unit_from_hash(bits);
     let more = unit_from_hash(hash3(bits));
-    // Few bright, many faint.
+    // Few bright stars, many faint ones.
     let magnitude = pow(more.x, 7.0);
     if more.y > share { return vec3f(0.0); }
     let place = cell + 0.2 + 0.6 * r.xy;
     let away = (x - place) * (2.0 / cells) / max(pixel_rad, 0.0006);
     let spot = exp(-dot(away, away) * 1.6);
     let tint = mix(vec3f(1.0, 0.82, 0.66), vec3f(0.72, 0.83, 1.0), r.z);
-    // A pixel that is wider than a star dims it, or a small picture would be full of blots.
+    // Stars are dimmed where a pixel is wider than a star; otherwise a small picture would be full of blots.
     let dim = clamp(0.0009 / pixel_rad, 0.25, 1.0);
     return tint * (spot * dim * (0.07 + 2.0 * magnitude));
 }
@@ -41,17 +41,17 @@ fn sky_noise(p: vec3f) -> f32 {
     return sum;
 }
 
-// Pole of the galaxy, and the direction of its core, at right angles to it.
+// Pole of the galaxy, and the direction of its core, perpendicular to the pole.
 const GALAXY_POLE: vec3f = vec3f(0.48, -0.6, 0.64);
 const GALAXY_CORE: vec3f = vec3f(0.8, 0.6, -0.0375);
 
-// How near a direction is to the plane of the galaxy: 1 in it.
+// Closeness of a direction to the plane of the galaxy: 1 in the plane.
 fn galaxy_band(dir: vec3f) -> f32 {
     let away = dot(dir, GALAXY_POLE) / 0.2;
     return exp(-away * away);
 }
 
-// Glow of the stars too faint to be told apart, in clouds, with dark dust along the plane.
+// Glow of unresolved stars, in clouds, with dark dust along the plane.
 fn galaxy_glow(dir: vec3f, band: f32) -> vec3f {
     if band < 0.02 { return vec3f(0.0); }
     var clouds = 0.0;
@@ -69,9 +69,11 @@ fn galaxy_glow(dir: vec3f, band: f32) -> vec3f {
     return mix(vec3f(0.75, 0.85, 1.0), vec3f(1.0, 0.88, 0.7), core * band) * (0.05 * light);
 }
 
-// Twice as many stars in the plane of the galaxy as away from it.
+// The plane of the galaxy has about twice as many stars as the rest of the sky.
 fn stars(dir: vec3f, pixel_rad: f32) -> vec3f {
     let band = galaxy_band(dir);
     let share = mix(0.2, 0.45, band);
-    return star_layer(dir, 60.0, 1u, share, pixel_rad) + 0.6 * star_layer(dir.yzx, 130.0, 2u, share, pixel_rad) + galaxy_glow(dir, band);
+    let bright = star_layer(dir, 60.0, 1u, share, pixel_rad);
+    let faint = star_layer(dir.yzx, 130.0, 2u, share, pixel_rad);
+    return bright + 0.6 * faint + galaxy_glow(dir, band);
 }

@@ -1,21 +1,22 @@
-// What the ray through a pixel meets first, by depth, and where it meets the sphere of the sea.
+// First hit of the ray through a pixel, from the depth buffer, and its intersections with the sphere at sea level.
 #include "screen.wgsl"
 #include "math.wgsl"
 
 @group(2) @binding(0) var scene_color: texture_2d<f32>;
 @group(2) @binding(1) var scene_depth: texture_depth_2d;
 
-// Distance in km along a ray of length `ray_length` at unit depth; NOTHING_KM for none.
+// Distance in km along a ray, from reverse-Z depth; NOTHING_KM where nothing was drawn. `ray_length`: length of the ray
+// at unit depth.
 fn surface_distance(pixel: vec2i, ray_length: f32) -> f32 {
     let depth = textureLoad(scene_depth, pixel, 0);
     if depth <= 0.0 { return NOTHING_KM; }
     return frame.near_m / depth * ray_length * 0.001;
 }
 
-// The inverse.
+// Inverse of `surface_distance`.
 fn depth_at(distance_km: f32, ray_length: f32) -> f32 { return frame.near_m * ray_length / (distance_km * 1000.0); }
 
-// Near and far distance to the sea's sphere, far < near for none.
+// Distances in km at which a ray enters and leaves the sphere at sea level; x > y without a hit.
 fn sea_hits(dir: vec3f) -> vec2f {
     if body.has_sea == 0u { return vec2f(1.0, -1.0); }
     let h = body.eye_over_sea_km;

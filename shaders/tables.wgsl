@@ -1,4 +1,4 @@
-// Look-up tables and maps that outlive a frame.
+// LUTs and maps that are reused from frame to frame.
 
 @group(1) @binding(0) var depth_table: texture_2d<f32>;
 @group(1) @binding(1) var multiscatter_table: texture_2d<f32>;
@@ -6,7 +6,7 @@
 @group(1) @binding(3) var sky_table: texture_2d<f32>;
 @group(1) @binding(4) var weather_map: texture_cube<f32>;
 @group(1) @binding(5) var noise_tile: texture_3d<f32>;
-// r: index into the palette; g: 1 in a cell that is marked
+// r: index into the palette; g: 1 if the cell is marked in the editor
 @group(1) @binding(6) var biome_ids: texture_2d<f32>;
 @group(1) @binding(7) var biome_params: texture_2d<f32>;
 @group(1) @binding(8) var material_tint: texture_2d_array<f32>;

@@ -1,4 +1,4 @@
-// The ground: tiles, coloured by climate, lit by star and sky; and the debug views of it.
+// The ground: tiles, coloured by climate and lit by suns and sky, and the debug views.
 #include "screen.wgsl"
 #include "cloud_model.wgsl"
 #include "material.wgsl"
@@ -10,19 +10,22 @@ struct Vertex {
     @location(2) low_m: vec3f,
     @location(5) normal_oct: vec2f,
     @location(6) parent_normal_oct: vec2f,
-    // Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
+    // Distances in metres over which the parent's normals take over; level; layer of the detail texture, -1 without
+    // one.
     @location(7) tile: vec4f,
     // The axis that the first tangent of the slopes follows.
     @location(8) slope_axis: vec3f,
-    // The tile's place in its detail tile: corner, side, 0 to 1; the height that its heights count from.
+    // Position of the tile in its detail texture: corner and side, 0 to 1; base height of the texture's heights,
+    // metres.
     @location(9) detail_place: vec4f,
-    // Distances in metres between which the detail of the detail tile's parent takes over; from texel to texel.
+    // Distances in metres over which the parent of the detail texture takes over; metres between texels.
     @location(10) detail_fade: vec4f,
-    // How far the vertex is drawn above its place, until it has come out of the coarser mesh (morph.wgsl).
+    // Vertical shift of the vertex by the morph, metres (morph.wgsl).
     @location(11) shift_m: f32,
-    // Moisture and temperature on the level that climate counts from, and height, the same way.
+    // Moisture and temperature at sea level (at the reference sphere of a planet with no sea), and height in metres,
+    // all with morph.
     @location(12) shown: vec3f,
-    // See `exposed`.
+    // Horizon tile; see `exposed`.
     @location(13) horizon: vec4f,
 }
 
@@ -30,20 +33,20 @@ struct Ground {
     @builtin(position) position: vec4f,
     @location(0) rel_m: vec3f,
     @location(1) normal: vec3f,
-    // Moisture, temperature: on the level that climate counts from
+    // Moisture and temperature in °C, at the same level
     @location(2) level_climate: vec2f,
     @location(3) height_m: f32,
     @location(4) @interpolate(flat) level: f32,
-    // Place in the tile, 0 to 1, and in its detail tile
+    // Position in the tile (xy) and in its detail texture (zw), 0 to 1
     @location(6) place: vec4f,
-    // From the eye that the tile was chosen for
+    // Distance from the eye that the LOD cut was chosen for
     @location(7) chosen_distance_m: f32,
-    // Layer of the detail tile.
+    // Layer of the detail texture
     @location(8) @interpolate(flat) layer: f32,
     @location(9) @interpolate(flat) slope_axis: vec3f,
-    // As in Vertex; w: the height that heights count from
+    // As in Vertex; w: base height of the texture's heights, metres
     @location(10) @interpolate(flat) detail_fade: vec4f,
-    // As the parent's vertices have it; distances between which it takes over.
+    // Normal of the parent's mesh; distances in metres over which it takes over
     @location(11) parent_normal: vec3f,
     @location(12) @interpolate(flat) fade_m: vec2f,
     @location(13) @interpolate(flat) horizon: vec4f,
@@ -62,7 +65,7 @@ fn from_octahedral(e: vec2f) -> vec3f {
 @vertex
 fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     var out: Ground;
-    // High and low parts apart: equal points give equal bits in every tile.
+    // High and low parts are subtracted separately: equal points give equal bits in every tile.
     out.rel_m = (in.high_m - body.eye_high_m) + (in.low_m - body.eye_low_m);
     out.rel_m += in.shift_m * normalize(in.high_m);
     out.position = body.clip_from_rel_m * vec4f(out.rel_m, 1.0);
@@ -74,7 +77,7 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.level_climate = in.shown.xy;
     out.height_m = in.shown.z;
     out.level = in.tile.z;
-    // Each tile's vertices are a whole number of tiles from the buffer's start.
+    // The vertices of a tile start at a multiple of the vertices of a tile in the buffer.
     let number = index % (TILE_SIDE * TILE_SIDE);
     let place = vec2f(vec2u(number % TILE_SIDE, number / TILE_SIDE)) / f32(TILE_SIDE - 1u);
     out.place = vec4f(place, in.detail_place.xy + place * in.detail_place.z);
@@ -85,32 +88,35 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     return out;
 }
 
-// From vertex to vertex of a level, metres.
+// Distance between vertices of a level, metres.
 fn spacing_m(level: f32) -> f32 { return 0.5 * PI * body.radius_km * 1000.0 / (f32(TILE_SIDE - 1u) * exp2(level)); }
 
-// How far the parent has taken over at a distance.
+// Share to which the parent has taken over at a distance.
 fn faded(range_m: vec2f, distance_m: f32) -> f32 {
     return saturate1((distance_m - range_m.x) / max(range_m.y - range_m.x, 1e-3));
 }
 
-// The ground at a pixel: its detail, or the vertices where there is none yet.
+// The ground at a pixel, from the detail texture, or from the vertices where there is none yet.
 struct Relief {
     normal: vec3f,
     height_m: f32,
-    // How far the ground within the pixel goes above and below that: by its slope alone, and with all that is no wider than pixels
+    // Half the range of heights within the pixel in metres: from the slope alone, and with all relief no wider than
+    // pixels
     plane_m: f32,
     spread_m: f32,
     steep: Steepness,
 }
 
-// From a pixel to the next to the right and below: places in the detail tile, in texels; height of the vertices.
+// Change from a pixel to the next on the right and below: position in the detail texture in texels (xy), height of the
+// vertices in metres (z).
 struct Step {
     right: vec3f,
     below: vec3f,
 }
 
-// `footprint_m`: the longer side of a pixel on the ground. What is finer would sparkle: from octave to octave of it the detail gives way
-// to its parent's, that to the vertices', and those to the parent's. A child does so an octave later, and so shows the same.
+// `footprint_m`: the longer side of a pixel on the ground. Normals finer than the footprint would sparkle. Octave by
+// octave of the footprint, the detail texture fades to its parent's, then to the vertices, then to the parent's
+// vertices. A child tile fades one octave later, so both show the same normals.
 fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) -> Relief {
     let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
@@ -132,7 +138,7 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
     let heights = heights_at(place, apart);
     out.height_m = in.detail_fade.w + heights.middle_m;
     out.plane_m = plane_spread_m(heights, place);
-    // As if what deviates were spread evenly.
+    // Half the range of an even distribution with this standard deviation (sqrt(3)).
     out.spread_m = out.plane_m + 1.732 * heights.rest_m;
     if apart < 1.0 { out.steep.shown = rises_at(place); }
     out.steep.heights = heights;
@@ -143,11 +149,11 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
 struct Climate {
     temperature_c: f32,
     moisture: f32,
-    // Of the biome table: 0 for the last to 1 for the first
+    // Row of the biome table: 0 for the last row to 1 for the first
     row: f32,
 }
 
-// At a height, as src/terrain/climate.rs has it: higher ground is colder and drier, from the surface of the sea on.
+// Climate at a height, as in src/terrain/climate.rs: higher ground is colder and drier, counted from sea level up.
 fn climate_at(in: Ground, height_m: f32) -> Climate {
     let over_m = height_m - select(0.0, body.sea_level_km * 1000.0, body.has_sea != 0u);
     let above_m = max(over_m, 0.0);
@@ -156,7 +162,7 @@ fn climate_at(in: Ground, height_m: f32) -> Climate {
     return Climate(temperature_c, saturate1(in.level_climate.x + above_m * body.moisture_per_m), saturate1(row));
 }
 
-// Tilts a normal by the small bumps of the ground.
+// Tilts a normal by the small bumps of the macro variation.
 fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
     let tangent = normalize(cross(n, select(vec3f(0.0, 0.0, 1.0), vec3f(1.0, 0.0, 0.0), abs(n.z) > 0.7)));
     let other = cross(n, tangent);
@@ -164,17 +170,22 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
     return normalize(n - rise.x * tangent - rise.y * other);
 }
 
-// What decides about the ground at a pixel. `at`: its place in the table.
-fn site_of(in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32) -> Site {
+// Inputs of biome and surface rules at a pixel. `at`: location in the biome table.
+fn site_of(
+    in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32,
+) -> Site {
     let over_sea_m = select(1e9, relief.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
-    // See `climate_at`.
+    // As in `climate_at`.
     let colder = select(0.0, body.lapse_c_per_m, over_sea_m > 0.0);
     let drier = select(0.0, body.moisture_per_m, over_sea_m > 0.0);
     let by_height = vec3f(drier, body.row_per_c * colder - body.row_per_m, -colder);
-    return Site(at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m, by_height, footprint_m, mottle);
+    return Site(
+        at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m,
+        by_height, footprint_m, mottle,
+    );
 }
 
-// The bed of the sea: sand near the shore (of the beach's biome, if there is one), darker below.
+// The sea bed: sand near the shore (the beach's biome, if there is one), darker below.
 fn seabed(ground: Material, site: Site) -> Material {
     if body.has_sea == 0u { return ground; }
     var out = ground;
@@ -183,16 +194,17 @@ fn seabed(ground: Material, site: Site) -> Material {
     if beach >= 0.0 { sand = biome_param(i32(beach), 0).rgb; }
     let depth_m = -site.over_sea_m;
     sand = mix(sand, vec3f(0.10, 0.10, 0.10), smoothstep(5.0, 250.0, depth_m));
-    // As long as there is land in the pixel, that is what the sea leaves of it.
+    // While there is land in the pixel, the sea bed counts by the share of the pixel under the sea.
     let wet = smoothstep(-2.0, 2.0, depth_m - site.spread_m + site.mottle * 2.0);
     out.albedo = mix(out.albedo, sand * (1.0 + site.mottle * 0.3), wet);
     return out;
 }
 
-// Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model).
-// To be multiplied with the cosine to the light: that of a tilt which is part of the roughness, too. Counted twice, patterns would make
-// ground brighter from near than from far away, where they are too fine to be seen.
-// `tilted_l`: that cosine. It bounds the retroreflection: ground that is seen along itself under a low star would shine without limit.
+// Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model). The result is multiplied by the
+// cosine to the light. The cosine here ignores tilts that are part of the roughness: counted twice, they would make
+// patterns brighter from near than from far away, where patterns are too fine to be drawn. `tilted_l`: cosine of the
+// tilted normal to the light. It bounds the retroreflection, which would grow without limit on ground seen edge-on
+// under a low sun.
 fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, tilted_l: f32, roughness: f32) -> f32 {
     let sigma = roughness * 0.6;
     let s = l_v - n_l * n_v;
@@ -201,31 +213,33 @@ fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, tilted_l: f32, roughness: f32) ->
     return a + sigma * a * s / t;
 }
 
-// Cosine to the light of ground whose bumps are finer than those that are drawn: some facets of a slope that just turns away still
-// see the light, and some of one that just sees it do not. A clamp at zero would leave black blots under a low star.
+// Cosine to the light of ground with bumps finer than those drawn: some facets of a slope that just turns away still
+// see the light, and some of a slope that just sees it do not. A clamp at zero would leave black blots under a low sun.
 fn lit_cosine(n_l: f32) -> f32 {
     const SOFT: f32 = 0.12;
     let grazing = max(n_l + SOFT, 0.0);
     return select(n_l, grazing * grazing / (4.0 * SOFT), n_l < SOFT);
 }
 
-// What a surface mirrors of the star's light (x) and, on the whole, of the sky's (y): GGX with the visibility of Hammon (PBR Diffuse
-// Lighting for GGX+Smith Microsurfaces, 2017), and Karis' fit for light from all around (Physically Based Shading on Mobile, 2014).
+// Specular reflection of sunlight (x) and, on average, of skylight (y): GGX with the visibility of Hammon (PBR Diffuse
+// Lighting for GGX+Smith Microsurfaces, 2017), and Karis' fit for light from all directions (Physically Based Shading
+// on Mobile, 2014).
 fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> vec2f {
     if reflectance <= 0.0 { return vec2f(0.0); }
     let n_v = max(dot(n, v), 1e-3);
     let fit = vec4f(1.0, 0.0425, 1.04, -0.04) + roughness * vec4f(-1.0, -0.0275, -0.572, 0.022);
     let grazing = min(fit.x * fit.x, exp2(-9.28 * n_v)) * fit.x + fit.y;
-    let around = max(reflectance * (fit.z - 1.04 * grazing) + min(reflectance * 50.0, 1.0) * (fit.w + 1.04 * grazing), 0.0);
+    let offset = min(reflectance * 50.0, 1.0) * (fit.w + 1.04 * grazing);
+    let around = max(reflectance * (fit.z - 1.04 * grazing) + offset, 0.0);
     let n_l = dot(n, l);
     if n_l <= 0.0 { return vec2f(0.0, around); }
     let h = normalize(v + l);
     let n_h = max(dot(n, h), 0.0);
     let alpha = max(roughness * roughness, 0.02);
     let d = n_h * n_h * (alpha * alpha - 1.0) + 1.0;
-    // Under a low star and seen along it, rough ground hides itself by more than its facets: by relief that is drawn nowhere.
+    // Seen against a low sun, rough ground hides itself by more than its facets: by unevenness that is not drawn.
     let visible = 0.5 / (mix(2.0 * n_l * n_v, n_l + n_v, alpha) + 0.15 * alpha);
-    // The facets of rough ground are no mirrors themselves: seen along it, it shines no more than Karis' fit says of the sky's light.
+    // The facets of rough ground are no mirrors: at grazing angles it shines no more than Karis' fit says of skylight.
     let smooth_part = (1.0 - roughness) * (1.0 - roughness);
     let fresnel = reflectance + max(smooth_part - reflectance, 0.0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
     return vec2f(alpha * alpha / (PI * d * d) * visible * fresnel * n_l, around);
@@ -261,7 +275,7 @@ fn moisture_color(x: f32) -> vec3f {
     return mix(c, vec3f(0.01, 0.08, 0.55), saturate1(x * 2.0 - 1.0));
 }
 
-// Blue, green, yellow, red: a step for each factor of four from 1 on.
+// Blue, green, yellow, red: one step for each factor of four, starting at 1.
 fn spacing_color(pixels: f32) -> vec3f {
     let k = log2(max(pixels, 1.0)) * 0.5;
     var c = mix(vec3f(0.03, 0.08, 0.60), vec3f(0.05, 0.50, 0.10), saturate1(k));
@@ -269,12 +283,12 @@ fn spacing_color(pixels: f32) -> vec3f {
     return mix(c, vec3f(0.65, 0.02, 0.02), saturate1(k - 2.0));
 }
 
-// Pixels from one vertex to the next, where the ground is seen head on from the eye that the tile was chosen for.
+// Pixels between neighbouring vertices, for ground seen head-on from the eye that the LOD cut was chosen for.
 fn spacing_pixels(in: Ground) -> f32 {
     return spacing_m(in.level) / max(in.chosen_distance_m * body.chosen_pixel_rad, 1e-9);
 }
 
-// 1 at the tile's border, over about one and a half pixels on its own side.
+// 1 at the border of the tile, about one and a half pixels wide on the tile's side.
 fn border(in: Ground) -> f32 {
     let pixel = max(fwidth(in.place.xy), vec2f(1e-6));
     let away = min(in.place.xy, 1.0 - in.place.xy) / pixel;
@@ -284,7 +298,7 @@ fn border(in: Ground) -> f32 {
 fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
     let n = relief.normal;
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
-    // Here, where all pixels of a quad pass: derivatives need that.
+    // Computed before the switch, in uniform control flow, as derivatives require.
     let edge = border(in);
     let climate = climate_at(in, in.height_m);
     let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
@@ -309,13 +323,13 @@ fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
     }
 }
 
-// The ground at a pixel as light meets it.
+// The ground at a pixel, for lighting.
 struct Facet {
     n: vec3f,
-    // Normal of the pattern's tilt, and its area over that of level ground
+    // Normal tilted by the pattern, and area relative to untilted ground
     tilted: vec3f,
     area: f32,
-    // Towards the eye
+    // Direction to the eye
     v: vec3f,
     up: vec3f,
     rel_km: vec3f,
@@ -323,7 +337,7 @@ struct Facet {
     footprint_km: f32,
 }
 
-// Radiance that the ground reflects of the active sun and of the sky that this sun lights.
+// Radiance that the ground reflects of the active sun's light and of the sky lit by it.
 fn lit(ground: Material, facet: Facet, from_ground: Exposed) -> vec3f {
     let sun = active_sun.dir;
     let n = facet.tilted;
@@ -338,20 +352,20 @@ fn lit(ground: Material, facet: Facet, from_ground: Exposed) -> vec3f {
     shadow *= from_ground.star;
     let sky = sky_irradiance(facet.altitude_km, sun_mu) * sky_share.x + sunlight * max(sun_mu, 0.0) * sky_share.y;
     let open = saturate1(0.5 + 0.5 * dot(n, facet.up) * facet.area) * from_ground.sky;
-    // Light that the ground around reflects to a slope that does not see the whole sky.
+    // Light reflected by the surrounding ground to a slope that does not see the whole sky.
     let bounce = (sky + sunlight * max(sun_mu, 0.0) * shadow) * ground.albedo * (1.0 - open);
     let glint = mirrored(n, facet.v, sun, ground.roughness, ground.specular);
     return ground.albedo * (sunlight * shadow * tilted_l * rough * facet.area + (sky * open + bounce) / PI)
         + sunlight * shadow * glint.x + sky * open * glint.y / PI;
 }
 
-// Share of the active sun and of the sky that the ground around leaves at a pixel.
+// Visibility of the active sun and of the sky over the surrounding ground.
 fn exposed_at(in: Ground, up: vec3f) -> Exposed {
     let altitude_km = max(in.height_m, body.sea_level_km * 1000.0) * 0.001;
     return exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, altitude_km);
 }
 
-// Radiance; height over the sea; how far the ground within the pixel goes above and below that.
+// Radiance; height above sea level in metres; half the range of heights within the pixel in metres.
 struct Shaded {
     radiance: vec3f,
     over_sea_m: f32,
@@ -361,14 +375,14 @@ struct Shaded {
 fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(body.eye_km + rel_km);
-    // Along the ground a pixel is longer the more it is seen from the side; the longer side decides, or far slopes sparkle.
-    // The vertices' normals bend from triangle to triangle without a step; the triangles themselves would show as stripes.
+    // On ground seen at a slant, a pixel is long. The longer side decides; otherwise far slopes sparkle. The normals of
+    // vertices vary smoothly; those of triangles would show as stripes.
     let mesh_normal = normalize(on_mesh.normal);
     let rel_x = pixel_step(on_mesh.rel_m, mesh_normal, body.pixel_right);
     let rel_y = pixel_step(on_mesh.rel_m, mesh_normal, body.pixel_up);
     let footprint_m = max(max(length(rel_x), length(rel_y)), 1e-6);
     let at = vec3f(on_mesh.place.zw * (DETAIL_SIDE - 1.0), on_mesh.height_m);
-    // Biomes by themselves are shown as exactly as they are known: they have edges, whatever the footprint.
+    // The biome view shows exact biomes with hard edges, whatever the footprint.
     let exact = frame.debug_view == VIEW_BIOME;
     let share = select(1.0, 0.0, exact);
     let step = Step(share * dpdx(at), share * dpdy(at));
@@ -378,7 +392,9 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     var n = relief.normal;
     let sea_level_m = body.sea_level_km * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
-    if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO { return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m); }
+    if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO {
+        return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m);
+    }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
@@ -390,8 +406,8 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, relief.spread_m); }
     n = bumped(n, in.rel_m, footprint_m);
-    // Tilted ground is larger than the level ground that it stands on: with that counted in, bumps change light from place to place
-    // but not on the whole, and far away, where they are too fine to be seen, the ground is as bright as from near.
+    // Tilted ground has a larger area than the untilted ground below it. With the area included, bumps vary the light
+    // but not its mean, so the ground is as bright from near as from far away, where bumps are too fine to be drawn.
     let tilt = ground.slope - n * dot(n, ground.slope);
     let area = sqrt(1.0 + dot(tilt, tilt));
     let facet = Facet(n, (n - tilt) / area, area, v, up, rel_km, max(in.height_m * 0.001, 0.0), footprint_m * 0.001);
@@ -407,10 +423,10 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
 }
 
 struct Output {
-    // Radiance; height over the sea in metres
+    // rgb: radiance; a: height above sea level, metres
     @location(0) light: vec4f,
-    // °C on the level of the sea; share of the star's light that the ground around takes; how far the ground within the pixel goes
-    // above and below its height, metres
+    // Temperature at sea level in °C; share of the sun's light that the surrounding ground hides; half the range of
+    // heights within the pixel, metres
     @location(1) surface: vec4f,
 }
 
@@ -420,5 +436,7 @@ fn fragment(in: Ground) -> Output {
     use_sun(0u);
     let from_ground = exposed_at(in, up);
     let shaded = shade(in, from_ground);
-    return Output(vec4f(shaded.radiance, shaded.over_sea_m), vec4f(in.level_climate.y, 1.0 - from_ground.star, min(shaded.spread_m, 60000.0), 0.0));
+    let spread_m = min(shaded.spread_m, 60000.0);
+    let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star, spread_m, 0.0);
+    return Output(vec4f(shaded.radiance, shaded.over_sea_m), surface);
 }

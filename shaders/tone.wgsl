@@ -1,8 +1,8 @@
-// Curves from radiance (1: white ground at noon) to what a display shows, linear, 0 to 1. The same in src/render/tone.rs, where
-// each is told of.
+// Tone curves from radiance (1: white ground at noon) to linear display values, 0 to 1. src/render/tone.rs has the same
+// curves for the CPU, with their sources.
 #include "math.wgsl"
 
-// From 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
+// Curve from 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
 fn bend(x: vec3f, power: f32) -> vec3f { return x / pow(1.0 + pow(x, vec3f(power)), vec3f(1.0 / power)); }
 
 fn agx(radiance: vec3f) -> vec3f {
@@ -10,7 +10,7 @@ fn agx(radiance: vec3f) -> vec3f {
     let rise = AGX_SLOPE * log2(max(mixed, vec3f(1e-10)) / AGX_PIVOT);
     let dark = AGX_PIVOT_CODE * (1.0 - bend(max(-rise, vec3f(0.0)) / AGX_PIVOT_CODE, AGX_TOE));
     let light = (1.0 - AGX_PIVOT_CODE) * bend(max(rise, vec3f(0.0)) / (1.0 - AGX_PIVOT_CODE), AGX_SHOULDER);
-    // The toe never ends: black is where 16 bits end.
+    // The toe never reaches zero; AGX_BLACK is its value at the end of the 16-bit range.
     let film = max(dark + light - AGX_BLACK, vec3f(0.0));
     let grey = dot(film, vec3f(0.2126, 0.7152, 0.0722));
     let code = saturate(AGX_OUT * (grey + AGX_SATURATION * (film - grey)));

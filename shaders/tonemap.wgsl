@@ -1,12 +1,12 @@
-// From radiance to what a display shows, linear: white balance, exposure and a curve (tone.wgsl), pixel by pixel of the scene.
-// Alpha: how bright it looks, about even steps for the eye, by which edges are found (antialias.wgsl).
+// From radiance to linear display values: white balance, exposure and tone curve (tone.wgsl), at the scene's
+// resolution. Alpha: brightness in perceptually even steps, for the edge search in antialias.wgsl.
 #include "screen.wgsl"
 #include "tone.wgsl"
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;
-// x: factor that was metered, 1 for manual exposure
+// x: metered factor on radiance, 1 for manual exposure
 @group(1) @binding(1) var<uniform> metered: vec4f;
-// Square roots of what stars show, whatever was metered
+// Square roots of the light of stars, which metering does not change
 @group(1) @binding(2) var stars: texture_2d<f32>;
 
 @fragment

@@ -1,24 +1,26 @@
-// Lays the sea over the terrain, pixel by pixel: an analytic sphere, so there is no mesh to fight with.
+// Draws the sea over the terrain, pixel by pixel: an analytic sphere, with no mesh and so no depth fighting.
 #include "surface.wgsl"
 #include "sea.wgsl"
 
-// Temperature, °C; share of the star's light that the ground around takes; how far the ground within a pixel goes above and below its
-// height, metres.
+// Temperature at sea level in °C; share of the sun's light that the surrounding ground hides; half the range of heights
+// within the pixel, metres.
 @group(2) @binding(2) var surface: texture_2d<f32>;
 
-// Light that comes out of the water: the floor through it, and what the water itself sends back. `depths_m`: least and greatest in the
-// pixel.
+// Light that leaves the water: light of the sea bed through the water, and light scattered by the water itself.
+// `depths_m`: least and greatest depth in the pixel.
 fn water_body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
-    // Snell: the way under water is steeper than over it.
-    let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769) + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
+    // Refraction (Snell, refractive index 1.333): paths under water are steeper.
+    let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769)
+        + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
     let shallow = body.water_absorption_per_m * min(way * depths_m.x, 1e5);
     let deeper = body.water_absorption_per_m * min(way * (depths_m.y - depths_m.x), 1e5);
-    // Mean over all depths between.
-    let left = exp(-shallow) * select((1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3)), 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
+    // Mean over all depths in between.
+    let mean = (1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3));
+    let left = exp(-shallow) * select(mean, 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
     return floor * left + body.water_color * downwelling / PI * (1.0 - left);
 }
 
-// Deeper water has no foam.
+// Greatest depth of foam.
 const FOAM_M: f32 = 1.2;
 
 // Integral of the share of foam (1 - smoothstep) from the shore down to a depth.
@@ -27,12 +29,13 @@ fn foam_down_to(depth_m: f32) -> f32 {
     return FOAM_M * x * (1.0 - x * x * (1.0 - 0.5 * x));
 }
 
-// Foam where waves run up the shore.
+// Mean share of foam between two depths, where waves run up the shore.
 fn foam_between(depths_m: vec2f) -> f32 {
     return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / max(depths_m.y - depths_m.x, 1e-3);
 }
 
-// `depths_m`: least and greatest depth of what is wet of the pixel; what lines the shore would sparkle if its middle told all.
+// `depths_m`: least and greatest depth in the wet part of the pixel. Foam and shallows along the shore would sparkle if
+// only the middle of the pixel counted.
 fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temperature_c: f32, star: f32) -> vec3f {
     let distance_km = length(rel_km);
     let up = normalize(body.eye_km + rel_km);
@@ -43,16 +46,18 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
     let mottle = mottle_at(rel_m, footprint_m);
     let broad = border_jitter(rel_m, footprint_m).x;
     let ice = frozen(temperature_c, mottle, broad);
-    // The sun that lights the way down through the water: the first.
+    // Only the first sun determines the path of light down through the water.
     let first_mu = max(dot(up, body.suns[0].dir), 0.0);
     var waves = Waves(up, 0.0);
     var fresnel = 0.0;
     var mirror_mu = 0.0;
     if ice < 1.0 {
-        waves = waves_at(rel_m, up, pixel_step(rel_m, up, body.pixel_right), pixel_step(rel_m, up, body.pixel_up), border_jitter(rel_m, max(footprint_m, 15.0)).x);
+        let step_x = pixel_step(rel_m, up, body.pixel_right);
+        let step_y = pixel_step(rel_m, up, body.pixel_up);
+        waves = waves_at(rel_m, up, step_x, step_y, border_jitter(rel_m, max(footprint_m, 15.0)).x);
         fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
-        // Rough water mirrors a patch of sky above the exact direction.
+        // Rough water reflects a patch of sky above the mirror direction.
         mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
     }
     var downwelling = vec3f(0.0);
@@ -65,7 +70,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
         var shadow = 1.0;
         if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
         let share = overcast(shadow);
-        // The ground's shadow is known for the first sun alone.
+        // The shadow of the ground is known for the first sun only.
         shadow *= select(1.0, star, i == 0u);
         let diffused = sunlight * max(sun_mu, 0.0) * share.y;
         downwelling += sunlight * shadow * max(sun_mu, 0.0) + sky_irradiance(h, sun_mu) * share.x + diffused;
@@ -85,7 +90,7 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
 }
 
 struct Output {
-    // Radiance; height over the sea, metres
+    // rgb: radiance; a: height above sea level, metres
     @location(0) light: vec4f,
     @builtin(frag_depth) depth: f32,
 }
@@ -103,7 +108,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let ground = Output(scene, textureLoad(scene_depth, pixel, 0));
 
     if body.eye_over_sea_km < 0.0 {
-        // The eye is under water: everything drowns in the colour of the deep.
+        // The eye is under water: the water's colour replaces distant light.
         let way_m = min(terrain, hits.y) * 1000.0;
         let left = exp(-body.water_absorption_per_m * min(way_m, 1e5));
         let h = max(body.sea_level_km, 0.0);
@@ -114,19 +119,20 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
             light += active_sun.irradiance * sun_transmittance(h, sun_mu) * sun_mu + sky_irradiance(h, sun_mu);
         }
         let dimmed = exp(body.water_absorption_per_m * min(body.eye_over_sea_km * 1000.0, 0.0));
-        return Output(vec4f(scene.rgb * left + body.water_color * light * dimmed / PI * (1.0 - left), height_m), ground.depth);
+        let water = body.water_color * light * dimmed / PI;
+        return Output(vec4f(scene.rgb * left + water * (1.0 - left), height_m), ground.depth);
     }
     if hits.y < hits.x || hits.x <= 0.0 {
         if terrain >= NOTHING_KM { discard; }
         return ground;
     }
     let depth = max(ground.depth, depth_at(hits.x, ray_length));
-    // Land is told from sea by its height, never by which of two close surfaces is nearer; only where the ray came out
-    // of the sea again before it met land does the sea lie in front.
+    // Sea and land are told apart by the height of the ground, never by the depth of two close surfaces. The sea lies
+    // in front of land only where the ray leaves the sea again before it meets land.
     var wet = 1.0;
     var depths_m = vec2f(1e4, 1.1e4);
     var star = 1.0;
-    // Beyond the last terrain the climate of the latitude has to do.
+    // Where there is no terrain, the climate of the latitude is used.
     let sin_lat = normalize(body.eye_km + dir * hits.x).z;
     var temperature_c = mix(body.equator_c, body.pole_c, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
@@ -135,7 +141,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         wet = saturate1(0.5 - 0.5 * height_m / spread_m);
         depths_m = max(vec2f(-height_m - spread_m, spread_m - height_m), vec2f(0.0));
         temperature_c = found.r;
-        // The floor that is seen lies aside of the sea's surface; too far aside its shadow is another one.
+        // The visible sea bed is offset sideways from the point on the sea; with a large offset, its shadow does not
+        // apply there.
         let mu = dot(dir, normalize(body.eye_km + dir * hits.x));
         let aside_km = max(terrain - hits.x, 0.0) * sqrt(max(1.0 - mu * mu, 0.0));
         star = 1.0 - found.g * (1.0 - smoothstep(1.0, 10.0, aside_km));

@@ -37,6 +37,9 @@
 //! Lengths are metres, angles radians, unless a name says otherwise. Frames are named in full (`sun_dir_planet`): the
 //! planet frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
+/// The vectors of all signatures.
+pub use glam;
+
 pub mod atmosphere;
 pub mod lod;
 pub mod planet;

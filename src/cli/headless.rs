@@ -1,35 +1,34 @@
-//! A GPU without a window: adapter, device, and a picture read back from it.
+//! A GPU without a window: adapter, device, and pictures read back from them.
 //!
-//! The adapter is chosen by wgpu's usual environment variables (`WGPU_BACKEND`, `WGPU_ADAPTER_NAME`,
-//! `WGPU_POWER_PREF`).
+//! The adapter is selected by wgpu's environment variables (`WGPU_BACKEND`, `WGPU_ADAPTER_NAME`, `WGPU_POWER_PREF`).
 
 use crate::render::{Renderer, read_texture};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What pictures are drawn in.
+/// Format of pictures.
 pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 
-/// wgpu's own variable: part of the name of the adapter to use.
+/// wgpu's variable with a part of the name of the adapter to use.
 const ADAPTER_NAME: &str = "WGPU_ADAPTER_NAME";
 
 /// An open device.
 pub(super) struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
-    /// Adapter and backend, for people.
+    /// Name of adapter and backend, for messages.
     pub(super) name: String,
-    /// The first thing that went wrong on the device.
+    /// The first uncaptured error of the device.
     error: Arc<Mutex<Option<String>>>,
 }
 
 impl Gpu {
-    /// Opens the device for pictures up to a size.
+    /// Opens a device for pictures up to a size.
     pub(super) fn open(size_px: [u32; 2]) -> Result<Self, String> {
         pollster::block_on(Self::open_async(size_px))
     }
 
     async fn open_async(size_px: [u32; 2]) -> Result<Self, String> {
-        // OpenGL only when asked for or when there is nothing else: its drivers talk on standard error.
+        // OpenGL only on request or as a last resort, because its drivers print to standard error.
         let asked = wgpu::Backends::from_env();
         let adapter = match adapter(asked.unwrap_or(wgpu::Backends::PRIMARY)).await {
             Err(_) if asked.is_none() && std::env::var_os(ADAPTER_NAME).is_none() => adapter(wgpu::Backends::GL).await,
@@ -56,7 +55,7 @@ impl Gpu {
         Ok(Self { device, queue, name, error })
     }
 
-    /// What `draw` puts into a texture, as rows of RGBA bytes from the top.
+    /// Draws a picture with `draw` and returns it as rows of RGBA bytes, from the top.
     pub(super) fn picture(
         &self,
         size_px: [u32; 2],
@@ -93,7 +92,7 @@ async fn adapter(backends: wgpu::Backends) -> Result<wgpu::Adapter, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     descriptor.backends = backends;
     let instance = wgpu::Instance::new(descriptor);
-    // wgpu's own helper panics when the named adapter is not there.
+    // wgpu's own helper panics when no adapter has the requested name.
     if let Ok(wanted) = std::env::var(ADAPTER_NAME) {
         let adapters = instance.enumerate_adapters(backends).await;
         let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();

@@ -26,9 +26,24 @@ pub(super) struct Args {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = args::size)]
     size: [u32; 2],
-    #[arg(long, help = format!("Latitude of the camera in degrees, north positive [default: {}]", opening::OPENING_LAT_DEG), value_name = "DEG", allow_hyphen_values = true, value_parser = args::latitude)]
+    #[arg(
+        long,
+        help = format!("Latitude of the camera in degrees, north positive [default: {}]", opening::OPENING_LAT_DEG),
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::latitude
+    )]
     lat: Option<f64>,
-    #[arg(long, help = format!("Longitude of the camera in degrees, east positive [default: {} east of the star]", opening::OPENING_LON_FROM_STAR_DEG), value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
+    #[arg(
+        long,
+        help = format!(
+            "Longitude of the camera in degrees, east positive [default: {} east of the star]",
+            opening::OPENING_LON_FROM_STAR_DEG
+        ),
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::longitude
+    )]
     lon: Option<f64>,
     /// Altitude of the camera above the ground or the sea, whichever is higher; negative: depth under the sea
     /// [default: far enough to see the whole planet]
@@ -37,15 +52,32 @@ pub(super) struct Args {
     /// Heading of the camera in degrees: 0 north, 90 east
     #[arg(long, value_name = "DEG", default_value = "0", allow_hyphen_values = true, value_parser = args::heading)]
     heading: f64,
-    #[arg(long, help = pitch_help(), value_name = "DEG", allow_hyphen_values = true, value_parser = args::pitch)]
+    #[arg(
+        long,
+        help = format!(
+            "Pitch in degrees: 0 at the horizon, -90 straight down [default: {} from above {} planet radii, {} below]",
+            opening::FAR_PITCH_DEG,
+            opening::LOOK_DOWN_RADII,
+            opening::NEAR_PITCH_DEG
+        ),
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::pitch
+    )]
     pitch: Option<f64>,
     /// Vertical field of view in degrees
-    #[arg(long, value_name = "DEG", default_value_t = Camera::DEFAULT_FOV_Y_RAD.to_degrees(), allow_hyphen_values = true, value_parser = args::field_of_view)]
+    #[arg(
+        long,
+        value_name = "DEG",
+        default_value_t = Camera::DEFAULT_FOV_Y_RAD.to_degrees(),
+        allow_hyphen_values = true,
+        value_parser = args::field_of_view
+    )]
     fov: f64,
-    /// Location where the star stands overhead [default: where the preset puts it at --time]
+    /// Location with the star overhead [default: from the preset, at --time]
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::location)]
     sun: Option<(f64, f64)>,
-    /// Seconds since time zero: the day passes, clouds drift, waves run
+    /// Time in seconds; it moves the star, the clouds and the waves
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
     /// Exposure in stops, 0 for a sunlit planet [default: metered from the picture]
@@ -60,15 +92,6 @@ pub(super) struct Args {
     /// The shaded planet, or a debug view
     #[arg(long, value_enum, default_value_t = DebugView::default())]
     view: DebugView,
-}
-
-fn pitch_help() -> String {
-    format!(
-        "Pitch in degrees: 0 at the horizon, -90 straight down [default: {} from above {} planet radii, {} below]",
-        opening::FAR_PITCH_DEG,
-        opening::LOOK_DOWN_RADII,
-        opening::NEAR_PITCH_DEG
-    )
 }
 
 impl ValueEnum for Quality {

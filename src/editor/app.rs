@@ -200,6 +200,7 @@ impl eframe::App for EditorApp {
         let state = &mut self.state;
         state.frame_start = Instant::now();
         state.viewport.frames.begin(state.frame_start);
+        state.notices.begin_frame(ctx);
         if let Some(render_state) = frame.wgpu_render_state() {
             let waker = ctx.clone();
             state.viewport.edit_clock.frame_began(&render_state.device, move || waker.request_repaint());

@@ -1,27 +1,29 @@
-//! Biomes as two small textures, read by `material.wgsl`: which biome each cell of the table has (row 0 is the hottest or highest),
-//! and a column of numbers for each biome.
+//! Biomes as two small textures for `material.wgsl`: the biome of each cell of the biome table (row 0 is the hottest or
+//! highest), and a column of parameters for each biome.
 
 use super::material_kinds;
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
-/// Columns of the numbers: the palette, the rock that biomes share, the rules for all.
+/// Columns of the parameters: the palette, then the rock that biomes share, then the surface rules.
 pub(crate) const ROCK: usize = MAX_BIOMES;
 pub(crate) const RULES: usize = MAX_BIOMES + 1;
 const COLUMNS: usize = MAX_BIOMES + 2;
-/// Numbers of one biome, four to a row.
+/// Rows of a column, four numbers each.
 const ROWS: usize = 6;
 
-/// Positions reach the shaders modulo these lengths; what repeats must fit into them a whole number of times.
+/// Lengths in metres by which positions are wrapped before they reach the shaders. Periods of repeating patterns divide
+/// them.
 pub(crate) const WRAP_M: f64 = 1024.0;
 pub(crate) const WRAP_FAR_M: f64 = 1_048_576.0;
-/// The noise of the patches has features of about a quarter of its tile.
+/// Features of the patch noise are about a quarter of its tile in size.
 const PATCHES_PER_TILE: f64 = 4.0;
-/// The finer scale of a pattern; it is turned such that it repeats after a fifth of what the coarser one does.
+/// Period of a pattern's finer scale as a share of the coarser one. The finer scale is rotated by the angle of a 3-4-5
+/// triangle. Its period divides [`WRAP_M`] / [`TURN`], so that the rotated pattern repeats after [`WRAP_M`], too.
 const FINE: f64 = 0.31;
 const TURN: f64 = 5.0;
 
-/// Cells of the biome table whose places on the planet light up.
+/// Cells of the biome table whose ground is highlighted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MarkedCells {
     columns: usize,
@@ -29,18 +31,18 @@ pub struct MarkedCells {
 }
 
 impl MarkedCells {
-    /// The cells of a table of this size for which `is_marked` (column, row) holds.
+    /// The cells of a biome table of this size for which `is_marked` (column, row) holds.
     pub fn new(columns: usize, rows: usize, is_marked: impl Fn(usize, usize) -> bool) -> Self {
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
         Self { columns, cells: cells.map(|(column, row)| is_marked(column, row)).collect() }
     }
 
-    /// Whether a cell is marked; none is outside the table.
+    /// Whether a cell is marked; false outside the biome table.
     pub fn contains(&self, column: usize, row: usize) -> bool {
         column < self.columns && self.cells.get(row * self.columns + column).copied().unwrap_or(false)
     }
 
-    /// How many are marked.
+    /// Number of marked cells.
     pub fn count(&self) -> usize {
         self.cells.iter().filter(|marked| **marked).count()
     }
@@ -50,9 +52,9 @@ impl MarkedCells {
 #[derive(PartialEq)]
 pub(crate) struct BiomeTexels {
     size_px: [u32; 2],
-    /// Index into the palette and, beside it, 255 in cells that are marked; row by row.
+    /// Index into the palette, then 255 if the cell is marked, else 0. Row by row.
     ids: Vec<[u8; 2]>,
-    /// See the shader.
+    /// Parameters in the order of [`numbers`] and [`rules`].
     params: Vec<[f32; 4]>,
 }
 
@@ -132,14 +134,14 @@ fn rules(biomes: &Biomes) -> [[f64; 4]; ROWS] {
     rules
 }
 
-/// The textures; rewritten in place while the table keeps its size.
+/// The textures. They are rewritten in place as long as the biome table keeps its size.
 pub(crate) struct BiomeTextures {
     pub(crate) ids: wgpu::TextureView,
     pub(crate) params: wgpu::TextureView,
 }
 
 impl BiomeTextures {
-    /// Textures that hold these texels.
+    /// Creates textures with these texels.
     pub(crate) fn with(device: &wgpu::Device, queue: &wgpu::Queue, texels: &BiomeTexels) -> Self {
         let make = |size_px, format| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -162,12 +164,12 @@ impl BiomeTextures {
         textures
     }
 
-    /// Whether texels fit as they are.
+    /// Whether the textures have the size of the texels.
     pub(crate) fn fit(&self, texels: &BiomeTexels) -> bool {
         self.ids.texture().size() == extent(texels.size_px)
     }
 
-    /// Replaces what is in them.
+    /// Replaces the content of the textures.
     pub(crate) fn write(&self, queue: &wgpu::Queue, texels: &BiomeTexels) {
         let params = (&self.params, [COLUMNS as u32, ROWS as u32], 16, bytemuck::cast_slice(&texels.params));
         let ids = (&self.ids, texels.size_px, 2, texels.ids.as_flattened());

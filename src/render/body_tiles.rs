@@ -1,4 +1,4 @@
-//! The tiles of a body on the GPU: vertices, detail textures, horizon angles. All views of the body share them.
+//! Tiles of a body on the GPU: vertices, detail textures, horizon angles. All views of the body share them.
 
 use super::detail_pool::{self, DETAIL};
 use super::horizon_pool::{self, HORIZON};
@@ -6,7 +6,7 @@ use super::layer_pool::LayerPool;
 use super::pool::{TILE_BYTES, TilePool};
 use crate::tiles::Surface;
 
-/// See the module.
+/// Tiles of a body on the GPU.
 pub(crate) struct BodyTiles {
     pub(crate) pool: TilePool,
     pub(crate) details: LayerPool,
@@ -22,15 +22,15 @@ impl BodyTiles {
         }
     }
 
-    /// Begins a frame, in which each view draws once: tiles that no view has drawn for some frames may be dropped.
+    /// Begins a frame, in which each view draws once. Tiles that no view has drawn for some frames may be dropped.
     pub(crate) fn begin_frame(&mut self) {
         self.pool.begin_round();
         self.details.begin_frame();
         self.horizons.begin_frame();
     }
 
-    /// Uploads tiles of a surface that is to be drawn soon, at most `budget_bytes`, but at least one tile. Whether all are
-    /// on the GPU now.
+    /// Uploads tiles of a surface ahead of its first frame: at most `budget_bytes`, but at least one tile. Returns
+    /// whether all tiles are on the GPU now.
     pub(crate) fn upload(
         &mut self,
         device: &wgpu::Device,
@@ -46,7 +46,7 @@ impl BodyTiles {
             left = if fits { left - bytes } else { 0 };
             fits
         };
-        // All tiles are visited even when the budget is spent: those that are on the GPU are marked as wanted.
+        // All tiles are visited even when the budget is spent, so that tiles already on the GPU keep their slots.
         let mut done = true;
         for leaf in &surface.leaves {
             if !self.pool.holds(&leaf.tile) {

@@ -1,4 +1,4 @@
-//! The noise at the borders between biomes as a texture that repeats, with mip levels: the tile that queries read too.
+//! The border-jitter noise as a tiling 3D texture with mip levels. The CPU samples the same tile in queries.
 
 use crate::terrain::border::{TILE_SIDE, tile};
 use half::f16;
@@ -33,7 +33,7 @@ pub(crate) fn upload(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::Textur
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// Means of two by two by two texels; nothing of a single one.
+/// Means of blocks of two by two by two texels; empty for a single texel.
 fn halved(texels: &[[f32; 2]], side: usize) -> Vec<[f32; 2]> {
     let half = side / 2;
     let mean = |i: usize| {

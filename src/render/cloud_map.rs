@@ -1,14 +1,14 @@
-//! The weather map (`cloud_map.wgsl`): six faces of a cube, drawn once for each change of scale, curl or seed.
+//! The weather map (`cloud_map.wgsl`): six faces of a cube map, drawn again when scale, curl or seed changes.
 
 use super::{RenderError, gpu, shaders};
 use wgpu::util::DeviceExt;
 
-/// Texels along a face of the map.
+/// Texels along an edge of a face.
 pub(crate) const WEATHER_SIDE: u32 = 512;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
-/// Centre, right and down of each face in the order and orientation of cube textures.
+/// Centre, right and down of each face, in the order and orientation of cube textures.
 const FACES: [[[f32; 4]; 3]; 6] = [
     [[1., 0., 0., 0.], [0., 0., -1., 0.], [0., -1., 0., 0.]],
     [[-1., 0., 0., 0.], [0., 0., 1., 0.], [0., -1., 0., 0.]],
@@ -18,14 +18,14 @@ const FACES: [[[f32; 4]; 3]; 6] = [
     [[0., 0., -1., 0.], [-1., 0., 0., 0.], [0., -1., 0., 0.]],
 ];
 
-/// The map: the view that shaders read, and each face to be drawn into.
+/// The weather map: the cube view for shaders, and a target for each face.
 pub(crate) struct WeatherMap {
     pub(crate) cube: wgpu::TextureView,
     faces: Vec<wgpu::TextureView>,
 }
 
 impl WeatherMap {
-    /// A map with nothing in it yet.
+    /// Creates a map without content.
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("weather map"),
@@ -90,7 +90,7 @@ impl CloudMapPass {
         Ok(Self { pipeline, faces })
     }
 
-    /// Fills the map.
+    /// Draws the six faces of the map.
     pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, uniforms: &wgpu::BindGroup, map: &WeatherMap) {
         for (view, face) in map.faces.iter().zip(&self.faces) {
             gpu::draw_screen(encoder, "weather map", &self.pipeline, &[uniforms, face], &[view]);

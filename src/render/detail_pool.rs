@@ -1,9 +1,9 @@
-//! Detail tiles as textures: slopes and heights.
+//! Detail tiles as texture layers: slopes and heights.
 
 use super::layer_pool::LayerKind;
 use crate::lod::tile::{DETAIL_IMAGE, DetailTile};
 
-/// 18 MB an array.
+/// An array takes 18 MB.
 pub(crate) const DETAIL: LayerKind = LayerKind {
     label: "detail tiles",
     side_px: DETAIL_IMAGE as u32,
@@ -11,7 +11,7 @@ pub(crate) const DETAIL: LayerKind = LayerKind {
     layers: 64,
 };
 
-/// The bytes of both textures; nothing for a tile that is not a whole grid.
+/// Bytes of both textures; `None` for an incomplete grid.
 pub(crate) fn texels(tile: &DetailTile) -> Option<Vec<Vec<u8>>> {
     if tile.slopes.len() != DETAIL_IMAGE * DETAIL_IMAGE || tile.heights.len() != tile.slopes.len() {
         return None;

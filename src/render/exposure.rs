@@ -1,19 +1,19 @@
-//! Automatic exposure: a histogram of the finished radiance (`histogram.wgsl`) and what follows from it (`exposure.wgsl`). All of
-//! it stays on the GPU; the tone mapping reads the result from a buffer.
+//! Automatic exposure: a histogram of the finished radiance (`histogram.wgsl`), and the exposure computed from it
+//! (`exposure.wgsl`). The result stays on the GPU in a buffer, which tone mapping reads.
 
 use super::wgsl::{self, Uniform as _, uniform_struct};
 use super::{RenderError, gpu, shaders};
 use glam::UVec2;
 
-/// How [`super::Frame::exposure_ev`] is meant.
+/// How the exposure of a picture is chosen, and the meaning of [`super::Post::exposure_ev`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Metering {
-    /// As the exposure itself: the manual lock.
+    /// `exposure_ev` is the exposure: manual control.
     #[default]
     Manual,
-    /// As a correction to what suits the picture, at once.
+    /// `exposure_ev` corrects the exposure metered from this picture.
     Instant,
-    /// The same, but exposure follows as an eye would: so many seconds have passed since the last picture.
+    /// As [`Metering::Instant`], but the exposure follows the picture over time, as an eye adapts.
     Adapting {
         /// Seconds since the last picture.
         secs: f64,
@@ -21,7 +21,7 @@ pub enum Metering {
 }
 
 impl Metering {
-    /// Share of the way to the exposure wanted that is gone in this picture; `None` for manual exposure.
+    /// Share of the difference to the metered exposure that this picture closes; `None` for manual exposure.
     fn share(self) -> Option<f32> {
         match self {
             Metering::Manual => None,
@@ -31,41 +31,41 @@ impl Metering {
     }
 }
 
-/// Time in which the eye goes two thirds of its way.
+/// Time constant of adaptation in seconds: after it, 63% of the difference is closed.
 const ADAPTATION_SECS: f64 = 0.35;
 /// Bins of the histogram.
 pub(crate) const METER_BINS: u32 = 128;
-/// One pixel in this many is counted, in each direction.
+/// Spacing of counted pixels in each direction, in pixels.
 pub(crate) const METER_STRIDE: u32 = 4;
 /// Invocations along a side of a workgroup.
 pub(crate) const METER_GROUP: u32 = 16;
-/// Bytes of the histogram and its counter of white pixels.
+/// Bytes of the histogram and of its counter of white pixels.
 const HISTOGRAM_BYTES: u64 = (METER_BINS as u64 + 1) * 4;
-/// Pixels along a side that one workgroup counts.
+/// Side in pixels of the square that one workgroup counts.
 const GROUP_PX: u32 = METER_GROUP * METER_STRIDE;
 
 uniform_struct! {
-    /// One metering.
+    /// Uniforms of one metering.
     MeterStep {
-        /// Left upper corner of the picture in the texture, pixels.
+        /// Upper left corner of the picture in the texture, pixels.
         origin_px: UVec2,
         /// Width and height of the picture, pixels.
         size_px: UVec2,
-        /// Share of the way to the exposure wanted that is gone now.
+        /// Share of the difference to the metered exposure that is closed now.
         share: f32,
     }
 }
 
-/// The pipelines.
+/// The pipelines of metering.
 pub(crate) struct ExposurePass {
     histogram: wgpu::ComputePipeline,
     exposure: wgpu::ComputePipeline,
 }
 
-/// The exposure of one view.
+/// Exposure of one view, on the GPU.
 pub(crate) struct Exposure {
     bins: wgpu::Buffer,
-    /// Two floats: factor on radiance, and its logarithm to base 2.
+    /// Two floats: factor on radiance, and its base-2 logarithm (EV).
     pub(crate) result: wgpu::Buffer,
     step: wgpu::Buffer,
 }
@@ -90,7 +90,8 @@ impl ExposurePass {
         Ok(Self { histogram: pipeline(device, "histogram.wgsl")?, exposure: pipeline(device, "exposure.wgsl")? })
     }
 
-    /// Sets the exposure of a view by the radiance of a picture (x, y, width, height in the texture).
+    /// Meters the radiance of a picture (viewport: x, y, width, height in the texture) and updates the exposure of a
+    /// view.
     pub(crate) fn draw(
         &self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
@@ -119,7 +120,7 @@ impl ExposurePass {
     }
 }
 
-/// Resources as the one bind group of a pipeline, in the order of their bindings.
+/// A bind group of the resources in the order of their bindings.
 fn group<const N: usize>(
     device: &wgpu::Device,
     pipeline: &wgpu::ComputePipeline,

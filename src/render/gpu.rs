@@ -1,4 +1,4 @@
-//! Small helpers around wgpu that every pass uses: bind group layouts, full-screen pipelines, caught errors.
+//! Small wgpu helpers for all passes: bind group layouts, full-screen pipelines, error scopes, reading back.
 
 use super::RenderError;
 use super::targets::DEPTH_FORMAT;
@@ -6,7 +6,7 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-/// What stands behind one binding of a layout; the binding's number is its place in the list.
+/// Type of one binding of a layout. The number of the binding is its index in the list.
 #[derive(Clone, Copy)]
 pub(crate) enum Slot {
     Uniform,
@@ -16,11 +16,11 @@ pub(crate) enum Slot {
     Float3d,
     Cube,
     Depth,
-    /// A float texture that is only loaded, never filtered.
+    /// A float texture that is loaded without filtering.
     Unfiltered2d,
 }
 
-/// A bind group layout from a list of slots, each visible to vertices and fragments.
+/// A bind group layout from a list of slots, visible to vertex and fragment shaders.
 pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu::BindGroupLayout {
     let texture =
         |sample_type, view_dimension| wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
@@ -78,7 +78,7 @@ pub(crate) fn pipeline_layout(
     })
 }
 
-/// A texture that is drawn into and then read.
+/// A texture to draw into and then to read.
 pub(crate) fn target(
     device: &wgpu::Device,
     label: &str,
@@ -100,20 +100,20 @@ pub(crate) fn target(
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// A pipeline that draws one triangle over all pixels.
+/// A pipeline that draws one triangle over all pixels of its targets.
 pub(crate) struct ScreenPipelineDescriptor<'a> {
     /// Shader file.
     pub(crate) entry: &'a str,
     pub(crate) layout: &'a wgpu::PipelineLayout,
     pub(crate) module: &'a wgpu::ShaderModule,
     pub(crate) targets: &'a [Option<wgpu::ColorTargetState>],
-    /// The shader writes depth; what is nearer stays.
+    /// Whether the shader writes depth. Nearer depth is kept.
     pub(crate) writes_depth: bool,
-    /// The output encodes sRGB by itself: the constant of that name in the shader.
+    /// Whether the target encodes sRGB in hardware: the shader constant TARGET_ENCODES_SRGB.
     pub(crate) encodes_srgb: bool,
 }
 
-/// Makes it.
+/// Creates a full-screen pipeline.
 pub(crate) fn screen_pipeline(
     device: &wgpu::Device,
     of: &ScreenPipelineDescriptor<'_>,
@@ -147,7 +147,7 @@ pub(crate) fn screen_pipeline(
     })
 }
 
-/// Depth that is tested and written: reversed, so that the greater one is nearer.
+/// State for depth that is tested and written. Depth is reversed: greater is nearer.
 pub(crate) fn depth_state(depth_compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: DEPTH_FORMAT,
@@ -158,20 +158,20 @@ pub(crate) fn depth_state(depth_compare: wgpu::CompareFunction) -> wgpu::DepthSt
     }
 }
 
-/// A depth texture to draw into, cleared to infinity unless `load`.
+/// A depth attachment, loaded if `load`, else cleared to infinity (reverse-Z: 0).
 pub(crate) fn depth_attachment(view: &wgpu::TextureView, load: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     let load = if load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(0.0) };
     let depth_ops = Some(wgpu::Operations { load, store: wgpu::StoreOp::Store });
     wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }
 }
 
-/// Draws into a rectangle alone: x, y, width, height.
+/// Limits drawing to a rectangle: x, y, width, height in pixels.
 pub(crate) fn set_viewport(pass: &mut wgpu::RenderPass<'_>, [x, y, width, height]: [u32; 4]) {
     pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
     pass.set_scissor_rect(x, y, width, height);
 }
 
-/// Draws one full-screen triangle.
+/// Draws one full-screen triangle into cleared targets.
 pub(crate) fn draw_screen(
     encoder: &mut wgpu::CommandEncoder,
     label: &str,
@@ -202,11 +202,11 @@ pub(crate) fn draw_screen(
     pass.draw(0..3, 0..1);
 }
 
-/// Runs `make` and turns what the driver or wgpu has against it into an error.
+/// Runs `make` and returns validation errors of wgpu or of the driver.
 pub(crate) fn checked<T>(device: &wgpu::Device, name: &str, make: impl FnOnce() -> T) -> Result<T, RenderError> {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let made = make();
-    // On native backends the answer is there at once; a browser's comes later and is not waited for.
+    // Native backends answer at once. In a browser the answer comes later; it is not waited for.
     let mut answer = pin!(scope.pop());
     match answer.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(Some(error)) => Err(RenderError::Shader(format!("shaders/{name}: {error}"))),
@@ -214,7 +214,7 @@ pub(crate) fn checked<T>(device: &wgpu::Device, name: &str, make: impl FnOnce() 
     }
 }
 
-/// The two samplers of every pass: linear, clamped to the edge and repeated.
+/// The two samplers of every pass, both linear: clamped to the edge, and repeated.
 pub(crate) fn samplers(device: &wgpu::Device) -> [wgpu::Sampler; 2] {
     let sampler = |(label, mode)| {
         device.create_sampler(&wgpu::SamplerDescriptor {
@@ -231,7 +231,7 @@ pub(crate) fn samplers(device: &wgpu::Device) -> [wgpu::Sampler; 2] {
     [("clamped", wgpu::AddressMode::ClampToEdge), ("repeated", wgpu::AddressMode::Repeat)].map(sampler)
 }
 
-/// The texels of a texture row by row; waits for the device.
+/// Reads the texels of a texture, row by row. Blocks until the device is done.
 ///
 /// # Errors
 /// [`RenderError::Device`]: the device does not answer.
@@ -258,7 +258,7 @@ pub fn read_texture(
     Ok(bytes.chunks(padded_bytes as usize).flat_map(|row| &row[..row_bytes as usize]).copied().collect())
 }
 
-/// The bytes of a buffer that has just been copied into; waits for the device.
+/// Reads a buffer after a submitted copy into it. Blocks until the device is done.
 pub(crate) fn read(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
     let failed = |error: &dyn std::fmt::Display| RenderError::Device(error.to_string());
     let (send, receive) = std::sync::mpsc::channel();

@@ -1,4 +1,4 @@
-//! The ground of a body in one view: the tiles that are drawn, their instances, and the morph of their vertices.
+//! The ground of a body in one view: the visible tiles, their instances, and the morph of their vertices.
 
 use super::body_tiles::BodyTiles;
 use super::morph::{Morph, MorphPass};
@@ -10,26 +10,29 @@ use crate::lod::tile::{DETAIL_SIDE, TILE_QUADS, Tile, slope_axis};
 use crate::lod::{Culling, Ranges, View};
 use crate::tiles::Leaf;
 
-/// What the shader knows of a tile beside its vertices.
+/// Per-tile data of a draw: an instance in the vertex stream of `terrain.wgsl`.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Instance {
-    /// Distances in metres between which the parent's normals take over; level; layer of the detail tile, -1 without one.
+    /// Distances in metres over which the parent's normals take over; level; layer of the detail texture, -1 without
+    /// one.
     fade_level_layer: [f32; 4],
-    /// See [`slope_axis`].
+    /// First tangent axis of the slopes; see [`slope_axis`].
     slope_axis: [f32; 3],
-    /// Place of the tile in its detail tile: lower left corner, side, each 0 to 1; the height that its heights count from.
+    /// Position of the tile in its detail texture: lower left corner and side, each 0 to 1; base height of the
+    /// texture's heights, metres.
     detail_place: [f32; 4],
-    /// Distances in metres between which the detail of the detail tile's parent takes over; from texel to texel.
+    /// Distances in metres over which the parent of the detail texture takes over; metres between texels.
     detail_fade: [f32; 4],
-    /// Layer of a horizon tile, -1 without one; width of this tile in that tile's node, and where it lies there.
+    /// Layer of the horizon tile, -1 without one; width of this tile as a share of that tile's node, and its corner
+    /// there.
     horizon: [f32; 4],
 }
 
 impl Instance {
     fn new(leaf: &Leaf, ranges: &Ranges, layer: Option<u32>) -> Self {
         let fade = |level: u8| match level {
-            // There is no parent to take over.
+            // Level 0 has no parent.
             0 => [1e30, 2e30],
             level => [SHADED_AT, 1.0].map(|share| (ranges.always_m(level) * share) as f32),
         };
@@ -55,19 +58,19 @@ impl Instance {
 
 /// Bytes of an instance.
 pub(crate) const INSTANCE_BYTES: u64 = size_of::<Instance>() as u64;
-/// Texels of a detail tile along a quad.
+/// Texels of a detail texture along a quad of the mesh.
 const DETAIL_PER_QUAD: f64 = ((DETAIL_SIDE - 1) / TILE_QUADS) as f64;
 
-/// One draw call.
+/// One draw call: a tile.
 pub(crate) struct Draw {
     pub(crate) place: Place,
-    /// Texture arrays of the detail and the horizon tile.
+    /// Texture arrays of the detail tile and of the horizon tile.
     pub(crate) arrays: [usize; 2],
-    /// Parent edges: which index list is drawn.
+    /// Bit mask of parent edges; it selects the index list.
     pub(crate) mask: usize,
 }
 
-/// See the module.
+/// The ground of a body in one view.
 pub(crate) struct GroundView {
     morph: Morph,
     instances: wgpu::Buffer,
@@ -79,7 +82,7 @@ impl GroundView {
         Self { morph: Morph::new(device), instances: instance_buffer(device, 1024), draws: Vec::new() }
     }
 
-    /// Chooses the tiles that `view` sees, and uploads those that are not on the GPU yet.
+    /// Selects the tiles that `view` sees, and uploads those that are not on the GPU yet.
     pub(crate) fn prepare(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
@@ -95,7 +98,7 @@ impl GroundView {
         self.draws.clear();
         let mut instances: Vec<Instance> = Vec::new();
         let mut morphed: Vec<(Place, u8)> = Vec::new();
-        // Near tiles first: pixels that they hide are not shaded.
+        // Near tiles first, so that pixels they hide are not shaded.
         let eye = view.camera.position_planet_m;
         let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
         let mut seen: Vec<_> = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).collect();
@@ -129,12 +132,12 @@ impl GroundView {
         tiles.pool.end_round(encoder);
     }
 
-    /// Computes where the vertices of the chosen tiles are drawn.
+    /// Morphs the vertices of the selected tiles.
     pub(crate) fn morph(&self, encoder: &mut wgpu::CommandEncoder, pass: &MorphPass) {
         self.morph.find(encoder, pass);
     }
 
-    /// The tiles that were chosen, near ones first.
+    /// The selected tiles, near ones first.
     pub(crate) fn draws(&self) -> &[Draw] {
         &self.draws
     }
@@ -144,7 +147,7 @@ impl GroundView {
         &self.instances
     }
 
-    /// The morphed vertices beside a buffer of the tile pool.
+    /// Morphed vertices for a vertex buffer of the tile pool.
     pub(crate) fn shown(&self, buffer: usize) -> Option<&wgpu::Buffer> {
         self.morph.of(buffer)
     }

@@ -1,15 +1,16 @@
-//! Horizon tiles as textures: all images of a tile side by side, each texel the tile's own value and its parent's.
+//! Horizon tiles as texture layers: an atlas of all images of a tile. Each texel has the tile's own value and its
+//! parent's.
 
 use super::layer_pool::LayerKind;
 use crate::lod::horizon::{COARSE_SIDE, HORIZON_IMAGES, HorizonTile};
 use crate::lod::tile::{TILE_SIDE, TILE_VERTICES};
 use half::f16;
 
-/// Images along a side of the texture.
+/// Images along a side of the atlas.
 pub(crate) const IMAGES_ALONG: usize = 7;
 const SIDE_PX: usize = IMAGES_ALONG * TILE_SIDE;
 
-/// 14 MB an array.
+/// An array takes 14 MB.
 pub(crate) const HORIZON: LayerKind = LayerKind {
     label: "horizon tiles",
     side_px: SIDE_PX as u32,
@@ -17,7 +18,7 @@ pub(crate) const HORIZON: LayerKind = LayerKind {
     layers: 64,
 };
 
-/// The bytes of the texture; nothing for a tile that is not whole.
+/// Bytes of the atlas; `None` for an incomplete tile.
 pub(crate) fn texels(tile: &HorizonTile) -> Option<Vec<Vec<u8>>> {
     const COARSE: usize = COARSE_SIDE * COARSE_SIDE;
     if tile.own.len() != HORIZON_IMAGES * TILE_VERTICES || tile.coarse.len() != HORIZON_IMAGES * COARSE {

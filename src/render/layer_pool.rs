@@ -1,25 +1,25 @@
-//! Images of tiles on the GPU: layers of a few large texture arrays, keyed by serial, filled once and kept until another needs
-//! the room and nobody has asked for them for a while.
+//! Cache of tile images on the GPU: layers of a few large texture arrays, keyed by serial number. A layer is filled
+//! once and kept until another tile needs it and no frame has requested it for a while.
 
 use std::collections::HashMap;
 
-/// Tiles that have not been asked for in so many frames may lose their layers. A surface that is uploaded ahead is not drawn before
-/// the last of it is there.
+/// Number of frames after which an unrequested tile may lose its layer. More than one, because a surface that is
+/// uploaded ahead is drawn only once its last tile is uploaded.
 const KEPT_FRAMES: u64 = 4;
 
-/// What is kept for each tile.
+/// Format of the images of a tile.
 #[derive(Clone, Copy)]
 pub(crate) struct LayerKind {
     pub(crate) label: &'static str,
-    /// Width and height of each image.
+    /// Width and height of each image, pixels.
     pub(crate) side_px: u32,
     /// One image for each format; at most two.
     pub(crate) formats: &'static [wgpu::TextureFormat],
-    /// Layers of one array.
+    /// Layers of one texture array.
     pub(crate) layers: u32,
 }
 
-/// Where a tile is.
+/// Location of a tile in the pool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LayerPlace {
     /// Index of the texture array.
@@ -36,7 +36,7 @@ struct Held {
 pub(crate) struct LayerPool {
     kind: LayerKind,
     layout: wgpu::BindGroupLayout,
-    /// One for each format.
+    /// For each array, a texture for each format.
     textures: Vec<Vec<wgpu::Texture>>,
     groups: Vec<wgpu::BindGroup>,
     free: Vec<LayerPlace>,
@@ -46,7 +46,7 @@ pub(crate) struct LayerPool {
 }
 
 impl LayerKind {
-    /// The bind group layout of one array: a texture for each format.
+    /// Bind group layout of one array: a texture for each format.
     pub(crate) fn layout(&self, device: &wgpu::Device) -> wgpu::BindGroupLayout {
         let entry = |(binding, _)| wgpu::BindGroupLayoutEntry {
             binding,
@@ -62,7 +62,7 @@ impl LayerKind {
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(self.label), entries: &entries })
     }
 
-    /// Bytes of a tile.
+    /// Bytes of the images of a tile.
     pub(crate) fn tile_bytes(&self) -> u64 {
         let texel = |format: &wgpu::TextureFormat| format.block_copy_size(None).unwrap_or(0);
         u64::from(self.side_px * self.side_px * self.formats.iter().map(texel).sum::<u32>())
@@ -74,7 +74,7 @@ impl LayerKind {
 }
 
 impl LayerPool {
-    /// One array, empty.
+    /// Creates a pool with one empty array.
     pub(crate) fn new(device: &wgpu::Device, kind: LayerKind) -> Self {
         let mut pool = Self {
             kind,
@@ -90,7 +90,7 @@ impl LayerPool {
         pool
     }
 
-    /// Call once a frame, before the first [`LayerPool::place`] of what is drawn.
+    /// Must be called once a frame, before the first [`LayerPool::place`] of a drawn tile.
     pub(crate) fn begin_frame(&mut self) {
         self.frame += 1;
     }
@@ -105,8 +105,8 @@ impl LayerPool {
         self.uploaded_bytes
     }
 
-    /// Uploads a tile ahead of the frame that draws it, if its bytes are `affordable`; one that is here keeps its layer. False if it
-    /// has to wait.
+    /// Uploads a tile ahead of the frame that draws it, if its bytes are `affordable`; a tile already in the pool keeps
+    /// its layer. Returns false if the tile has to wait.
     pub(crate) fn place_ahead(
         &mut self,
         device: &wgpu::Device,
@@ -122,7 +122,8 @@ impl LayerPool {
         fits
     }
 
-    /// Where a tile is; if it is new it is uploaded: `texels` gives the bytes of each image, or nothing for one that cannot be drawn.
+    /// Location of a tile, which is uploaded if it is new. `texels` returns the bytes of each image, or `None` for a
+    /// tile that cannot be drawn.
     pub(crate) fn place(
         &mut self,
         device: &wgpu::Device,

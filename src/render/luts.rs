@@ -1,7 +1,9 @@
-//! Textures that outlive a frame. [`Patterns`]: noises and materials, one set for a device. [`Luts`]: the LUTs of the air,
-//! the weather map and the biomes of a body, each made again when the content that it depends on has changed.
+//! Textures that are reused from frame to frame. [`Patterns`]: noises and materials, one set for a device. [`Luts`]:
+//! the LUTs of the air, the weather map and the biome textures of a body; each is computed again when the content of
+//! its key has changed.
 //!
-//! LUTs of the air: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020.
+//! Method of the LUTs of the air: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique,
+//! 2020.
 
 use super::biome_table::{BiomeTexels, BiomeTextures, MarkedCells};
 use super::border_tile;
@@ -14,33 +16,34 @@ use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Atmosphere, Biomes, Planet};
 use std::sync::Arc;
 
-/// Size of each LUT of the air, texels.
+/// Size of each LUT of the air in texels.
 pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
 pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 32];
 pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 
-/// The LUTs of the air in the order in which they build on each other: name, shader, size.
+/// The LUTs of the air in order of dependence: name, shader, size.
 const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
     ("optical depth", "optical_depth.wgsl", OPTICAL_DEPTH_SIZE),
     ("multiscatter", "multiscatter.wgsl", MULTISCATTER_SIZE),
     ("irradiance", "irradiance.wgsl", IRRADIANCE_SIZE),
     ("sky", "sky.wgsl", SKY_SIZE),
 ];
-/// LUTs that each LUT of the air reads: the first ones of the list.
+/// Number of earlier LUTs in the list that each LUT of the air reads.
 const AIR_LUTS_READ: [usize; 4] = [0, 1, 2, 2];
 
-/// What the LUTs of the air depend on: the air, the planet's radius, and the widest sun's, which softens the terminator.
+/// Key of the LUTs of the air: atmosphere, radius in km, and bits of the widest sun's angular radius, which softens the
+/// terminator.
 type AirKey = (Atmosphere, f64, u32);
 
-/// What the weather map depends on: scale, curl, seeds, radius.
+/// Key of the weather map: scale, curl, seeds of clouds and planet, radius.
 type WeatherKey = (f64, f64, u32, u32, f64);
 
-/// How often each texture of a body, and its uniforms, have been written since the start.
+/// Number of times that each texture of a body, and its uniforms, have been written since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LutRuns {
-    /// The biome table.
+    /// The biome textures.
     pub biomes: u64,
     /// The weather map.
     pub weather: u64,
@@ -50,12 +53,12 @@ pub struct LutRuns {
     pub uniforms: u64,
 }
 
-/// Textures that all bodies share.
+/// Textures shared by all bodies.
 pub(crate) struct Patterns {
-    /// The noise of ground and clouds, and that of the borders between biomes.
+    /// The tiling noise of ground and clouds, and the noise of the border jitter.
     noise: [wgpu::TextureView; 2],
     materials: MaterialMaps,
-    /// Layout of the group of a body's LUTs.
+    /// Layout of the bind group of a body's LUTs.
     pub(crate) layout: wgpu::BindGroupLayout,
 }
 
@@ -72,7 +75,7 @@ impl Patterns {
     }
 }
 
-/// The pipelines that fill LUTs.
+/// The pipelines that draw LUTs.
 pub(crate) struct LutPipelines {
     air: Vec<wgpu::RenderPipeline>,
     cloud_map: CloudMapPass,
@@ -111,7 +114,7 @@ pub(crate) struct Luts {
     pub(crate) runs: LutRuns,
 }
 
-/// The LUTs bound for drawing, and for filling the later LUTs of the air.
+/// Bind groups with all LUTs for drawing, and with the first ones only, for drawing the other LUTs of the air.
 struct Groups {
     all: wgpu::BindGroup,
     first_of_air: wgpu::BindGroup,
@@ -144,14 +147,14 @@ impl Luts {
         &self.groups.all
     }
 
-    /// Makes everything anew at the next frame: the shaders that fill it have changed.
+    /// Makes the next frame draw everything again, because shaders have changed.
     pub(crate) fn forget(&mut self) {
         self.air_key = None;
         self.weather_key = None;
     }
 
-    /// Brings everything up to date with a planet. `uniforms`: the body's, already written; `sun_radius_rad`: their widest
-    /// sun's.
+    /// Updates everything that `planet` has made stale. `uniforms`: those of the body, already written.
+    /// `sun_radius_rad`: angular radius of the widest sun in them.
     pub(crate) fn update(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
@@ -185,7 +188,7 @@ impl Luts {
         }
     }
 
-    /// Nothing happens if what differs is not in the textures: names, or where rows begin.
+    /// Writes the biome textures if their texels have changed. Some edits, such as names, do not change texels.
     fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns, texels: BiomeTexels) {
         if texels == self.biome_texels {
             return;
@@ -221,7 +224,7 @@ impl Groups {
         biomes: &BiomeTextures,
     ) -> Self {
         let (noise, materials) = (&patterns.noise, &patterns.materials);
-        // With the first LUTs of the air only: the others are being filled, and the first stands in for them.
+        // A texture must not be bound while it is drawn, so the first LUT stands in for those not ready yet.
         let bind = |ready: usize| {
             let air = (0..air.len()).map(|i| &air[if i < ready { i } else { 0 }]);
             let rest =

@@ -1,16 +1,16 @@
-//! The patterns of the ground, one function for each [`Detail`]: what a square of it looks like that repeats without a seam.
+//! The patterns of the ground: for each [`Detail`] a function that draws a square texture which tiles without a seam.
 
 use super::material_noise::{Cells, Drawn, Fractal, SIDE, Texel, Warp, hash, step};
 use crate::planet::Detail;
 use rayon::prelude::*;
 use std::f32::consts::TAU;
 
-/// What a pattern has at one place.
+/// One texel of a pattern.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Spot {
-    /// Height, in shares of the pattern's side.
+    /// Height as a share of the pattern's side length.
     pub(super) height: f32,
-    /// Colour, to be multiplied with that of the biome.
+    /// Factor on the albedo of the biome.
     pub(super) tint: [f32; 3],
     /// Added to the biome's roughness.
     pub(super) roughness: f32,
@@ -18,7 +18,7 @@ pub(super) struct Spot {
     pub(super) glow: f32,
 }
 
-/// The kinds that have a pattern, in the order of their layers.
+/// The kinds that have a pattern, in the order of their texture layers.
 pub(super) const KINDS: [Detail; 9] = [
     Detail::Grass,
     Detail::Litter,
@@ -31,7 +31,7 @@ pub(super) const KINDS: [Detail; 9] = [
     Detail::Lava,
 ];
 
-/// The layer of a kind.
+/// Texture layer of a kind.
 pub(super) fn layer(kind: Detail) -> Option<usize> {
     KINDS.iter().position(|known| *known == kind)
 }
@@ -64,13 +64,13 @@ fn tinted([r, g, b]: [f32; 3], light: f32) -> [f32; 3] {
     [r * light, g * light, b * light]
 }
 
-/// A number of each texel's own, -1..1.
+/// Noise of the texel alone, -1..1.
 fn grain(texel: Texel, seed: u32) -> f32 {
     2.0 * hash([(texel.index % SIDE) as u32, (texel.index / SIDE) as u32], seed)[0] - 1.0
 }
 
-/// Paints over the pattern, without a seam: `spot` sees the place relative to the stroke's middle, in texels, and paints where it
-/// is higher than what is there.
+/// Draws a stroke into the pattern, wrapping at the borders. `spot` gets the position relative to the middle of the
+/// stroke in texels. Its texel replaces the pattern's where it is higher.
 fn stamp(canvas: &mut [Spot], middle: [f32; 2], reach: f32, spot: impl Fn(f32, f32) -> Option<Spot>) {
     let (side, [x0, y0]) = (SIDE as i32, middle.map(|w| w * SIDE as f32));
     let range = |c: f32| (c - reach).floor() as i32..=(c + reach).ceil() as i32;
@@ -86,7 +86,7 @@ fn stamp(canvas: &mut [Spot], middle: [f32; 2], reach: f32, spot: impl Fn(f32, f
     }
 }
 
-/// Numbers of a stroke's own, 0..1.
+/// Random numbers of a stroke, 0..1.
 fn dice(number: u32, seed: u32) -> [f32; 6] {
     let ([a, b, c], [d, e, f]) = (hash([number, 1], seed), hash([number, 2], seed));
     [a, b, c, d, e, f]
@@ -103,7 +103,7 @@ fn grass() -> Vec<Spot> {
     let (leans, tufts) = (Fractal::new(4, 2, 12), Fractal::new(7, 2, 13));
     for number in 0..5200 {
         let [x, y, turn, long, hue, dry] = dice(number, 11);
-        // Tufts lean together.
+        // Blades of a tuft lean together.
         let lean = TAU * (leans.at([x, y]) + 0.16 * (turn - 0.5));
         let tuft = step(-0.5, 0.45, tufts.at([x, y]));
         let length = (6.0 + 15.0 * long) * (0.45 + 0.55 * tuft);
@@ -112,7 +112,7 @@ fn grass() -> Vec<Spot> {
         let shade = 0.75 + 0.5 * hue;
         stamp(&mut canvas, [x, y], 0.5 * length + 1.0, |dx, dy| {
             let (along, across) = ((dx * cos + dy * sin) / length + 0.5, dy * cos - dx * sin);
-            // From the root to the tip, bent to one side.
+            // A blade narrows from root to tip and bends to one side.
             let bent = across - (turn - 0.5) * 5.0 * along * along;
             let width = 1.1 * (1.0 - 0.75 * along);
             let inside = (0.0..1.0).contains(&along) && bent.abs() < width;
@@ -150,7 +150,7 @@ fn litter() -> Vec<Spot> {
         let light = 0.5 + 0.85 * lift;
         stamp(&mut canvas, [x, y], length + 1.0, |dx, dy| {
             let (along, across) = ((dx * cos + dy * sin) / length, (dy * cos - dx * sin) / width);
-            // A leaf is pointed at both ends, and folded along its rib.
+            // A leaf is pointed at both ends and folded along its rib.
             let edge = if twig { 1.0 } else { 1.0 - along * along };
             let inside = along.abs() < 1.0 && across.abs() < edge;
             inside.then(|| {
@@ -169,7 +169,7 @@ fn sand() -> Vec<Spot> {
     let (warp, strong, lumps) = (Warp::new(3, 0.055, 31), Drawn::new(2, 3, 33), Drawn::new(24, 3, 36));
     each(|at| {
         let [u, v] = warp.at(at);
-        // Gentle before the wind and steep behind, stronger here than there.
+        // Ripples rise gently on the windward side and fall steeply on the leeward side; their strength varies.
         let phase = (11.0 * v + 2.0 * u).rem_euclid(1.0);
         let ripple = if phase < 0.68 { step(0.0, 0.68, phase) } else { 1.0 - step(0.68, 1.0, phase) };
         let strength = 0.55 + 0.45 * strong.at(at);
@@ -186,7 +186,7 @@ fn sand() -> Vec<Spot> {
 
 fn gravel() -> Vec<Spot> {
     let (lumps, stains, grit) = (Drawn::new(10, 4, 42), Drawn::new(20, 3, 43), Drawn::new(48, 2, 48));
-    // Big stones are few, small ones lie everywhere.
+    // Large stones are rare, small ones lie everywhere.
     let sizes = [(38, 0.6, 44), (21, 0.45, 45), (11, 0.3, 46), (6, 0.22, 47)].map(|(period, share, seed)| {
         (period as f32, share, Warp::new(period, 0.16 / period as f32, seed + 50), Cells::new(period, seed))
     });
@@ -232,7 +232,7 @@ fn rock() -> Vec<Spot> {
     each(|at| {
         let bent = bend.at(at);
         let (slab, chip) = (slabs.at(bent), chips.at(bend_chips.at(at)));
-        // Some joints gape, most are only where two faces meet.
+        // Some joints gape; most are mere edges between two faces.
         let gape = step(-0.1, 0.6, open.at(at));
         let crack = (1.0 - step(0.0, 0.015 + 0.05 * gape, slab.border())) * (0.35 + 0.65 * gape);
         let split = (1.0 - step(0.0, 0.06, chip.border())) * step(0.45, 0.75, chip.own[2]);
@@ -261,7 +261,7 @@ fn snow() -> Vec<Spot> {
         (Warp::new(2, 0.10, 71), Fractal::new(3, 4, 72), Fractal::new(2, 3, 73), Drawn::new(30, 2, 76));
     each(|at| {
         let [u, v] = warp.at(at);
-        // Sastrugi: crests cut by the wind, drawn out along it.
+        // Sastrugi: crests carved by the wind and elongated along it.
         let drawn = drifts.at([u, v * 2.0]);
         let crust = step(0.55, 0.95, 1.0 - cuts.at([v, u * 3.0]).abs() * 1.6);
         let grains = grain(at, 74);
@@ -331,7 +331,7 @@ fn lava() -> Vec<Spot> {
     each(|at| {
         let (plate, chip) = (plates.at(bend.at(at)), chips.at(bend_chips.at(at)));
         let border = plate.border();
-        // Ropes: folds pushed up across the flow, bowed on each plate.
+        // Ropes: folds across the flow, bowed on each plate.
         let ([x, y], [u, _]) = (plate.from, fold.at(at));
         let across = 3.4 * (x + 0.9 * y * y) + 5.0 * (u - at.at[0]) + plate.own[0];
         let ropes = (TAU * across).sin() * step(0.02, 0.3, border) * (0.4 + 0.6 * plate.own[1]);

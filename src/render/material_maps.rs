@@ -1,24 +1,25 @@
 //! The patterns of the ground on the GPU: two texture arrays with a layer for each kind and all mip levels.
 //!
-//! - `tint`: the colour that multiplies the biome's, halved (mean 1: far away, where only the smallest level is seen, a biome has
-//!   its own colour), and the height as its place in the order of all heights, 0..1, so that a threshold leaves a known share
-//! - `surface`: slopes along both sides, roughness to be added, glow
+//! - `tint`: half the factor on the biome's albedo (rgb) and the rank of the height among all heights, 0..1 (a). The
+//!   mean factor is 1, so that a biome keeps its colour far away, where only the coarsest level shows. The ranks make a
+//!   threshold leave a known share.
+//! - `surface`: slopes along both sides (rg), change of roughness (b), glow (a)
 //!
-//! Made once for the whole process, on all cores, from noise alone.
+//! Drawn from noise once for the whole process, on all cores.
 
 use super::material_kinds::{KINDS, Spot, draw};
 use super::material_noise::SIDE;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Greatest slope that is stored.
+/// Largest slope that is stored, rise over run.
 pub(crate) const PATTERN_STEEPEST: f32 = 1.25;
-/// Most that is added to a roughness, either way.
+/// Largest change of roughness that is stored.
 pub(crate) const PATTERN_ROUGHNESS: f32 = 0.5;
 
 type Texels = Vec<[u8; 4]>;
 
-/// All levels of one layer, finest first.
+/// All mip levels of one layer, finest first.
 struct Layer {
     tint: Vec<Texels>,
     surface: Vec<Texels>,
@@ -102,7 +103,7 @@ impl Layer {
     }
 }
 
-/// Takes most of what is broad out of the colours: seen from some way off, it is what repeats.
+/// Removes most of the coarse variation of brightness, because it makes the repetition of a pattern visible from afar.
 fn even_out(tints: &mut [[f32; 3]]) {
     const CELLS: usize = 8;
     const TAKEN: f32 = 0.75;
@@ -113,7 +114,7 @@ fn even_out(tints: &mut [[f32; 3]]) {
         means[i / SIDE / width * CELLS + i % SIDE / width] += light(tint) / (width * width) as f32;
     }
     let all = means.iter().sum::<f32>() / means.len() as f32;
-    // Between the middles of four cells.
+    // Indices and weight for interpolation between the middles of four cells.
     let between: [_; SIDE] = std::array::from_fn(|w| {
         let at = (w as f32 + 0.5) / width as f32 - 0.5 + CELLS as f32;
         (at as usize % CELLS, (at as usize + 1) % CELLS, at.fract())
@@ -128,7 +129,7 @@ fn even_out(tints: &mut [[f32; 3]]) {
     }
 }
 
-/// Scales each colour so that its mean is 1 although none is stored beyond 2.
+/// Scales each channel to a mean of 1, with no value above 2, the largest that is stored.
 fn neutralize(tints: &mut [[f32; 3]]) {
     for _ in 0..4 {
         let mut sums = [0.0_f64; 3];
@@ -142,7 +143,7 @@ fn neutralize(tints: &mut [[f32; 3]]) {
     }
 }
 
-/// The place of each value in the order of all, 0..1.
+/// Rank of each value among all values, 0..1.
 fn ranks(values: &[f32]) -> Vec<f32> {
     const BINS: usize = 1 << 14;
     let (lo, hi) = values.iter().fold((f32::MAX, f32::MIN), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
@@ -155,7 +156,8 @@ fn ranks(values: &[f32]) -> Vec<f32> {
     bins.into_iter().map(middle).collect()
 }
 
-/// Rise over run along both sides, as far as it is stored, and none on the whole: seen from far away, no pattern leans.
+/// Slopes (rise over run) along both sides, clamped to the stored range, with mean 0: a pattern must not tilt the
+/// ground.
 fn slopes(heights: &[f32]) -> Vec<[f32; 2]> {
     let row = |y: usize| &heights[y % SIDE * SIDE..][..SIDE];
     let per_run = 0.5 * SIDE as f32;
@@ -168,7 +170,8 @@ fn slopes(heights: &[f32]) -> Vec<[f32; 2]> {
             [along * per_run, (above[x] - below[x]) * per_run]
         }));
     }
-    // What is cut off on one side is not on the other; cut off again, it hardly matters.
+    // Clamping shifts the mean, and correcting the mean leads to more clamping. The change gets small after three
+    // rounds.
     for _ in 0..3 {
         let mut sums = [0.0_f64; 2];
         for slope in &slopes {
@@ -182,7 +185,7 @@ fn slopes(heights: &[f32]) -> Vec<[f32; 2]> {
     slopes
 }
 
-/// The mip levels: means of two by two, rounded only when stored.
+/// Mip levels: means of blocks of two by two, rounded only when stored.
 fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
     let byte = |share: f32| (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     let mut levels = Vec::new();
@@ -212,7 +215,7 @@ fn levels(mut texels: Vec<[f32; 4]>) -> Vec<Texels> {
 mod tests {
     use super::*;
 
-    /// Wherever one looks from, a pattern leaves the biome's colour as it is on the whole.
+    /// At every mip level, a pattern keeps the mean colour of the biome.
     #[test]
     fn every_pattern_is_neutral_at_every_level() {
         for (kind, layer) in KINDS.iter().zip(layers()) {
@@ -231,7 +234,7 @@ mod tests {
         }
     }
 
-    /// No seam: across the border neighbours differ no more than elsewhere.
+    /// Neighbours across the border differ no more than elsewhere.
     #[test]
     fn every_pattern_repeats_without_a_seam() {
         for (kind, layer) in KINDS.iter().zip(layers()) {
@@ -248,7 +251,7 @@ mod tests {
         }
     }
 
-    /// A pattern is more than an even grey: its tints differ, and glow is for lava alone.
+    /// The tints of every pattern vary, and only lava glows.
     #[test]
     fn every_pattern_shows_and_only_lava_glows() {
         use crate::planet::Detail;

@@ -1,16 +1,16 @@
-//! Noise that repeats without a seam over the unit square, for the patterns of the ground. Each kind is a table of its lattice, so
-//! that a million places are a matter of milliseconds; where all texels of a pattern are wanted ([`Drawn`]), a row at a time
-//! shares what its texels have in common.
+//! Noise that tiles over the unit square, for the patterns of the ground. Each kind stores its lattice, so that a
+//! million points take milliseconds. [`Drawn`] evaluates all texels of a pattern row by row, and shares the terms that
+//! texels of a row have in common.
 
 use rayon::prelude::*;
 
 /// Texels along a side of a pattern.
 pub(super) const SIDE: usize = 256;
 
-/// One of a pattern's texels.
+/// A texel of a pattern.
 #[derive(Clone, Copy)]
 pub(super) struct Texel {
-    /// Its number, row by row.
+    /// Its index, row by row.
     pub(super) index: usize,
     /// Its middle in the unit square.
     pub(super) at: [f32; 2],
@@ -26,7 +26,7 @@ fn middle(texel: usize) -> f32 {
     (texel as f32 + 0.5) / SIDE as f32
 }
 
-/// Three numbers in 0..1 for a place of a lattice (the finaliser of murmur3).
+/// Three numbers in 0..1 for a point of a lattice (the finaliser of murmur3).
 pub(super) fn hash([x, y]: [u32; 2], seed: u32) -> [f32; 3] {
     let mut h = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ seed.wrapping_mul(0x27D4_EB2F);
     std::array::from_fn(|_| {
@@ -37,13 +37,13 @@ pub(super) fn hash([x, y]: [u32; 2], seed: u32) -> [f32; 3] {
     })
 }
 
-/// From 0 at `from` to 1 at `to`, whichever is greater.
+/// Smooth step from 0 at `from` to 1 at `to`; either may be the greater.
 pub(super) fn step(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Numbers on a lattice of `period` cells along a side, with a border that repeats the other side.
+/// Numbers on a lattice of `period` cells along a side. A border repeats the opposite side.
 struct Lattice {
     period: usize,
     stride: usize,
@@ -61,23 +61,23 @@ impl Lattice {
         Self { period, stride, numbers }
     }
 
-    /// The row or column of cells of a coordinate, and the place in it.
+    /// Row or column of cells of a coordinate, and the position in the cell.
     fn cell(&self, w: f32) -> (usize, f32) {
-        // Whole numbers by way of an integer: `floor` is a call on processors that know no better.
+        // Rounding by integer conversion: `floor` is a function call on processors without an instruction for it.
         let whole = w as i32 as f32;
         let q = (w - if whole > w { whole - 1.0 } else { whole }) * self.period as f32;
         let cell = (q as i32 as usize).min(self.period - 1);
         (cell, q - cell as f32)
     }
 
-    /// The lattice cell of a place (index of its corner) and the place in it.
+    /// Lattice cell of a point (index of its corner), and the position in the cell.
     fn find(&self, at: [f32; 2]) -> (usize, [f32; 2]) {
         let ((column, x), (row, y)) = (self.cell(at[0]), self.cell(at[1]));
         ((row + BORDER) * self.stride + column + BORDER, [x, y])
     }
 }
 
-/// The way between two corners, without a crease at either.
+/// Interpolation weight between two corners, with zero derivatives at both.
 fn fade(f: f32) -> f32 {
     f * f * f * (f * (f * 6.0 - 15.0) + 10.0)
 }
@@ -93,7 +93,7 @@ const SMOOTH: f32 = 1.4;
 pub(super) struct Smooth(Lattice);
 
 impl Smooth {
-    /// With so many cells along a side.
+    /// `period`: cells along a side.
     pub(super) fn new(period: usize, seed: u32) -> Self {
         Self(Lattice::new(period, seed))
     }
@@ -108,7 +108,7 @@ impl Smooth {
         SMOOTH * mix(mix(corner(0, 0), corner(1, 0), a), mix(corner(0, 1), corner(1, 1), a), fade(y))
     }
 
-    /// For each column of texels its column of cells, the place in it, and the way between its sides.
+    /// For each column of texels: its column of cells, the position in the cell, and its interpolation weight.
     fn columns(&self) -> [(usize, f32, f32); SIDE] {
         std::array::from_fn(|x| {
             let (cell, f) = self.0.cell(middle(x));
@@ -116,7 +116,7 @@ impl Smooth {
         })
     }
 
-    /// Adds a row of texels. `columns` are its own; `sides` is room to work in.
+    /// Adds a row of texels to `sums`. `columns`: from [`Smooth::columns`]. `sides`: scratch memory.
     fn add_row(
         &self,
         y: usize,
@@ -128,7 +128,7 @@ impl Smooth {
         let (cell, f) = self.0.cell(middle(y));
         let (start, b) = ((cell + BORDER) * self.0.stride, fade(f));
         let (below, above) = self.0.numbers[start..start + 2 * self.0.stride].split_at(self.0.stride);
-        // Along a row each line of corners is a slope and a height.
+        // Interpolated across the rows, each column of corners gives a plane: a slope along the row and an offset.
         sides.clear();
         sides.extend(below.iter().zip(above).map(|([px, py, _], [qx, qy, _])| {
             let signed = |w: &f32| 2.0 * w - 1.0;
@@ -141,11 +141,11 @@ impl Smooth {
     }
 }
 
-/// Octaves, each twice as fine and half as strong as the one before, about -1..1.
+/// Fractal noise, about -1..1: each octave is twice as fine and half as strong as the octave before.
 pub(super) struct Fractal(Vec<Smooth>);
 
 impl Fractal {
-    /// The first with so many cells along a side.
+    /// `period`: cells of the first octave along a side.
     pub(super) fn new(period: usize, octaves: u32, seed: u32) -> Self {
         Self((0..octaves).map(|i| Smooth::new(period << i, seed + 31 * i)).collect())
     }
@@ -156,7 +156,7 @@ impl Fractal {
     }
 }
 
-/// Octaves at all texels.
+/// Fractal noise at all texels of a pattern.
 pub(super) struct Drawn(Vec<f32>);
 
 impl Drawn {
@@ -180,14 +180,14 @@ impl Drawn {
     }
 }
 
-/// Displaces texels by soft noise, so that nothing is straight.
+/// Displaces texels by smooth noise, so that nothing is straight.
 pub(super) struct Warp {
     by: f32,
     noise: [Drawn; 2],
 }
 
 impl Warp {
-    /// By at most about so much, over so many cells along a side.
+    /// `by`: largest displacement, approximately. `period`: cells of the noise along a side.
     pub(super) fn new(period: usize, by: f32, seed: u32) -> Self {
         Self { by, noise: [Drawn::new(period, 3, seed), Drawn::new(period, 3, seed + 7)] }
     }
@@ -197,22 +197,22 @@ impl Warp {
     }
 }
 
-/// What is known of the nearest of scattered points (Worley, A cellular texture basis function, 1996). Lengths in cells.
+/// The nearest of scattered points (Worley, A cellular texture basis function, 1996). Lengths are in cells.
 #[derive(Clone, Copy)]
 pub(super) struct Cell {
-    /// Distance to it.
+    /// Distance to the nearest point.
     pub(super) nearest: f32,
-    /// The way from it.
+    /// Vector from the nearest point.
     pub(super) from: [f32; 2],
-    /// Three numbers of its own, 0..1.
+    /// Three random numbers of the nearest point, 0..1.
     pub(super) own: [f32; 3],
-    /// The ways from all points around, and which of them is the nearest.
+    /// Vectors from the nine points around, x and y apart, and the index of the nearest.
     ways: [[f32; 9]; 2],
     which: usize,
 }
 
 impl Cell {
-    /// Distance to the border with the next one: it stands halfway, across the line between the two points.
+    /// Distance to the border of the cell, which is the bisector between the nearest point and another point.
     pub(super) fn border(&self) -> f32 {
         let ([xs, ys], [fx, fy]) = (&self.ways, self.from);
         let near = fx * fx + fy * fy;
@@ -227,7 +227,7 @@ impl Cell {
     }
 }
 
-/// What a number that is not negative has after the point.
+/// Fractional part of a number that is not negative.
 fn fraction(w: f32) -> f32 {
     w - w as i32 as f32
 }
@@ -235,15 +235,15 @@ fn fraction(w: f32) -> f32 {
 /// Scattered points, one in each cell.
 pub(super) struct Cells {
     lattice: Lattice,
-    /// Where in its cell each point is.
+    /// Position of each point in its cell.
     points: Vec<[f32; 2]>,
 }
 
 impl Cells {
-    /// With so many cells along a side.
+    /// `period`: cells along a side.
     pub(super) fn new(period: usize, seed: u32) -> Self {
         let lattice = Lattice::new(period, seed);
-        // Not up to the cell's sides, or its neighbours' neighbours would matter.
+        // Points keep a distance from the sides of their cells; otherwise points two cells away could be the nearest.
         let points = lattice.numbers.iter().map(|[x, y, _]| [x, y].map(|w| 0.08 + 0.84 * w)).collect();
         Self { lattice, points }
     }
@@ -269,7 +269,7 @@ impl Cells {
         Cell {
             nearest: nearest.sqrt(),
             from: ways.map(|ways| ways[which]),
-            // Other numbers than those that say where it lies.
+            // Numbers independent of the position of the point.
             own: [z, fraction(x * 61.0 + z * 17.0), fraction(y * 53.0 + z * 29.0)],
             ways,
             which,

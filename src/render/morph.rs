@@ -1,5 +1,5 @@
-//! How far vertices have come out of the coarser mesh (`morph.wgsl`), for all tiles of a frame: beside each buffer of vertices one of
-//! what they show.
+//! Geomorphing of vertices on the GPU (`morph.wgsl`), for all tiles of a frame. Each vertex buffer of the tile pool has
+//! a second buffer with the morphed values. Method: [`crate::lod::morph`].
 
 use super::pool::{Place, SLOTS};
 use super::scene::split_position;
@@ -10,32 +10,32 @@ use crate::lod::range::FULL_AT;
 use crate::lod::tile::TILE_VERTICES;
 use glam::{DVec3, Vec3};
 
-/// What a vertex shows: how far it is drawn above its place; moisture, row of the biome table, height and temperature.
+/// Morphed values of a vertex: vertical shift in metres; then moisture, temperature in °C and height in metres.
 pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
     wgpu::vertex_attr_array![11 => Float32, 12 => Float32x3];
-/// Bytes of it.
+/// Bytes of the morphed values of a vertex.
 pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
-/// Bytes of what belongs to one buffer of the pool.
+/// Bytes of the morphed values for one buffer of the pool.
 const PART_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * SHOWN_BYTES;
 
 uniform_struct! {
-    /// The eye that vertices morph for.
+    /// Uniforms of the morph: the eye, and the distances at which vertices morph.
     MorphEye {
-        /// Position in the planet frame, metres: greater part and rest.
+        /// Position in the planet frame, metres: high part and low part.
         high_m: Vec3,
-        /// Distance at which a level always shows, in vertex spacings.
+        /// Distance within which a level always shows, in vertex spacings.
         least_spacings: f32,
         low_m: Vec3,
         /// Distance beyond which a level never shows, in vertex spacings.
         most_spacings: f32,
-        /// Metres of distance for each metre of geometric error.
+        /// Metres of distance for each metre of expected geometric error.
         reach: f32,
-        /// Share of its distance over which a vertex morphs.
+        /// Share of that distance over which a vertex morphs.
         width_share: f32,
     }
 }
 
-/// One tile as the shader knows it.
+/// A tile in the shader's storage buffer.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 struct Job {
@@ -44,7 +44,7 @@ struct Job {
     padding: [u32; 2],
 }
 
-/// The pipeline.
+/// The pipeline of the morph.
 pub(crate) struct MorphPass {
     pipeline: wgpu::ComputePipeline,
 }
@@ -87,7 +87,7 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("morph"), entries: &entries })
 }
 
-/// What belongs to one buffer of the pool.
+/// Buffers that belong to one vertex buffer of the pool.
 struct Part {
     shown: wgpu::Buffer,
     jobs: wgpu::Buffer,
@@ -95,7 +95,7 @@ struct Part {
     count: u32,
 }
 
-/// What the vertices of all tiles show, on the GPU.
+/// Morphed values of all drawn tiles, on the GPU.
 pub(crate) struct Morph {
     layout: wgpu::BindGroupLayout,
     eye: wgpu::Buffer,
@@ -108,7 +108,7 @@ impl Morph {
         Self { layout: layout(device), eye, parts: Vec::new() }
     }
 
-    /// Sets what is to be found for a frame: the eye that vertices come out for; where each tile is that is drawn, and its level.
+    /// Uploads the inputs of a frame: the eye that vertices morph for, and location and level of each drawn tile.
     pub(crate) fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -146,7 +146,7 @@ impl Morph {
         }
     }
 
-    /// Finds it for all tiles given to [`Morph::prepare`].
+    /// Computes the morph of all tiles given to [`Morph::prepare`].
     pub(crate) fn find(&self, encoder: &mut wgpu::CommandEncoder, pass: &MorphPass) {
         let mut compute = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         compute.set_pipeline(&pass.pipeline);
@@ -156,7 +156,7 @@ impl Morph {
         }
     }
 
-    /// What stands beside a buffer of the pool.
+    /// Morphed values for a vertex buffer of the pool.
     pub(crate) fn of(&self, buffer: usize) -> Option<&wgpu::Buffer> {
         self.parts.get(buffer).map(|part| &part.shown)
     }
@@ -195,7 +195,7 @@ mod tests {
     use crate::tiles::build_now;
     use std::sync::Arc;
 
-    /// What was written to a buffer.
+    /// Content of a buffer.
     fn read(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Option<Vec<f32>> {
         let descriptor = wgpu::BufferDescriptor {
             label: Some("read back"),
@@ -213,7 +213,7 @@ mod tests {
         Some(bytemuck::cast_slice(&mapped).to_vec())
     }
 
-    /// The shader puts vertices where `lod::morph` says they are, to a thousandth of a pixel.
+    /// The shader puts vertices where `lod::morph` does, to a thousandth of a pixel.
     #[test]
     fn vertices_come_out_on_the_gpu_as_on_the_cpu() {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle().with_env());
@@ -230,7 +230,7 @@ mod tests {
             let camera = Camera::over(place, ground_m + altitude_m, 0.4, -0.4, Camera::DEFAULT_FOV_Y_RAD);
             let view = View { camera, size_px: [320, 200], quality };
             let surface = build_now(&planet, &view).unwrap();
-            // Away from where the tiles were chosen for, as a frame of a flight is.
+            // The eye is away from the position that the LOD cut was chosen for, as during a flight.
             let eye = surface.morphing_eye_m(camera.position_planet_m * (1.0 + 0.02 * altitude_m / ground_m));
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             pool.begin_round();

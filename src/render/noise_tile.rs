@@ -1,12 +1,12 @@
-//! A cube of noise that repeats without a seam, with mip levels: red is billowy (clouds), green is fractal (ground).
-//! Both are spread evenly over 0..1, so a threshold leaves a known share, and every mip level keeps the mean.
+//! A tiling cube of noise with mip levels: red is billowy (clouds), green is fractal (ground). Both are distributed
+//! evenly over 0..1, so that a threshold leaves a known share. Every mip level keeps the mean.
 
 use rayon::prelude::*;
 
 /// Texels along a side.
 pub(crate) const SIDE: usize = 64;
 
-/// Makes the tile and uploads it.
+/// Computes the tile and uploads it.
 pub(crate) fn upload(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
     let levels = SIDE.ilog2() + 1;
     let extent =
@@ -43,14 +43,14 @@ pub(crate) fn upload(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::Textur
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// A value of 0..1 as a 16-bit float (IEEE 754 binary16), rounded to nearest; what is too small for a normal number is 0.
-/// Eight bits would show as terraces where bumps are drawn from near.
+/// A value of 0..1 as a 16-bit float (IEEE 754 binary16), rounded to nearest; subnormal results become 0. Eight bits
+/// would show as terraces on bumps seen from near.
 fn half_bits(x: f32) -> u16 {
     let bits = x.clamp(0.0, 1.0).to_bits() + (1 << 12);
     (bits >> 13).saturating_sub((127 - 15) << 10) as u16
 }
 
-/// Means of two by two by two texels.
+/// Means of blocks of two by two by two texels.
 fn halved(data: &[[f32; 2]], side: usize) -> Vec<[f32; 2]> {
     let half = side / 2;
     let mut out = Vec::with_capacity(half * half * half);
@@ -78,7 +78,7 @@ fn tile() -> Vec<[f32; 2]> {
             let p = [at(i % SIDE), at(i / SIDE % SIDE), at(i / (SIDE * SIDE))];
             let cells = 0.55 * cell_noise(p, 4, 1) + 0.28 * cell_noise(p, 9, 2) + 0.17 * cell_noise(p, 18, 3);
             let soft = value_noise(p, 4, 4) + 0.5 * value_noise(p, 8, 5);
-            // Up to where the next octave of the ground begins, whose tile is an eighth as large.
+            // Octaves up to the start of the shader's next octave of the ground, whose tile is an eighth as large.
             let ground = gradient_noise(p, 6, 6) + 0.6 * gradient_noise(p, 12, 7) + 0.4 * gradient_noise(p, 24, 8);
             [-cells + 0.18 * soft, ground]
         })
@@ -87,7 +87,7 @@ fn tile() -> Vec<[f32; 2]> {
     red.into_iter().zip(green).map(|(r, g)| [r, g]).collect()
 }
 
-/// Replaces each value by its place in the order of all, 0..1.
+/// Replaces each value by its rank among all values, 0..1.
 fn ranks(raw: &[[f32; 2]], channel: usize) -> Vec<f32> {
     let mut order: Vec<u32> = (0..raw.len() as u32).collect();
     order.par_sort_unstable_by(|&a, &b| raw[a as usize][channel].total_cmp(&raw[b as usize][channel]).then(a.cmp(&b)));
@@ -98,7 +98,7 @@ fn ranks(raw: &[[f32; 2]], channel: usize) -> Vec<f32> {
     out
 }
 
-/// A hash of a lattice point that repeats after `period`; three values in 0..1 (the mixer of murmur3).
+/// Hash of a lattice point, repeating after `period` cells: three values in 0..1 (the finaliser of murmur3).
 fn lattice(cell: [i32; 3], period: i32, seed: u32) -> [f32; 3] {
     let [x, y, z] = cell.map(|c| c.rem_euclid(period) as u32);
     let mut h = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ z.wrapping_mul(0xC2B2_AE3D);
@@ -125,7 +125,8 @@ fn cell_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
     nearest.sqrt().min(1.0)
 }
 
-/// What makes each corner of the lattice cell around a point count less with distance, and where the point is from it, in cells.
+/// The corners of the lattice cell around a point: lattice cell, interpolation weight, and vector from the corner in
+/// cells.
 fn corners(p: [f32; 3], period: i32) -> impl Iterator<Item = ([i32; 3], f32, [f32; 3])> {
     let q = p.map(|x| x * period as f32);
     let base = q.map(|x| x.floor() as i32);
@@ -138,13 +139,13 @@ fn corners(p: [f32; 3], period: i32) -> impl Iterator<Item = ([i32; 3], f32, [f3
     })
 }
 
-/// Smoothly interpolated lattice values, -1..1.
+/// Value noise: smoothly interpolated lattice values, -1..1.
 fn value_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
     corners(p, period).map(|(cell, weight, _)| weight * (2.0 * lattice(cell, period, seed)[0] - 1.0)).sum()
 }
 
-/// Planes of random slopes through 0 on the lattice, smoothly blended: its lattice shows less than that of values (Perlin, Improving
-/// Noise, 2002).
+/// Gradient noise: smoothly blended planes with random slopes. It shows its lattice less than value noise (Perlin,
+/// Improving Noise, 2002).
 fn gradient_noise(p: [f32; 3], period: i32, seed: u32) -> f32 {
     let plane = |(cell, weight, from): ([i32; 3], f32, [f32; 3])| {
         let slope = lattice(cell, period, seed);

@@ -1,26 +1,27 @@
-//! Tiles on the GPU: slots in a few large vertex buffers, keyed by [`Tile::serial`], filled once and kept until another
-//! tile needs the room and nobody has drawn them for a while.
+//! Cache of tile vertices on the GPU: slots in a few large vertex buffers, keyed by [`Tile::serial`]. A slot is filled
+//! once and kept until another tile needs it and no round has requested it for a while.
 
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
 use std::collections::HashMap;
 use std::num::NonZeroU64;
 use wgpu::util::StagingBelt;
 
-/// Tiles in one buffer: 14 MB.
+/// Tiles in one buffer, which takes 14 MB.
 pub(crate) const SLOTS: u32 = 256;
-/// Tiles that have not been asked for in so many rounds may lose their slots. A frame that uploads ahead and draws is two.
+/// Number of rounds after which an unrequested tile may lose its slot. A frame that uploads ahead and draws has two
+/// rounds.
 const KEPT_ROUNDS: u64 = 4;
 /// Bytes of one chunk of staging memory.
 const STAGING_BYTES: u64 = 4 << 20;
-/// Bytes of a tile.
+/// Bytes of a tile's vertices.
 pub(crate) const TILE_BYTES: u64 = (TILE_VERTICES * size_of::<Vertex>()) as u64;
 
-/// Where a tile's vertices are.
+/// Location of a tile's vertices.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
     /// Index of the vertex buffer.
     pub(crate) buffer: usize,
-    /// Number of the tile's first vertex in it.
+    /// Index of the tile's first vertex in that buffer.
     pub(crate) base_vertex: i32,
 }
 
@@ -34,7 +35,7 @@ pub(crate) struct TilePool {
     buffers: Vec<wgpu::Buffer>,
     free: Vec<Place>,
     held: HashMap<u64, Held>,
-    /// Staging memory, used again and again.
+    /// Staging memory, reused.
     belt: StagingBelt,
     round: u64,
     uploaded_bytes: u64,
@@ -52,12 +53,12 @@ impl TilePool {
         }
     }
 
-    /// Call before the first [`TilePool::place`] of a round.
+    /// Must be called before the first [`TilePool::place`] of a round.
     pub(crate) fn begin_round(&mut self) {
         self.round += 1;
     }
 
-    /// Call after the last [`TilePool::place`] of a round, before the encoder is submitted.
+    /// Must be called after the last [`TilePool::place`] of a round, before the encoder is submitted.
     pub(crate) fn end_round(&mut self, encoder: &wgpu::CommandEncoder) {
         self.belt.finish_and_recall_on_submit(encoder);
     }
@@ -67,7 +68,7 @@ impl TilePool {
         self.uploaded_bytes
     }
 
-    /// Whether a tile is here; if so it keeps its slot.
+    /// Whether a tile has a slot. If so, it is marked as requested in this round.
     pub(crate) fn holds(&mut self, tile: &Tile) -> bool {
         let held = self.held.get_mut(&tile.serial);
         held.map(|held| held.wanted_in_round = self.round).is_some()
@@ -78,7 +79,7 @@ impl TilePool {
         &self.buffers
     }
 
-    /// Where a tile is; uploads it if it is new. `None` for a tile that is not a whole grid.
+    /// Location of a tile, which is uploaded if it is new. `None` for an incomplete grid.
     pub(crate) fn place(
         &mut self,
         device: &wgpu::Device,

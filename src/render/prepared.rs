@@ -180,7 +180,8 @@ impl<'r> PreparedFrame<'r> {
             };
             let groups = [&body_view.group, resources.luts.group()];
             for pass in self.running(&self.renderer.pipelines.air, &body.work) {
-                pass.draw(encoder, &self.drawing(view, &groups, &texture, number > 0))?;
+                let drawing = self.drawing(view, &groups, &texture, number > 0);
+                pass.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), ..drawing })?;
             }
         }
         if with_air.is_empty() {
@@ -189,7 +190,9 @@ impl<'r> PreparedFrame<'r> {
                 Target::AfterAir => Some(composite),
                 other => view.targets.get(Owned::Target(other)),
             };
-            self.renderer.pipelines.copy.draw(encoder, &self.drawing(view, &[&view.group], &texture, false))?;
+            let groups = [&view.group];
+            let drawing = self.drawing(view, &groups, &texture, false);
+            self.renderer.pipelines.copy.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), ..drawing })?;
         }
         Ok(())
     }
@@ -222,11 +225,10 @@ impl<'r> PreparedFrame<'r> {
             if pass.pass.writes.iter().any(|written| written.target == Target::Output) {
                 let texture = output.texture();
                 // A picture that fills its targets fills the output as well, whatever the render scale.
-                let [x, y, width, height] = self.plan.viewport_px;
-                if [x, y] == [0, 0] && [width, height] == view.targets.size_px {
+                if self.is_whole() {
                     drawing.viewport_px = [0, 0, texture.width(), texture.height()];
                 } else {
-                    drawing.load = true;
+                    drawing.keeps_rest = true;
                 }
             }
             pass.draw(encoder, &drawing)?;
@@ -310,7 +312,14 @@ impl<'r> PreparedFrame<'r> {
             exposure: &view.exposure.result,
             viewport_px: self.plan.viewport_px,
             load,
+            keeps_rest: false,
         }
+    }
+
+    /// Whether the picture fills its targets.
+    fn is_whole(&self) -> bool {
+        let [x, y, width, height] = self.plan.viewport_px;
+        [x, y] == [0, 0] && [width, height] == self.view.targets.size_px
     }
 }
 

@@ -83,6 +83,8 @@ pub(crate) struct Drawing<'a> {
     pub(crate) viewport_px: [u32; 4],
     /// Whether the targets keep what they hold; if not they are cleared.
     pub(crate) load: bool,
+    /// Whether the caller's targets keep what they hold outside of the viewport.
+    pub(crate) keeps_rest: bool,
 }
 
 impl ScreenPipeline {
@@ -165,7 +167,8 @@ impl ScreenPipeline {
         let inputs = gpu::group(with.device, pass.shader, &self.inputs, resources);
         let attachment = |output: &Output| {
             let clear = if output.multiplies { wgpu::Color::WHITE } else { wgpu::Color::TRANSPARENT };
-            let load = if with.load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(clear) };
+            let keeps = with.load || (with.keeps_rest && !output.multiplies);
+            let load = if keeps { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(clear) };
             Some(wgpu::RenderPassColorAttachment {
                 view: (with.texture)(output.target)?,
                 depth_slice: None,

@@ -1,7 +1,7 @@
-//! Shader texts: `#include`, checks with file and line, and hot reload while one works on them.
+//! Shader sources: `#include`, validation with file and line, and hot reload during development.
 //!
-//! Every text of `shaders/` is part of the program. In debug builds the files on disk win while they are there, and
-//! `Watch` tells when one of them changed.
+//! The files of `shaders/` are embedded in the program. Debug builds prefer the files on disk where they exist, and
+//! `Watch` reports changes to them.
 
 use super::{RenderError, shared};
 use include_dir::{Dir, include_dir};
@@ -10,32 +10,32 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 use wgpu::naga;
 
-/// The files of `shaders/` as they were when the program was built.
+/// The files of `shaders/` at build time.
 static EMBEDDED: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
-/// The include that `shared` writes; no file.
+/// Name of the include that `shared` generates; it is no file.
 const SHARED: &str = "shared.wgsl";
 
-/// The files that are compiled on their own, one for each pass; all others are included by them.
+/// The entry files, one for each pass. All other files are included by them.
 pub fn entries() -> Vec<&'static str> {
     let is_entry = |text: &str| text.contains("\n@fragment") || text.contains("\n@compute");
     let files = EMBEDDED.files().filter(|file| file.contents_utf8().is_some_and(is_entry));
     files.filter_map(|file| file.path().to_str()).collect()
 }
 
-/// A shader with everything it includes, and where each of its lines comes from.
+/// An entry file with all its includes, and the origin of each line.
 #[derive(Debug)]
 pub struct Resolved {
-    /// The whole text.
+    /// The complete source.
     pub text: String,
-    /// Names of the files it was made of.
+    /// Names of the files in it.
     pub files: Vec<String>,
-    /// For each line of the text: index into `files`, and line there, from 1.
+    /// For each line of the source: index into `files`, and line number there, from 1.
     lines: Vec<(usize, usize)>,
 }
 
 impl Resolved {
-    /// `shaders/air.wgsl:12` for a line of the text (from 1).
+    /// Origin of a line of the source (from 1), such as `shaders/air.wgsl:12`.
     pub fn origin(&self, line: usize) -> String {
         match self.lines.get(line.saturating_sub(1)) {
             Some(&(file, line)) => format!("shaders/{}:{line}", self.files[file]),
@@ -44,13 +44,13 @@ impl Resolved {
     }
 }
 
-/// The folder that hot reload reads, in debug builds on the machine the program was built on.
+/// The folder for hot reload: in debug builds, if it exists.
 fn disk_folder() -> Option<PathBuf> {
     let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders"));
     (cfg!(debug_assertions) && folder.is_dir()).then_some(folder)
 }
 
-/// The text of one file: from disk in debug builds, otherwise the one that is part of the program.
+/// Source of one file: from disk in debug builds, else the embedded one.
 fn read(name: &str) -> Option<Cow<'static, str>> {
     if name == SHARED {
         return Some(Cow::Owned(shared::text()));
@@ -59,21 +59,21 @@ fn read(name: &str) -> Option<Cow<'static, str>> {
     on_disk.map(Cow::Owned).or_else(|| EMBEDDED.get_file(name)?.contents_utf8().map(Cow::Borrowed))
 }
 
-/// Puts an entry file and all it includes into one text. `read` gives a file's text by name.
+/// Resolves the includes of an entry file. `read` returns the source of a file by name.
 pub fn resolve_with(entry: &str, read: &dyn Fn(&str) -> Option<Cow<'static, str>>) -> Result<Resolved, RenderError> {
     let mut resolved = Resolved { text: String::new(), files: Vec::new(), lines: Vec::new() };
     append(entry, &format!("shaders/{entry}"), read, &mut Vec::new(), &mut resolved)?;
     Ok(resolved)
 }
 
-/// Puts an entry file of `shaders/` and all it includes into one text.
+/// Resolves the includes of an entry file of `shaders/`.
 pub fn resolve(entry: &str) -> Result<Resolved, RenderError> {
     resolve_with(entry, &read)
 }
 
-/// WGSL for the shaders of a game whose own things stand in a body's air: `light_at` (sun and sky on a surface),
-/// `haze_before` (the air in front of a point) and the uniforms. Put the game's text behind it; it uses bind groups 0 and
-/// 1 ([`super::Renderer::body_layouts`]), so the game's own begin at 2.
+/// WGSL for the shaders of a game that draws in the air of a body: `light_at` (irradiance of suns and sky on a
+/// surface), `haze_before` (aerial perspective of a point) and the uniforms. Append the game's source to it. It uses
+/// bind groups 0 and 1 ([`super::Renderer::body_layouts`]), so the game's own groups begin at 2.
 ///
 /// # Errors
 /// [`RenderError::Shader`]: a file of `shaders/` was edited on disk and an include is missing.
@@ -117,14 +117,14 @@ fn append(
     Ok(())
 }
 
-/// Resolves an entry file and has it parsed and validated, so that nothing wrong ever reaches the driver.
+/// Resolves and validates an entry file, so that no invalid shader reaches the driver.
 pub fn check(entry: &str) -> Result<Resolved, RenderError> {
     let resolved = resolve(entry)?;
     check_resolved(&resolved)?;
     Ok(resolved)
 }
 
-/// Parses and validates a resolved text; the message names file and line of its origin.
+/// Parses and validates a resolved source. An error names file and line of the origin.
 pub fn check_resolved(resolved: &Resolved) -> Result<(), RenderError> {
     let module = naga::front::wgsl::parse_str(&resolved.text).map_err(|error| {
         let line = error.location(&resolved.text).map_or(0, |l| l.line_number as usize);
@@ -145,7 +145,7 @@ pub fn check_resolved(resolved: &Resolved) -> Result<(), RenderError> {
     Ok(())
 }
 
-/// The shader module of an entry file.
+/// Compiles the shader module of an entry file.
 pub(crate) fn module(device: &wgpu::Device, entry: &str) -> Result<wgpu::ShaderModule, RenderError> {
     let resolved = check(entry)?;
     Ok(device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -154,19 +154,19 @@ pub(crate) fn module(device: &wgpu::Device, entry: &str) -> Result<wgpu::ShaderM
     }))
 }
 
-/// Watches the files on disk; does nothing in release builds.
+/// Watches the files on disk; inactive in release builds.
 pub(crate) struct Watch {
     looked: Instant,
     newest: Option<SystemTime>,
 }
 
 impl Watch {
-    /// From now on.
+    /// Watches for changes from now on.
     pub(crate) fn new() -> Self {
         Self { looked: Instant::now(), newest: newest_change() }
     }
 
-    /// Whether a file changed since the last call; looks at most twice a second.
+    /// Whether a file has changed since the last call. Checks at most twice a second.
     pub(crate) fn changed(&mut self) -> bool {
         if self.looked.elapsed() < Duration::from_millis(500) {
             return false;

@@ -1,4 +1,4 @@
-//! Asks the shaders of the air about single rays (`sky_probe.wgsl`), for tests against [`crate::atmosphere`] and for
+//! Evaluates the shaders of the air for single rays (`sky_probe.wgsl`), for tests against [`crate::atmosphere`] and for
 //! `tellus sky --gpu`.
 
 use super::gpu::{self, Slot};
@@ -14,20 +14,20 @@ use glam::{DQuat, DVec3};
 const ENTRY: &str = "sky_probe.wgsl";
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// What the shaders say of one ray, for a star of unit irradiance.
+/// Result of the shaders for one ray, for unit irradiance of the star.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyAnswer {
-    /// What the air leaves of the light of the star's centre.
+    /// Transmittance from the centre of the star's disc, RGB.
     pub transmittance: [f64; 3],
-    /// Radiance that the air scatters along the ray, without the ground and the star's disc.
+    /// Radiance scattered by the air along the ray, without the ground and the star's disc, RGB.
     pub radiance: [f64; 3],
 }
 
 impl Renderer {
-    /// Evaluates the shaders of the air for each ray and waits for the answer. At most 8192 rays.
+    /// Evaluates the shaders of the air for at most 8192 rays. Blocks until the device is done.
     ///
     /// # Errors
-    /// A planet that no preset may describe, a shader that does not compile, a device that does not answer.
+    /// An invalid planet, a shader that does not compile, or a device that does not answer.
     pub fn sky(&mut self, planet: &Planet, quality: Quality, rays: &[SkyRay]) -> Result<Vec<SkyAnswer>, RenderError> {
         let columns = rays.len() as u32;
         if columns == 0 {
@@ -63,7 +63,7 @@ impl Renderer {
         Ok(answers.map(|(radiance, transmittance)| SkyAnswer { transmittance, radiance }).collect())
     }
 
-    /// Uniforms and LUTs of a planet without a view.
+    /// Uniforms and LUTs of a planet, for no particular view.
     fn bind_planet(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -86,7 +86,7 @@ impl Renderer {
     }
 }
 
-/// See `sky_probe.wgsl`.
+/// Input texture of `sky_probe.wgsl`: two texels for each ray.
 fn ray_texture(device: &wgpu::Device, queue: &wgpu::Queue, rays: &[SkyRay]) -> wgpu::TextureView {
     let texel = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
     let row0 = rays.iter().map(|ray| texel(ray.directions().0, ray.altitude_m * 1e-3));

@@ -1,4 +1,4 @@
-//! Curves from radiance to what a display shows, to choose from; `shaders/tone.wgsl` has them for the GPU.
+//! Tone curves from radiance to display values. `shaders/tone.wgsl` has the same curves for the GPU.
 
 use super::wgsl::Constant;
 use glam::DMat3;
@@ -6,17 +6,17 @@ use glam::DMat3;
 /// A tone curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
-    /// Like film: highlights bleach, colours stay in order (the primaries of AgX by Troy Sobotka, 2022, with a
+    /// Like film: highlights desaturate, hues keep their order (the primaries of AgX by Troy Sobotka, 2022, with a
     /// steeper curve).
     #[default]
     AgX,
-    /// Colours as they are up to the highlights (Khronos PBR Neutral Tone Mapper, 2024).
+    /// Keeps colours unchanged up to the highlights (Khronos PBR Neutral Tone Mapper, 2024).
     Neutral,
-    /// No curve: what is brighter than white is white.
+    /// No curve: values above white are clipped to white.
     Plain,
 }
 
-/// From Rec. 709 to the working space of AgX and back, row by row.
+/// From linear Rec. 709 to the working space of AgX, and back; row by row.
 const AGX_IN: [[f64; 3]; 3] = [
     [0.842479062253094, 0.0784335999999992, 0.0792237451477643],
     [0.0423282422610123, 0.878468636469772, 0.0791661274605434],
@@ -27,10 +27,9 @@ const AGX_OUT: [[f64; 3]; 3] = [
     [-0.0528968517574562, 1.15190312990417, -0.0989611768448433],
     [-0.0529716355144438, -0.0980434501171241, 1.15107367264116],
 ];
-/// The curve of AgX over stops: radiance and display code of its pivot, slope there in codes per stop, powers of the bends
-/// towards black and white, and what the toe leaves at 24 stops below the pivot. Steeper than its makers' curve, with
-/// white two stops above white ground: pictures of planets have few highlights, and their clouds should be white and
-/// their seas dark.
+/// The curve of AgX over stops: radiance and display code of its pivot, slope there in codes per stop, exponents of the
+/// bends towards black and white, and value of the toe 24 stops below the pivot. Steeper than the original curve, with
+/// white two stops above white ground: pictures of planets have few highlights, and need white clouds and dark seas.
 const AGX_PIVOT: f64 = 0.2;
 const AGX_PIVOT_CODE: f64 = 0.5;
 const AGX_SLOPE: f64 = 0.26;
@@ -39,7 +38,7 @@ const AGX_SHOULDER: f64 = 6.0;
 const AGX_BLACK: f64 = 0.007;
 /// Factor on the difference from grey.
 const AGX_SATURATION: f64 = 0.92;
-/// The constants of the curves under their names in `tone.wgsl`.
+/// The constants of the curves with their names in `tone.wgsl`.
 pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 9] {
     let matrix = |rows: &[[f64; 3]; 3]| Box::new(DMat3::from_cols_array_2d(rows).transpose());
     [
@@ -55,14 +54,14 @@ pub(super) fn constants() -> [(&'static str, Box<dyn Constant>); 9] {
     ]
 }
 
-/// What the primaries count in a grey.
+/// Weights of the Rec. 709 primaries in luminance.
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 impl Tone {
-    /// All of them.
+    /// All curves.
     pub const ALL: [Tone; 3] = [Tone::AgX, Tone::Neutral, Tone::Plain];
 
-    /// The name a person reads.
+    /// Name for the user interface.
     pub fn label(self) -> &'static str {
         match self {
             Tone::AgX => "AgX",
@@ -71,7 +70,7 @@ impl Tone {
         }
     }
 
-    /// What a display shows of a radiance (1: white ground at noon), linear, 0 to 1: the reference for the shader.
+    /// Display value of a radiance (1: white ground at noon), linear, 0 to 1: the reference for the shader.
     pub fn shown(self, radiance: [f64; 3]) -> [f64; 3] {
         match self {
             Tone::AgX => agx(radiance),
@@ -85,7 +84,7 @@ fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// From 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
+/// Curve from 0 with slope 1 to 1 at infinity; the greater the power, the sharper the bend.
 fn bend(x: f64, power: f64) -> f64 {
     x / libm::pow(1.0 + libm::pow(x, power), 1.0 / power)
 }
@@ -134,9 +133,10 @@ mod tests {
             assert!(tone.shown([0.0; 3]).iter().all(|c| *c < 1e-3));
             assert!(last > 0.95, "{tone:?} {last}");
         }
-        // Published values: Neutral leaves base colours but for the 4% that a surface reflects anyway.
+        // Published value: Neutral only subtracts the 4% that a surface reflects at its interface.
         assert!((Tone::Neutral.shown([0.5, 0.3, 0.2])[0] - 0.46).abs() < 1e-12);
-        // AgX shows its pivot half way up the display's scale, sunlit white nearly white, and the sea's radiance dark.
+        // AgX maps its pivot to half of the display range, sunlit white to nearly white, and the sea's radiance to a
+        // dark value.
         let code = |radiance: f64| libm::pow(Tone::AgX.shown([radiance; 3])[1], 1.0 / 2.2) * 255.0;
         assert!((code(AGX_PIVOT) - 126.0).abs() < 1.0, "{}", code(AGX_PIVOT));
         assert!(code(0.75) > 235.0 && code(0.05) < 50.0, "{} {}", code(0.75), code(0.05));

@@ -1,7 +1,7 @@
 //! White balance: gains that make white ground in daylight white on the display.
 //!
-//! A camera set to daylight corrects the light of its star as it arrives through the air. The correction is bounded:
-//! under the orange haze of a Titan the picture stays orange.
+//! A camera set to daylight corrects the colour of its star's light after the air has filtered it. The correction is
+//! bounded: the picture stays orange under the orange haze of a Titan.
 
 use crate::planet::{Atmosphere, Planet};
 
@@ -9,7 +9,7 @@ use crate::planet::{Atmosphere, Planet};
 const DAYLIGHT_COSINE: f64 = 0.75;
 /// Share of the scattered light that reaches the ground as skylight. A two-stream estimate for thin air.
 const SCATTERED_DOWN: f64 = 0.5;
-/// How many times daylight crosses the absorber on its way to a viewer: down to white clouds, and up again.
+/// Number of times that daylight crosses the absorber on its way to a viewer: down to white clouds, and up again.
 const ABSORBER_CROSSINGS: f64 = 2.0;
 /// Largest and smallest gain of a channel, relative to the luminance of white.
 const GAIN_RANGE: (f64, f64) = (0.9, 1.1);

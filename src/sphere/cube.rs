@@ -1,9 +1,9 @@
-//! Cube faces and the mapping between a face's square and the sphere.
+//! Cube faces and the mapping between the square of a face and the sphere.
 //!
-//! A point of a face is `(s, t)` in -1..1. Each coordinate is bent by `w / sqrt(1 + c² (1 - w²))` with c = 0.87, which
-//! spreads the cells more evenly (area max/min 1.268 against 5.196 without), then the cube point is normalised. The
-//! mapping and its inverse use only square roots and divisions, which IEEE 754 rounds correctly: the same bits on every
-//! machine. Lengths are summed in the order x, y, z whatever the face, so that two faces agree on
+//! A point of a face is `(s, t)` in -1..1. Each coordinate is warped by `w / sqrt(1 + c² (1 - w²))` with c = 0.87,
+//! which evens out the cells (greatest to least area 1.268, against 5.196 without), then the cube point is
+//! normalised. The mapping and its inverse use only square roots and divisions, which IEEE 754 rounds correctly: the
+//! same bits on every machine. Lengths are summed in the order x, y, z on every face, so that two faces agree on
 //! their common edge to the bit.
 
 use glam::DVec3;
@@ -45,7 +45,7 @@ impl Face {
         (((axis + 1) % 3, sign), (axis + 2) % 3)
     }
 
-    /// The face a direction points through; on an edge or corner, the first axis wins.
+    /// The face that a direction goes through; on an edge or corner, the first axis wins.
     pub fn of_direction(dir: DVec3) -> Face {
         let a = dir.abs();
         let axis = if a.x >= a.y && a.x >= a.z {
@@ -59,7 +59,7 @@ impl Face {
     }
 }
 
-/// Bends one face coordinate, -1..1 to -1..1, odd and exact at -1, 0 and 1.
+/// Warps one face coordinate, -1..1 to -1..1; odd, and exact at -1, 0 and 1.
 #[inline]
 fn bend(w: f64) -> f64 {
     w / (1.0 + C_SQUARED * (1.0 - w * w)).sqrt()
@@ -80,7 +80,7 @@ pub fn direction(face: Face, s: f64, t: f64) -> DVec3 {
     p[axis] = sign as f64;
     p[s_axis] = bend(s) * s_sign as f64;
     p[t_axis] = bend(t);
-    // Written out so that the order of the sum is the same on every face.
+    // Written out, so that the order of the sum is the same on every face.
     let length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();
     DVec3::new(p[0] / length, p[1] / length, p[2] / length)
 }
@@ -106,7 +106,8 @@ mod tests {
 
     #[test]
     fn faces_agree_on_their_edges_to_the_bit() {
-        // Every boundary point of every face must be produced, bit for bit, by exactly one other face (two at corners).
+        // Every boundary point of every face must be produced, bit for bit, by exactly one other face (two at
+        // corners).
         let boundary: Vec<(Face, [u64; 3], bool)> = Face::ALL
             .iter()
             .flat_map(|&face| {

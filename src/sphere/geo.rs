@@ -1,9 +1,9 @@
-//! Latitude and longitude, and the local frame of a place.
+//! Latitude and longitude, local north and east, and directions spread evenly over the sphere.
 
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// A place on the globe. Latitude is -π/2 (south pole) to π/2 (north pole), longitude -π to π, east positive.
+/// A location on the globe. Latitude is -π/2 (south pole) to π/2 (north pole), longitude -π to π, east positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LatLon {
     /// Radians north of the equator.
@@ -18,7 +18,7 @@ impl LatLon {
         Self { lat_rad: lat_deg.to_radians(), lon_rad: lon_deg.to_radians() }
     }
 
-    /// The place under a direction (need not be of unit length).
+    /// The location under a direction of any length.
     pub fn from_direction(dir_planet: DVec3) -> Self {
         let flat = libm::hypot(dir_planet.x, dir_planet.y);
         Self { lat_rad: libm::atan2(dir_planet.z, flat), lon_rad: libm::atan2(dir_planet.y, dir_planet.x) }
@@ -37,7 +37,8 @@ impl LatLon {
     }
 }
 
-/// Unit vectors to the east and north at a place. At a pole, where neither is defined, longitude 0 lies south.
+/// Unit vectors to the east and north at a unit direction. At a pole, where neither is defined, longitude 0 lies
+/// south.
 pub fn east_north(dir_planet: DVec3) -> (DVec3, DVec3) {
     let flat = DVec3::new(-dir_planet.y, dir_planet.x, 0.0);
     let east = if flat.length_squared() > 1e-24 { flat.normalize() } else { DVec3::Y };

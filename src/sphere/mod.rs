@@ -1,13 +1,13 @@
-//! The globe as six squares: faces, the mapping between a square and the sphere, node
-//! addresses, latitude and longitude.
+//! The sphere as six squares: faces, the mapping between a square and the sphere, node addresses, latitude and
+//! longitude.
 //!
-//! The planet frame is right-handed, metres, centre at the origin: +Z through the north pole, +X through latitude 0,
-//! longitude 0, +Y through longitude 90° east.
+//! The planet frame is right-handed, in metres, with its origin at the centre: +Z through the north pole, +X through
+//! latitude 0, longitude 0, +Y through longitude 90° east.
 //!
 //! - [`cube`]: faces and the mapping, with its exact inverse
 //! - [`node`]: addresses of quadtree nodes and their neighbours across all face edges
-//! - [`geo`]: latitude, longitude, local north and east
-//! - [`raster`]: numbers on a grid over the sphere, sampled smoothly
+//! - [`geo`]: latitude, longitude, local north and east, evenly spread directions
+//! - [`raster`]: grids of numbers over the sphere, sampled smoothly
 
 pub mod cube;
 pub mod geo;

@@ -1,9 +1,9 @@
-//! Addresses of quadtree nodes: a face, a level, and a place in that level's grid.
+//! Addresses of quadtree nodes: a face, a level, and column and row in the grid of that level.
 
 use super::cube::{self, Face};
 use glam::DVec3;
 
-/// A square of a face: one of `2^level` by `2^level`. Small, ordered, and the key of every cache.
+/// A node: one of the `2^level` by `2^level` squares of a face. Small, ordered, and the key of every cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId {
     /// 0 is a whole face.
@@ -30,10 +30,10 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// All four; an edge's bit in a mask is its place here.
+    /// All four. The bit of an edge in a mask is its index here.
     pub const ALL: [Edge; 4] = [Edge::Left, Edge::Right, Edge::Bottom, Edge::Top];
 
-    /// This edge in a mask of edges.
+    /// The bit of this edge in a mask of edges.
     pub fn bit(self) -> u8 {
         1 << self as u8
     }
@@ -60,19 +60,20 @@ impl NodeId {
         [child(0), child(1), child(2), child(3)]
     }
 
-    /// Which quarter of its parent this is: 0 or 1 in each direction.
+    /// Which quarter of its parent this is: 0 or 1 along each axis.
     pub fn quarter(self) -> (usize, usize) {
         ((self.x & 1) as usize, (self.y & 1) as usize)
     }
 
-    /// How wide this node is in one that contains it, and where it lies there, `u` and `v` from 0 to 1 across the other.
+    /// The width of this node as a share of a node that contains it, and its lower corner there, `u` and `v` from 0
+    /// to 1.
     pub fn within(self, other: NodeId) -> [f64; 3] {
         let width = 1.0 / f64::from(1_u32 << (self.level - other.level.min(self.level)));
         [width, f64::from(self.x) * width - f64::from(other.x), f64::from(self.y) * width - f64::from(other.y)]
     }
 
     /// The `(s, t)` of a point of the node, `u` and `v` from 0 to 1 across it. Exact when they are multiples of a
-    /// (not too small) power of two, so that neighbours agree on shared points to the bit.
+    /// power of two that is not too small, so that neighbours agree on shared points to the bit.
     pub fn face_coordinates(self, u: f64, v: f64) -> (f64, f64) {
         let scale = 2.0 / f64::from(1_u32 << self.level);
         ((f64::from(self.x) + u) * scale - 1.0, (f64::from(self.y) + v) * scale - 1.0)
@@ -94,8 +95,9 @@ impl NodeId {
 
     /// The node of the same level across an edge, on whichever face it lies.
     ///
-    /// Works on the cube's integer grid: in units of half a cell the centre of a node has odd coordinates and its face
-    /// lies at ±2^level. One step over a face's edge turns the crossing coordinate into the new face's normal.
+    /// The method works on the cube's integer grid: in units of half a cell the centre of a node has odd coordinates,
+    /// and its face lies at ±2^level. A step over the edge of a face turns the crossing coordinate into the new
+    /// face's normal.
     pub fn neighbour(self, edge: Edge) -> NodeId {
         let side = 1_i64 << self.level;
         let (mut x, mut y) = (i64::from(self.x), i64::from(self.y));
@@ -111,7 +113,7 @@ impl NodeId {
         let (axis, sign) = self.face.axis();
         let ((s_axis, s_sign), t_axis) = self.face.tangent_axes();
         let mut p = [0_i64; 3];
-        // Over the edge: the crossing coordinate is pulled back to the edge, the old normal sinks by half a cell.
+        // Over the edge: the crossing coordinate is clamped to the edge, and the old normal sinks by half a cell.
         p[axis] = sign * (side - 1);
         p[s_axis] = s_sign * (2 * x + 1 - side).clamp(-side, side);
         p[t_axis] = (2 * y + 1 - side).clamp(-side, side);

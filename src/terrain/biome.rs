@@ -1,9 +1,11 @@
-//! The biome at a point: from the biome table by climate, then by the surface rules for steep ground, beaches and snow.
+//! The biome at a point: from the biome table by climate, then by the surface rules for steep ground, beaches and
+//! snow.
 //!
 //! `material.wgsl` follows the same rules with soft edges; a rule decides here at the middle of its edge.
 //!
-//! Heights and slopes are the evaluator's, with every octave. A picture knows heights and slopes down to about two pixels:
-//! from near, it shows the same biomes. Where a pixel is wider than a mountain, it shows the biome of the mean ground.
+//! Heights and slopes are the evaluator's, with every octave. A picture knows heights and slopes down to about two
+//! pixels: from near, it shows the same biomes. Where a pixel is wider than a mountain, it shows the biome of the
+//! mean ground.
 
 use super::border::Border;
 use super::climate::PointClimate;

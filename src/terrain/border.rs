@@ -1,9 +1,10 @@
 //! Border jitter: noise that moves the borders between biomes.
 //!
-//! Moisture and temperature (or height) choose a point of the biome table. Noise moves that point by a share of a cell, so
-//! that neither the table's grid nor a line of equal climate shows on the ground. The periods go from a thousand kilometres
-//! on a planet like the Earth down to some ten metres, the finer the weaker: borders wind and fray as coasts do.
-//! `border.wgsl` samples the same texture with the same octaves, so that queries and pictures agree.
+//! Moisture and temperature (or height) choose a point of the biome table. Noise moves that point by a share of a
+//! cell, so that neither the table's grid nor a line of equal climate shows on the ground. The periods go from a
+//! thousand kilometres on a planet like the Earth down to some ten metres, the finer the weaker: borders wind and
+//! fray as coasts do. `border.wgsl` samples the same texture with the same octaves, so that queries and pictures
+//! agree.
 
 use crate::planet::Planet;
 use glam::{DMat3, DVec3};

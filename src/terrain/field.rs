@@ -1,8 +1,8 @@
 //! A layer's field: the value and gradient of its landform at a batch of points, before amplitude, blend and masks.
 //!
-//! Values hold every octave, whatever the spacing of the points, so that a height does not depend on who asks. Gradients
-//! come in bands, one for each point spacing: an octave fades out as its wavelength nears the spacing, so that a tile is
-//! not shaded by slopes that its mesh cannot show.
+//! Values hold every octave, whatever the spacing of the points, so that a height does not depend on who asks.
+//! Gradients come in bands, one for each point spacing: an octave fades out as its wavelength nears the spacing, so
+//! that a tile is not shaded by slopes that its mesh cannot show.
 
 use super::landform::{Chunk, Landform, MAX_BANDS, Scratch};
 use super::lane::CHUNK;

@@ -5,18 +5,21 @@ use super::points::unit;
 use super::query::{Scratch, with_scratch};
 use glam::DVec3;
 
-/// Points of one step of the march: as many as fill the widest registers.
-const BATCH: usize = 16;
+/// Most points evaluated at once. Several cost less than the same number one by one: they share the registers.
+const BATCH: usize = 32;
 /// Most batches of a march.
 const MAX_BATCHES: usize = 200;
-/// Step of the march against the height above the ground.
-const STEP: f64 = 0.4;
-/// Rounds of narrowing at most, and the width in metres at which it ends: far below the millimetre that heights are
-/// good for.
-const MAX_ROUNDS: usize = 40;
-const TOLERANCE_M: f64 = 1e-8;
-/// Where the crossing is looked for around its estimate, in widths of the gap that it lies in.
-const OFFSETS: [f64; 8] = [-0.25, -0.03, -0.003, -0.0003, 0.0003, 0.003, 0.03, 0.25];
+/// Step of the march as a share of the height above the ground. A ridge between two points is missed only if its sides
+/// are steeper than 4 against the ray.
+const STEP: f64 = 0.5;
+/// Least step, as a share of the height above the ground at the start of the batch.
+const LEAST_STEP: f64 = 0.05;
+/// Steps planned beyond the point at which the ray would meet level ground.
+const SPARE_STEPS: usize = 3;
+/// The crossing is found to this distance: a hundredth of the millimetre that heights are good for.
+const TOLERANCE_M: f64 = 1e-5;
+/// Most steps of the search for the crossing; halving any step of a march this often ends below the tolerance.
+const MAX_SEARCH: usize = 60;
 
 impl Terrain {
     /// Distance in metres along a ray from `origin_planet_m` to the ground or to the sea's surface, whichever is nearer.
@@ -40,19 +43,19 @@ impl Terrain {
         let (enter_m, leave_m) = sphere_hits(origin_m, dir, top_m)?;
         let mut ray = Ray { terrain: self, origin_m, dir, radius_m, sea_m, scratch };
 
-        let mut above = Crossing { t_m: enter_m.max(0.0), clearance_m: 0.0 };
-        let [clearance_m] = ray.clearances_m([above.t_m]);
-        if clearance_m <= 0.0 {
-            return Some(above.t_m);
+        let start_m = enter_m.max(0.0);
+        let mut above = ray.point(start_m);
+        if above.clearance_m <= 0.0 {
+            return Some(start_m);
         }
-        above.clearance_m = clearance_m;
+        // Over level ground; later the mean over the last batch.
+        let mut fall = -dir.dot(unit(origin_m + dir * start_m));
         for _ in 0..MAX_BATCHES {
-            let step_m = (above.clearance_m * STEP).max(0.02 + above.t_m * 2e-4);
-            let distances_m: [f64; BATCH] = std::array::from_fn(|i| above.t_m + step_m * (i + 1) as f64);
-            let (last, below) = ray.first_crossing(above, distances_m);
+            let (last, below) = ray.march(above, fall.max(0.0));
             if let Some(below) = below {
-                return Some(ray.narrow(last, below));
+                return Some(ray.crossing(last, below));
             }
+            fall = (above.clearance_m - last.clearance_m) / (last.t_m - above.t_m);
             above = last;
             if above.t_m > leave_m {
                 return None;
@@ -63,8 +66,8 @@ impl Terrain {
 }
 
 /// A point of a ray.
-#[derive(Clone, Copy)]
-struct Crossing {
+#[derive(Clone, Copy, Default)]
+struct RayPoint {
     /// Distance from the ray's origin.
     t_m: f64,
     /// Height above the ground or the sea.
@@ -81,42 +84,77 @@ struct Ray<'a> {
 }
 
 impl Ray<'_> {
-    /// Heights above the ground or the sea at distances along the ray.
-    fn clearances_m<const N: usize>(&mut self, distances_m: [f64; N]) -> [f64; N] {
-        let points_m = distances_m.map(|t_m| self.origin_m + self.dir * t_m);
-        let mut heights_m = [0.0; N];
-        self.terrain.heights_into(&points_m, &mut heights_m, self.scratch);
-        std::array::from_fn(|i| points_m[i].length() - self.radius_m - heights_m[i].max(self.sea_m))
+    /// Finds the heights of points above the ground or the sea.
+    fn find_clearances(&mut self, points: &mut [RayPoint]) {
+        let (mut points_m, mut heights_m) = ([DVec3::ZERO; BATCH], [0.0; BATCH]);
+        let n = points.len().min(BATCH);
+        for (point_m, point) in points_m.iter_mut().zip(&*points) {
+            *point_m = self.origin_m + self.dir * point.t_m;
+        }
+        self.terrain.heights_into(&points_m[..n], &mut heights_m[..n], self.scratch);
+        for ((point, point_m), height_m) in points.iter_mut().zip(points_m).zip(heights_m) {
+            point.clearance_m = point_m.length() - self.radius_m - height_m.max(self.sea_m);
+        }
     }
 
-    /// The last point above the ground before the ray meets it, and the point below that follows, if there is one.
-    fn first_crossing<const N: usize>(
-        &mut self,
-        mut above: Crossing,
-        distances_m: [f64; N],
-    ) -> (Crossing, Option<Crossing>) {
-        for (t_m, clearance_m) in distances_m.into_iter().zip(self.clearances_m(distances_m)) {
-            let point = Crossing { t_m, clearance_m };
-            if clearance_m <= 0.0 {
-                return (above, Some(point));
+    fn point(&mut self, t_m: f64) -> RayPoint {
+        let mut point = [RayPoint { t_m, clearance_m: 0.0 }];
+        self.find_clearances(&mut point);
+        point[0]
+    }
+
+    /// One batch of steps, for a ray that is expected to lose `fall` metres of clearance per metre. Returns the last
+    /// point above the ground, and the point below that follows, if the ray meets the ground.
+    fn march(&mut self, start: RayPoint, fall: f64) -> (RayPoint, Option<RayPoint>) {
+        let mut points = [RayPoint::default(); BATCH];
+        let (mut t_m, mut expected_m, mut spare, mut count) = (start.t_m, start.clearance_m, SPARE_STEPS, 0);
+        for point in &mut points {
+            let step_m = (expected_m * STEP).max(start.clearance_m * LEAST_STEP).max(0.02 + t_m * 2e-4);
+            (t_m, expected_m) = (t_m + step_m, (expected_m - fall * step_m).max(0.0));
+            point.t_m = t_m;
+            count += 1;
+            if expected_m == 0.0 {
+                if spare == 0 {
+                    break;
+                }
+                spare -= 1;
             }
-            above = point;
+        }
+        let points = &mut points[..count];
+        self.find_clearances(points);
+        let mut above = start;
+        for point in points {
+            if point.clearance_m <= 0.0 {
+                return (above, Some(*point));
+            }
+            above = *point;
         }
         (above, None)
     }
 
-    /// The distance of the crossing between a point above the ground and one below. The secant estimates it; points
-    /// ever farther from the estimate then enclose it, however wrong the estimate is.
-    fn narrow(&mut self, mut above: Crossing, mut below: Crossing) -> f64 {
-        for _ in 0..MAX_ROUNDS {
+    /// The distance of the crossing between a point above the ground and one below: by the secant, halving the weight of
+    /// an end that stays (the Illinois method; Dowell and Jarratt 1971).
+    fn crossing(&mut self, mut above: RayPoint, mut below: RayPoint) -> f64 {
+        // Which end moved last: 1 the one above, -1 the one below.
+        let mut moved = 0;
+        let (mut up, mut down) = (above.clearance_m, below.clearance_m);
+        for step in 1..=MAX_SEARCH {
             let width_m = below.t_m - above.t_m;
-            if width_m <= TOLERANCE_M.max(below.t_m * 1e-15) {
+            if width_m <= TOLERANCE_M.max(below.t_m * 1e-15) || below.clearance_m >= -TOLERANCE_M {
                 break;
             }
-            let share = above.clearance_m / (above.clearance_m - below.clearance_m);
-            let distances_m = OFFSETS.map(|offset| above.t_m + width_m * (share + offset).clamp(0.0, 1.0));
-            let (last, first) = self.first_crossing(above, distances_m);
-            (above, below) = (last, first.unwrap_or(below));
+            // Every fourth step halves the gap, whatever the ground is like.
+            let share = if step % 4 == 0 { 0.5 } else { up / (up - down) };
+            let middle = self.point(above.t_m + width_m * share);
+            let side = if middle.clearance_m > 0.0 { 1 } else { -1 };
+            if side > 0 {
+                (above, up) = (middle, middle.clearance_m);
+                down *= if moved == side { 0.5 } else { 1.0 };
+            } else {
+                (below, down) = (middle, middle.clearance_m);
+                up *= if moved == side { 0.5 } else { 1.0 };
+            }
+            moved = side;
         }
         below.t_m
     }

@@ -13,7 +13,7 @@ fn tellus(args: &[&str]) -> Command {
     command
 }
 
-/// Runs, and gives exit status, standard output and standard error.
+/// Runs the program. Gives exit status, standard output and standard error.
 fn run(args: &[&str]) -> (i32, String, String) {
     let output = tellus(args).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
@@ -64,7 +64,7 @@ fn help_and_version_are_no_errors() {
     assert_eq!((status, out.trim()), (0, concat!("tellus ", env!("CARGO_PKG_VERSION"))));
 }
 
-/// What the help says of the camera at the start is what the code does.
+/// The help states the opening view of the code.
 #[test]
 fn help_states_the_defaults_of_the_code() {
     let (status, out, _) = run(&["render", "--help"]);
@@ -128,7 +128,7 @@ fn a_new_planet_needs_a_folder_and_a_name_that_ends_in_ron() {
         let (status, _, err) = run(&[text_of(&path)]);
         assert!(status == 1 && err.contains(part), "{name}: {err}");
     }
-    // Without a display the editor cannot open, but the name is no reason to stay out.
+    // Without a display the editor cannot open, but the error is not about the file name.
     let path = folder.path().join("new.ron");
     let output = tellus(&[text_of(&path)]).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
@@ -278,7 +278,7 @@ fn a_reader_that_goes_away_is_no_failure() {
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
 }
 
-/// The camera dives under the sea, but not under its bed.
+/// The camera may be under water, but not under the sea bed.
 #[test]
 fn altitude_goes_below_the_sea() {
     let folder = folder();
@@ -287,7 +287,7 @@ fn altitude_goes_below_the_sea() {
         let place = ["--lat", lat, "--lon", lon, "--altitude", altitude, "--size", "32x20", "--quality", "low"];
         run(&[&["render", AUREL, "-o", text_of(&picture)][..], &place].concat())
     };
-    // In the deep sea, below its bed, and on land.
+    // In the deep sea, below the sea bed, and on land.
     let (status, _, err) = shot("15", "45", "-30");
     assert!(status == 0 && picture.exists(), "{err}");
     let (status, _, err) = shot("15", "45", "-9000");

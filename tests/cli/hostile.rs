@@ -1,5 +1,5 @@
-//! Files that are broken, far too large or no files at all: each is told, none takes the program with it. The command
-//! line runs as a process with little memory, since what would abort it would abort the test.
+//! Files that are broken, far too large, or no regular files: each gives an error, none crashes the program. The
+//! command line runs as a process with little memory, because an abort would end the test.
 
 use assert_cmd::Command;
 use exr::math::RoundingMode;
@@ -24,11 +24,11 @@ fn preset(folder: &Path, files: &[&str]) {
         .unwrap();
 }
 
-/// Exit status, standard output and standard error of the program with so much memory; it must end by itself.
+/// Exit status, standard output and standard error of the program with a limited memory. It must not be killed.
 fn run(folder: &Path, mebibytes: usize, args: &[&str]) -> (i32, String, String) {
     let program = assert_cmd::cargo::cargo_bin!("tellus");
     let mut command = Command::new("sh");
-    // Each thread takes address space of its own.
+    // Each thread takes address space, which the limit counts.
     command.env("RAYON_NUM_THREADS", "4");
     command.arg("-c").arg(format!("ulimit -v {}; exec \"$0\" \"$@\"", mebibytes << 10));
     let output =
@@ -37,7 +37,7 @@ fn run(folder: &Path, mebibytes: usize, args: &[&str]) -> (i32, String, String) 
     (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
 }
 
-/// What checking the preset says, line by line; sampling must fail, too.
+/// The lines that `tellus check` prints about a preset; `tellus sample` must fail too.
 fn refused(folder: &Path, mebibytes: usize) -> Vec<String> {
     let (status, out, err) = run(folder, mebibytes, &["check", "p.ron"]);
     assert_eq!((status, out.as_str()), (1, ""), "{err}");
@@ -101,7 +101,7 @@ fn grey_png(path: &Path, width: usize, depth: png::BitDepth, color: png::ColorTy
     stream.finish().unwrap();
 }
 
-/// An OpenEXR without any block: its header promises them.
+/// An OpenEXR file without the blocks that its header announces.
 fn exr_header(path: &Path, width: usize, names: &[String], blocks: BlockDescription) {
     let channels = names.iter().map(|name| ChannelDescription::named(name.as_str(), SampleType::F32)).collect();
     let header = exr::meta::header::Header::new("l".into(), (width, width / 2), channels).with_encoding(
@@ -115,8 +115,8 @@ fn exr_header(path: &Path, width: usize, names: &[String], blocks: BlockDescript
     std::fs::write(path, bytes.into_inner()).unwrap();
 }
 
-/// The largest height map there may be fits into the memory that is promised, is read once for all its layers, and
-/// leaves as much room for others as is said.
+/// The largest allowed height map fits into the stated memory, is read once for all its layers, and leaves the stated
+/// room for others.
 #[test]
 fn an_honest_picture_of_the_largest_size_is_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -127,7 +127,7 @@ fn an_honest_picture_of_the_largest_size_is_read() {
     let (status, out, err) = run(folder.path(), 1536, &["sample", "p.ron", "--lat", "-45", "--lon", "10", "--json"]);
     assert_eq!((status, err.as_str()), (0, ""));
     let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
-    // Three quarters of the way from the north, on three layers of 1000 m.
+    // At three quarters of the picture's height, on three layers of 1000 m.
     let height_m = answer["height_m"].as_f64().unwrap();
     assert!((height_m - 3000.0 * 96.0 / 255.0).abs() < 10.0, "{answer}");
 
@@ -143,7 +143,7 @@ fn an_honest_picture_of_the_largest_size_is_read() {
 fn channels_that_are_not_used_take_no_memory() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    // A gigabyte of numbers, of which 16 MiB are heights.
+    // A gigabyte of pixels, 16 MiB of which are heights.
     let (width, height) = (2048, 1024);
     let sample = |name: &str| AnyChannel::new(name, FlatSamples::F16(vec![f16::from_f32(0.25); width * height]));
     let channels = AnyChannels::sort((0..64).map(|i| sample(&format!("c{i:02}"))).collect());
@@ -155,7 +155,7 @@ fn channels_that_are_not_used_take_no_memory() {
     let (status, _, err) = run(folder.path(), 224, &["check", "p.ron"]);
     assert_eq!((status, err.as_str()), (0, ""));
 
-    // Too many of them take too much time.
+    // Too many channels take too much time.
     let names: Vec<String> = (0..64).map(|i| format!("c{i:02}")).collect();
     exr_header(&path("long.exr"), 8192, &names, BlockDescription::ScanLines);
     exr_header(&path("wide.exr"), 16384, &names, BlockDescription::ScanLines);
@@ -167,7 +167,7 @@ fn channels_that_are_not_used_take_no_memory() {
     );
     assert!(said.len() == 2 && said[1].contains("wide.exr "), "{said:?}");
 
-    // And so do too many blocks, and one takes no more memory than a block may.
+    // So do too many blocks; and one block has a limit of memory.
     let tiles = |side: usize| {
         BlockDescription::Tiles(TileDescription {
             tile_size: Vec2(side, side),
@@ -207,7 +207,7 @@ fn pipes_and_devices_are_not_read() {
     }
 }
 
-/// A picture in each compression, in scan lines and in tiles.
+/// A picture with each compression, in scan lines and in tiles.
 fn exr_files() -> Vec<(String, Vec<u8>)> {
     let (width, height) = (64, 32);
     let value = |i: usize| (i % width) as f32 * 0.01 + (i / width) as f32 * 0.003;
@@ -245,7 +245,7 @@ fn read(file: &Path) -> std::result::Result<std::sync::Arc<tellus::planet::pictu
     key.load(&mut Budget::default())
 }
 
-/// Whatever a few bytes of a file are changed to, it gives a picture or an error. (What aborts ends this test.)
+/// A file with a few changed bytes gives a picture or an error. (An abort would end this test.)
 #[test]
 fn no_byte_of_an_exr_is_dangerous() {
     const CASES: u64 = 60;
@@ -257,7 +257,7 @@ fn no_byte_of_an_exr_is_dangerous() {
     };
     let mut write_and_read = |bytes: &[u8]| {
         number += 1;
-        // A name of its own: pictures are known by their files.
+        // A new name for each: pictures are cached by file.
         let file = folder.path().join(format!("{number}.exr"));
         std::fs::write(&file, bytes).unwrap();
         read(&file)
@@ -270,7 +270,7 @@ fn no_byte_of_an_exr_is_dangerous() {
             if case % 10 == 0 {
                 broken.truncate(dice(bytes.len()));
             }
-            // Half of the changes hit the numbers in front: header, offsets, the first block's.
+            // Half of the changes hit the begin of the file: header, offsets, the first block.
             let near = if case % 2 == 0 { broken.len().min(700) } else { broken.len() };
             for _ in 0..=dice(3) {
                 let at = dice(near.max(1)).min(broken.len().saturating_sub(1));
@@ -298,7 +298,7 @@ fn every_compression_gives_the_heights() {
     }
 }
 
-/// Two files with the same pixels, and links to them, are one picture.
+/// Two files with equal pixels, and links to them, are one picture.
 #[test]
 fn equal_pictures_are_kept_once() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What README.md promises: its program is compiled, its preset loads, its pictures are there and are packed.
+//! Checks of README.md: its program is compiled, its preset loads, its pictures exist and are packed.
 
 use std::path::Path;
 use std::process::Command;
@@ -16,7 +16,7 @@ fn blocks(language: &str) -> Vec<String> {
     text.split(&begin).skip(1).map(|block| block.split_once("```").unwrap().0.to_owned()).collect()
 }
 
-/// The example is compiled and run with all others; what stands in the README is the example.
+/// The program in the README is the example, which is compiled and run with all others.
 #[test]
 fn the_program_is_an_example() {
     let example = read("examples/in_a_game.rs");
@@ -40,7 +40,7 @@ fn the_package_is_named_as_it_is_depended_on() {
     }
 }
 
-/// Relative links and pictures lead to files, and those are part of the package.
+/// Relative links and pictures lead to files of the package.
 #[test]
 fn links_lead_to_packed_files() {
     let text = read("README.md");

@@ -1,4 +1,4 @@
-//! Height maps: pictures as terrain, from the file to the ground, and what is said of pictures that are wrong.
+//! Height maps: pictures as terrain, from the file to the ground, and the messages for wrong pictures.
 
 use exr::prelude::*;
 use glam::DVec3;
@@ -28,7 +28,7 @@ fn equirectangular(height: usize) -> (usize, usize, Vec<f64>) {
     (2 * height, height, (0..2 * height * height).map(texel).collect())
 }
 
-/// The six faces at these squares of a picture of so many squares.
+/// The six faces at these squares of a picture that is `wide` by `high` squares.
 fn faces(side: usize, [wide, high]: [usize; 2], squares: [(usize, usize); 6]) -> (usize, usize, Vec<f64>) {
     let (width, height) = (wide * side, high * side);
     let mut pixels = vec![0.0; width * height];
@@ -144,13 +144,13 @@ fn normals_are_those_of_the_heights_and_bits_are_the_same_everywhere() {
         assert_eq!(terrain.clone().with_simd(simd).heights_m(&dirs), heights);
     }
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    // Another file, so that the picture is made anew.
+    // Another file, so that the picture is decoded again.
     std::fs::copy(folder.path().join("a.png"), folder.path().join("b.png")).unwrap();
     let again = alone.install(|| loaded(folder.path(), "b.png", PictureLayout::Equirectangular).heights_m(&dirs));
     assert_eq!(again, heights);
 }
 
-/// Rows of an interlaced picture come in seven passes; some of them are empty in one of 10 x 5 pixels.
+/// Rows of an interlaced picture come in seven passes, some of which are empty at 10 x 5 pixels.
 #[test]
 fn an_interlaced_picture_is_the_same_picture() {
     let read = |name: &str| {
@@ -162,7 +162,7 @@ fn an_interlaced_picture_is_the_same_picture() {
     assert_eq!(plain, interlaced);
 }
 
-/// Everything that [`Planet::load`] says, without the folder.
+/// All messages of [`Planet::load`], without the folder.
 fn said(folder: &Path, preset: &str) -> String {
     let error = Planet::load(folder.join(preset)).map(|_| ()).unwrap_err().to_string();
     error.replace(&format!("{}/", folder.display()), "")
@@ -179,7 +179,7 @@ fn a_picture_that_is_wrong_is_told_with_its_place_and_loses_no_work() {
     std::fs::write(path("cut.png"), &bytes[..bytes.len() / 2]).unwrap();
     exr32(&path("nan.exr"), &(16, 8, (0..128).map(|i| if i == 18 { f64::NAN } else { 0.1 }).collect()));
     std::fs::create_dir(path("dir")).unwrap();
-    // A header that promises far more than there is.
+    // A header that promises far more pixels than the file has.
     png16(&path("huge.png"), &equirectangular(8));
     let mut huge = std::fs::read(path("huge.png")).unwrap();
     huge[16..24].copy_from_slice(&[0, 2, 0, 0, 0, 1, 0, 0]);
@@ -215,7 +215,7 @@ fn a_picture_that_is_wrong_is_told_with_its_place_and_loses_no_work() {
         let column = text.lines().nth(1).unwrap().find('"').unwrap() + 1;
         let said = said(folder.path(), "p.ron");
         assert!(said.starts_with(&format!("p.ron:2:{column}: layers[0].shape.file: {message}")), "{said}");
-        // The editor opens it all the same: flat, and with its reference.
+        // The editor still opens it: flat, and with its reference.
         let planet = Planet::open(path("p.ron")).unwrap();
         planet.save(path("q.ron")).unwrap();
         assert!(std::fs::read_to_string(path("q.ron")).unwrap().contains(file));
@@ -243,7 +243,7 @@ fn references_follow_the_preset_from_folder_to_folder() {
         let text = std::fs::read_to_string(preset).unwrap();
         text.lines().find_map(|line| line.trim().strip_prefix("file: ")).unwrap().to_owned()
     };
-    // An unsaved planet holds a whole path; saved, it counts from the preset.
+    // An unsaved planet holds an absolute path; a saved one, a path relative to the preset.
     let whole = path("a/maps/m.png").to_str().unwrap().to_owned();
     let mut unsaved = planet(whole, PictureLayout::Equirectangular);
     assert_eq!(unsaved.load_pictures(), []);
@@ -259,12 +259,12 @@ fn references_follow_the_preset_from_folder_to_folder() {
     planet.save(&second).unwrap();
     assert_eq!(written(&second), "\"../../a/maps/m.png\",");
     assert_eq!(Terrain::try_new(Arc::new(Planet::load(&second).unwrap())).unwrap().height_m(DVec3::X), height_m);
-    // And back again: the text is as it was.
+    // And back again: the text is unchanged.
     let back = path("a/q.ron");
     Planet::load(&second).unwrap().save(&back).unwrap();
     assert_eq!(written(&back), written(&first));
 
-    // A typed name that leads elsewhere has no pixels until they are loaded.
+    // A typed name of another file has no pixels until they are loaded.
     let mut other = planet.clone();
     if let Shape::HeightMap(map) = &mut other.layers[0].shape {
         map.file = "maps/n.png".to_owned().into();

@@ -1,4 +1,4 @@
-//! How layers are joined: against plain formulas, against differences, and with anything that a preset may hold.
+//! Joining layers: against plain formulas, against differences, and with any values that a preset allows.
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -19,7 +19,7 @@ fn directions(n: u64) -> Vec<DVec3> {
     (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
 }
 
-/// Smooth ground with slopes that matter.
+/// Smooth ground with steep slopes.
 fn ground(name: &str, seed: u32, wavelength_km: f64, amplitude_m: f64) -> Layer {
     let shape = Shape::Fbm(Fbm { wavelength_km, octaves: 2, ..Fbm::default() });
     Layer { name: name.to_owned(), seed, amplitude_m, shape, ..Layer::default() }
@@ -35,7 +35,7 @@ fn heights(planet: &Planet, dirs: &[DVec3]) -> Vec<f64> {
     Terrain::try_new(Arc::new(planet.clone())).unwrap().heights_m(dirs)
 }
 
-/// The noise of a layer by itself: the height of a planet that has it alone, one metre high.
+/// The noise of a layer: the height of a planet with that layer alone, 1 m high.
 fn noise(layer: &Layer, dirs: &[DVec3]) -> Vec<f64> {
     let shape = match &layer.shape {
         Shape::Terraces(Terraces { wavelength_km, octaves, .. }) => {
@@ -53,7 +53,7 @@ fn step(x: f64, from: f64, to: f64, invert: bool) -> f64 {
     if invert { 1.0 - step } else { step }
 }
 
-/// Fritsch and Carlson's interpolation, in Hermite's form.
+/// Interpolation of Fritsch and Carlson, in Hermite form.
 fn curve(points: &[[f64; 2]], x: f64) -> f64 {
     let n = points.len();
     if n == 0 {
@@ -102,7 +102,7 @@ fn blended(layer: &Layer, h: f64, v: f64) -> f64 {
     }
 }
 
-/// Height of terraces' nearest tread, less the place between treads, in steps.
+/// Height of the nearest tread of the terraces, less the position between treads, in steps.
 fn terraced(params: &Terraces, step_m: f64, h: f64, v: f64) -> f64 {
     let place = h / step_m + params.waviness * v;
     let t = place - place.floor();
@@ -110,7 +110,7 @@ fn terraced(params: &Terraces, step_m: f64, h: f64, v: f64) -> f64 {
     params.sharpness * (step(t, 0.5 - riser, 0.5 + riser, false) - t)
 }
 
-/// Heights by the plainest formulas; without masks by slope.
+/// Heights by the plainest formulas, without slope masks.
 fn reference(planet: &Planet, dirs: &[DVec3]) -> Vec<f64> {
     let noises: Vec<Vec<f64>> = planet.layers.iter().map(|layer| noise(layer, dirs)).collect();
     let place = |i: usize| {
@@ -144,7 +144,7 @@ fn masked(planet: &Planet, mask: &Mask, noises: &[Vec<f64>], i: usize, h: f64, d
     }
 }
 
-/// One planet for every blend, mask, curve and kind of joining, each with a name.
+/// A planet for every blend, mask, curve and reshaping, each with a name.
 fn cases() -> Vec<(String, Planet)> {
     let base = || ground("Base", 1, 90.0, 1500.0);
     let other = |blend| Layer { bias: 0.1, blend, softness_m: 400.0, ..ground("Other", 2, 60.0, 1200.0) };
@@ -201,7 +201,7 @@ fn normals_match_central_differences_for_every_way_of_joining() {
         for dir in directions(400) {
             let sample = terrain.sample(dir);
             let (a, b) = dir.any_orthonormal_pair();
-            // Far enough that the rounding of the noise matters little.
+            // Far enough for the rounding of the noise not to matter.
             let step = 5.0 / radius_m;
             let at = |d: DVec3| d.normalize() * (radius_m + terrain.height_m(d));
             let u = at(dir + a * step) - at(dir - a * step);
@@ -209,14 +209,14 @@ fn normals_match_central_differences_for_every_way_of_joining() {
             angles.push(u.cross(v).normalize().angle_between(sample.normal_planet));
         }
         angles.sort_by(f64::total_cmp);
-        // Max and Min have edges, where a difference is neither side's slope.
+        // Max and Min have edges, where a difference is the slope of neither side.
         let edges = if name == "Max" || name == "Min" || name == "bent terraces" { 4 } else { 0 };
         let (most, worst) = (angles[angles.len() * 9 / 10], angles[angles.len() - 1 - edges]);
         assert!(most < 2e-4 && worst < 2e-3, "{name}: {most} {worst} rad");
     }
 }
 
-/// A planet whose second layer lies where the first is steep.
+/// A planet whose second layer is masked by the slope of the first.
 fn on_slopes(over_m: f64, invert: bool) -> Planet {
     let slope = SlopeMask { from_deg: 4.0, to_deg: 12.0, over_m, invert };
     let scree =
@@ -229,7 +229,7 @@ fn masks_by_slope_find_the_slope_of_the_ground_below() {
     let below = Terrain::try_new(Arc::new(planet(vec![ground("Base", 1, 40.0, 1500.0)]))).unwrap();
     let dirs = directions(1000);
     for invert in [false, true] {
-        // Over a metre, every octave counts: the slope is the one that a sample has, at the reference radius.
+        // Over a metre every octave counts: the slope is that of a sample, at the reference radius.
         let terrain = Terrain::try_new(Arc::new(on_slopes(1.0, invert))).unwrap();
         let scree = noise(&terrain.planet().layers[1], &dirs);
         for (dir, scree) in dirs.iter().zip(scree) {
@@ -246,7 +246,7 @@ fn masks_by_slope_find_the_slope_of_the_ground_below() {
     assert_eq!(smooth, below.heights_m(&dirs));
 }
 
-/// Any layer: ends of ranges and odd combinations too. `names` are the layers that masks may look at.
+/// Any layer, with ends of ranges and odd combinations. `names` are the layers that masks may name.
 fn any_layer(number: usize, names: usize) -> impl Strategy<Value = Layer> {
     let shape = (0..Shape::NAMES.len(), prop::sample::select(vec![0.5, 30.0, 4000.0]), any::<bool>());
     let numbers = (prop::sample::select(vec![0.0, 1e-3, 70.0, 3000.0, 1e5]), -2.0..=2.0_f64, 0.0..5000.0_f64);

@@ -1,5 +1,4 @@
-//! Every kind of layer, by itself: the same bits everywhere and for ever, true gradients, no
-//! value that is not a number.
+//! Every landform alone: the same bits everywhere and in every version, correct gradients, finite values.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use glam::DVec3;
@@ -12,7 +11,7 @@ use tellus::sphere::NodeId;
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
 
-/// A planet of one layer, as high as is usual for its size.
+/// A planet of one layer, of usual height for its size.
 fn planet(shape: Shape) -> Arc<Planet> {
     precise_planet(shape, Precision::default())
 }
@@ -44,10 +43,10 @@ fn hash(numbers: impl Iterator<Item = f64>) -> u64 {
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
-/// Bits of heights and of normals, on each instruction set, one point at a time and many, on one thread and on all.
+/// Bits of heights and normals, on each instruction set, one point at a time and many, on one thread and on all.
 #[test]
 fn heights_and_normals_keep_their_bits() {
-    // Presets of versions 1 and 2 have the first for ever.
+    // Presets of versions 1 and 2 keep the first.
     keep_their_bits(Precision::Classic, include_str!("../goldens/landforms.txt"));
     keep_their_bits(Precision::Millimetre, include_str!("../goldens/landforms_millimetre.txt"));
 }
@@ -79,7 +78,7 @@ fn keep_their_bits(precision: Precision, golden: &str) {
     assert_eq!(report, golden, "a kind's default planet changed: presets in use would look different");
 }
 
-/// Fewer octaves, so that a difference over a short way means something.
+/// Fewer octaves, so that a difference over a short distance is meaningful.
 fn smooth(mut shape: Shape) -> Shape {
     shape.each_param(&mut Default::default(), &mut |_, param, value| {
         if let (ValueMut::Count(count), true) = (value, param.name.ends_with("octaves")) {
@@ -89,7 +88,7 @@ fn smooth(mut shape: Shape) -> Shape {
     shape
 }
 
-/// Where a kind is steep in places, a few points may stand across a crease; the rest must agree.
+/// Where a kind is steep, a few points may straddle a crease; the others must agree.
 #[test]
 fn normals_match_central_differences() {
     for shape in Shape::all() {
@@ -113,7 +112,7 @@ fn normals_match_central_differences() {
     }
 }
 
-/// The direction alone decides: asked through either face of a cube's edge or corner, a kind answers the same.
+/// The direction alone decides: across an edge or corner of the cube, both faces give the same value.
 #[test]
 fn faces_meet_without_a_seam() {
     for shape in Shape::all() {

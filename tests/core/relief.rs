@@ -1,5 +1,5 @@
-//! The relief that biomes have of their own: in every answer the same, without cliffs, with slopes that are those of the ground, and
-//! which edits make heights follow it.
+//! Biome relief: the same in every query, without cliffs, with the slopes of the ground; and the edits that rebuild
+//! heights because of it.
 
 use crate::support::edits::{every_edit, full_planet};
 use glam::DVec3;
@@ -12,7 +12,7 @@ use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
 use tellus::tiles::{Builder, build_now};
 
-/// Rolling ground, on which hummocks lie in one half of the table and none in the other.
+/// Rolling ground, with hummocks in one half of the biome table.
 fn hummocky() -> Planet {
     let biome = |key, relief_m, relief_size_m| Biome { key, relief_m, relief_size_m, ..Biome::default() };
     let mut table = Table::uniform('a', 4, 4);
@@ -92,7 +92,7 @@ fn slopes_are_those_of_the_raised_ground() {
             let slope = (at(h) - at(-h)) / (2.0 * h * (radius_m + sample.height_m));
             let normal = sample.normal_planet;
             let analytic = -normal.dot(tangent) / normal.dot(dir);
-            // Left out: how the blend follows the climate's noise; and a difference over a metre of 150 m waves.
+            // The gradient leaves out how the blend follows climate noise; the difference is over 1 m of 150 m waves.
             assert!((slope - analytic).abs() < 2e-3 + 2e-3 * slope.abs(), "{slope} {analytic} at {dir}");
         }
     }
@@ -103,7 +103,7 @@ fn no_cliff_stands_where_a_relief_ends() {
     let planet = hummocky();
     let (with, flat) =
         (Terrain::try_new(Arc::new(planet.clone())).unwrap(), Terrain::try_new(Arc::new(without(&planet))).unwrap());
-    // Half a metre from step to step, over borders of the table's cells.
+    // Steps of half a metre, across borders between cells of the table.
     let dirs: Vec<DVec3> =
         (0..60_000).map(|i| LatLon { lat_rad: 0.4, lon_rad: f64::from(i) * 1e-6 }.direction()).collect();
     let relief: Vec<f64> =
@@ -141,7 +141,8 @@ fn every_instruction_set_batch_and_tile_gives_the_same_bits() {
     }
 }
 
-/// With a relief in the table, painting and the climate rebuild heights; without one, painting rebuilds nothing.
+/// With biome relief, edits of the table and of the climate rebuild heights; without, edits of the table rebuild
+/// nothing.
 #[test]
 fn heights_follow_the_biomes_only_where_one_has_a_relief() {
     let mut planet = full_planet();
@@ -170,7 +171,7 @@ fn heights_follow_the_biomes_only_where_one_has_a_relief() {
         }
         ask(&planet);
     }
-    // A cell of the biome without one becomes one of the biome that has one.
+    // A cell of the biome without relief becomes one of the biome with relief.
     assert!(painted > 0);
     let mut plain = without(&planet);
     ask(&plain);

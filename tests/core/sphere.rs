@@ -1,5 +1,4 @@
-//! How evenly the cube mapping spreads its cells over the sphere, against the mappings it was chosen from. The figures
-//! stand in the README's design notes.
+//! How evenly the cube mapping spreads its cells over the sphere, against the mappings it was chosen from.
 
 use glam::DVec3;
 use tellus::sphere::{Face, cube};
@@ -17,7 +16,7 @@ struct Distortion {
     spacing: f64,
 }
 
-/// Of cells given by the images of two unit vectors at right angles.
+/// The figures of cells given by the images of two unit vectors at right angles.
 fn distortion(cells: impl Iterator<Item = (DVec3, DVec3)>) -> Distortion {
     let (mut areas, mut spacings) = ((f64::MAX, 0.0_f64), (f64::MAX, 0.0_f64));
     let (mut worst_stretch, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
@@ -34,9 +33,10 @@ fn distortion(cells: impl Iterator<Item = (DVec3, DVec3)>) -> Distortion {
     Distortion { area: areas.1 / areas.0, worst_stretch, mean_stretch: sum / count, spacing: spacings.1 / spacings.0 }
 }
 
-/// Of a mapping from a face's square, -1..1, to the sphere.
+/// The figures of a mapping from a face's square, -1..1, to the sphere.
 fn of_cube(direction: impl Fn(f64, f64) -> DVec3) -> Distortion {
-    // From edge to edge, where the extremes are; differences reach half a millionth to both sides, or to the inside.
+    // From edge to edge, where the extremes are. Differences reach half a millionth to both sides, or inwards at the
+    // edge.
     let at = |i: i32| f64::from(i) / f64::from(SIDE / 2) - 1.0;
     let step = 5e-7;
     distortion((0..=SIDE).flat_map(|j| (0..=SIDE).map(move |i| (at(i), at(j)))).map(|(s, t)| {
@@ -48,7 +48,7 @@ fn of_cube(direction: impl Fn(f64, f64) -> DVec3) -> Distortion {
     }))
 }
 
-/// The cube pushed out onto the sphere.
+/// The cube projected onto the sphere.
 fn normalise(s: f64, t: f64) -> DVec3 {
     DVec3::new(1.0, s, t).normalize()
 }
@@ -59,7 +59,7 @@ fn nowell(s: f64, t: f64) -> DVec3 {
     DVec3::new(bent(1.0, s, t), bent(s, 1.0, t), bent(t, 1.0, s))
 }
 
-/// One face of an icosahedron (all are alike), each edge halved again and again and pushed out onto the sphere.
+/// One face of an icosahedron (all are alike), its edges halved repeatedly and projected onto the sphere.
 fn icosphere() -> Distortion {
     let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
     let corners = [DVec3::new(0.0, 1.0, golden), DVec3::new(golden, 0.0, 1.0), DVec3::new(0.0, -1.0, golden)];
@@ -71,7 +71,7 @@ fn icosphere() -> Distortion {
         };
         triangles = triangles.into_iter().flat_map(halve).collect();
     }
-    // What an equilateral triangle is stretched by: the second vector from its base to its tip.
+    // The stretch of an equilateral triangle: the second vector runs from its base to its tip.
     let height = 0.75_f64.sqrt();
     distortion(triangles.into_iter().map(|[a, b, c]| (b - a, (c - 0.5 * (a + b)) / height)))
 }

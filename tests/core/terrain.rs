@@ -8,10 +8,11 @@ use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{
     Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, SlopeMask, Water,
+    shipped,
 };
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
-use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
+use tellus::terrain::{Scratch, Terrain, Wanted};
 use tellus::tiles::{Builder, Surface, build_now};
 
 /// A mask by the noise of another layer.
@@ -19,7 +20,7 @@ fn mask(layer: &str, from: f64, to: f64) -> Mask {
     Mask::Layer(LayerMask { layer: layer.to_owned(), from, to, invert: false })
 }
 
-/// A planet of version 1: with its kinds of layer, its blends and masks.
+/// A planet of version 1, with the landforms, blends and masks of that version.
 fn planet() -> Planet {
     let fbm = |wavelength_km, octaves| Shape::Fbm(Fbm { wavelength_km, octaves, gain: 0.5, lacunarity: 2.0 });
     let ridged = Shape::Ridged(Ridged { wavelength_km: 700.0, octaves: 14, ..Ridged::default() });
@@ -33,7 +34,7 @@ fn planet() -> Planet {
     let mountains =
         Layer { masks: vec![mask("continents", 0.0, 0.3)], seed: 5, ..layer("mountains", ridged, 5000.0, Blend::Add) };
     Planet {
-        // As presets of versions 1 and 2 are.
+        // The precision of presets of versions 1 and 2.
         precision: Precision::Classic,
         layers: vec![
             layer("continents", fbm(5000.0, 12), 3000.0, Blend::Add),
@@ -50,7 +51,7 @@ fn planet() -> Planet {
     }
 }
 
-/// Craters as version 1 knew them.
+/// Craters of version 1.
 fn first_craters() -> Craters {
     Craters { power: 0.0, floor: 0.0, peak: 0.0, age: 0.0, fresh: 0.0, ..Craters::default() }
 }
@@ -106,9 +107,37 @@ fn one_point_and_a_batch_agree_to_the_bit() {
     assert!(batch.iter().all(|h| (lo..=hi).contains(h)));
 }
 
+/// Whatever is asked for, alone or in a batch, in fresh or used memory, the answers are the same.
+#[test]
+fn all_queries_of_a_point_agree() {
+    let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
+    let dirs = directions(700);
+    let samples = terrain.samples(&dirs, Wanted::ALL);
+    let (mut heights_m, mut scratch) = (vec![0.0; dirs.len()], Scratch::default());
+    terrain.heights_into(&dirs, &mut heights_m, &mut scratch);
+    let alone = |wanted| terrain.samples(&dirs, wanted);
+    let (normals, climates) = (alone(Wanted::HEIGHT.and_normal()), alone(Wanted::HEIGHT.and_climate()));
+    let biomes = alone(Wanted::HEIGHT.and_biome());
+    for (i, (dir, sample)) in dirs.iter().zip(&samples).enumerate() {
+        assert_eq!(terrain.sample(*dir), *sample);
+        assert_eq!(biomes[i], *sample);
+        for height_m in [terrain.height_m(*dir), heights_m[i], normals[i].height_m, climates[i].height_m] {
+            assert_eq!(height_m.to_bits(), sample.height_m.to_bits());
+        }
+        assert_eq!((normals[i].normal_planet, normals[i].temperature_c), (sample.normal_planet, 0.0));
+        assert_eq!((climates[i].temperature_c, climates[i].slope_rad), (sample.temperature_c, 0.0));
+        let layers_m: f64 = terrain.layers_m(*dir).iter().sum();
+        assert!((layers_m - sample.height_m).abs() < 1.0, "biome relief alone is in no layer: {layers_m}");
+    }
+    // Fewer numbers than directions, and none at all.
+    terrain.heights_into(&dirs, &mut heights_m[..3], &mut scratch);
+    terrain.heights_into(&[], &mut heights_m, &mut scratch);
+    assert_eq!(heights_m[2], samples[2].height_m);
+}
+
 #[test]
 fn normals_match_central_differences() {
-    // Smooth enough that a difference over 2 m means something.
+    // Smooth enough for a difference over 2 m.
     let mut planet = planet();
     for layer in &mut planet.layers {
         if let Shape::Fbm(Fbm { octaves, .. }) | Shape::Ridged(Ridged { octaves, .. }) = &mut layer.shape {
@@ -182,7 +211,7 @@ fn neighbouring_tiles_share_their_edges_to_the_bit_and_leave_no_gap() {
                         .collect();
                     assert!(rim.iter().all(|p| theirs.contains(p)), "{id:?} {edge:?}");
                 } else {
-                    // Finer over there: that side does the stitching; it must be exactly one level.
+                    // The neighbour is finer and stitches the edge; it must be exactly one level finer.
                     assert!(!coarser && across.children().iter().any(|c| level_of.contains_key(c)), "{id:?} {edge:?}");
                 }
             }
@@ -217,7 +246,7 @@ fn a_ray_meets_the_ground_where_the_ground_is() {
     }
 }
 
-/// The surface once the builder has done all it was asked for.
+/// The surface once the builder has finished every request.
 fn settled(builder: &Builder) -> Arc<Surface> {
     loop {
         if builder.has_all_tiles() {
@@ -231,7 +260,7 @@ fn bits(surface: &Surface) -> Vec<(NodeId, u8, Vec<tellus::lod::Vertex>)> {
     surface.leaves.iter().map(|leaf| (leaf.tile.id, leaf.coarser_edges, leaf.tile.vertices.clone())).collect()
 }
 
-/// One of a few edits, each at another stage.
+/// One of a few edits, each of another stage.
 fn edit(planet: &mut Planet, which: usize, amount: f64) {
     match which {
         0 => planet.layers[0].amplitude_m = 1000.0 + 4000.0 * amount,
@@ -310,7 +339,7 @@ fn a_mask_by_slope_asks_only_the_layers_below_it() {
     // On the third layer: continents have 12 octaves, mountains 14.
     edit(&mut planet, 8, 0.2);
     assert_eq!(octaves_a_tile(&planet), 26.0);
-    // What is there by now is enough for less.
+    // Fields that exist already serve fewer layers.
     edit(&mut planet, 9, 0.0);
     assert_eq!(octaves_a_tile(&planet), 0.0);
     edit(&mut planet, 8, 0.2);
@@ -347,7 +376,7 @@ fn a_mask_follows_its_name_to_another_layer() {
     let mut planet = planet();
     builder.request(&Arc::new(planet.clone()), &view);
     settled(&builder);
-    // Only names change, but the mask on "mountains" now means another layer.
+    // Only names change, but the mask on "mountains" now names another layer.
     let name = std::mem::replace(&mut planet.layers[0].name, "floor".to_owned());
     planet.layers[3].name = name;
     let planet = Arc::new(planet);
@@ -355,7 +384,7 @@ fn a_mask_follows_its_name_to_another_layer() {
     assert!(bits(&settled(&builder)) == bits(&build_now(&planet, &view).unwrap()));
 }
 
-/// A planet that the sea makes moist.
+/// A planet whose moisture depends on the distance to the coast.
 fn moist() -> Planet {
     let mut planet = planet();
     planet.climate.sea_moisture = 0.5;
@@ -377,7 +406,7 @@ fn the_sea_makes_its_shores_moister_than_the_inland() {
         let gained = a.moisture - b.moisture;
         assert!((0.0..=0.5 + 1e-12).contains(&gained));
         if b.moisture < 0.5 && b.moisture > 0.0 {
-            // What is well below the sea's surface lies in it.
+            // Ground well below sea level lies in the sea.
             if a.height_m < -200.0 {
                 shore.push(gained);
             } else if a.height_m > 1500.0 {

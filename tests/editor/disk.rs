@@ -253,7 +253,7 @@ fn two_windows_on_one_file_know_of_each_other() {
     let mut second = opened(folder.path(), &path, vec![]);
     assert!(told(&second));
     until(&mut first, "told", told);
-    // Nothing is blocked.
+    // Saving is not blocked.
     edit(&mut second);
     send(&mut second, Command::Save);
     assert!(!second.state().document().is_dirty());

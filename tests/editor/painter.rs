@@ -37,7 +37,7 @@ fn cell(harness: &Editor, column: usize, row: usize) -> egui::Pos2 {
     rect.min + size * egui::vec2(column as f32 + 0.5, row as f32 + 0.5)
 }
 
-/// Presses in one cell, passes others and lets go in the last.
+/// Presses in the first cell, moves over the others and releases in the last.
 fn stroke(harness: &mut Editor, cells: &[(usize, usize)]) {
     let at: Vec<egui::Pos2> = cells.iter().map(|&(column, row)| cell(harness, column, row)).collect();
     harness.hover_at(at[0]);

@@ -6,6 +6,7 @@
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures
 //! - `planets`: the shipped presets, against goldens
 //! - `render`: passes, stages and errors of the renderer
+//! - `scene`: several bodies, the caller's targets, projections and viewports
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, missing_docs)]
 
 mod air;
@@ -16,6 +17,7 @@ mod lod_pictures;
 mod materials;
 mod planets;
 mod render;
+mod scene;
 mod shaders;
 mod shadows;
 mod shimmer;

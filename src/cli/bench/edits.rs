@@ -1,4 +1,5 @@
-//! From an edit to the finished tiles, for one parameter of every kind, through the builder that the editor uses.
+//! Time from an edit to the finished tiles, for one parameter of every kind, through the builder that the editor
+//! uses.
 
 use super::{median, opening_view, p95};
 use crate::lod::View;
@@ -11,18 +12,18 @@ use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Edits of one parameter, each from a different value.
+/// Edits of each parameter, each from a different value.
 const RUNS: usize = 7;
-/// The same where nothing is kept and each takes as long as a rebuild.
+/// The same without a cache, where each takes as long as a rebuild.
 const UNCACHED_RUNS: usize = 3;
-/// After this an edit is given up.
+/// An edit that takes longer is given up.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The `edits` list of the report: with the cache that the editor has, and without any.
 pub(super) fn measure(planet: &Arc<Planet>) -> Vec<serde_json::Value> {
     let view = opening_view(planet);
     let edits = one_of_every_kind(planet);
-    // One builder after the other: what one does in the background must not take time from the other.
+    // One builder after the other, because the background work of one would take time from the other.
     let all = |budget_bytes: usize, runs: usize| -> Vec<_> {
         let bench = Bench::new(budget_bytes);
         edits.iter().map(|(path, _)| bench.measure(planet, &view, path, runs)).collect()
@@ -47,7 +48,7 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Vec<serde_json::Value> {
         .collect()
 }
 
-/// The builder, and a bell that it rings.
+/// The builder, and a bell that it rings when a surface changes.
 struct Bench {
     builder: Builder,
     bell: Arc<(Mutex<()>, Condvar)>,
@@ -61,7 +62,7 @@ impl Bench {
         Self { builder, bell }
     }
 
-    /// What the last of several edits of one parameter took, and the sorted milliseconds of all.
+    /// The statistics of the last of several edits of one parameter, and the sorted milliseconds of all.
     fn measure(
         &self,
         planet: &Arc<Planet>,
@@ -81,7 +82,7 @@ impl Bench {
         Some((last?, times))
     }
 
-    /// Asks for a planet and waits for its complete surface: seconds, and what it took.
+    /// Requests a planet and waits for its complete surface: seconds, and statistics.
     fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<(f64, BuildStats)> {
         let start = Instant::now();
         self.builder.request(planet, view);
@@ -89,7 +90,7 @@ impl Bench {
             if start.elapsed() > PATIENCE {
                 return None;
             }
-            // The bell may ring between the question and the wait, hence the short limit.
+            // The bell may ring between the check and the wait, hence the short limit.
             let guard = self.bell.0.lock().unwrap_or_else(PoisonError::into_inner);
             drop(self.bell.1.wait_timeout(guard, Duration::from_micros(200)));
         }
@@ -126,7 +127,8 @@ fn kind(value: ValueRef<'_>) -> u8 {
     }
 }
 
-/// The planet with one parameter moved a little, further with each `step`; `None` where that would not be valid.
+/// The planet with one parameter moved a little, further with each `step`; `None` where the result would not be
+/// valid.
 fn edited(planet: &Planet, path: &ParamPath, step: usize) -> Option<Planet> {
     let mut edited = planet.clone();
     edited.each(&mut |at, param, mut value| {
@@ -157,7 +159,7 @@ fn nudged(param: &Param, value: ValueRef<'_>, step: usize) -> Option<Value> {
         (Value::Curve(points), _) if points.is_empty() => {
             Value::Curve(vec![[-1.0, -1.0 - share], [0.0, share], [1.0, 1.0 + share]])
         }
-        // Other names and letters would leave masks and tables behind.
+        // Other names and letters would break the masks and tables that refer to them.
         (Value::Text(v), _) => Value::Text(format!("{v} {step}")),
         _ => return None,
     })

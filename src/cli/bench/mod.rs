@@ -31,12 +31,12 @@ pub(super) struct Args {
 const SIZE_PX: [u32; 2] = [1280, 720];
 /// Runs of which the median is taken, unless they take too long.
 const RUNS: usize = 15;
-/// Fewest runs, however long they take.
+/// Least number of runs, however long they take.
 const FEWEST_RUNS: usize = 3;
-/// After this no further run is begun.
+/// No further run begins after this time.
 const LONG: Duration = Duration::from_secs(3);
 
-/// The view that the design's bar speaks of.
+/// The view that the design's bar is set for.
 fn opening_view(planet: &Planet) -> View {
     opening::opening_view(planet, SIZE_PX, Quality::Medium)
 }
@@ -104,7 +104,7 @@ fn median(sorted: &[f64]) -> Option<f64> {
     sorted.get(sorted.len() / 2).copied()
 }
 
-/// What 95 of 100 sorted times do not exceed.
+/// The 95th percentile of sorted times.
 fn p95(sorted: &[f64]) -> Option<f64> {
     let rank = (sorted.len() * 95).div_ceil(100);
     sorted.get(rank.saturating_sub(1)).copied()

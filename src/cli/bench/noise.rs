@@ -1,5 +1,4 @@
-//! Noise at arbitrary points of the unit sphere, on one core, against fastnoise-lite on the
-//! same points in the same run.
+//! Noise at any points of the unit sphere, on one core, against fastnoise-lite on the same points in the same run.
 
 use super::{median, repeat};
 use crate::sphere::LatLon;
@@ -15,7 +14,7 @@ const OCTAVES: i32 = 8;
 /// Cycles along a radius of the coarsest octave.
 const FREQUENCY: f32 = 4.0;
 
-/// The `noise` object of the report: the figures of the best instruction set, and those of each.
+/// The `noise` object of the report: the figures of the best instruction set, and of each.
 pub(super) fn measure() -> Value {
     let points = points();
     let noise = NoiseBench::new(points.clone());
@@ -40,7 +39,7 @@ pub(super) fn measure() -> Value {
     report
 }
 
-/// Million points a second of this crate's noise: value alone, and value with gradient.
+/// Million points a second of this crate's noise: values, and values with gradients.
 fn own_mpts(noise: &NoiseBench, simd: Simd) -> (Option<f64>, Option<f64>) {
     let values = repeat(|| {
         black_box(noise.values(simd));
@@ -72,7 +71,7 @@ fn mpts(times_ms: &[f64]) -> Option<f64> {
     median(times_ms).map(|ms| POINTS as f64 / ms / 1000.0)
 }
 
-/// Spread over the sphere so that no two neighbours in the list are neighbours on it.
+/// Points spread over the sphere such that neighbours in the list are no neighbours on it.
 fn points() -> Vec<DVec3> {
     // The R2 sequence (Roberts): even, and the same in every run.
     (0..POINTS)

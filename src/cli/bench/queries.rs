@@ -1,4 +1,4 @@
-//! What queries of the terrain cost: one at a time as a game asks for them, and in batches.
+//! The cost of terrain queries: one at a time as a game asks, and in batches.
 
 use super::{median, repeat};
 use crate::planet::Planet;
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::hint::black_box;
 use std::sync::Arc;
 
-/// Directions that are asked for one at a time, spread evenly over the globe.
+/// Directions of single queries, spread evenly over the globe.
 const SINGLES: usize = 2000;
 /// Directions of a batch.
 const BATCH: usize = 50_000;

@@ -19,9 +19,9 @@ pub struct TurnedOff {
     clouds: Option<Clouds>,
 }
 
-/// The planet's own parameters: name, seed, radius. The other parts have panels of their own, and the editor's notes
-/// none.
+/// The planet's own parameters: name, seed, radius.
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
+    // Parts have panels of their own, or none.
     let skip: Vec<&str> = Planet::PARTS.iter().map(|part| part.name).collect();
     let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());

@@ -7,8 +7,8 @@ use notify::RecommendedWatcher;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Time for which the last action is shown.
-const SHOWN: Duration = Duration::from_secs(5);
+/// Time for which the last action is shown, on egui's clock.
+const SHOWN_SECS: f64 = 5.0;
 /// Longest time between two looks for other windows while the system reports none.
 const LOOK: Duration = Duration::from_secs(1);
 /// Pause between a report of the system and the look: a window takes its lock a moment after it makes the file.
@@ -17,7 +17,10 @@ const SETTLED: Duration = Duration::from_millis(100);
 /// The last action, and whether another window has the open file.
 #[derive(Default)]
 pub struct Notices {
-    said: Option<(String, Instant)>,
+    /// The last action, and when it was said on egui's clock.
+    said: Option<(String, f64)>,
+    /// Start of this frame on egui's clock.
+    now_secs: f64,
     /// The folder where windows note which files they have open.
     claims: Option<PathBuf>,
     /// The file that was claimed, with None where that failed: it is not tried again in every frame.
@@ -35,15 +38,21 @@ impl Notices {
         self.claims = Some(folder.to_owned());
     }
 
+    /// Notes that a frame begins.
+    pub fn begin_frame(&mut self, ctx: &egui::Context) {
+        self.now_secs = ctx.input(|input| input.time);
+    }
+
     /// Notes an action to show.
     pub fn say(&mut self, text: String) {
-        self.said = Some((text, Instant::now()));
+        self.said = Some((text, self.now_secs));
     }
 
     /// The last action, and the time for which it is still shown.
     pub fn said(&self) -> Option<(&str, Duration)> {
-        let (text, since) = self.said.as_ref()?;
-        Some((text, SHOWN.checked_sub(since.elapsed())?))
+        let (text, since_secs) = self.said.as_ref()?;
+        let left_secs = since_secs + SHOWN_SECS - self.now_secs;
+        (left_secs > 0.0).then(|| (text.as_str(), Duration::from_secs_f64(left_secs)))
     }
 
     /// Whether another window has the open file open too.

@@ -1,19 +1,23 @@
-//! Lowest and greatest samples of a raster near a direction: of the texels that count there, and where those are few,
-//! by how far a spline between them can rise.
+//! Lowest and greatest sample of a raster near a direction: from the range of the texels there or, where they are
+//! few, from the rise of the spline between them.
 
-use super::{BLEND, CAP_ROWS, Cube, FRAMES, Globe, Level, MARGIN, OnFace, Place, Raster, Texel, bicubic, range};
+use super::cube::{BLEND, Cube, FRAMES, MARGIN, OnFace};
+use super::globe::{CAP_ROWS, Globe};
+use super::spline::bicubic;
+use super::texels::{Texel, range};
+use super::{Level, Place, Raster};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Texels along a side of the smallest block whose range is kept.
+/// Texels along a side of the smallest block whose range is stored.
 const BLOCK: usize = 8;
-/// Blocks along a side that one question looks at, at most about.
+/// About the greatest number of blocks along a side that one query reads.
 const FEW: usize = 8;
-/// Places are found with errors far below this, in texels.
+/// Bound of the error of positions, in texels.
 const SLACK: f64 = 1e-6;
 
-/// The ranges of the texels of a grid in square blocks, and of blocks of those, twice as wide each time.
+/// The ranges of square blocks of a grid's texels, and of blocks of blocks, each twice as wide.
 pub(super) struct Ranges<T> {
     levels: Vec<Blocks<T>>,
 }
@@ -76,15 +80,15 @@ impl<T: Texel> Ranges<T> {
     }
 }
 
-/// What is known of a spline around a point: it is there so high, rises so steeply by x and y and bends no more than
-/// twice the range of its texels.
+/// A spline around a point: its value, its derivatives by x and y, and a bound of its bend, twice the range of its
+/// texels.
 fn rise((value, by_x, by_y): (f64, f64, f64), reach: [f64; 2], (lo, hi): (f64, f64)) -> (f64, f64) {
     let [x, y] = reach;
     let rise = by_x.abs() * x + by_y.abs() * y + (hi - lo) * (x + y) * (x + y) + 1e-9 * (1.0 + hi.abs().max(lo.abs()));
     (lo.max(value - rise), hi.min(value + rise))
 }
 
-/// The texels that a spline between two places along an axis is made of.
+/// The texels of a spline between two positions along an axis.
 fn reached(from: f64, to: f64) -> (isize, isize) {
     ((from - 0.5 - SLACK).floor() as isize - 1, (to - 0.5 + SLACK).floor() as isize + 3)
 }
@@ -112,7 +116,7 @@ impl<T: Texel> Globe<T> {
         let colatitude_rad = if dir.z < 0.0 { PI - place.from_pole_rad } else { place.from_pole_rad };
         let (y, reach_y) = (colatitude_rad * rows_per_rad, angle_rad * rows_per_rad + SLACK);
         let (first, last) = reached(y - reach_y, y + reach_y);
-        // Rows beyond a pole are rows before it, on the other side.
+        // Rows beyond a pole are rows before it, on the opposite meridian.
         let over_pole = first < 0 || last > height as isize || place.from_pole_rad <= angle_rad * 1.01 + 1e-9;
         let mut rows = first.max(0) as usize..(last.max(1) as usize).min(height);
         if first < 0 {
@@ -130,7 +134,7 @@ impl<T: Texel> Globe<T> {
         let mut found = if last - first >= width as isize {
             ranges.of(&self.texels, width, rows, 0..width)
         } else {
-            // From the first column on, and from the left edge on what is beyond the right one.
+            // From the first column on, and from the left edge on for columns beyond the right one.
             let count = (last - first) as usize;
             let first = first.rem_euclid(width as isize) as usize;
             let last = first + count;
@@ -145,8 +149,8 @@ impl<T: Texel> Globe<T> {
             let from_pole_rad = if sign > 0.0 { colatitude_rad } else { PI - colatitude_rad };
             if from_pole_rad * rows_per_rad - reach_y <= CAP_ROWS {
                 let plane = pole.value + pole.slope_x * dir.x + pole.slope_y * dir.y;
-                let rise = pole.slope_x.hypot(pole.slope_y) * angle_rad + 1e-9 * (1.0 + plane.abs());
-                // Beyond the cap it does not count.
+                let rise = libm::hypot(pole.slope_x, pole.slope_y) * angle_rad + 1e-9 * (1.0 + plane.abs());
+                // Beyond the cap the plane does not count.
                 found = both(found, (plane - rise, plane + rise));
             }
         }
@@ -161,7 +165,7 @@ impl<T: Texel> Cube<T> {
         let mut found = NONE;
         for (face, [out, right, up]) in FRAMES.into_iter().enumerate() {
             let depth = (dir.dot(out) - angle_rad, dir.dot(out) + angle_rad);
-            // Nothing farther to the side counts.
+            // Directions farther to the side do not count.
             if depth.1 < 0.25 {
                 continue;
             }

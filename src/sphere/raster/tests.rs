@@ -1,4 +1,4 @@
-//! Rasters against what they were made of, and against themselves.
+//! Rasters against the functions that they were made from.
 
 use super::*;
 
@@ -37,7 +37,7 @@ fn cube(side: usize, of: impl Fn(DVec3) -> f64) -> Raster<f32> {
     Raster::cube(side, (0..6 * side * side).map(texel).collect())
 }
 
-/// A number for each texel that has nothing to do with its neighbours'.
+/// A number for each texel, unrelated to its neighbours.
 fn rough(d: DVec3) -> f64 {
     libm::fabs(libm::sin(1e4 * d.x) * 3e3 + libm::sin(7e3 * d.y + d.z * 9e3) * 2e3) % 1.0
 }

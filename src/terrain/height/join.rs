@@ -64,8 +64,9 @@ impl LayerFields for Kept<'_> {
     }
 }
 
-/// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at `spacings_rad` and at
-/// the spacings of its slope masks; `each(layer, heights_m)` is told the heights of a chunk after each enabled layer.
+/// Joins the layers at points. `fields[i]` must be there for every needed layer, with gradients at `spacings_rad` and
+/// at the spacings of its slope masks; `each(layer, heights_m)` is told the heights of a chunk after each enabled
+/// layer.
 pub(crate) fn combine(
     stack: &LayerStack,
     simd: Simd,

@@ -14,7 +14,7 @@
 //! - `cells`: plates, cracks and domes around scattered centres
 //! - `heightmap`: heights from a picture
 //! - `chunk`, `scratch`: the points, sums and memory that all kinds share
-//! - `octaves`: series of octaves
+//! - `octaves`: series of octaves; `folded`: octaves folded at zero
 //! - `warp`: displaced points
 //! - `curve`: a smooth curve through knots
 //! - `places`: lattice cells around points, for kinds that scatter features
@@ -27,6 +27,7 @@
 
 mod chunk;
 mod curve;
+mod folded;
 mod octaves;
 mod places;
 #[cfg(test)]

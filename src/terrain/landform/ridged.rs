@@ -1,27 +1,20 @@
 //! Ridged multifractal (Musgrave, in Ebert et al. 2003): noise folded at zero into crests, `(1 - |n|)^2`, each octave
 //! strong where the one before was.
 
+use super::folded::{Fold, Folded};
 use super::octaves::{Weighted, series};
 use super::varying::{Around, Point};
-use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
+use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use crate::terrain::jet::{Jet, Jets, Real};
+use crate::terrain::jet::{Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
-use crate::terrain::simd::for_each_simd;
+use crate::terrain::simd::{Simd, for_each_simd};
 use glam::DVec3;
-
-/// Points per lattice cell at which an octave shows in full: crests are half as long as waves.
-const LEAST_POINTS: f64 = 2.2;
-
-/// Greatest total weight of the octaves that are evaluated in f32.
-const REST: f64 = 0.07;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ridged {
-    octaves: Vec<Weighted>,
-    /// How many octaves, the coarsest, are evaluated in f64.
-    f64_octaves: usize,
+    folded: Folded,
     feedback: f32,
 }
 
@@ -29,13 +22,13 @@ impl Ridged {
     pub(super) fn new(params: &planet::Ridged, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
         let planet::Ridged { wavelength_km, octaves, gain, lacunarity, feedback } = *params;
         let octaves = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity);
-        Self { f64_octaves: arithmetic.f64_octaves(&octaves, REST), octaves, feedback: feedback as f32 }
+        Self { folded: Folded::new(octaves, arithmetic), feedback: feedback as f32 }
     }
 }
 
 impl Evaluate for Ridged {
     fn octave_count(&self) -> usize {
-        self.octaves.len()
+        self.folded.octaves.len()
     }
 
     fn bounds(&self) -> (f64, f64) {
@@ -46,7 +39,7 @@ impl Evaluate for Ridged {
         let point = Point::new(Around { dir_planet, angle_rad });
         let feedback = f64::from(self.feedback);
         let (mut sum, mut feed) = ((0.0, 0.0), (1.0, 1.0));
-        for Weighted { octave, weight } in &self.octaves {
+        for Weighted { octave, weight } in &self.folded.octaves {
             let (low, high) = point.noise(octave).range();
             // Folding turns the noise nearest to zero into the highest crest.
             let nearest = low.max(-high).max(0.0);
@@ -60,44 +53,20 @@ impl Evaluate for Ridged {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets: [crest, feed, ..], in_f64, .. } = scratch;
-        let Scratch64 { noise: noise64, jets: [crest64, feed64, ..], .. } = in_f64;
-        let n = chunk.len();
-        feed.fill(n, 1.0);
-        feed64.fill(n, 1.0);
-        let exact = chunk.f64_octaves(self.f64_octaves);
-        let mut share = 0.0;
-        for (k, Weighted { octave, weight }) in self.octaves.iter().enumerate() {
-            let fades = chunk.fades(1.0 / octave.frequency, LEAST_POINTS);
-            if chunk.skips(&fades) {
-                sums.stand_for_all(n, share);
-                break;
-            }
-            share += f64::from(*weight);
-            if k < exact {
-                noise64.values(chunk.simd, chunk.skewed, octave);
-                fold::<f64>(chunk.simd, n, noise64, self.feedback, feed64, crest64);
-                sums.add_f64(chunk, &crest64.value, f64::from(*weight));
-                if !fades.is_unseen() {
-                    noise.gradients(chunk.simd, chunk.skewed, octave);
-                    fold::<Jet>(chunk.simd, n, noise, self.feedback, feed, crest);
-                    sums.add_gradients(chunk, &crest.gradient, *weight, &fades);
-                }
-                feed.round_from(n, feed64);
-                continue;
-            }
-            // An octave too fine for every band needs no gradient, nor do the finer ones that follow.
-            if fades.is_unseen() {
-                noise.values(chunk.simd, chunk.skewed, octave);
-                fold::<f32>(chunk.simd, n, noise, self.feedback, feed, crest);
-            } else {
-                noise.gradients(chunk.simd, chunk.skewed, octave);
-                fold::<Jet>(chunk.simd, n, noise, self.feedback, feed, crest);
-            }
-            sums.add(chunk, &crest.value, &crest.gradient, *weight, &fades);
-        }
-        // Octaves sum to 0..1.
-        sums.map(n, |v| (v * 2.0 - 1.0, 2.0));
+        self.folded.add_to(self, chunk, scratch);
+    }
+}
+
+impl Fold for Ridged {
+    fn fold<R: Real>(
+        &self,
+        simd: Simd,
+        n: usize,
+        noise: &Noise<R::S>,
+        feed: &mut Jets<R::S>,
+        height: &mut Jets<R::S>,
+    ) {
+        fold::<R>(simd, n, noise, self.feedback, feed, height);
     }
 }
 

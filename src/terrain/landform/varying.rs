@@ -104,7 +104,7 @@ impl Varying {
     /// The reciprocal of a positive number.
     pub(super) fn recip(self) -> Self {
         let f = |v: f64| (1.0 / v, -1.0 / (v * v));
-        self.map(f, 2.0 / self.lo.powi(3), (1.0 / self.hi, 1.0 / self.lo))
+        self.map(f, 2.0 / (self.lo * self.lo * self.lo), (1.0 / self.hi, 1.0 / self.lo))
     }
 
     /// The reciprocal of the root of a positive number.
@@ -199,7 +199,7 @@ impl Point {
         let (s, t, up) = (along(s), along(t), along(dir_planet));
         // Greatest stretch of a unit step along the ground: the greater singular value.
         let (mean, half) = (0.5 * (s.dot(s) + t.dot(t)), 0.5 * (s.dot(s) - t.dot(t)));
-        let stretch = (mean + half.hypot(s.dot(t))).sqrt();
+        let stretch = (mean + libm::hypot(half, s.dot(t))).sqrt();
         let error = DVec3::from_array(coordinates.map(|c| c.error)).length();
         let distance = stretch * angle_rad + 0.5 * up.length() * angle_rad * angle_rad + error;
         Self { around, coordinates, distance: distance * (1.0 + 1e-9) + 1e-13 }

@@ -45,8 +45,8 @@ impl Warp {
         3 * self.octaves.len()
     }
 
-    /// The images of the directions around one, and their derivatives by the direction, `[coordinate
-    /// displaced][coordinate]`.
+    /// The images of the directions around one, and their derivatives by the direction:
+    /// `[coordinate displaced][coordinate]`.
     pub(super) fn near(&self, around: Around) -> (Point, [[Varying; 3]; 3]) {
         let point = Point::new(around);
         let mut there = point.coordinates;

@@ -3,7 +3,7 @@ use crate::lod::opening::OPENING_ALTITUDE_RADII;
 
 const RADIUS_M: f64 = 6_371_000.0;
 
-/// Mountains of 3 km, hollows below a sea.
+/// Mountains of 3 km, and basins below a sea.
 struct Hills;
 
 impl Hills {
@@ -43,7 +43,7 @@ impl Ground for Hills {
     }
 }
 
-/// A small linear congruential generator (Numerical Recipes): the same inputs in every run.
+/// A linear congruential generator (constants of Numerical Recipes): equal inputs in every run.
 struct Dice(u64);
 
 impl Dice {
@@ -131,7 +131,7 @@ fn whatever_one_does_the_eye_is_never_below_the_ground() {
     }
 }
 
-/// How far the picture jumps: moved in shares of the height above the ground, and turned.
+/// The jump between two poses: the move in shares of the height above the ground, and the rotation.
 fn jump(before: &Pose, after: &Pose) -> (f64, f64) {
     let moved_m = before.position_planet_m.distance(after.position_planet_m);
     let turned_rad = before.planet_from_view.angle_between(after.planet_from_view);
@@ -161,7 +161,7 @@ fn one_camera_hands_over_to_the_next_without_a_jump() {
             let mut last = cameras.pose(&Hills);
             let (moved, turned) = jump(&before, &last);
             assert!(moved < 1e-4 && turned < 1e-5, "{from:?} to {mode:?} in round {round}: {moved} {turned}");
-            // At rest again after some seconds, with no jump on the way.
+            // At rest after some seconds, without a jump meanwhile.
             let mut frames = 0;
             while cameras.advance(1.0 / 60.0, &Controls::default(), &Hills) && frames < 1200 {
                 let now = cameras.pose(&Hills);
@@ -199,7 +199,7 @@ fn one_lands_on_the_ground_and_walks_on_it() {
 
 #[test]
 fn one_walks_on_the_sea_floor_or_on_the_sea() {
-    // A place under the sea.
+    // A location under the sea.
     let place = (0..).map(|i| LatLon::from_degrees(0.0, f64::from(i) * 0.01));
     let mut deep = place.filter(|place| Hills.floor_radius_m(place.direction()) < RADIUS_M - 500.0);
     let mut cameras = Cameras::new(RADIUS_M, deep.next().unwrap());

@@ -79,7 +79,7 @@ impl Size {
                 weights += most.powi(3);
             }
         }
-        let length = sum[0].hypot(sum[1]);
+        let length = libm::hypot(sum[0], sum[1]);
         let (cos, sin) = if length > 1e-9 { (sum[0] / length, sum[1] / length) } else { (1.0, 0.0) };
         let error = 0.5 * bend * reach * reach + 2e-6;
         let part = |value: f64, gradient: DVec3| {

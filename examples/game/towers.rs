@@ -1,0 +1,173 @@
+//! The game's own mesh: a row of towers on the ground, drawn between the renderer's opaque stage and its air.
+
+use tellus::glam::{DVec3, Vec3};
+use tellus::render::wgpu::util::DeviceExt as _;
+use tellus::render::{BodyId, DEPTH_FORMAT, PreparedFrame, RADIANCE_FORMAT, RenderError, Renderer, air_wgsl, wgpu};
+use tellus::sphere::geo;
+use tellus::terrain::Terrain;
+
+/// Floats of a vertex: position and normal.
+const VERTEX_FLOATS: usize = 6;
+/// Floats of an instance: foot and three axes.
+const INSTANCE_FLOATS: usize = 12;
+
+/// A tower in the planet frame.
+pub(crate) struct Tower {
+    foot_planet_m: DVec3,
+    width_m: f64,
+    height_m: f64,
+}
+
+impl Tower {
+    /// A tower on the ground under a direction.
+    pub(crate) fn on_ground(terrain: &Terrain, dir_planet: DVec3, width_m: f64, height_m: f64) -> Self {
+        let dir = dir_planet.normalize();
+        let foot_planet_m = dir * (terrain.planet().radius_m() + terrain.height_m(dir) - 0.1 * height_m);
+        Self { foot_planet_m, width_m, height_m }
+    }
+
+    fn instance(&self, eye_planet_m: DVec3) -> [f32; INSTANCE_FLOATS] {
+        let up = self.foot_planet_m.normalize();
+        let (east, north) = geo::east_north(up);
+        // Subtracted in 64 bits: a tower at the camera's feet does not tremble.
+        let foot_m = (self.foot_planet_m - eye_planet_m).as_vec3();
+        let axes = [east * self.width_m, north * self.width_m, up * self.height_m].map(DVec3::as_vec3);
+        let mut floats = [0.0; INSTANCE_FLOATS];
+        for (floats, vector) in floats.chunks_mut(3).zip([foot_m].into_iter().chain(axes)) {
+            floats.copy_from_slice(&vector.to_array());
+        }
+        floats
+    }
+}
+
+/// Pipeline and buffers.
+pub(crate) struct Towers {
+    pipeline: wgpu::RenderPipeline,
+    mesh: wgpu::Buffer,
+    vertices: u32,
+    towers: Vec<Tower>,
+}
+
+impl Towers {
+    /// Compiles the game's shader behind the renderer's.
+    pub(crate) fn new(device: &wgpu::Device, renderer: &Renderer, towers: Vec<Tower>) -> Result<Self, RenderError> {
+        let text = air_wgsl()? + include_str!("towers.wgsl");
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("towers"),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("towers"),
+            bind_group_layouts: &renderer.body_layouts().map(Some),
+            immediate_size: 0,
+        });
+        let vertex = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+        let instance = wgpu::vertex_attr_array![2 => Float32x3, 3 => Float32x3, 4 => Float32x3, 5 => Float32x3];
+        let buffer = |floats: usize, step_mode, attributes| {
+            Some(wgpu::VertexBufferLayout { array_stride: floats as u64 * 4, step_mode, attributes })
+        };
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("towers"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("tower_vertex"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[
+                    buffer(VERTEX_FLOATS, wgpu::VertexStepMode::Vertex, &vertex[..]),
+                    buffer(INSTANCE_FLOATS, wgpu::VertexStepMode::Instance, &instance[..]),
+                ],
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("tower_fragment"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(RADIANCE_FORMAT.into())],
+            }),
+            primitive: wgpu::PrimitiveState::default(),
+            // Depth is reversed: nearer is greater.
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            multiview_mask: None,
+            cache: None,
+        });
+        let mesh = prism(8);
+        let vertices = (mesh.len() / VERTEX_FLOATS) as u32;
+        Ok(Self { pipeline, mesh: upload(device, &mesh), vertices, towers })
+    }
+
+    /// Draws the towers into targets that hold the ground.
+    pub(crate) fn draw(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &PreparedFrame<'_>,
+        eye_planet_m: DVec3,
+        [radiance, depth]: [&wgpu::TextureView; 2],
+    ) {
+        let Some(groups) = frame.body_groups(BodyId::default()) else { return };
+        let instances: Vec<f32> = self.towers.iter().flat_map(|tower| tower.instance(eye_planet_m)).collect();
+        let kept = wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("towers"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: radiance,
+                depth_slice: None,
+                resolve_target: None,
+                ops: kept,
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, groups[0], &[]);
+        pass.set_bind_group(1, groups[1], &[]);
+        pass.set_vertex_buffer(0, self.mesh.slice(..));
+        pass.set_vertex_buffer(1, upload(device, &instances).slice(..));
+        pass.draw(0..self.vertices, 0..self.towers.len() as u32);
+    }
+}
+
+fn upload(device: &wgpu::Device, floats: &[f32]) -> wgpu::Buffer {
+    let bytes: Vec<u8> = floats.iter().flat_map(|float| float.to_le_bytes()).collect();
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some("towers"),
+        contents: &bytes,
+        usage: wgpu::BufferUsages::VERTEX,
+    })
+}
+
+/// A prism of so many sides, radius 1 and height 1, with a pointed roof: triangles of position and normal.
+fn prism(sides: usize) -> Vec<f32> {
+    let corner = |i: usize, radius: f32, z: f32| {
+        let angle = i as f32 / sides as f32 * std::f32::consts::TAU;
+        Vec3::new(radius * angle.cos(), radius * angle.sin(), z)
+    };
+    let mut mesh = Vec::new();
+    let mut triangle = |corners: [Vec3; 3], outwards: Vec3| {
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        let normal = if normal.dot(outwards) < 0.0 { -normal } else { normal };
+        for corner in corners {
+            mesh.extend(corner.to_array());
+            mesh.extend(normal.to_array());
+        }
+    };
+    for i in 0..sides {
+        let [a, b] = [i, i + 1].map(|i| corner(i, 1.0, 0.0));
+        let [c, d] = [i, i + 1].map(|i| corner(i, 0.6, 0.8));
+        triangle([a, b, d], a + b);
+        triangle([a, d, c], a + b);
+        triangle([c, d, Vec3::Z], Vec3::Z);
+    }
+    mesh
+}
