@@ -2,6 +2,7 @@
 
 use super::View;
 use crate::lod::tile::Tile;
+use crate::terrain::Terrain;
 use glam::DVec3;
 
 /// The visible space of a view; computed once a frame.
@@ -55,6 +56,12 @@ impl Culling {
         let reach = horizon_angle_rad(self.lowest_radius_m, distance + radius_m) + (radius_m / distance).asin();
         angle <= self.horizon_rad + reach
     }
+}
+
+/// Distance from the planet's centre of the lowest ground or sea, which hides what is behind it.
+pub fn lowest_radius_m(terrain: &Terrain) -> f64 {
+    let (planet, lowest_m) = (terrain.planet(), terrain.height_bounds_m().0);
+    planet.radius_m() + planet.sea_level_m().map_or(lowest_m, |sea_m| sea_m.max(lowest_m))
 }
 
 /// Angle at the centre of the planet between a point at `radius_m` and the point where its line of sight grazes the

@@ -4,40 +4,14 @@ use super::locate::Place;
 use super::open::{Opened, open};
 use super::param::ParamPath;
 use super::picture::folder_of;
+use super::problem::Problem;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
 use std::collections::HashMap;
-use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Longest preset that is read, in bytes. A preset with every list at its limit is far shorter.
 pub const MAX_FILE_BYTES: u64 = 1 << 20;
-
-/// A problem of a preset.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
-    /// Line, from 1; 0 if the problem has no location in the text.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// Path in the planet: `layers[2].shape.octaves`; empty for the file as a whole.
-    pub path: String,
-    /// What is wrong, and what would be right.
-    pub message: String,
-}
-
-/// `line:column: path: message`, without the elements that the problem lacks.
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line > 0 {
-            write!(f, "{}:{}: ", self.line, self.column)?;
-        }
-        if !self.path.is_empty() {
-            write!(f, "{}: ", self.path)?;
-        }
-        f.write_str(&self.message)
-    }
-}
 
 /// A preset that could not be loaded.
 #[derive(Debug, thiserror::Error)]

@@ -33,6 +33,7 @@ pub mod param;
 pub mod parts;
 pub mod picture;
 mod pictures;
+mod problem;
 pub mod random;
 pub mod shapes;
 pub mod shipped;
@@ -44,13 +45,14 @@ pub mod validate;
 
 pub use airs::{STARTING_AIRS, StartingAir};
 pub use biome::{Biome, Detail, Steep};
-pub use file::{LoadError, Problem, SaveError};
+pub use file::{LoadError, SaveError};
 pub use key::Key;
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
 pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;
+pub use problem::Problem;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
     Terraces, Warped,

@@ -20,9 +20,11 @@ mod stats;
 pub use builder::Builder;
 pub use cache::DEFAULT_BUDGET_BYTES;
 pub use horizon::HorizonWork;
-pub use refine::{budget_tiles, lowest_radius_m};
+pub use refine::budget_tiles;
+
 pub use stats::{BuildStats, Memory, StageWork};
 
+pub use crate::lod::cull::lowest_radius_m;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::DetailTile;
 use crate::lod::{Culling, Ranges, Tile, View};

@@ -7,9 +7,9 @@
 use super::cache::{Cache, Shown};
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
+use crate::lod::cull::lowest_radius_m;
 use crate::lod::tile::{DetailTile, Tile};
 use crate::lod::{Quality, Ranges, Selection, View};
-use crate::planet::Planet;
 use crate::sphere::{Edge, NodeId};
 use crate::terrain::Terrain;
 use std::collections::{HashMap, HashSet};
@@ -171,13 +171,6 @@ fn choose(
             split_with_neighbours(tile.id, &mut choice.split);
         }
     }
-}
-
-/// Distance from the planet's centre of the lowest ground or sea, which hides what is behind it.
-pub fn lowest_radius_m(terrain: &Terrain) -> f64 {
-    let planet: &Planet = terrain.planet();
-    let lowest_m = terrain.height_bounds_m().0;
-    planet.radius_m() + planet.sea_level_m().map_or(lowest_m, |sea| sea.max(lowest_m))
 }
 
 /// Builds nodes on all cores.

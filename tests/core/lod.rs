@@ -1,4 +1,5 @@
-//! Level of detail on the CPU: one surface whatever the tiles, nothing culled that can be seen, steady to the millimetre.
+//! Level of detail on the CPU: every LOD cut draws one surface, nothing visible is culled, positions are steady to the
+//! millimetre.
 
 use crate::support::dice::Dice;
 use glam::{DVec3, Mat4, Vec3};
@@ -14,7 +15,7 @@ use tellus::sphere::{Edge, LatLon};
 use tellus::terrain::Terrain;
 use tellus::tiles::{Surface, budget_tiles, build_now, lowest_radius_m};
 
-/// Anywhere from 2 m to three radii above the ground, looking anywhere.
+/// A camera 2 m to three radii above the ground, in any direction.
 fn any_view(dice: &mut Dice, terrain: &Terrain, size_px: [u32; 2]) -> View {
     let place = dice.place();
     let radius_m = terrain.planet().radius_m();
@@ -30,7 +31,7 @@ fn rough() -> Planet {
     Planet { layers: vec![Layer { amplitude_m: 6000.0, shape, ..Layer::default() }], water: None, ..Planet::default() }
 }
 
-/// Where the shader puts a vertex relative to the eye.
+/// The position of a vertex relative to the eye, as the shader computes it.
 fn drawn_rel_m(vertex: &Vertex, shift_m: f32, eye_planet_m: DVec3) -> Vec3 {
     let high = eye_planet_m.as_vec3();
     let low = (eye_planet_m - high.as_dvec3()).as_vec3();
@@ -38,7 +39,7 @@ fn drawn_rel_m(vertex: &Vertex, shift_m: f32, eye_planet_m: DVec3) -> Vec3 {
     (vertex_high - high) + (vertex_low - low) + shift_m * vertex_high.normalize()
 }
 
-/// Vertices that a tile draws on an edge, in order.
+/// The vertices that a tile draws on an edge, in order.
 fn edge(edge: Edge) -> impl Iterator<Item = usize> {
     (0..TILE_SIDE).map(move |i| match edge {
         Edge::Left => i * TILE_SIDE,
@@ -94,15 +95,15 @@ fn assert_meets(surface: &Surface) {
                 let vertex = &tile.vertices[i];
                 let place = drawn_rel_m(vertex, shifts_m[i], eye);
                 if n % 2 == 1 && coarser & side.bit() != 0 {
-                    // Left out: the coarser edge runs through its place.
+                    // Omitted: the parent edge runs through its location.
                     skipped += 1;
                     let step = edge(side).nth(1).unwrap() - edge(side).next().unwrap();
                     let [a, b] = [i - step, i + step].map(|i| drawn_rel_m(&tile.vertices[i], shifts_m[i], eye));
                     let chord = (b - a).normalize();
                     let off_m = ((place - a) - chord * (place - a).dot(chord)).length();
                     let pixel_m = place.length() * surface.view.pixel_rad() as f32;
-                    // At the coarsest levels the middle of a chord is not the place where the vertical crosses it. Beside
-                    // the picture neighbours are as coarse as they may be.
+                    // At the coarsest levels the middle of a chord is not where the vertical crosses it. Outside of the
+                    // picture, neighbours are as coarse as they may be.
                     let fits = off_m < 0.1 * pixel_m || !seen.sees_sphere(vertex.position_planet_m(), 0.0);
                     assert!(fits, "{:?} {off_m} m, a pixel is {pixel_m} m", tile.id);
                     continue;
@@ -115,14 +116,15 @@ fn assert_meets(surface: &Surface) {
         }
     }
     assert!(shared > 500 && skipped > 50, "{shared} {skipped}");
-    // A mesh without gaps: whatever lies on an edge is known on its other side.
+    // A mesh without gaps: every vertex on an edge is known on its other side.
     let alone = drawn.values().filter(|(_, times)| *times < 2).count();
     assert_eq!(alone, 0);
 }
 
 #[test]
 fn what_a_coarser_choice_leaves_out_has_not_come_out() {
-    // Tiles for a nearer eye, looked at from where fewer would do: the finer ones lie on the coarser ones' triangles.
+    // Tiles made for a nearer eye, seen from where fewer would do: the finer ones lie on the triangles of the coarser
+    // ones.
     let planet = Arc::new(rough());
     let terrain = Terrain::try_new(planet.clone()).unwrap();
     let place = LatLon::from_degrees(20.0, 45.0);
@@ -137,7 +139,7 @@ fn what_a_coarser_choice_leaves_out_has_not_come_out() {
     let shown: HashMap<_, _> = coarse.leaves.iter().map(|leaf| (leaf.tile.id, leaf)).collect();
     let (mut compared, mut moved) = (0, 0.0_f32);
     for leaf in &fine.leaves {
-        // Those whose parent is shown from afar.
+        // Tiles whose parent is drawn from afar.
         let Some(parent) = leaf.tile.id.parent().and_then(|id| shown.get(&id)) else { continue };
         if !seen.sees(&parent.tile) {
             continue;
@@ -163,7 +165,7 @@ fn nothing_is_culled_that_a_ray_hits() {
     let planets = shipped::ALL.iter().map(|shipped| (shipped.load().unwrap(), 100)).chain(randoms);
     for (planet, poses) in planets {
         let planet = Arc::new(Planet { water: None, ..planet });
-        // Tiles of many sizes, wherever they are.
+        // Tiles of many sizes.
         let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
         let terrain = &surface.terrain;
         for _ in 0..poses {
@@ -187,7 +189,7 @@ fn nothing_is_culled_that_a_ray_hits() {
     assert!(hits > 1000, "{hits}");
 }
 
-/// The shifts by exact arithmetic.
+/// The shifts in exact arithmetic.
 fn exact_shifts_m(tile: &Tile, surface: &Surface, eye: DVec3) -> Vec<f64> {
     let ranges = &surface.ranges;
     let mut shifts_m = vec![0.0_f64; tile.vertices.len()];
@@ -239,7 +241,7 @@ fn steps_of_a_millimetre_move_every_vertex_as_they_should() {
                 let position = vertex.position_planet_m();
                 let exact = turn * (position + position.normalize() * exact_m[i] - eye);
                 let exact = DVec3::new(exact.x / (tan_y * view.aspect()), exact.y / tan_y, -exact.z);
-                // In the picture, and not nearer than the near plane.
+                // In the picture and beyond the near plane.
                 if exact.z < 0.05 || exact.x.abs() > exact.z || exact.y.abs() > exact.z {
                     continue;
                 }

@@ -1,5 +1,4 @@
-//! Planets that were changed to what no preset may say, and questions about no place: a typed error or a finite answer, never a
-//! panic.
+//! Invalid planets and invalid directions: the result is a typed error or a finite number, never a panic.
 
 use crate::support::edits::full_planet;
 use glam::DVec3;
@@ -12,7 +11,7 @@ use tellus::planet::{InvalidPlanet, Planet, Table, diff, random};
 use tellus::terrain::{Revision, Terrain, Wanted};
 use tellus::tiles::{Builder, build_now};
 
-/// Values of the type of another one, none of them reasonable.
+/// Values of all types, none of them reasonable.
 fn nonsense(value: &Value) -> Vec<Value> {
     const NUMBERS: [f64; 8] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -5.0, 0.0, 1e300, -1e300, 5e-324];
     match value {
@@ -33,7 +32,7 @@ fn nonsense(value: &Value) -> Vec<Value> {
     }
 }
 
-/// Planets with one thing wrong each, and where it is.
+/// Planets with one problem each, and the path of the problem.
 fn broken_planets() -> Vec<(String, Planet)> {
     let planet = full_planet();
     let mut places: Vec<(ParamPath, Value)> = Vec::new();
@@ -74,7 +73,7 @@ fn no_planet_that_is_not_valid_is_evaluated() {
     assert!(broken.len() > 1000, "{}", broken.len());
     for (what, planet) in broken {
         let planet = Arc::new(planet);
-        // What does not evaluate may say anything, but comes back.
+        // Functions that do not evaluate may return anything, but must return.
         let view = opening::opening_view(&planet, [64, 64], Quality::Low);
         let _ = opening::default_pitch_deg(&planet, 1000.0);
         let _ = (diff::diff(&valid, &planet), diff::diff(&planet, &valid));
@@ -82,7 +81,7 @@ fn no_planet_that_is_not_valid_is_evaluated() {
         let _ = random::vary(&planet, 3, 0.5);
         let _ = Air::returned_share(&planet, 1000.0);
         let _ = planet.to_text();
-        // What evaluates refuses.
+        // Functions that evaluate must refuse.
         let said = |error: Result<(), InvalidPlanet>| {
             let error = error.err().unwrap_or_else(|| panic!("{what} was taken"));
             assert!(
@@ -122,7 +121,7 @@ fn a_builder_tells_what_is_wrong_with_a_planet_and_goes_on_with_the_next() {
         settle(&Arc::new(planet));
         let error = builder.error().unwrap_or_else(|| panic!("{what} was built"));
         assert!(error.starts_with("This planet could not be built: the planet is not valid: "), "{what}: {error}");
-        // What was there stays.
+        // The surface on screen stays.
         assert!(builder.surface().is_some_and(|surface| surface.complete));
     }
     settle(&Arc::new(Planet { radius_km: 3000.0, ..Planet::default() }));
@@ -140,7 +139,7 @@ fn every_direction_has_a_finite_answer() {
         let sample = terrain.sample(scaled);
         assert!(sample.height_m.is_finite() && sample.normal_planet.is_finite(), "{scale}: {sample:?}");
         assert_eq!((terrain.height_m(scaled), terrain.heights_m(&[scaled])), (sample.height_m, vec![sample.height_m]));
-        // A number this small has few digits left to name a direction with.
+        // Numbers this small have few digits left for a direction.
         if scale > 1e-300 {
             assert!((sample.height_m - right.height_m).abs() < 1e-3, "{scale}: {} {}", sample.height_m, right.height_m);
             assert!(sample.normal_planet.angle_between(right.normal_planet) < 1e-6, "{scale}");

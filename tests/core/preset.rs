@@ -1,4 +1,4 @@
-//! Presets as files: what is refused and how, what is written, and that nothing is ever lost.
+//! Preset files: errors and their messages, saved texts, and that saving loses nothing.
 
 use proptest::prelude::*;
 use std::fmt::Write as _;
@@ -28,7 +28,7 @@ fn values(planet: &Planet) -> String {
     text
 }
 
-/// A preset of any version means the same for ever. A later version may know more parameters, but those of the old one keep
+/// A preset keeps its meaning for ever. Later versions may have more parameters, but those of the old version keep
 /// their values, given or default.
 #[test]
 fn presets_of_old_versions_load_to_the_same_values_for_ever() {
@@ -37,7 +37,7 @@ fn presets_of_old_versions_load_to_the_same_values_for_ever() {
     {
         let planet = Planet::load(fixture(&format!("{name}.ron"))).unwrap_or_else(|error| panic!("{error}"));
         let now = values(&planet);
-        // Their heights keep their bits.
+        // Old versions keep the arithmetic of their heights.
         assert_eq!(planet.precision == Precision::Classic, !name.contains("v3"), "{name}");
         let frozen = std::fs::read_to_string(fixture(&format!("{name}.values.txt"))).unwrap_or_default();
         assert!(!frozen.is_empty(), "no frozen values; they should be:\n{now}");
@@ -47,7 +47,7 @@ fn presets_of_old_versions_load_to_the_same_values_for_ever() {
     }
 }
 
-/// What presets of versions 1 and 2 say, one of version 3 can say too.
+/// Version 3 can express every preset of versions 1 and 2.
 #[test]
 fn presets_of_old_versions_become_presets_of_version_3() {
     // Version 1 had craters of one shape.
@@ -274,7 +274,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
     ];
     let mut wrong = String::new();
     for (text, expected) in cases {
-        // A preset with an empty palette has the same problem in every row of its table: the first is enough here.
+        // An empty palette is a problem in every row of the table; the first is enough here.
         let found: Vec<String> = message(text).lines().take(expected.lines().count()).map(str::to_owned).collect();
         if found.join("\n") != expected {
             writeln!(wrong, "{text}\n  found    {}\n  expected {expected}", found.join("\n")).unwrap();
@@ -383,11 +383,11 @@ fn the_saved_text_is_made_to_be_read() {
     ] {
         assert!(text.contains(part), "{part:?} is not in\n{text}");
     }
-    assert_eq!(text.matches("// How many octaves are summed").count(), 1);
+    assert_eq!(text.matches("// Number of octaves; each further one").count(), 1);
     assert!(text.lines().all(|line| line.chars().count() <= 120 && line == line.trim_end()));
 }
 
-/// The comments name the values of a choice as a person reads them; these must be the words that the file takes.
+/// The comments name the values of a choice; these must be the words that the file takes.
 #[test]
 fn the_values_that_comments_name_can_be_written() {
     let kinds = Shape::NAMES.join(", ");
@@ -400,14 +400,14 @@ fn the_values_that_comments_name_can_be_written() {
             let text = format!("(version: 3, {})", field.replace("{}", name));
             assert_eq!(message(&text), "no error");
             let saved = Planet::from_text("f", &text).unwrap().to_text();
-            // A long list goes over several lines of comment.
+            // A long list is wrapped.
             let saved: Vec<&str> = saved.split_whitespace().filter(|word| *word != "//").collect();
             assert!(saved.join(" ").contains(&format!("({names})")), "{names}");
         }
     }
 }
 
-/// Any valid planet, at the far ends of its ranges too.
+/// Any valid planet, including the ends of all ranges.
 fn any_planet() -> impl Strategy<Value = Planet> {
     (any::<u64>(), any::<u64>(), 0.0..=1.0_f64, "[^\\p{Cc}]{0,64}").prop_map(|(seed, other, strength, name)| {
         let mut planet = random::vary(&random::random(seed), other, strength);
@@ -435,7 +435,7 @@ proptest! {
         let mut text: Vec<char> = random::random(seed).to_text().chars().collect();
         for (at, kind, any, telling) in edits {
             let at = at.index(text.len());
-            // Half of what is put in means something in RON.
+            // Half of the inserted characters have a meaning in RON.
             let c = "()[]{},:\"'/*\\#r_.-+019Ne".chars().nth(telling).unwrap_or(any);
             match kind {
                 0 => text[at] = c,
@@ -470,7 +470,7 @@ fn a_rule_that_names_no_biome_is_refused_where_it_stands() {
     let Err(error @ LoadError::Invalid { .. }) = Planet::from_text("f.ron", text) else { panic!("it was accepted") };
     let expected = "f.ron:4:13: biomes.snow_key: 'q' is no key of the palette; use one of `a`";
     assert_eq!(error.to_string(), expected);
-    // A rule that is off forgets such a key.
+    // A rule that is off loses such a key.
     let planet = Planet::from_text("f.ron", &text.replace("snow: true", "snow: false")).unwrap();
     assert_eq!(planet.biomes.snow_key, Planet::default().biomes.snow_key);
 }

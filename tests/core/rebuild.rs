@@ -1,5 +1,5 @@
-//! Rebuilds: which stages each parameter makes run, what is found again, and that whatever happens on the way, the end
-//! is what a build from nothing gives.
+//! Rebuilds: which stages each parameter runs, which results are reused, and that every sequence of events ends with
+//! what a build from nothing gives.
 
 use crate::support::edits::{every_edit, full_planet, is_idle};
 use proptest::prelude::*;
@@ -12,14 +12,14 @@ use tellus::planet::{Fbm, Layer, Mask, Planet, Shape};
 use tellus::sphere::{LatLon, NodeId};
 use tellus::tiles::{BuildStats, Builder, Surface, build_now};
 
-/// Over a place of a planet of 1500 km radius, its distance from the centre in radii.
+/// A view of a planet of 1500 km radius; `radii` is the distance from its centre.
 fn view(lon_deg: f64, radii: f64) -> View {
     let place = LatLon::from_degrees(20.0, lon_deg);
     let camera = Camera::over(place, 1.5e6 * radii, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
     View { camera, size_px: [320, 200], quality: Quality::Low }
 }
 
-/// The surface once the builder has done all it was asked for.
+/// The surface once the builder has finished the request.
 fn settled(builder: &Builder) -> Arc<Surface> {
     while !builder.has_all_tiles() {
         std::thread::sleep(Duration::from_millis(1));
@@ -42,7 +42,7 @@ fn each_parameter_runs_the_stages_it_declares_and_no_others() {
     let view = view(30.0, 3.0);
     let builder = Builder::new(|| {});
     ask(&builder, &planet, &view);
-    // One looks at it for longer than at any edit, or those would be what is remembered.
+    // The first planet is shown longer than any edit, so that its fields are the most worth keeping.
     std::thread::sleep(Duration::from_millis(1500));
     let edits = every_edit(&planet);
     planet.each_value(&mut |path, _, _| {
@@ -52,7 +52,7 @@ fn each_parameter_runs_the_stages_it_declares_and_no_others() {
     for edit in edits {
         let stats = ask(&builder, &edit.planet, &view);
         let mut declared = edit.declared.within(Stages::OF_TILES);
-        // Another kind of mask asks for noise only if slopes come in; a height map without its picture has none.
+        // Another kind of mask needs noise only for slopes; a height map without a picture needs none.
         let is_kind = ["masks[0]", ".shape"].iter().any(|end| edit.path.ends_with(end));
         if is_kind {
             declared = declared.within(stats.ran());
@@ -121,7 +121,7 @@ fn after_a_drag_the_undo_finds_the_noise_from_before() {
     let view = view(30.0, 3.0);
     let builder = Builder::new(|| {});
     ask(&builder, &planet, &view);
-    // One looks at it for a while.
+    // The first planet is shown for a while.
     std::thread::sleep(Duration::from_millis(1500));
     let mut memory = Vec::new();
     for step in 1..60 {
@@ -130,7 +130,7 @@ fn after_a_drag_the_undo_finds_the_noise_from_before() {
         ask(&builder, &edited, &view);
         memory.push(builder.memory().used_bytes);
     }
-    // A few tiles more or less, as mountains come and go.
+    // The number of tiles varies a little with the mountains.
     let highest = |part: &[usize]| part.iter().copied().max().unwrap();
     assert!(
         highest(&memory[30..]) <= highest(&memory[..30]) * 11 / 10,
@@ -183,7 +183,7 @@ fn memory_keeps_to_its_budget_whatever_it_is() {
 #[test]
 fn every_surface_on_the_way_is_whole_and_of_one_planet() {
     let mut planet = full_planet();
-    // Too much for one slice: coarser surfaces come first.
+    // More work than one slice: coarser surfaces come first.
     for layer in &mut planet.layers {
         if let Shape::Craters(craters) = &mut layer.shape {
             craters.octaves = 20;
@@ -193,7 +193,7 @@ fn every_surface_on_the_way_is_whole_and_of_one_planet() {
     let builder = Builder::new(|| {});
     let mut seen: Vec<Arc<Surface>> = Vec::new();
     for step in 0..60 {
-        // A slider is held for a while, then let go.
+        // A slider is dragged for a while, then released.
         planet.layers[2].seed = step.min(20);
         builder.request(&Arc::new(planet.clone()), &view);
         std::thread::sleep(Duration::from_millis(15));
@@ -251,7 +251,7 @@ fn world_maps_are_solved_for_what_they_read_and_never_before_the_first_surface()
     drop(surfaces);
 }
 
-/// What may happen to a builder.
+/// An event for a builder.
 #[derive(Clone, Debug)]
 enum Event {
     Edit(usize),
@@ -289,7 +289,7 @@ proptest! {
                 Event::Edit(which) => {
                     let mut edits = every_edit(&planet);
                     let edit = edits.swap_remove(which % edits.len());
-                    // Radii far from the camera's would only make for other levels; and edits add up, perhaps beyond what is valid.
+                    // Another radius would need another view; and edits may add up to an invalid planet.
                     if edit.path != "radius_km" && edit.planet.check().is_ok() {
                         past.push(std::mem::replace(&mut planet, edit.planet));
                         future.clear();

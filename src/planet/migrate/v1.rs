@@ -1,10 +1,10 @@
 //! Presets of version 1: layers of three kinds, six blends, masks by the noise of another layer. Frozen: never edit it.
 
-use super::frozen::{Migrate, frozen, frozen_choice, frozen_kinds};
+use super::frozen::{Migrate, frozen, frozen_choice};
 use super::v2;
 use crate::planet::Version;
 
-/// The whole file. The parts without a type here were the same in version 2.
+/// The whole file. Types that are missing here were the same in version 2.
 #[derive(serde::Deserialize)]
 #[serde(rename = "Planet", default, deny_unknown_fields)]
 pub(super) struct File {
@@ -66,7 +66,7 @@ frozen! {
         amplitude_m: f64 = 1000.0,
         bias: f64 = 0.0,
         blend: Blend = Blend::Add,
-        shape: Shape = Shape::Fbm(Fbm::default()),
+        shape: Shape = Shape::Fbm(v2::Fbm::default()),
         masks: Vec<Mask> = Vec::new(),
     } adding { softness_m: 100.0, curve: Vec::new() }
 }
@@ -95,26 +95,20 @@ impl Migrate<v2::Mask> for Mask {
     }
 }
 
-frozen_kinds! {
-    Shape => v2::Shape { Fbm(Fbm), Ridged(Ridged), Craters(Craters) }
+#[derive(serde::Deserialize)]
+pub(super) enum Shape {
+    Fbm(v2::Fbm),
+    Ridged(v2::Ridged),
+    Craters(Craters),
 }
 
-frozen! {
-    "Fbm" Fbm => v2::Fbm {
-        wavelength_km: f64 = 2000.0,
-        octaves: u32 = 12,
-        gain: f64 = 0.5,
-        lacunarity: f64 = 2.0,
-    }
-}
-
-frozen! {
-    "Ridged" Ridged => v2::Ridged {
-        wavelength_km: f64 = 800.0,
-        octaves: u32 = 12,
-        gain: f64 = 0.5,
-        lacunarity: f64 = 2.0,
-        feedback: f64 = 2.0,
+impl Migrate<v2::Shape> for Shape {
+    fn migrate(self) -> v2::Shape {
+        match self {
+            Shape::Fbm(fbm) => v2::Shape::Fbm(fbm),
+            Shape::Ridged(ridged) => v2::Shape::Ridged(ridged),
+            Shape::Craters(craters) => v2::Shape::Craters(craters.migrate()),
+        }
     }
 }
 

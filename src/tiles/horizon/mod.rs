@@ -10,7 +10,8 @@ mod march;
 mod patch;
 mod pyramid;
 
-use super::{Leaf, Surface, lowest_radius_m};
+use super::{Leaf, Surface};
+use crate::lod::cull::lowest_radius_m;
 use crate::lod::horizon::{AZIMUTHS, COARSE_SIDE, HORIZON_IMAGES, HorizonTile};
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES};
 use crate::lod::{Culling, View};
