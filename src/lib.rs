@@ -1,8 +1,9 @@
 //! Tellus: whole planets from one small file.
 //!
 //! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text
-//! through this crate and asks the same evaluator that drew the artist's picture: the height that is queried is the
-//! height that was seen, bit for bit, on every machine.
+//! through this crate and queries the same evaluator that drew the artist's picture. Heights are bit-identical on every
+//! machine. The drawn mesh has them at the vertices of its finest tiles; between vertices it stays within the
+//! screen-space error.
 //!
 //! ```
 //! use tellus::planet::Planet;
@@ -17,24 +18,25 @@
 //!     water: (level_m: -50.0),
 //! )"#)?;
 //! let terrain = Terrain::try_new(planet.into())?;
-//! let place = terrain.sample(LatLon::from_degrees(48.2, 16.4).direction());
-//! println!("{:.1} m, {}", place.height_m, terrain.planet().biomes.palette[place.biome].name);
+//! let ground = terrain.sample(LatLon::from_degrees(48.2, 16.4).direction());
+//! println!("{:.1} m, {}", ground.height_m, terrain.planet().biomes.palette[ground.biome].name);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Data flows one way; a module knows only those above it in this list:
+//! Data flows one way. A module uses only modules before it in this list:
 //!
-//! - [`planet`]: what a planet is: the preset's data, its parameters, loading and saving
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
+//! - [`planet`]: the preset's data, its parameters, loading and saving
 //! - `world`: world maps: values for the whole globe, such as the distance to the coast
-//! - [`terrain`]: what the surface is: [`terrain::Terrain`], the evaluator that everything asks
+//! - [`terrain`]: [`terrain::Terrain`], the evaluator of the ground
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
-//! - [`lod`]: which nodes are shown from where
+//! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
-//! - `editor`, `cli` (feature `editor`): the application and the command line
+//! - `editor` (feature `editor`): the application
+//! - `cli` (feature `cli`): the command line, which also starts the editor
 //!
-//! Lengths are metres, angles radians, unless a name says otherwise. Frames are named in full (`sun_dir_planet`): the
+//! Lengths are metres and angles are radians, unless a name says otherwise. Names state frames (`sun_dir_planet`). The
 //! planet frame has its origin in the planet's centre, +Z through the north pole, +X through latitude 0, longitude 0.
 
 /// The vectors of all signatures.
@@ -51,7 +53,7 @@ mod world;
 #[cfg(feature = "render")]
 pub mod render;
 
-#[cfg(feature = "editor")]
+#[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "editor")]
 pub mod editor;

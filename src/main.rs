@@ -1,4 +1,4 @@
-//! The `tellus` program: the editor, and the tool for scripts and CI. All of it is in `tellus::cli`.
+//! The `tellus` program: the editor, and the command line for scripts and CI. `tellus::cli` is all of it.
 
 fn main() -> std::process::ExitCode {
     tellus::cli::run()

@@ -1,12 +1,13 @@
-//! What the air is made of: scattering and extinction by altitude, phase functions.
+//! What the air is made of: scattering and extinction coefficients by altitude, and phase functions.
 
 use crate::planet::Atmosphere;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Coefficients per kilometre at the reference sphere, and how they thin out.
+/// Coefficients per kilometre at the reference sphere, and their profiles over altitude.
 #[derive(Clone, Debug)]
 pub(super) struct Medium {
+    /// Altitude at which the air ends, km.
     pub(super) top: f64,
     rayleigh: DVec3,
     rayleigh_scale: f64,
@@ -20,12 +21,22 @@ pub(super) struct Medium {
     pub(super) ground_albedo: DVec3,
 }
 
-/// One place of the air: coefficients per kilometre.
+/// Coefficients at one altitude, per kilometre.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct Coefficients {
+    /// Scattering by molecules.
     pub(super) rayleigh: DVec3,
+    /// Scattering by haze.
     pub(super) mie: DVec3,
+    /// All scattering and absorption.
     pub(super) extinction: DVec3,
+}
+
+impl Coefficients {
+    /// Scattering by molecules and haze.
+    pub(super) fn scattering(&self) -> DVec3 {
+        self.rayleigh + self.mie
+    }
 }
 
 impl Medium {
@@ -46,17 +57,18 @@ impl Medium {
         }
     }
 
-    pub(super) fn at(&self, altitude: f64) -> Place {
+    /// Coefficients at an altitude in kilometres.
+    pub(super) fn at(&self, altitude: f64) -> Coefficients {
         let h = altitude.max(0.0);
         let rayleigh = self.rayleigh * (-h / self.rayleigh_scale).exp();
         let haze = (-h / self.mie_scale).exp();
         let absorber = self.absorber * (1.0 - (h - self.absorber_height).abs() / self.absorber_width).max(0.0);
         let extinction = rayleigh + self.mie_extinction * haze + absorber;
-        Place { rayleigh, mie: self.mie_scattering * haze, extinction }
+        Coefficients { rayleigh, mie: self.mie_scattering * haze, extinction }
     }
 
-    /// No place of the air has a greater extinction.
-    pub(super) fn greatest_extinction(&self) -> DVec3 {
+    /// Upper bound of the extinction at any altitude.
+    pub(super) fn max_extinction(&self) -> DVec3 {
         self.rayleigh + self.mie_extinction + self.absorber
     }
 
@@ -67,7 +79,7 @@ impl Medium {
         3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + cosine * cosine) / ((2.0 + g * g) * base * base.sqrt())
     }
 
-    /// Asymmetry of the Mie phase function.
+    /// Asymmetry of the Mie phase function, -1 to 1; positive scatters forward.
     pub(super) fn anisotropy(&self) -> f64 {
         self.anisotropy
     }

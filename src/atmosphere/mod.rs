@@ -1,15 +1,16 @@
-//! The physics of a planet's air in f64: what the shaders are tested against, and what a game may ask.
+//! The physics of a planet's air in f64 on the CPU: the reference for the shaders, and an API for games.
 //!
-//! - `medium`: scattering and extinction by altitude, phase functions
-//! - `line`: a ray over a sphere, by altitudes
-//! - `depth`: optical depth to the top of the air, exact and as a table
-//! - `multiscatter`: light that is scattered twice or more, as a table
-//! - `scatter`: transmittance to the star and radiance along a ray, by the method of the shaders
-//! - [`mod@reference`]: the same radiance by path tracing, slow and without the method's approximation
+//! - `medium`: scattering and extinction coefficients by altitude; phase functions
+//! - `line`: a ray over a sphere, in terms of altitude
+//! - `depth`: optical depth to the top of the air, as an integral and as a LUT
+//! - `sunlit`: the sunlight that reaches an altitude
+//! - `multiscatter`: light that is scattered twice or more, as a LUT
+//! - `scatter`: transmittance to the sun, and radiance along a ray, by the same method as the shaders
+//! - [`mod@reference`]: the same radiance by path tracing: slow, without the approximations of the method
 //!
-//! Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020. Inside, lengths are
-//! kilometres, because coefficients are per kilometre; colours are linear RGB; radiance is that for a star of unit
-//! irradiance. The ground is the smooth reference sphere.
+//! Method: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020. Private code
+//! measures lengths in kilometres, because coefficients are per kilometre. Colours are linear RGB. Radiance is for a
+//! sun of unit irradiance. The ground is the reference sphere.
 
 mod depth;
 mod line;
@@ -17,5 +18,6 @@ mod medium;
 mod multiscatter;
 pub mod reference;
 mod scatter;
+mod sunlit;
 
 pub use scatter::{Air, SkyRay};

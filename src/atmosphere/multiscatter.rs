@@ -1,18 +1,18 @@
-//! Light that was scattered twice or more (Hillaire 2020, section 5.5), as a table by altitude and the star's height: the same
-//! directions and steps as in `multiscatter.wgsl`, in 64 bits.
+//! Light that is scattered twice or more (Hillaire 2020, section 5.5), as a LUT by altitude and sun elevation.
+//! Directions and steps are those of `multiscatter.wgsl`, in f64.
 
 use super::depth::bilinear;
 use super::line::{Line, horizon_mu};
 use super::medium::Medium;
-use super::scatter::Lit;
+use super::sunlit::SunlitAir;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// Texels along each side, as in `multiscatter.wgsl`. They crowd at the ground and about the terminator.
+/// Texels along each side, as in `multiscatter.wgsl`. They are densest at the ground and at the terminator.
 const SIDE: usize = 32;
-/// Rings of equal height. What is seen changes from one side of the horizon to the other, so that each side has its own: Gauss and
-/// Legendre's places between 0, the horizon, and 1, and what each counts.
+/// Directions are grouped in rings of equal elevation. Radiance jumps at the horizon, so each side of it has a
+/// quadrature of its own: Gauss-Legendre nodes between 0 (the horizon) and 1, with their weights.
 const UPPER: [(f64, f64); 7] = [
     (0.025_446_043_828_620_7, 0.064_742_483_084_434_9),
     (0.129_234_407_200_302_8, 0.139_852_695_744_638_4),
@@ -29,62 +29,64 @@ const LOWER: [(f64, f64); 5] = [
     (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
     (0.953_089_922_969_331_9, 0.118_463_442_528_094_6),
 ];
-/// Points along half of each ring, so far from its middle, of one; the other half is its mirror image.
-const ASIDE: [f64; 2] = [FRAC_1_SQRT_2, -FRAC_1_SQRT_2];
+/// Cosines of the azimuths from the sun of the two directions in half a ring; the other half is their mirror image.
+const AZIMUTH_COSINES: [f64; 2] = [FRAC_1_SQRT_2, -FRAC_1_SQRT_2];
+/// Steps along each direction.
 const STEPS: u32 = 14;
-/// Most of the light that may come back: where nothing gets out, the series has no end.
-const MOST_RETURNED: f64 = 0.999;
+/// Upper limit of f_ms: the sum over all orders of scattering diverges at 1.
+const MAX_RETURNED: f64 = 0.999;
 
+/// Radiance of light scattered twice or more, the same in all directions.
 #[derive(Clone, Debug)]
-pub(super) struct MultiscatterTable {
+pub(super) struct MultiscatterLut {
     top: f64,
     texels: Vec<DVec3>,
 }
 
-/// Cosine to the zenith of each ring seen from an altitude, and its share of all directions.
+/// Cosine of the zenith angle of each ring at an altitude, and the ring's share of the sphere of directions.
 fn rings(radius: f64, altitude: f64) -> impl Iterator<Item = (f64, f64)> {
     let horizon = horizon_mu(radius, altitude);
     let side = move |span: f64| move |(x, weight): (f64, f64)| (horizon + span * x, weight * 0.5 * span.abs());
     UPPER.into_iter().map(side(1.0 - horizon)).chain(LOWER.into_iter().map(side(-1.0 - horizon)))
 }
 
-/// The share of isotropic light from a place that the air sends back to it: f_ms. Always less than one.
+/// The share of isotropic light from a point that the air scatters back to it (f_ms), less than 1.
 pub(super) fn returned(medium: &Medium, radius: f64, altitude: f64) -> DVec3 {
     let mut returned = DVec3::ZERO;
     for (mu, share) in rings(radius, altitude) {
         march(medium, &Line { radius, altitude, mu }, |_, inside| returned += inside * share);
     }
-    returned.min(DVec3::splat(MOST_RETURNED))
+    returned.min(DVec3::splat(MAX_RETURNED))
 }
 
-/// Calls `each` with the way along a ray and what of isotropic unit light the air there scatters to its beginning. Gives the
-/// transmittance of the whole.
+/// Marches along a ray. Calls `each` with the distance of a step and the light that its air scatters to the start of
+/// the ray when isotropic unit light shines on it. Returns the transmittance of the whole ray.
 fn march(medium: &Medium, line: &Line, mut each: impl FnMut(f64, DVec3)) -> DVec3 {
     let mut transmittance = DVec3::ONE;
-    let Some(way) = line.within(medium.top) else { return transmittance };
-    for (t, length) in way.steps(STEPS) {
-        let place = medium.at(line.altitude_at(t));
-        let passed = (-place.extinction * length).exp();
-        let share = (place.rayleigh + place.mie) / place.extinction.max(DVec3::splat(1e-300));
-        each(t, transmittance * share * (1.0 - passed));
+    let Some(segment) = line.within(medium.top) else { return transmittance };
+    for (t, length) in segment.steps(STEPS) {
+        let air = medium.at(line.altitude_at(t));
+        let passed = (-air.extinction * length).exp();
+        let albedo = air.scattering() / air.extinction.max(DVec3::splat(1e-300));
+        each(t, transmittance * albedo * (1.0 - passed));
         transmittance *= passed;
     }
     transmittance
 }
 
-impl MultiscatterTable {
-    pub(super) fn new(lit: &Lit) -> Self {
+impl MultiscatterLut {
+    pub(super) fn new(lit: &SunlitAir) -> Self {
         let top = lit.medium.top;
         let altitude = |row: usize| ((row as f64 / (SIDE - 1) as f64).powi(2) * top).clamp(top * 1e-5, top * 0.9999);
         let rows: Vec<DVec3> = (0..SIDE).map(|row| returned(&lit.medium, lit.radius, altitude(row))).collect();
         let texel = |i: usize| {
             let root = (i % SIDE) as f64 / (SIDE - 1) as f64 * 2.0 - 1.0;
-            second(lit, altitude(i / SIDE), root * root.abs()) / (1.0 - rows[i / SIDE])
+            second_order(lit, altitude(i / SIDE), root * root.abs()) / (1.0 - rows[i / SIDE])
         };
         Self { top, texels: (0..SIDE * SIDE).into_par_iter().map(texel).collect() }
     }
 
-    /// Radiance that comes from all around.
+    /// Radiance at an altitude; `sun_mu`: cosine of the sun's zenith angle.
     pub(super) fn at(&self, altitude: f64, sun_mu: f64) -> DVec3 {
         let root = sun_mu.signum() * sun_mu.abs().sqrt();
         let texel = |unit: f64| unit.clamp(0.0, 1.0) * (SIDE - 1) as f64;
@@ -92,15 +94,15 @@ impl MultiscatterTable {
     }
 }
 
-/// Mean radiance at a place of light that was scattered once on its way there, by air or ground, as if evenly to all sides.
-fn second(lit: &Lit, altitude: f64, sun_mu: f64) -> DVec3 {
+/// Mean radiance, over all directions, of light that air or ground scattered once, isotropically.
+fn second_order(lit: &SunlitAir, altitude: f64, sun_mu: f64) -> DVec3 {
     let (radius, sun_flat) = (lit.radius, (1.0 - sun_mu * sun_mu).max(0.0).sqrt());
     let mut sum = DVec3::ZERO;
     for (mu, share) in rings(radius, altitude) {
         let line = Line { radius, altitude, mu };
         let flat = (1.0 - mu * mu).max(0.0).sqrt();
-        let cosines = ASIDE.map(|aside| mu * sun_mu + flat * sun_flat * aside);
-        // Cosine between zenith and star after a way along each of the rays of the ring.
+        let cosines = AZIMUTH_COSINES.map(|cosine| mu * sun_mu + flat * sun_flat * cosine);
+        // Cosine of the sun's zenith angle at distance `t` along each direction of the ring.
         let sun_mus = |t: f64, altitude_there: f64| {
             cosines.map(|c| (((radius + altitude) * sun_mu + t * c) / (radius + altitude_there)).clamp(-1.0, 1.0))
         };

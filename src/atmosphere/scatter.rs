@@ -1,30 +1,31 @@
-//! Transmittance to the star, and the radiance that air alone scatters along a ray, by the method of the shaders.
+//! Transmittance to the sun, and the radiance that air alone scatters along a ray, by the method of the shaders.
 
-use super::depth::{self, DepthTable};
+use super::depth;
 use super::line::{Line, horizon_mu};
 use super::medium::{Medium, rayleigh_phase};
-use super::multiscatter::{self, MultiscatterTable};
+use super::multiscatter::{self, MultiscatterLut};
+use super::sunlit::SunlitAir;
 use crate::planet::{InvalidPlanet, Planet};
 use glam::DVec3;
 
-/// Steps along a ray: within 1e-3 of many more.
+/// Steps along a ray. The error against the limit of many steps is below 1e-3 of the radiance.
 const STEPS: u32 = 400;
 
-/// A question to the sky.
+/// A ray from an observer into the sky. The zenith of the observer is the reference direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyRay {
-    /// Height of the eye over the reference sphere.
+    /// Height of the observer above the reference sphere.
     pub altitude_m: f64,
-    /// Angle from the zenith to where one looks.
+    /// Angle from the zenith to the ray.
     pub view_zenith_rad: f64,
-    /// Angle from the zenith to the star.
+    /// Angle from the zenith to the sun.
     pub sun_zenith_rad: f64,
-    /// Angle about the zenith from the star to where one looks.
+    /// Angle about the zenith from the sun to the ray.
     pub azimuth_rad: f64,
 }
 
 impl SkyRay {
-    /// Unit vectors to where one looks and to the star; the zenith is +Z.
+    /// Unit vectors along the ray and to the sun; the zenith is +Z.
     pub fn directions(&self) -> (DVec3, DVec3) {
         let (view_sin, view_cos) = self.view_zenith_rad.sin_cos();
         let (sun_sin, sun_cos) = self.sun_zenith_rad.sin_cos();
@@ -33,28 +34,28 @@ impl SkyRay {
     }
 }
 
-/// A planet's air, ready to be asked. A planet without air has an air of no height.
+/// A planet's air with its LUTs. A planet without air has transmittance 1 and radiance 0.
 #[derive(Clone, Debug)]
 pub struct Air {
-    pub(super) lit: Option<(Lit, MultiscatterTable)>,
+    pub(super) lit: Option<(SunlitAir, MultiscatterLut)>,
     radius: f64,
 }
 
 impl Air {
-    /// The air of a planet; takes a moment, for the tables.
+    /// Computes the LUTs of a planet's air.
     ///
     /// # Errors
-    /// A planet that was changed to something that no preset may say.
+    /// The planet is invalid: it was changed to values that a preset must not have.
     pub fn try_new(planet: &Planet) -> Result<Self, InvalidPlanet> {
         planet.check()?;
-        let lit = Lit::new(planet).map(|lit| {
-            let table = MultiscatterTable::new(&lit);
-            (lit, table)
+        let lit = SunlitAir::new(planet).map(|lit| {
+            let multiscatter = MultiscatterLut::new(&lit);
+            (lit, multiscatter)
         });
         Ok(Self { lit, radius: planet.radius_km })
     }
 
-    /// What the air leaves of the light of the star's centre; nothing when the planet stands before it.
+    /// Transmittance from an altitude to the centre of the sun; 0 when the planet hides it.
     pub fn sun_transmittance(&self, altitude_m: f64, sun_zenith_rad: f64) -> [f64; 3] {
         let line = Line { radius: self.radius, altitude: altitude_m * 1e-3, mu: sun_zenith_rad.cos() };
         if line.mu < horizon_mu(line.radius, line.altitude) {
@@ -64,70 +65,35 @@ impl Air {
         (-depth).exp().to_array()
     }
 
-    /// Radiance that the air scatters towards the eye along a ray, for a star of unit irradiance: neither the ground nor the
-    /// star's disc is in it.
+    /// Radiance that the air scatters along a ray to the observer, for a sun of unit irradiance, without light from the
+    /// ground or the sun's disc.
     pub fn radiance(&self, ray: &SkyRay) -> [f64; 3] {
-        self.lit.as_ref().map_or(DVec3::ZERO, |(lit, table)| radiance(lit, table, ray)).to_array()
+        self.lit.as_ref().map_or(DVec3::ZERO, |(lit, multiscatter)| radiance(lit, multiscatter, ray)).to_array()
     }
 
-    /// The share of light from a place that air scatters back to it (f_ms of Hillaire's method): less than one, or the sum
-    /// over all orders of scattering would have no end.
+    /// The share of light from a point that air scatters back to it (f_ms in Hillaire's method). It is less than 1: the
+    /// sum over all orders of scattering must converge.
     pub fn returned_share(planet: &Planet, altitude_m: f64) -> [f64; 3] {
         let returned = |air| multiscatter::returned(&Medium::new(air), planet.radius_km, altitude_m * 1e-3);
         planet.atmosphere.as_ref().map_or(DVec3::ZERO, returned).to_array()
     }
 }
 
-/// Air under a star.
-#[derive(Clone, Debug)]
-pub(super) struct Lit {
-    pub(super) medium: Medium,
-    pub(super) radius: f64,
-    sun_radius_rad: f64,
-    depths: DepthTable,
-}
-
-impl Lit {
-    fn new(planet: &Planet) -> Option<Self> {
-        let medium = Medium::new(planet.atmosphere.as_ref()?);
-        let radius = planet.radius_km;
-        let depths = DepthTable::new(&medium, radius);
-        Some(Self { medium, radius, sun_radius_rad: planet.star.radius_deg.to_radians(), depths })
-    }
-
-    /// Share of the star's disc over the horizon, as in the shaders.
-    pub(super) fn over_horizon(&self, altitude: f64, mu: f64) -> f64 {
-        let half = self.sun_radius_rad.max(0.0015);
-        let x = ((mu - horizon_mu(self.radius, altitude)) / (2.0 * half) + 0.5).clamp(0.0, 1.0);
-        x * x * (3.0 - 2.0 * x)
-    }
-
-    /// Light of the star that reaches a place, of one.
-    pub(super) fn sunlight(&self, altitude: f64, mu: f64) -> DVec3 {
-        let visible = self.over_horizon(altitude, mu);
-        if visible <= 0.0 {
-            return DVec3::ZERO;
-        }
-        // The part of the disc that is seen is over the horizon.
-        (-self.depths.at(altitude, mu.max(horizon_mu(self.radius, altitude)))).exp() * visible
-    }
-}
-
-fn radiance(lit: &Lit, table: &MultiscatterTable, ray: &SkyRay) -> DVec3 {
+fn radiance(lit: &SunlitAir, multiscatter: &MultiscatterLut, ray: &SkyRay) -> DVec3 {
     let (dir, sun) = ray.directions();
     let line = Line { radius: lit.radius, altitude: ray.altitude_m * 1e-3, mu: dir.z };
-    let Some(way) = line.within(lit.medium.top) else { return DVec3::ZERO };
+    let Some(segment) = line.within(lit.medium.top) else { return DVec3::ZERO };
     let cosine = dir.dot(sun);
     let phases = (rayleigh_phase(cosine), lit.medium.mie_phase(cosine));
     let (mut radiance, mut transmittance) = (DVec3::ZERO, DVec3::ONE);
-    for (t, length) in way.steps(STEPS) {
+    for (t, length) in segment.steps(STEPS) {
         let altitude = line.altitude_at(t);
         let sun_mu = (((lit.radius + line.altitude) * sun.z + t * cosine) / (lit.radius + altitude)).clamp(-1.0, 1.0);
-        let place = lit.medium.at(altitude);
-        let direct = (place.rayleigh * phases.0 + place.mie * phases.1) * lit.sunlight(altitude, sun_mu);
-        let source = direct + (place.rayleigh + place.mie) * table.at(altitude, sun_mu);
-        let passed = (-place.extinction * length).exp();
-        radiance += transmittance * source * (1.0 - passed) / place.extinction.max(DVec3::splat(1e-300));
+        let air = lit.medium.at(altitude);
+        let direct = (air.rayleigh * phases.0 + air.mie * phases.1) * lit.sunlight(altitude, sun_mu);
+        let source = direct + air.scattering() * multiscatter.at(altitude, sun_mu);
+        let passed = (-air.extinction * length).exp();
+        radiance += transmittance * source * (1.0 - passed) / air.extinction.max(DVec3::splat(1e-300));
         transmittance *= passed;
     }
     radiance

@@ -98,6 +98,7 @@ pub fn run() -> ExitCode {
     }
 }
 
+#[cfg(feature = "editor")]
 fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
     if let Some(file) = &file {
         // Reported here rather than in a window: who typed a name on the command line reads the answer there. The
@@ -105,6 +106,11 @@ fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
         crate::editor::check_first(file)?;
     }
     Ok(crate::editor::run(file)?)
+}
+
+#[cfg(not(feature = "editor"))]
+fn edit(_: Option<PathBuf>) -> Result<(), Failure> {
+    Err("this program was built without the editor; build it with the feature `editor`".to_owned().into())
 }
 
 fn load(path: &Path) -> Result<Planet, Failure> {

@@ -10,7 +10,6 @@ use crate::terrain::Terrain;
 use crate::tiles::{add_detail, build_now};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
-use image::ImageEncoder as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -159,13 +158,22 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.post.tone = args.tone;
     let pixels =
         gpu.picture(args.size, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()))?;
-    let [width, height] = args.size;
-    let mut png = Vec::new();
-    image::codecs::png::PngEncoder::new(&mut png)
-        .write_image(&pixels, width, height, image::ExtendedColorType::Rgba8)
-        .map_err(|error| format!("cannot encode the picture: {error}"))?;
+    let png = encode(&pixels, args.size).map_err(|error| format!("cannot encode the picture: {error}"))?;
     write_atomically(&args.output, &png).map_err(|error| format!("{}: {error}", args.output.display()))?;
     Ok(())
+}
+
+/// A PNG file from rows of RGBA pixels.
+fn encode(rgba: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(rgba)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {

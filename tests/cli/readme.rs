@@ -1,6 +1,7 @@
-//! Checks of README.md: its program is compiled, its preset loads, its pictures exist and are packed.
+//! What README.md, the documents and the front page of the library promise: the program compiles, the preset loads,
+//! links lead to packed files, modules keep their order.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use tellus::planet::Planet;
 
@@ -40,23 +41,68 @@ fn the_package_is_named_as_it_is_depended_on() {
     }
 }
 
-/// Relative links and pictures lead to files of the package.
+/// All Markdown files of a folder and below it.
+fn documents(folder: &Path) -> Vec<PathBuf> {
+    files(folder).into_iter().filter(|file| file.extension().is_some_and(|extension| extension == "md")).collect()
+}
+
+/// All files of a folder and below it.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+/// Relative links and pictures lead to files, and those are part of the package.
 #[test]
 fn links_lead_to_packed_files() {
-    let text = read("README.md");
-    let links: Vec<&str> = text.split("](").skip(1).map(|rest| rest.split_once(')').unwrap().0).collect();
-    let files: Vec<&str> = links.into_iter().filter(|link| !link.contains("://") && !link.starts_with('#')).collect();
-    assert!(files.len() > 10, "{files:?}");
+    let root = Path::new(ROOT).canonicalize().unwrap();
     let listed = Command::new(env!("CARGO"))
         .args(["package", "--list", "--allow-dirty", "--offline"])
-        .current_dir(ROOT)
+        .current_dir(&root)
         .output()
         .unwrap();
     assert!(listed.status.success(), "{}", String::from_utf8_lossy(&listed.stderr));
     let packed = String::from_utf8(listed.stdout).unwrap();
-    for file in files {
-        let file = file.split('#').next().unwrap_or(file);
-        assert!(Path::new(ROOT).join(file).is_file(), "README.md shows {file}, and there is no such file");
-        assert!(packed.lines().any(|line| line == file), "README.md shows {file}, and the package leaves it out");
+    let mut documents = documents(&root.join("docs"));
+    documents.push(root.join("README.md"));
+    let mut count = 0;
+    for document in &documents {
+        let text = std::fs::read_to_string(document).unwrap();
+        let links = text.split("](").skip(1).map(|rest| rest.split_once(')').unwrap().0);
+        for link in links.filter(|link| !link.contains("://") && !link.starts_with('#')) {
+            let file = document.parent().unwrap().join(link.split('#').next().unwrap_or(link));
+            let shown = format!("{} links to {link}", document.display());
+            let file = file.canonicalize().unwrap_or_else(|error| panic!("{shown}: {error}"));
+            let path = file.strip_prefix(&root).unwrap().to_str().unwrap();
+            assert!(packed.lines().any(|line| line == path), "{shown}: the package leaves it out");
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count} links");
+}
+
+#[test]
+fn the_readme_is_short() {
+    assert!(read("README.md").lines().count() <= 200);
+}
+
+/// The front page of the library says that a module uses only modules before it in its list.
+#[test]
+fn modules_use_only_modules_before_them() {
+    let front = read("src/lib.rs");
+    let names: Vec<&str> = front
+        .lines()
+        .filter_map(|line| line.strip_prefix("//! - ")?.trim_start_matches('[').strip_prefix('`')?.split('`').next())
+        .collect();
+    assert!(names.len() >= 9, "{names:?}");
+    for (rank, name) in names.iter().enumerate() {
+        for file in files(&Path::new(ROOT).join("src").join(name)) {
+            let Ok(text) = std::fs::read_to_string(&file) else { continue };
+            let code: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+            for later in &names[rank + 1..] {
+                let path = format!("crate::{later}::");
+                assert!(!code.iter().any(|line| line.contains(&path)), "{} uses {later}", file.display());
+            }
+        }
     }
 }

@@ -1,13 +1,13 @@
-//! The air as it is drawn: pictures that somebody looked at (goldens, blessed on Mesa's software driver with `TELLUS_BLESS=1`),
-//! a climb without a jump, no radiance that is not a number, and the curves that make pictures of it.
+//! The drawn air: goldens (blessed on Mesa's software driver with `TELLUS_BLESS=1`), continuity over altitude, finite
+//! radiance for all parameters, and the tone curves.
 
-use crate::support::{Gpu, camera, frame_of, surface_of};
+use crate::support::{Gpu, camera, frame_of, gpu, surface_of};
 use image::RgbImage;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use std::cell::RefCell;
 use std::path::PathBuf;
-use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::{Domain, ValueMut};
 use tellus::planet::{Atmosphere, Fbm, Layer, Planet, STARTING_AIRS, Shape};
@@ -17,15 +17,7 @@ use tellus::tiles::build_now;
 
 const SIZE_PX: [u32; 2] = [160, 100];
 
-/// One renderer for all tests: to make its pipelines takes longer than most pictures.
-fn gpu() -> MutexGuard<'static, Gpu> {
-    static GPU: LazyLock<Mutex<Gpu>> = LazyLock::new(|| Mutex::new(Gpu::new()));
-    let mut gpu = GPU.lock().unwrap_or_else(PoisonError::into_inner);
-    (gpu.post.metering, gpu.post.tone, gpu.post.smooth_edges) = (Metering::default(), Tone::default(), true);
-    gpu
-}
-
-/// Hills under an air, nothing else.
+/// Hills under an atmosphere, without water and clouds.
 fn under(air: Atmosphere, radius_km: f64, color: [f64; 3]) -> Planet {
     let shape = Shape::Fbm(Fbm { wavelength_km: 400.0, octaves: 10, ..Fbm::default() });
     let hills = Layer { name: "Hills".to_owned(), amplitude_m: 1500.0, shape, ..Layer::default() };
@@ -46,7 +38,8 @@ fn planets() -> [(&'static str, Planet); 3] {
     ]
 }
 
-/// Altitude and pitch of a camera that looks east, and the pictures it takes: name, degrees from the place eastward to the star.
+/// Altitude (m) and pitch (degrees) of a camera that looks east, and its pictures: name, longitude of the star east of
+/// the camera.
 type Pose = (f64, f64, &'static [(&'static str, f64)]);
 
 fn poses(planet: &Planet) -> [Pose; 3] {
@@ -58,7 +51,7 @@ fn poses(planet: &Planet) -> [Pose; 3] {
     ]
 }
 
-/// What is wrong with a picture, against the golden of this name.
+/// The difference to the golden of this name, if it exceeds the tolerance.
 fn against_golden(name: &str, drawn: &[u8]) -> Option<String> {
     let file = format!("air_{name}.png");
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(&file);
@@ -96,7 +89,7 @@ fn airs_look_as_they_did_and_sunsets_are_red_on_earth_and_blue_on_mars() {
                 if *pose != "sunset" {
                     continue;
                 }
-                // Beside the star, a little over the horizon.
+                // Beside the star, slightly above the horizon.
                 let [red, _, blue] = mean_radiance(&gpu, 60..72, 52..56);
                 match name {
                     "earth" => assert!(red > 1.5 * blue, "{name} {red} {blue}"),
@@ -109,7 +102,7 @@ fn airs_look_as_they_did_and_sunsets_are_red_on_earth_and_blue_on_mars() {
     assert!(problems.is_empty(), "on {}:\n{}", gpu.adapter, problems.join("\n"));
 }
 
-/// Mean of a part of the newest frame's radiance.
+/// Mean radiance of a part of the newest frame.
 fn mean_radiance(gpu: &Gpu, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> [f64; 3] {
     let ([width, _], pixels) = gpu.renderer.radiance().unwrap();
     let mut sum = [0.0; 3];
@@ -127,7 +120,8 @@ fn a_climb_to_space_has_no_jump() {
     let (_, mut planet) = planets()[0].clone();
     planet.layers.clear();
     let planet = Arc::new(planet);
-    // At the sky over the horizon away from the star, and smooth ground: no relief that would come and go.
+    // Looks at the sky above the horizon, away from the star. The ground is smooth, so that no relief appears or
+    // disappears.
     const STEPS: usize = 120;
     let mut last: Option<Vec<[f32; 3]>> = None;
     let mut changes: Vec<(f64, f64)> = Vec::new();
@@ -140,7 +134,7 @@ fn a_climb_to_space_has_no_jump() {
         let (_, pixels) = gpu.renderer.radiance().unwrap();
         if let Some(last) = &last {
             let light = |p: &[f32; 3]| f64::from(p[0] + p[1] + p[2]);
-            // Stars are points that move.
+            // Stars are moving points.
             let each = pixels.iter().zip(last).map(|(a, b)| (light(a) - light(b)).abs().min(0.2));
             let mean = each.clone().sum::<f64>() / pixels.len() as f64;
             let mut sorted: Vec<f64> = each.collect();
@@ -149,7 +143,7 @@ fn a_climb_to_space_has_no_jump() {
         }
         last = Some(pixels);
     }
-    // No step changes the picture much more than those around it.
+    // No step changes the picture much more than its neighbours.
     for (i, (mean, most)) in changes.iter().enumerate() {
         let around = &changes[i.saturating_sub(4)..(i + 5).min(changes.len())];
         let others = |k: fn(&(f64, f64)) -> f64| {
@@ -162,7 +156,7 @@ fn a_climb_to_space_has_no_jump() {
     }
 }
 
-/// An atmosphere with every parameter at a place of its range, 0 to 1.
+/// An atmosphere with every parameter at a given share of its range, 0 to 1.
 fn air_at(places: &[f64]) -> Atmosphere {
     let (mut planet, mut next) = (Planet { atmosphere: Some(Atmosphere::default()), ..Planet::default() }, 0);
     planet.each(&mut |path, param, value| {
@@ -183,7 +177,7 @@ fn air_at(places: &[f64]) -> Atmosphere {
         match (value, param.domain) {
             (ValueMut::Number(number), Domain::Number { min, max, .. }) => *number = between(min, max, place()),
             (ValueMut::Triple(triple), Domain::Triple { max, .. }) => {
-                // Most airs are thin; the cube spreads the small ones.
+                // Most atmospheres are thin; the cube gives more samples to small values.
                 *triple = [(); 3].map(|()| max * place().powi(3));
             }
             (ValueMut::Triple(triple), _) => *triple = [(); 3].map(|()| place()),
@@ -201,7 +195,7 @@ fn whatever_the_air_every_radiance_is_a_number() {
     let cases = (places, 0.0..1.0_f64, -90.0..90.0_f64, -180.0..180.0_f64);
     let result = runner.run(&cases, |(places, altitude, pitch, sun_lon)| {
         let mut planet = under(air_at(&places), 6360.0, [0.2; 3]);
-        // Hills are enough, above and below the reference sphere.
+        // Hills alone suffice: they lie above and below the reference sphere.
         planet.layers[0].shape = Shape::Fbm(Fbm { wavelength_km: 400.0, octaves: 2, ..Fbm::default() });
         let planet = Arc::new(planet);
         let altitude_m = 2.0 * 1e7_f64.powf(altitude);
@@ -243,7 +237,7 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
                 for k in 0..3 {
                     let c = wanted[k];
                     let encoded = if c <= 0.003_130_8 { c * 12.92 } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-                    // A step for the dither, half a one for rounding, and a little for 32 bits.
+                    // One code for the dither, half a code for rounding, and a little for f32.
                     let off = (f64::from(shown[k]) - encoded * 255.0).abs();
                     assert!(off < 2.0, "{tone:?}: {pixel:?} is {:?}, not {wanted:?}", &shown[..3]);
                     compared += 1;
@@ -254,7 +248,7 @@ fn the_curves_of_the_shader_are_those_of_the_reference() {
     assert!(compared > 100_000);
 }
 
-/// Luminance of each row of the newest frame's radiance: the mean over the row's middle third.
+/// Mean luminance over the middle third of each row of the newest frame.
 fn row_luminance(gpu: &Gpu) -> Vec<f64> {
     let ([width, _], pixels) = gpu.renderer.radiance().unwrap();
     let third = width as usize / 3;
@@ -263,12 +257,12 @@ fn row_luminance(gpu: &Gpu) -> Vec<f64> {
     rows.map(|row| row[third..2 * third].iter().map(light).sum::<f64>() / third as f64).collect()
 }
 
-/// Below the horizon the ground of a smooth planet brightens or darkens steadily: no row is the sky's.
+/// Below the horizon, luminance changes steadily on a smooth planet: no row of sky shows through.
 #[test]
 fn no_band_of_sky_lies_across_the_ground() {
     let mut gpu = gpu();
     let (_, mut planet) = planets()[0].clone();
-    // A plateau: ground that is not the reference sphere.
+    // A plateau, so that the ground is not the reference sphere.
     (planet.layers[0].amplitude_m, planet.layers[0].curve) = (1200.0, vec![[-1.0, 1.0], [1.0, 1.0]]);
     for biome in &mut planet.biomes.palette {
         (biome.variation, biome.detail_strength) = (0.0, 0.0);
@@ -289,7 +283,7 @@ fn no_band_of_sky_lies_across_the_ground() {
                 let dir = camera.ray_dir_planet(0.0, y, view.aspect());
                 dir.dot(camera.position_planet_m.normalize()).asin()
             };
-            // The limb itself lies between two rows.
+            // The limb lies between two rows.
             let first = (0..rows.len()).find(|&row| elevation(row) < -dip_rad).unwrap() + 4;
             for (i, three) in rows[first..].windows(3).enumerate() {
                 let kink = (three[0] - 2.0 * three[1] + three[2]).abs() / three[1];
@@ -299,7 +293,7 @@ fn no_band_of_sky_lies_across_the_ground() {
     }
 }
 
-/// From the middle of the star outwards the glare falls steadily, however long the exposure.
+/// Glare decreases steadily from the centre of the star outwards, at any exposure.
 #[test]
 fn the_glare_of_the_star_has_no_edge() {
     let mut gpu = gpu();
@@ -307,7 +301,7 @@ fn the_glare_of_the_star_has_no_edge() {
     let camera = camera(&planet, 5.0, 10.0, 1e7, 90.0, 30.0);
     let view = View { camera, size_px: [240, 24], quality: Quality::Medium };
     let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
-    // The star stands at the left edge of the middle row.
+    // The star is at the left edge of the middle row.
     let sun = camera.ray_dir_planet(-0.97, 0.0, view.aspect());
     gpu.draw(&frame_of(&surface, &planet, view, sun));
     let ([width, _], pixels) = gpu.renderer.radiance().unwrap();
@@ -320,7 +314,7 @@ fn the_glare_of_the_star_has_no_edge() {
     }
 }
 
-/// Under a clear sky at night stars stand out, and the sky is brighter near the horizon than overhead.
+/// In a clear night sky, stars are visible, and the sky is brighter near the horizon than at the zenith.
 #[test]
 fn the_night_sky_has_stars_and_is_not_flat() {
     let mut gpu = gpu();

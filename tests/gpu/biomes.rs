@@ -1,6 +1,6 @@
-//! A biome is the same wherever one asks: `Terrain::sample`, and the picture that shows biomes by themselves.
+//! `Terrain::sample` names the biome that the biome debug view draws.
 
-use crate::support::{Gpu, camera_over, debug, frame_of, surface_of};
+use crate::support::{Gpu, camera_over, debug, frame_of, gpu, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
@@ -11,16 +11,16 @@ use tellus::sphere::spread;
 use tellus::terrain::Terrain;
 use tellus::tiles::build_now;
 
-/// Points asked for on each planet, over all poses.
+/// Points queried on each planet, over all poses.
 const POINTS: usize = 2000;
-/// Pixels along a side of each picture.
+/// Side of each picture in pixels.
 const SIDE_PX: usize = 160;
 
-/// How a place is looked at; angles in degrees.
+/// A camera pose; angles in degrees.
 struct Pose {
     heading: f64,
     pitch: f64,
-    /// Width of a pixel on the ground straight below.
+    /// Width of a pixel on the ground straight below the camera, metres.
     pixel_m: f64,
 }
 
@@ -28,7 +28,7 @@ const fn pose(heading: f64, pitch: f64, pixel_m: f64) -> Pose {
     Pose { heading, pitch, pixel_m }
 }
 
-/// Pixels no wider than what decides about biomes: narrow gorges and ridges.
+/// Poses with pixels no wider than the features that decide biomes: narrow gorges and ridges.
 const POSES: [Pose; 6] = [
     pose(0.0, -90.0, 500.0),
     pose(40.0, -90.0, 200.0),
@@ -37,10 +37,10 @@ const POSES: [Pose; 6] = [
     pose(300.0, -65.0, 30.0),
     pose(70.0, -75.0, 3.0),
 ];
-/// From orbit, a pixel is wider than mountains; on a planet of the size of the Earth.
+/// From orbit, a pixel is wider than a mountain on a planet of Earth's size.
 const ORBIT: Pose = pose(0.0, -90.0, 10_000.0);
 
-/// A colour as the picture encodes it.
+/// A colour encoded as in the picture.
 fn srgb(linear: [f64; 3]) -> [u8; 3] {
     linear.map(|x| {
         let encoded = if x <= 0.003_130_8 { x * 12.92 } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
@@ -48,18 +48,18 @@ fn srgb(linear: [f64; 3]) -> [u8; 3] {
     })
 }
 
-/// The biome whose colour a pixel has.
+/// The biome with the colour of a pixel.
 fn biome_of(palette: &[[u8; 3]], pixel: &[u8]) -> Option<usize> {
     palette.iter().position(|color| color.iter().zip(pixel).all(|(a, b)| a.abs_diff(*b) <= 1))
 }
 
-/// The ground (below the sea, too) that a ray meets.
+/// The point of the ground, or of the sea bed, that a ray hits.
 fn ground_along(terrain: &Terrain, eye_m: DVec3, ray: DVec3) -> Option<DVec3> {
     let over_m = |way_m: f64| {
         let at_m = eye_m + ray * way_m;
         at_m.length() - terrain.planet().radius_m() - terrain.height_m(at_m)
     };
-    // From the surface of the sea on step by step, no farther than to the side of what lies below.
+    // Marches from the sea surface in steps no longer than the depth.
     let mut way_m = terrain.raycast(eye_m, ray)?;
     for _ in 0..60 {
         let above_m = over_m(way_m);
@@ -71,8 +71,8 @@ fn ground_along(terrain: &Terrain, eye_m: DVec3, ray: DVec3) -> Option<DVec3> {
     Some(eye_m + ray * way_m)
 }
 
-/// Of so many points seen at pixels of a view of a planet: how many have the query's biome in the picture, how many have it no
-/// farther than a pixel away, how many there are.
+/// Compares `points` pixels of a view with queries. Returns the number of pixels with the biome of the query, the
+/// number with that biome within one pixel, and the number compared.
 fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pose: &Pose, points: usize) -> [usize; 3] {
     let planet = terrain.planet();
     let fov_rad = Camera::DEFAULT_FOV_Y_RAD;
@@ -98,7 +98,7 @@ fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pose: &Pose, points
         let ndc = |i: usize| (i as f64 + 0.5) / SIDE_PX as f64 * 2.0 - 1.0;
         let ray = camera.ray_dir_planet(ndc(x), -ndc(y), view.aspect());
         let Some(ground_m) = ground_along(terrain, camera.position_planet_m, ray) else { continue };
-        // Well this side of the limb, where one pixel is many places.
+        // Pixels near the limb cover too much ground.
         if -ray.dot(ground_m.normalize()) < 0.55 {
             continue;
         }
@@ -109,7 +109,7 @@ fn compared(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pose: &Pose, points
     counts
 }
 
-/// Places with borders between biomes as far away as a picture reaches, one after the other over the planet.
+/// Locations with biome borders within the reach of a picture, spread over the planet.
 fn place_with_borders(terrain: &Terrain, dirs: &mut impl Iterator<Item = DVec3>, pose: &Pose) -> LatLon {
     let reach_rad = 0.4 * SIDE_PX as f64 * pose.pixel_m / terrain.planet().radius_m();
     let has_borders = |dir: &DVec3| {
@@ -121,10 +121,10 @@ fn place_with_borders(terrain: &Terrain, dirs: &mut impl Iterator<Item = DVec3>,
     LatLon::from_direction(dirs.find(has_borders).expect("a planet with borders"))
 }
 
-/// The acceptance: of 2,000 points on each planet 99% are the same, and all the rest lie within a pixel of a border.
+/// Of 2,000 points on each planet, 99% agree, and the others lie within one pixel of a border.
 #[test]
 fn the_biome_of_a_query_is_the_one_in_the_picture() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     for preset in shipped::ALL {
         let planet = Arc::new(preset.load().unwrap());
@@ -141,7 +141,7 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
         if same * 100 < 99 * all || near < all {
             problems.push(format!("{}: {same} of {all} the same, {near} within a pixel", preset.file));
         }
-        // What is finer than a pixel shows as the mean height around.
+        // Features finer than a pixel show as the mean height around them.
         let place = LatLon::from_degrees(17.0, 54.0);
         let orbit = Pose { pixel_m: ORBIT.pixel_m * planet.radius_km / 6371.0, ..ORBIT };
         let [same, near, all] = compared(&mut gpu, &terrain, place, &orbit, 200);
@@ -163,7 +163,7 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
     let moved = dirs.iter().filter(|dir| terrain.sample(**dir).cell != plain.sample(**dir).cell).count();
     assert!((300..2400).contains(&moved), "{moved} of 3000");
 
-    // On a smooth airless ball lit from the eye, crisp borders have edges and blended ones none.
+    // On a smooth airless ball lit from the eye, crisp borders make edges and blended ones do not.
     let mut ball = Planet { biomes: planet.biomes.clone(), radius_km: 100.0, ..Planet::default() };
     ball.climate.temperature_variation_c = 0.0;
     ball.climate.moisture_variation = 0.0;
@@ -172,8 +172,8 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
         biome.patches = 0.0;
         biome.detail = tellus::planet::Detail::None;
     }
-    let mut gpu = Gpu::new();
-    // Edges are counted as they are.
+    let mut gpu = gpu();
+    // Antialiasing would hide the edges that are counted.
     gpu.post.smooth_edges = false;
     let mut edges = |blend| {
         ball.biomes.blend = blend;
@@ -182,7 +182,7 @@ fn jitter_moves_borders_and_crisp_ones_have_edges() {
         let view = View { camera, size_px: [160, 120], quality: Quality::Medium };
         let surface = build_now(&planet, &view).unwrap();
         let picture = gpu.draw(&frame_of(&surface, &planet, view, camera.position_planet_m));
-        // Places where the ground changes from one pixel to the next.
+        // Counts edges: neighbouring pixels of different ground.
         let step = |pair: &[u8]| (0..3).map(|i| u32::from(pair[i].abs_diff(pair[i + 4]))).sum::<u32>();
         picture.chunks(160 * 4).flat_map(|row| row.windows(8).step_by(4)).filter(|pair| step(pair) > 18).count()
     };

@@ -1,6 +1,7 @@
-//! A region has the same colour from orbit as on the ground: pictures of one place, each four times as fine as the one before.
+//! A region has the same mean colour from orbit as on the ground: pictures of one location, each with pixels four times
+//! smaller.
 
-use crate::support::{Gpu, debug, frame_of, surface_of};
+use crate::support::{Gpu, debug, frame_of, gpu, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
@@ -10,19 +11,19 @@ use tellus::sphere::LatLon;
 use tellus::sphere::spread;
 use tellus::terrain::Terrain;
 
-/// Pixels along a side of each picture, and how much finer each is than the one before.
+/// Side of each picture in pixels, and the factor by which pixels shrink from one picture to the next.
 const SIDE_PX: usize = 384;
 const FINER: usize = 4;
-/// Narrow: seen from nearer, mountains lean farther out of the picture, and it is no longer of the same region.
+/// A narrow field of view: from close up, mountains would lean out of the picture and change its region.
 const FOV_DEG: f64 = 5.0;
-/// What the colour of a region may be off from that of the first picture, from orbit, in any finer one: a share of each channel.
+/// Largest relative difference of a channel between the picture from orbit and any finer one.
 const MOST_OFF: f64 = 0.03;
-/// Snow on high mountains, with green valleys between: nowhere does more change within a pixel.
+/// Snowy mountains with green valleys: the greatest variation within a pixel.
 const SNOWY: (&str, f64, f64) = ("aurel.ron", -30.0, 20.0);
 
 type Color = [f64; 3];
 
-/// The albedo of the ground around a place, pixel by pixel.
+/// The albedo of the ground around a location, by pixel.
 fn albedo(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<Color> {
     let planet = terrain.planet();
     let fov_rad = FOV_DEG.to_radians();
@@ -39,7 +40,7 @@ fn albedo(gpu: &mut Gpu, terrain: &Terrain, place: LatLon, pixel_m: f64) -> Vec<
     colors.into_iter().map(|color| color.map(f64::from)).collect()
 }
 
-/// The mean over so many pixels in the middle.
+/// The mean over a centred square of pixels.
 fn mean(colors: &[Color], side_px: usize) -> Color {
     let from = (SIDE_PX - side_px) / 2;
     let inside = (from..from + side_px).flat_map(|y| (from..from + side_px).map(move |x| y * SIDE_PX + x));
@@ -47,7 +48,7 @@ fn mean(colors: &[Color], side_px: usize) -> Color {
     sum.map(|c| c / (side_px * side_px) as f64)
 }
 
-/// Widest pixels of pictures of a place that show land alone, with their place; the bed of the sea is not seen from orbit.
+/// The widest pixels whose pictures of a location show only land. The sea bed is not visible from orbit.
 fn widest_m(terrain: &Terrain, dir: DVec3) -> Option<f64> {
     let planet = terrain.planet();
     let sea_m = planet.sea_level_m().unwrap_or(f64::MIN);
@@ -63,14 +64,14 @@ fn widest_m(terrain: &Terrain, dir: DVec3) -> Option<f64> {
 
 #[test]
 fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     for preset in shipped::ALL {
         let terrain = Terrain::try_new(Arc::new(preset.load().unwrap())).unwrap();
         let mut places: Vec<(DVec3, f64)> =
             spread(60).filter_map(|dir| Some((dir, widest_m(&terrain, dir)?))).collect();
         places.sort_by(|a, b| b.1.total_cmp(&a.1));
-        // One place down to the ground, another as far as mountains are larger than pixels.
+        // One location down to the ground, the others as long as mountains are larger than pixels.
         let mut ways: Vec<_> = places.into_iter().step_by(3).zip([1.0, 200.0]).collect();
         let (file, lat_deg, lon_deg) = SNOWY;
         if preset.file == file {
@@ -80,7 +81,7 @@ fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
         for ((dir, widest_m), finest_m) in ways {
             let place = LatLon::from_direction(dir);
             let mut coarse = albedo(&mut gpu, &terrain, place, widest_m);
-            // How much brighter than in the first picture, and what of that is too much or too little.
+            // Brightness relative to the first picture, and its difference from 1.
             let (mut brighter, mut off): (Color, f64) = ([1.0; 3], 0.0);
             let mut pixel_m = widest_m;
             while pixel_m > finest_m {

@@ -1,7 +1,7 @@
-//! Edges as they are drawn: limb, ridge, shore and glint against the same picture drawn four times as large on each side and averaged;
-//! how much nearer to it smooth edges are than stairs, standing and moving.
+//! Antialiased edges (limb, ridge, shore, glint) against a reference: the same picture drawn four times as wide and
+//! high, and averaged. Compares the errors with and without antialiasing, in still and in moving pictures.
 
-use crate::support::{Gpu, camera, earth};
+use crate::support::{Gpu, camera, earth, gpu};
 use glam::DQuat;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
@@ -10,10 +10,10 @@ use tellus::render::Scene;
 use tellus::sphere::LatLon;
 use tellus::tiles::{Surface, add_detail, build_now};
 
-/// Of pictures that stand still and of those that move, which are many.
+/// Sizes of still pictures, and of moving ones, which are many.
 const STILL_PX: [u32; 2] = [96, 60];
 const MOVING_PX: [u32; 2] = [56, 36];
-/// How much larger the reference is drawn.
+/// Scale of the reference along each side.
 const FINER: u32 = 4;
 
 struct Case {
@@ -23,8 +23,8 @@ struct Case {
     sun: (f64, f64),
 }
 
-/// A star so bright that the picture's exposure leaves nothing of the stars at night, which are edges all around. Brighter than a
-/// preset may say: it is drawn so, but the ground is found without it.
+/// A sun so bright that exposure hides the night stars, which would count as edges. It is brighter than a preset
+/// allows: the surface is built with the default star.
 const STAR_BRIGHTNESS: f64 = 256.0;
 
 fn without_star(planet: &Planet) -> Arc<Planet> {
@@ -68,12 +68,12 @@ fn scenes() -> Vec<Case> {
     ]
 }
 
-/// What a scene looks like: brightness as the display's scale has it, 0 to 255.
+/// Display codes of a picture, 0 to 255.
 struct Picture {
     values: Vec<f64>,
 }
 
-/// From the display's scale to light, 0 to 1, and back.
+/// From display codes to linear light, 0 to 1, and back.
 fn decoded(value: f64) -> f64 {
     let c = value / 255.0;
     if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
@@ -110,7 +110,7 @@ fn drawn(gpu: &mut Gpu, frame: &Scene<'_>, smooth_edges: bool) -> Picture {
     Picture { values }
 }
 
-/// The picture a perfect display would show: each pixel the mean of many; and how much those differ.
+/// The reference: the mean of many samples for each pixel, and the range of those samples.
 fn reference(gpu: &mut Gpu, frame: &Scene<'_>) -> (Picture, Vec<f64>) {
     gpu.post.smooth_edges = false;
     let fine = gpu.draw(frame);
@@ -149,7 +149,7 @@ fn surface(scene: &Case, size_px: [u32; 2]) -> (Surface, View) {
     (surface, view)
 }
 
-/// What a picture of half the size can show of one at best.
+/// The best that a picture of half the size can show.
 fn halved_and_enlarged(picture: &Picture) -> Picture {
     let [width, height] = STILL_PX.map(|side| side as usize);
     let light = |x: usize, y: usize| decoded(picture.values[y * width + x]);
@@ -158,7 +158,7 @@ fn halved_and_enlarged(picture: &Picture) -> Picture {
         (light(x, y) + light(x + 1, y) + light(x, y + 1) + light(x + 1, y + 1)) / 4.0
     };
     let values = (0..width * height).map(|i| {
-        // Three quarters of the nearest one, one quarter of the next.
+        // Three quarters of the nearest pixel, one quarter of the next.
         let near_and_next = |i: usize| (i / 2, if i.is_multiple_of(2) { (i / 2).saturating_sub(1) } else { i / 2 + 1 });
         let ((x0, x1), (y0, y1)) = (near_and_next(i % width), near_and_next(i / width));
         let row = |y| 0.75 * half(x0, y) + 0.25 * half(x1, y);
@@ -167,18 +167,18 @@ fn halved_and_enlarged(picture: &Picture) -> Picture {
     Picture { values: values.collect() }
 }
 
-/// Mean and 95th percentile of how far a picture is off, of pixels that are chosen.
+/// Mean and 95th percentile of the error over the chosen pixels.
 fn errors(picture: &Picture, truth: &Picture, chosen: &dyn Fn(usize) -> bool) -> (f64, f64) {
     let pixels = (0..truth.values.len()).filter(|i| chosen(*i));
     mean_and_p95(pixels.map(|i| (picture.values[i] - truth.values[i]).abs()).collect())
 }
 
-/// Of 255: what differs so much within a pixel is an edge, so little is none.
+/// Range of samples within a pixel, of 255: above the first it is an edge, below the second it is not.
 const EDGE: f64 = 40.0;
 const PLAIN: f64 = 25.0;
 
-/// How far smooth edges may be off as a share of how far stairs are, at low, medium and high quality; and at medium of 255. Water
-/// blends into land by itself, and so does a limb in air that is seen from afar; the pass has nothing to add there.
+/// Largest error of antialiased edges relative to aliased ones at low, medium and high quality, and of 255 at medium.
+/// Shores and a distant limb in air are smooth without antialiasing; the pass has nothing to add there.
 fn bars(name: &str) -> ([f64; 3], f64) {
     match name {
         "limb from 400 km" => ([0.9, 0.4, 0.6], 12.0),
@@ -192,7 +192,7 @@ fn bars(name: &str) -> ([f64; 3], f64) {
 
 #[test]
 fn standing_edges_are_smooth() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     for scene in scenes() {
         let (surface, chosen) = surface(&scene, STILL_PX);
@@ -228,9 +228,9 @@ fn standing_edges_are_smooth() {
 
 #[test]
 fn moving_edges_do_not_crawl() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
-    // What jumps are at most (95 in 100) at medium quality, of what stairs jump by and of 255.
+    // Largest jump (95th percentile) at medium quality, relative to aliased edges and of 255.
     for (name, share, most) in
         [("limb from 400 km", 0.55, 40.0), ("limb in air", 1.1, 30.0), ("ridge", 0.6, 39.0), ("glint", 1.1, 10.0)]
     {

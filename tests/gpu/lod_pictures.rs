@@ -1,9 +1,9 @@
-//! Level of detail in pictures: no hole, no pop, mountains beyond the horizon.
+//! Level of detail in pictures: no holes, no popping, mountains beyond the horizon.
 
 use crate::support::dice::Dice;
-use crate::support::{Gpu, camera_over, debug, frame_of, lights, settled};
+use crate::support::{camera_over, debug, frame_of, gpu, lights, settled};
 use glam::DVec3;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use tellus::lod::morph::shifts_m;
 use tellus::lod::range::SHADED_AT;
 use tellus::lod::{Camera, Quality, View};
@@ -15,28 +15,20 @@ use tellus::tiles::{Builder, Surface, build_now};
 
 const SIZE_PX: [u32; 2] = [96, 64];
 
-/// One renderer for all tests: pipelines take longer to make than most pictures.
-fn gpu() -> MutexGuard<'static, Option<Gpu>> {
-    static GPU: Mutex<Option<Gpu>> = Mutex::new(None);
-    let mut gpu = GPU.lock().unwrap_or_else(PoisonError::into_inner);
-    gpu.get_or_insert_with(Gpu::new);
-    gpu
-}
-
 fn draw(frame: &Scene<'_>) -> Vec<u8> {
-    gpu().as_mut().unwrap().draw(frame)
+    gpu().draw(frame)
 }
 
 fn sun_dir() -> DVec3 {
     LatLon::from_degrees(30.0, 40.0).direction()
 }
 
-/// Nothing before the ground, and light that lies still on it.
+/// A planet with nothing in front of the ground.
 fn bare(planet: Planet) -> Arc<Planet> {
     Arc::new(Planet { clouds: None, atmosphere: None, water: None, ..planet })
 }
 
-/// Through the middle of a pixel, as many pixels aside.
+/// The ray through a pixel's centre, shifted by `aside` pixels.
 fn ray(view: &View, pixel: usize, aside: [f64; 2]) -> DVec3 {
     let [width, height] = view.size_px.map(f64::from);
     let (x, y) = ((pixel as f64 % width).floor(), (pixel as f64 / width).floor());
@@ -44,14 +36,14 @@ fn ray(view: &View, pixel: usize, aside: [f64; 2]) -> DVec3 {
     view.camera.ray_dir_planet(ndc(x + aside[0], width), -ndc(y + aside[1], height), view.aspect())
 }
 
-/// Pixels that show the background although the rays through them and around them hit the ground.
+/// Pixels that show the background although the rays through and around them hit the ground.
 fn holes(view: &View, terrain: &Terrain, picture: &[u8], dice: &mut Dice) -> usize {
     const AROUND: [[f64; 2]; 5] = [[0.0, 0.0], [2.5, 0.0], [-2.5, 0.0], [0.0, 2.5], [0.0, -2.5]];
     let light = lights(picture);
     let [width, height] = view.size_px.map(|side| side as usize);
     let black: Vec<usize> = (0..light.len()).filter(|&i| light[i] == 0).collect();
     let white = |x: usize, y: usize| light[y * width + x] > 0;
-    // Ground on all four sides: likely a hole. Of the others a few will do.
+    // Ground on all four sides: probably a hole. Of the other pixels, a few suffice.
     let enclosed = |i: usize| {
         let (x, y) = (i % width, i / width);
         (0..x).any(|x| white(x, y))
@@ -68,14 +60,14 @@ fn holes(view: &View, terrain: &Terrain, picture: &[u8], dice: &mut Dice) -> usi
     suspects.into_iter().filter(|&i| AROUND.into_iter().all(|aside| hit(i, aside))).count()
 }
 
-/// Looks at a planet from so many places of which `dice` decides.
+/// Looks for holes in pictures of a planet from random poses.
 fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
     let planet = bare(planet);
     let terrain = Terrain::try_new(planet.clone()).unwrap();
     for _ in 0..poses {
         let place = dice.place();
         let altitude_m = 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
-        // Mostly down.
+        // Mostly looks down.
         let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.8) * 1.8);
         let camera = camera_over(&terrain, place, altitude_m, [heading, pitch.max(-1.55)]);
         let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
@@ -103,7 +95,7 @@ fn no_pose_shows_the_background_through_the_ground() {
     }
 }
 
-/// The same surface with all vertices out in full, and all shading that of the tiles' own level.
+/// The same surface without morphing: all vertices at their exact positions, shading of each tile's own level.
 fn unmorphed(surface: &Surface) -> Surface {
     let mut stiff = surface.clone();
     (stiff.ranges.least_spacings, stiff.ranges.most_spacings) = (1e12, 1e12);
@@ -115,12 +107,12 @@ fn difference(a: &[u8], b: &[u8]) -> f64 {
     a.iter().zip(b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / a.len() as f64
 }
 
-/// Steps of a way down.
+/// Steps of a descent.
 const STEPS: usize = 600;
 
-/// What one sees of level changes on a way down, at some of its steps: the greatest difference
-/// between pictures of one pose, drawn with the tiles of the step before and with its own, with morphing and without. For the shaded
-/// planet and for its normals. Without morphing only until it is clear that it is more than five times as much.
+/// Popping on a descent: at some of its steps, the largest difference between two pictures of one pose, one with the
+/// tiles of the step before and one with its own; with and without morphing, for the shaded view and for normals.
+/// Without morphing it stops when the difference exceeds five times the one with morphing.
 fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2] {
     let planet = bare(planet);
     let terrain = Terrain::try_new(planet.clone()).unwrap();
@@ -131,7 +123,7 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
         let altitude_m = 2.0 * (3.0 * planet.radius_m() / 2.0).powf(1.0 - part);
         let pitch = -1.5 + 1.2 * part;
         let camera = camera_over(&terrain, place, altitude_m, [0.5, pitch]);
-        // Large enough for texels and pixels to be as they are in a window.
+        // Large enough for a realistic ratio of texels to pixels.
         View { camera, size_px: [480, 320], quality: Quality::Medium }
     };
     let mut most = [[0.0_f64; 2]; 2];
@@ -162,22 +154,22 @@ fn fly_down(planet: Planet, steps: impl Iterator<Item = usize>) -> [[f64; 2]; 2]
     most
 }
 
-/// Whether the greatest difference with morphing is less than a fifth of that without, which is there to be seen.
+/// Whether morphing reduces the largest difference at least to a fifth, and there was one to reduce.
 fn is_gentle([with, without]: [f64; 2]) -> bool {
     without > 0.1 && 5.0 * with < without
 }
 
 #[test]
 fn a_way_down_shows_no_level_change() {
-    // Among them those at which most is to be seen without morphing.
+    // Among them the steps with the most popping when there is no morphing.
     let steps = [8, 34, 59, 121, 215, 301, 401, 501];
     for most in fly_down(planet("aurel"), steps.into_iter()) {
         assert!(is_gentle(most), "{most:?} with morphing and without");
     }
 }
 
-/// A thousand poses over the shipped planets and a hundred over random ones, and ways down to all planets, every step to the first:
-/// an hour on two cores, so one test for each.
+/// A thousand poses over the shipped planets, a hundred over random planets, and descents to all planets. They take
+/// about an hour on two cores.
 mod thorough {
     use super::*;
 
@@ -189,50 +181,28 @@ mod thorough {
     }
 
     #[test]
-    #[ignore = "takes minutes"]
-    fn two_hundred_poses_over_aurel() {
-        look_for_holes(planet("aurel"), 200, &mut Dice(21));
+    #[ignore = "long: a quarter of an hour"]
+    fn two_hundred_poses_over_each_shipped_planet() {
+        for (name, seed) in [("aurel", 21), ("maren", 22), ("cinnabar", 23), ("hoarfrost", 24), ("pallor", 25)] {
+            look_for_holes(planet(name), 200, &mut Dice(seed));
+        }
     }
 
     #[test]
-    #[ignore = "takes minutes"]
-    fn two_hundred_poses_over_maren() {
-        look_for_holes(planet("maren"), 200, &mut Dice(22));
-    }
-
-    #[test]
-    #[ignore = "takes minutes"]
-    fn two_hundred_poses_over_cinnabar() {
-        look_for_holes(planet("cinnabar"), 200, &mut Dice(23));
-    }
-
-    #[test]
-    #[ignore = "takes minutes"]
-    fn two_hundred_poses_over_hoarfrost() {
-        look_for_holes(planet("hoarfrost"), 200, &mut Dice(24));
-    }
-
-    #[test]
-    #[ignore = "takes minutes"]
-    fn two_hundred_poses_over_pallor() {
-        look_for_holes(planet("pallor"), 200, &mut Dice(25));
-    }
-
-    #[test]
-    #[ignore = "takes minutes"]
+    #[ignore = "long: minutes"]
     fn a_pose_over_each_of_a_hundred_random_planets() {
         let mut dice = Dice(26);
         (0..100).for_each(|seed| look_for_holes(random::random(seed), 1, &mut dice));
     }
 
     #[test]
-    #[ignore = "takes a quarter of an hour"]
+    #[ignore = "long: a quarter of an hour"]
     fn every_step_of_the_way_down_to_aurel() {
         down("aurel", 1);
     }
 
     #[test]
-    #[ignore = "takes minutes"]
+    #[ignore = "long: minutes"]
     fn ways_down_to_the_other_planets() {
         ["maren", "cinnabar", "hoarfrost", "pallor"].into_iter().for_each(|name| down(name, 12));
     }
@@ -250,7 +220,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
         water: None,
         ..Planet::default()
     };
-    // The highest of many places; the sea is let in to 8 km below it.
+    // The highest of many points; the sea level is 8 km below it.
     let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let mut dice = Dice(3);
     let dirs: Vec<DVec3> = (0..200_000)
@@ -266,7 +236,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     let wet = Terrain::try_new(planet.clone()).unwrap();
     let (tangent, other) = peak.any_orthonormal_pair();
     let angle = 250e3 / radius_m;
-    // From where the way across is free.
+    // A direction from which no other ground hides the peak.
     let eye = (0..360)
         .map(|degrees| tangent * f64::from(degrees).to_radians().cos() + other * f64::from(degrees).to_radians().sin())
         .map(|aside| (peak * angle.cos() + aside * angle.sin()) * (radius_m + 2.0))
@@ -283,7 +253,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     let surface = build_now(&planet, &view).unwrap();
     let picture = draw(&debug(frame_of(&surface, &planet, view, DVec3::X), DebugView::Coverage));
     let light = lights(&picture);
-    // Column by column: how high what lies behind the sea's horizon stands in the picture.
+    // For each column: the row of the highest ground beyond the sea's horizon.
     let tan_y = (camera.fov_y_rad * 0.5).tan();
     let horizon_px = 64.0 + (2.0 * 2.0 / radius_m).sqrt() / tan_y * 64.0;
     let mut there = 0;
@@ -305,7 +275,7 @@ fn a_peak_of_eight_kilometres_shows_from_250_km_across_the_sea() {
     assert!(there > 20, "too little to see: {there} columns");
 }
 
-/// A unit vector from its octahedral form.
+/// Decodes an octahedral unit vector.
 fn from_octahedral(oct: [i16; 2]) -> DVec3 {
     let [x, y] = oct.map(|v| (f64::from(v) / 32767.0).max(-1.0));
     let z = 1.0 - x.abs() - y.abs();
@@ -314,7 +284,7 @@ fn from_octahedral(oct: [i16; 2]) -> DVec3 {
     DVec3::new(x, y, z).normalize()
 }
 
-/// The normal that a pixel of the debug view shows.
+/// The normal of a pixel in the debug view.
 fn shown_normal(pixel: &[u8]) -> DVec3 {
     let part = |i: usize| {
         let encoded = f64::from(pixel[i]) / 255.0;
@@ -332,12 +302,13 @@ fn normals_change_from_a_level_to_the_next_as_the_vertices_have_them() {
         bare(Planet { layers: vec![Layer { amplitude_m: 6000.0, shape, ..Layer::default() }], ..Planet::default() });
     let camera = crate::support::camera(&planet, 35.0, -5.0, 4000.0, 20.0, -50.0);
     let view = View { camera, size_px: [480, 320], quality: Quality::Medium };
-    // Without detail tiles: what is shown comes from the vertices alone.
+    // Without detail textures, so that normals come from the vertices alone.
     let surface = build_now(&planet, &view).unwrap();
     let picture = draw(&debug(frame_of(&surface, &planet, view, sun_dir()), DebugView::Normal));
     let (eye, turn) = (camera.position_planet_m, camera.planet_from_view.inverse());
     let tan_y = (camera.fov_y_rad * 0.5).tan();
-    // How far a pixel is from the blend, from the tile's own normal and from its parent's; where they differ, on the way.
+    // Distance of a pixel's normal from the blend, from the tile's own normal and from its parent's, where these two
+    // differ.
     let (mut off, mut off_own, mut off_parents) = (Vec::new(), Vec::new(), Vec::new());
     for leaf in &surface.leaves {
         let end_m = surface.ranges.always_m(leaf.tile.id.level);

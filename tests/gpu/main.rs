@@ -2,8 +2,8 @@
 //!
 //! - `shaders`: every WGSL file through naga
 //! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
-//! - `biomes`, `colours`, `materials`: the ground's colours
-//! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures
+//! - `biomes`, `colours`, `materials`: the colours of the ground
+//! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
 //! - `render`: passes, stages and errors of the renderer
 //! - `scene`: several bodies, the caller's targets, projections and viewports

@@ -1,6 +1,6 @@
-//! Biomes as materials, drawn: colour from near and far, and the biome of a query against the one in the picture.
+//! Biomes as materials: colour near and far, and queried against drawn biomes.
 
-use crate::support::{Gpu, SIZE_PX, camera, frame, surface, view_of};
+use crate::support::{Gpu, SIZE_PX, camera, frame, gpu, surface, view_of};
 use std::sync::Arc;
 use tellus::planet::{Biome, Biomes, Detail, Planet, Steep, Table};
 use tellus::render::DebugView;
@@ -23,7 +23,7 @@ fn grey(albedo: f64) -> Biome {
     Biome { color: [albedo; 3], variation: 0.0, specular: 0.0, ..Biome::default() }
 }
 
-/// The middle of the picture, straight down from `altitude_m`.
+/// The middle pixels of a picture straight down from `altitude_m`.
 fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<[u8; 3]> {
     let planet = Arc::new(planet.clone());
     let camera = camera(&planet, PLACE.0, PLACE.1, altitude_m, 0.0, -90.0);
@@ -34,7 +34,7 @@ fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<
     (height / 4..height * 3 / 4).flat_map(|y| (width / 4..width * 3 / 4).map(move |x| pixel(x, y))).collect()
 }
 
-/// The albedo of level grey ground that is shown as each byte, from orbit.
+/// For each display code, the albedo of level grey ground that shows it from orbit.
 fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
     let mut known: Vec<(f64, f64)> = vec![(0.0, 0.0)];
     for step in 1..=24 {
@@ -53,11 +53,11 @@ fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Colour from orbit equals colour on the ground within 3%, for each pattern, under a high sun and under lower ones from either side:
-/// the ground before one's feet may lie on the slope of a bump.
+/// The colour from orbit equals the colour on the ground within 3%, for each pattern, under a high sun and under low
+/// suns from both sides: the ground in view may lie on the slope of a bump.
 #[test]
 fn every_pattern_is_as_bright_from_orbit_as_from_near() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     let planets = Detail::ALL.iter().filter(|kind| **kind != Detail::None);
     let planets: Vec<_> =
@@ -86,10 +86,10 @@ fn every_pattern_is_as_bright_from_orbit_as_from_near() {
     assert!(problems.is_empty(), "{problems:#?}");
 }
 
-/// A pattern shows from near: pixels differ, and do not from orbit.
+/// A pattern is visible up close and not from orbit.
 #[test]
 fn patterns_show_from_near_and_fade_away() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let planet = ball(Biome { detail: Detail::Gravel, ..grey(0.25) });
     let mut spread = |altitude_m: f64| {
         let pixels = middle(&mut gpu, &planet, altitude_m, PLACE.1 + 30.0);
@@ -100,10 +100,10 @@ fn patterns_show_from_near_and_fade_away() {
     assert!(near > 12.0 && far < 5.5, "{near} {far}");
 }
 
-/// Lava glows at night, and what glows moves with the time where it flows.
+/// Lava glows at night, and flowing lava moves.
 #[test]
 fn lava_glows_and_flows() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let lava = Biome { detail: Detail::Lava, glow: 3.0, flow_m_s: 0.2, ..grey(0.05) };
     let planet = Arc::new(ball(lava.clone()));
     let camera = camera(&planet, PLACE.0, PLACE.1, 4.0, 0.0, -60.0);
@@ -124,8 +124,8 @@ fn lava_glows_and_flows() {
     assert_eq!(draw(&still, 0.0), draw(&still, 3.0), "without flow it stands");
 }
 
-/// The biome of a query is the one that the debug view shows there, rules for steep ground, beaches and snow included; near the
-/// borders a pixel's width decides.
+/// The queried biome is the one in the debug view, including the surface rules. Near borders, the width of a pixel
+/// decides.
 #[test]
 fn the_biome_of_a_query_is_the_one_in_the_picture() {
     let mut planet = crate::support::earth();
@@ -140,12 +140,12 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
     (planet.biomes.beach_m, planet.biomes.beach_key) = (40.0, 's');
     (planet.biomes.snow, planet.biomes.snow_key, planet.biomes.snow_below_c) = (true, 'w', 6.0);
     let planet = Arc::new(planet);
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let (mut right, mut points, mut seen) = (0, 0, std::collections::BTreeSet::new());
     let key_of = |color: [u8; 3]| {
         let distance = |c: &[f64; 3]| -> f64 {
             let shown = color.map(|byte| f64::from(byte) / 255.0);
-            // Only which channels are high matters: the tone curve is monotonous.
+            // Only the order of the channels matters: the tone curve is monotonic.
             c.iter().zip(shown).map(|(c, s)| if (*c > 0.5) == (s > 0.5) { 0.0 } else { 1.0 }).sum()
         };
         colors.iter().position(|c| distance(c) == 0.0)
@@ -176,11 +176,11 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
     assert!(f64::from(right) >= 0.99 * f64::from(points), "{right} of {points} agree");
 }
 
-/// Milliseconds of a frame from 2 m with and without patterns; to be read, not to be passed.
+/// Prints milliseconds of a frame from 2 m with and without patterns.
 #[test]
-#[ignore = "a report: what patterns cost"]
+#[ignore = "long: a report of figures"]
 fn report_what_patterns_cost() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     for (name, kind) in [("none", Detail::None), ("gravel", Detail::Gravel)] {
         let planet = Arc::new(ball(Biome { detail: kind, ..grey(0.25) }));
         let camera = camera(&planet, PLACE.0, PLACE.1, 2.0, 0.0, -10.0);

@@ -1,7 +1,7 @@
-//! The planets that ship with the program, drawn as a person would see them: no holes, the same twice, and as they
-//! looked when somebody last looked (goldens, blessed on Mesa's software driver with `TELLUS_BLESS=1`).
+//! The shipped planets: no holes, repeatable pictures, and goldens (blessed on Mesa's software driver with
+//! `TELLUS_BLESS=1`).
 
-use crate::support::{Gpu, camera_over, frame_of, inside_disc, lights, surface_of};
+use crate::support::{camera_over, frame_of, gpu, inside_disc, lights, surface_of};
 use glam::DVec3;
 use image::RgbImage;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ fn planets() -> Vec<(&'static str, Arc<Planet>)> {
     shipped::ALL.iter().map(|preset| (preset.file, Arc::new(preset.load().unwrap()))).collect()
 }
 
-/// Over the planet's opening place, at a height over ground or sea.
+/// A view from above the planet's opening location; altitude above ground or sea.
 fn view(planet: &Arc<Planet>, altitude_m: f64) -> View {
     let (terrain, place) = (Terrain::try_new(planet.clone()).unwrap(), opening_place(planet));
     let pitch_rad = default_pitch_deg(planet, altitude_m).to_radians();
@@ -27,7 +27,7 @@ fn view(planet: &Arc<Planet>, altitude_m: f64) -> View {
     View { camera, size_px: SIZE_PX, quality: Quality::Low }
 }
 
-/// Where the star stands at noon over the opening place, and where it sets there.
+/// Locations under the star at noon and at sunset of the opening location.
 fn noon_and_sunset(planet: &Planet) -> [LatLon; 2] {
     let place = opening_place(planet);
     let west = |rad: f64| LatLon { lon_rad: place.lon_rad - rad, ..place };
@@ -36,7 +36,7 @@ fn noon_and_sunset(planet: &Planet) -> [LatLon; 2] {
 
 #[test]
 fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     for (file, planet) in planets() {
         for altitude_m in [1.9 * planet.radius_m(), 10_000.0, 100.0] {
             let view = view(&planet, altitude_m);
@@ -46,7 +46,7 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
             let mut coverage = frame_of(&surface, &planet, view, DVec3::X);
             coverage.debug_view = DebugView::Coverage;
             let white = lights(&gpu.draw(&coverage));
-            // A coarse tile's chord lies below the sphere by up to spacing^2 / 8 R.
+            // A chord lies below the sphere by up to spacing^2 / (8 R).
             let inside = inside_disc(&coverage, lowest_m.min(0.0) - 0.003 * planet.radius_m());
             let holes = white.iter().zip(&inside).filter(|(light, inside)| **inside && **light != 765).count();
             assert_eq!(holes, 0, "{file} from {altitude_m} m");
@@ -55,8 +55,7 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
                 let frame = frame_of(&surface, &planet, view, sun.direction());
                 let picture = gpu.draw(&frame);
                 assert!(lights(&picture).iter().any(|&light| light > 100), "{file} from {altitude_m} m is dark");
-                // Where there is air no place that the star stands over is black; a value that
-                // is not a number would be.
+                // Under the sun no pixel with air is black; a NaN would be.
                 let noon = sun == noon_and_sunset(&planet)[0] && planet.atmosphere.is_some();
                 let black =
                     lights(&picture).iter().zip(&inside).filter(|(light, inside)| **inside && **light == 0).count();
@@ -70,7 +69,7 @@ fn every_planet_from_orbit_to_the_ground_has_no_hole_and_is_drawn_the_same_twice
 #[test]
 fn every_planet_looks_as_it_did() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/goldens");
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     for (file, planet) in planets() {
         let near = View { quality: Quality::Medium, ..view(&planet, 10_000.0) };
@@ -106,9 +105,9 @@ fn every_planet_looks_as_it_did() {
 /// Sunlit clouds and snow are white, and the open sea is dark, as the editor opens these planets.
 #[test]
 fn white_is_white_and_the_open_sea_is_dark() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     gpu.post.metering = Metering::Instant;
-    // Least of the brightest pixels, and most of the sea's.
+    // Lower limit of the brightest pixels, and upper limit of the sea.
     let bars: [(&str, u8, [u8; 3]); 3] =
         [("aurel.ron", 235, [28, 48, 84]), ("maren.ron", 235, [32, 60, 106]), ("hoarfrost.ron", 225, [30, 50, 90])];
     for (file, whitest, darkest) in bars {
@@ -126,7 +125,7 @@ fn white_is_white_and_the_open_sea_is_dark() {
         assert!(white.iter().all(|c| *c >= whitest), "{file}: the brightest pixels are {white:?}");
         let spread = white.iter().max().unwrap() - white.iter().min().unwrap();
         assert!(spread <= 10, "{file}: white has a tint: {white:?}");
-        // Blue, and not the twilight at the terminator.
+        // Blue pixels of the sea, without the twilight at the terminator.
         let sea: Vec<_> = pixels.iter().filter(|p| u32::from(p[2]) > 2 * u32::from(p[0]) && p[2] > 40).collect();
         // The median of each channel: neighbours in brightness differ in colour.
         let sea: [u8; 3] = std::array::from_fn(|channel| {
@@ -152,13 +151,14 @@ fn shipped_terrain(file: &str) -> Terrain {
     Terrain::try_new(Arc::new(shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap())).unwrap()
 }
 
-/// What single layers add there, metres.
+/// Contributions of single layers at points, metres.
 fn layer_m(terrain: &Terrain, dir: DVec3, name: &str) -> f64 {
     let at = terrain.planet().layers.iter().position(|layer| layer.name == name).unwrap();
     terrain.layers_m(dir)[at]
 }
 
-/// Cinnabar's black sand lies in dry basins, not in rings round volcanoes; Pallor's dark basalt fills its maria, not its craters.
+/// Cinnabar's black sand lies in dry basins, not in rings around volcanoes. Pallor's dark basalt fills its maria, not
+/// its craters.
 #[test]
 fn dark_ground_lies_where_the_land_says_so() {
     let terrain = shipped_terrain("cinnabar.ron");
@@ -177,7 +177,7 @@ fn dark_ground_lies_where_the_land_says_so() {
     assert!(floors.len() > 50 && dark * 8 < floors.len(), "{dark} of {}", floors.len());
 }
 
-/// In their own belts dunes are as high as dunes are.
+/// In their belts, dunes have realistic heights.
 #[test]
 fn dunes_stand_in_their_belts() {
     for (file, least_m) in [("aurel.ron", 75.0), ("cinnabar.ron", 110.0)] {

@@ -1,7 +1,7 @@
 //! The renderer on a real (software) adapter.
 
 use crate::support::edits::{every_edit, full_planet};
-use crate::support::{Gpu, camera, debug, earth, frame, frame_of, inside_disc, lights, surface, view_of};
+use crate::support::{Gpu, camera, debug, earth, frame, frame_of, gpu, inside_disc, lights, surface, view_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
@@ -24,7 +24,7 @@ const POSES: [(f64, f64, f64); 8] = [
 #[test]
 fn every_pose_is_lit_and_drawn_twice_the_same() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     for quality in Quality::ALL {
         for (altitude_m, pitch, sun_lon) in POSES {
             let camera = camera(&planet, 10.0, 10.0, altitude_m, 40.0, pitch);
@@ -33,7 +33,7 @@ fn every_pose_is_lit_and_drawn_twice_the_same() {
             frame.quality = quality;
             let picture = gpu.draw(&frame);
             assert_eq!(picture, gpu.draw(&frame), "{altitude_m} m, {quality:?}");
-            // A pixel that is not a number comes out black, and so would every one that it is averaged with.
+            // A NaN would be drawn black, and so would every pixel averaged with it.
             let day = sun_lon.abs() < 20.0;
             let disc = inside_disc(&frame, 0.0);
             let black = lights(&picture).iter().zip(&disc).filter(|(light, inside)| **inside && **light < 12).count();
@@ -42,11 +42,11 @@ fn every_pose_is_lit_and_drawn_twice_the_same() {
     }
 }
 
-/// Beyond the picture there is nothing to draw: a target of another size gets no streaks but an error, and stays as it was.
+/// A target of another size than the view is an error, and stays unchanged.
 #[test]
 fn a_target_of_another_size_is_refused() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 10.0, 10.0, 13e6, 0.0, -90.0);
     let surface = surface(&planet, &camera);
     let frame = frame(&surface, &planet, camera, (12.0, 0.0));
@@ -65,7 +65,7 @@ fn a_target_of_another_size_is_refused() {
 #[test]
 fn the_surface_has_no_holes() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     for (altitude_m, pitch, _) in POSES {
         let camera = camera(&planet, 40.0, 44.0, altitude_m, 40.0, pitch);
         let surface = surface(&planet, &camera);
@@ -86,7 +86,7 @@ fn the_surface_has_no_holes() {
 fn clouds_that_cover_nothing_are_no_clouds() {
     let bare = Arc::new(Planet { clouds: None, ..earth() });
     let clear = Planet { clouds: Some(Clouds { coverage: 0.0, ..Clouds::default() }), ..earth() };
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     for (altitude_m, pitch, sun_lon) in POSES {
         let camera = camera(&bare, 10.0, 10.0, altitude_m, 40.0, pitch);
         let surface = surface(&bare, &camera);
@@ -100,8 +100,8 @@ fn clouds_that_cover_nothing_are_no_clouds() {
 fn closed_clouds_hide_the_ground_from_above_beneath_and_within() {
     let clouds = Clouds { coverage: 1.0, density: 20.0, ..Clouds::default() };
     let dark = Planet { clouds: Some(clouds), ..earth() };
-    let mut gpu = Gpu::new();
-    // Only what is behind the clouds differs: the stars' brightness through them cannot show, nor can the ground.
+    let mut gpu = gpu();
+    // The two planets differ only behind the clouds.
     for (altitude_m, pitch) in [(2000e3, -90.0), (10e3, -60.0), (4e3, 0.0)] {
         let camera = camera(&dark, 10.0, 10.0, altitude_m, 40.0, pitch);
         let bright = Planet { water: None, ..dark.clone() };
@@ -119,8 +119,8 @@ fn closed_clouds_hide_the_ground_from_above_beneath_and_within() {
 #[test]
 fn the_night_side_of_a_moon_is_black() {
     let moon = Arc::new(Planet { water: None, atmosphere: None, clouds: None, ..earth() });
-    let mut gpu = Gpu::new();
-    // Or a star beside the limb would be part of it.
+    let mut gpu = gpu();
+    // Antialiasing would blend a star beside the limb into the disc.
     gpu.post.smooth_edges = false;
     let camera = camera(&moon, 0.0, 0.0, 13e6, 0.0, -90.0);
     let surface = surface(&moon, &camera);
@@ -135,11 +135,11 @@ fn the_night_side_of_a_moon_is_black() {
 
 #[test]
 fn the_sea_lies_where_the_ground_is_below_its_level() {
-    // Neither clouds nor ice, and nothing that blue air could be taken for.
+    // No clouds, no ice, and no blue air that could be taken for water.
     let mut planet = Planet { clouds: None, atmosphere: None, ..earth() };
     planet.climate.pole_c = 20.0;
     let planet = Arc::new(planet);
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 0.0, 0.0, 13e6, 0.0, -90.0);
     let surface = surface(&planet, &camera);
     let frame = frame(&surface, &planet, camera, (20.0, 0.0));
@@ -151,7 +151,7 @@ fn the_sea_lies_where_the_ground_is_below_its_level() {
         let Some(away_m) = surface.terrain.raycast(camera.position_planet_m, dir) else { continue };
         let height_m = surface.terrain.height_m(camera.position_planet_m + dir * away_m);
         let [red, _, blue] = [0, 1, 2].map(|c| picture[(y * 320 + x) * 4 + c]);
-        // Shallows show the sand, and a coast may lie within the pixel.
+        // Shallow water shows the sand, and a pixel may contain a coast.
         if height_m < -400.0 {
             seas += 1;
             assert!(blue > red, "{height_m} m at {x} {y}: {red} {blue}");
@@ -166,7 +166,7 @@ fn the_sea_lies_where_the_ground_is_below_its_level() {
 #[test]
 fn exposure_lights_dusk_and_lets_night_be_read() {
     let planet = Arc::new(Planet { clouds: None, ..earth() });
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 0.0, 0.0, 200.0, 90.0, -8.0);
     let surface = surface(&planet, &camera);
     let mut mean = |sun_lon: f64, metering: Metering| {
@@ -178,13 +178,13 @@ fn exposure_lights_dusk_and_lets_night_be_read() {
     assert!(noon > 60.0 && sunset > 40.0 && dusk > 12.0, "{noon} {sunset} {dusk}");
     assert!(noon > dusk && dusk > 1.5 * night && (8.0..40.0).contains(&night), "{noon} {dusk} {night}");
     assert!(mean(91.0, Metering::Manual) < sunset && mean(96.0, Metering::Manual) < dusk);
-    // Bit by bit, from noon to where it settles at sunset.
+    // Adapts gradually from noon to sunset.
     mean(0.0, Metering::Instant);
     let steps = [0.1; 60].map(|secs| mean(91.0, Metering::Adapting { secs }));
     assert!(steps[0] < steps[3] && (steps[59] - sunset).abs() < 1.0, "{steps:?} {sunset}");
 }
 
-/// With air and without: ridges stand out against the sky, and the ground is not black.
+/// With and without air: ridges stand out against the sky, and the ground is not black.
 #[test]
 fn at_night_the_ground_is_lit_by_the_sky() {
     let layer = Layer {
@@ -195,7 +195,7 @@ fn at_night_the_ground_is_lit_by_the_sky() {
     let mut aired = Planet { water: None, clouds: None, layers: vec![layer], ..earth() };
     aired.biomes.palette.iter_mut().for_each(|biome| biome.color = [0.15; 3]);
     let airless = Planet { atmosphere: None, ..aired.clone() };
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     for planet in [aired, airless].map(Arc::new) {
         let camera = camera(&planet, 0.0, 0.0, 500.0, 90.0, 0.0);
         let surface = surface(&planet, &camera);
@@ -214,7 +214,7 @@ fn at_night_the_ground_is_lit_by_the_sky() {
         };
         let (ground, sky) = (median(true), median(false));
         assert!((6..60).contains(&ground) && sky > ground + ground / 4 && sky < 90, "ground {ground}, sky {sky}");
-        // A star beside a ridge would be part of it.
+        // Antialiasing would blend a star beside a ridge into the ground.
         (gpu.post.metering, gpu.post.smooth_edges) = (Metering::Manual, false);
         let by_day = lights(&gpu.draw(&night));
         gpu.post.smooth_edges = true;
@@ -226,13 +226,13 @@ fn at_night_the_ground_is_lit_by_the_sky() {
 #[test]
 fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     let planet = Arc::new(full_planet());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 10.0, 10.0, 3e6, 40.0, -90.0);
-    // Tables follow the planet, not the tiles: one surface does for all, in a picture as small as may be.
+    // LUTs depend on the planet, not on tiles, so one surface and a very small picture suffice.
     let surface = surface(&planet, &camera);
     let view = View { camera, size_px: [32, 18], quality: Quality::Low };
     let mut draw = |planet: &Planet| {
-        // Clouds that have drifted for a while, and the planet turned: the wind and the length of the day show.
+        // At a later time, wind and length of day have an effect.
         let sun = planet.star.place(1000.0).direction();
         let mut scene = frame_of(&surface, planet, view, sun);
         scene.time_secs = 1000.0;
@@ -250,12 +250,12 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     for edit in every_edit(&planet) {
         let stages = [Stage::Uniform, Stage::Material, Stage::CloudMap, Stage::AirTables];
         let mut declared = stages.map(|stage| u64::from(edit.declared.contains(stage)));
-        // A biome's key that changes in the table and in all rules as well changes nothing that is drawn.
+        // Renaming a biome's key everywhere changes nothing that is drawn.
         if edit.path.ends_with("].key") {
             declared[1] = 0;
         }
         let drawn = draw(&edit.planet);
-        // With new tiles anything may come that the uniforms take from them.
+        // New tiles may change uniforms that depend on them.
         if edit.declared.touches_tiles() && declared[0] == 0 {
             declared[0] = drawn[0];
         }
@@ -267,26 +267,26 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
 #[test]
 fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut fresh = Gpu::new();
     let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
     let surface = surface(&planet, &camera);
     let tile_bytes = (surface.leaves[0].tile.vertices.len() * size_of::<tellus::lod::Vertex>()) as u64;
     let (mut done, mut rounds, mut before) = (false, 0, 0);
     while !done {
-        done = gpu.renderer.upload(BodyId::default(), &surface, 5 * tile_bytes);
-        let bytes = gpu.renderer.uploaded_bytes() - before;
+        done = fresh.renderer.upload(BodyId::default(), &surface, 5 * tile_bytes);
+        let bytes = fresh.renderer.uploaded_bytes() - before;
         assert!(done || (bytes > 0 && bytes <= 5 * tile_bytes), "{bytes}");
         (before, rounds) = (before + bytes, rounds + 1);
     }
-    // Tiles, horizons, details.
-    let all = gpu.renderer.uploaded_bytes();
+    // Tiles, horizon angles and detail textures.
+    let all = fresh.renderer.uploaded_bytes();
     assert!(rounds > 5 && all > surface.leaves.len() as u64 * tile_bytes, "{rounds} {all}");
-    let ahead = gpu.draw(&frame(&surface, &planet, camera, (12.0, 0.0)));
-    assert_eq!(gpu.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
-    assert_eq!(ahead, Gpu::new().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));
+    let ahead = fresh.draw(&frame(&surface, &planet, camera, (12.0, 0.0)));
+    assert_eq!(fresh.renderer.uploaded_bytes(), all, "nothing is uploaded twice");
+    assert_eq!(ahead, gpu().draw(&frame(&surface, &planet, camera, (12.0, 0.0))));
 }
 
-/// Red, green and blue of the brightest pixels of a picture but for a share of them.
+/// The colour at a percentile of brightness: `share` of the pixels are brighter.
 fn brightest(picture: &[u8], inside: &[bool], share: f64) -> [u8; 3] {
     let mut pixels: Vec<[u8; 3]> =
         picture.chunks(4).zip(inside).filter(|(_, inside)| **inside).map(|(p, _)| [p[0], p[1], p[2]]).collect();
@@ -294,11 +294,11 @@ fn brightest(picture: &[u8], inside: &[bool], share: f64) -> [u8; 3] {
     pixels[((1.0 - share) * pixels.len() as f64) as usize - 1]
 }
 
-/// A thin crescent is metered for what is lit: neither blown out nor dim.
+/// A thin crescent is exposed for its lit part: neither overexposed nor dim.
 #[test]
 fn a_thin_crescent_keeps_its_colours() {
     let planet = Arc::new(Planet { clouds: None, ..earth() });
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     gpu.post.metering = Metering::Instant;
     let camera = camera(&planet, 10.0, 30.0, 12e6, 0.0, -90.0);
     let surface = surface(&planet, &camera);
@@ -310,12 +310,12 @@ fn a_thin_crescent_keeps_its_colours() {
     assert!(lit.iter().any(|c| *c > 40), "too dim: {lit:?}");
 }
 
-/// Rough ground under a low star behind the camera: no pixel outshines all others, and none is a black blot.
+/// Rough ground under a low sun behind the camera has neither fireflies nor black pixels.
 #[test]
 fn ground_under_a_low_star_has_neither_fireflies_nor_blots() {
     let planet = Arc::new(tellus::planet::shipped::ALL[2].load().expect("Cinnabar"));
     assert_eq!(planet.name, "Cinnabar");
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 13.0, 114.0, 2.0, 60.0, -3.0);
     let sun = tellus::sphere::LatLon::from_degrees(10.0, 37.0).direction();
     for quality in [Quality::Low, Quality::Medium] {
@@ -333,32 +333,32 @@ fn ground_under_a_low_star_has_neither_fireflies_nor_blots() {
     }
 }
 
-/// Inside a closed layer of clouds the light changes steadily from row to row: the horizon is no line.
+/// Inside a closed cloud layer, luminance changes steadily from row to row: the horizon is not visible as a line.
 #[test]
 fn the_horizon_is_no_line_inside_clouds() {
     let clouds = Clouds { coverage: 1.0, density: 12.0, altitude_km: 4.5, thickness_km: 3.0, ..Clouds::default() };
     let planet = Arc::new(Planet { clouds: Some(clouds), layers: Vec::new(), ..earth() });
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 5.0, -5.0, 5000.0, 90.0, -2.0);
     let surface = surface(&planet, &camera);
     let view = View { camera, size_px: [64, 360], quality: Quality::Medium };
     gpu.draw_only(&frame_of(&surface, &planet, view, LatLon::from_degrees(5.0, 50.0).direction()), 1);
     let (_, pixels) = gpu.renderer.radiance().expect("radiance");
     let rows: Vec<f32> = pixels.chunks(64).map(|row| row.iter().map(|p| p[1]).sum::<f32>() / 64.0).collect();
-    // A line differs from what lies ten rows above and below it.
+    // A line would differ from the rows ten above and ten below it.
     for (i, at) in rows.windows(21).enumerate() {
         let line = (at[10] - 0.5 * (at[0] + at[20])).abs() / at[10];
         assert!(line < 0.012, "row {}: {line}", i + 10);
     }
 }
 
-/// The sea from 1 km: what is drawn is the mean of sixteen samples a pixel, but for little.
+/// The sea from 1 km is close to the mean of sixteen samples per pixel.
 #[test]
 fn waves_make_no_moire() {
-    // Deep water: no foam.
+    // Deep water, so that there is no foam.
     let water = tellus::planet::Water { level_m: 2000.0, ..tellus::planet::Water::default() };
     let planet = Arc::new(Planet { clouds: None, layers: Vec::new(), water: Some(water), ..earth() });
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     gpu.post.smooth_edges = false;
     let camera = camera(&planet, 15.0, 38.4, 1000.0, 60.0, -10.0);
     let surface = surface(&planet, &camera);
@@ -366,7 +366,7 @@ fn waves_make_no_moire() {
         let view = View { camera, size_px, quality: Quality::Medium };
         gpu.draw_only(&frame_of(&surface, &planet, view, LatLon::from_degrees(15.0, 85.0).direction()), 1);
         let (_, pixels) = gpu.renderer.radiance().expect("radiance");
-        // As bright as the eye has it: glints do not decide.
+        // Perceived brightness, so that glints do not dominate.
         pixels.iter().map(|p| p[1].min(1.0).sqrt()).collect::<Vec<_>>()
     };
     let (width, height) = (160, 100);

@@ -1,6 +1,6 @@
 //! Scenes and stages: several bodies in one picture, targets and passes of the caller, any projection and viewport.
 
-use crate::support::{Gpu, camera, earth, frame, frame_of, lights, surface, surface_of, view_of};
+use crate::support::{Gpu, camera, earth, frame, frame_of, gpu, lights, surface, surface_of, view_of};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
@@ -76,7 +76,7 @@ fn difference(a: &[u8], b: &[u8]) -> u8 {
 /// Each planet is drawn as if it were alone where it is the only one, and the near one hides the far one.
 #[test]
 fn one_planet_stands_before_another() {
-    let (pair, mut gpu) = (Pair::new(), Gpu::new());
+    let (pair, mut gpu) = (Pair::new(), gpu());
     gpu.post.smooth_edges = false;
     let mut draw = |bodies: &[usize]| gpu.draw(&pair.scene(bodies));
     let [both, swapped, near, far] = [&[0, 1][..], &[1, 0], &[0], &[1]].map(&mut draw);
@@ -106,7 +106,7 @@ fn one_planet_stands_before_another() {
 #[test]
 fn two_suns_light_as_one_that_is_twice_as_bright() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 10.0, 10.0, 2e5, 40.0, -60.0);
     let surface = surface(&planet, &camera);
     let mut scene = frame(&surface, &planet, camera, (20.0, 20.0));
@@ -181,7 +181,7 @@ fn cut(picture: &[u8], wide: u32, [x, y, width, height]: [u32; 4]) -> Vec<u8> {
 #[test]
 fn a_viewport_is_a_picture_in_a_larger_one() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 10.0, 10.0, 3e5, 40.0, -20.0);
     let view = View { camera, size_px: [96, 54], quality: Quality::Medium };
     let surface = surface_of(&planet, &view);
@@ -212,7 +212,7 @@ fn a_viewport_is_a_picture_in_a_larger_one() {
 #[test]
 fn half_a_frustum_is_half_the_picture() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     gpu.post.smooth_edges = false;
     let camera = camera(&planet, 10.0, 10.0, 3e5, 40.0, -20.0);
     let view = View { camera, size_px: [160, 90], quality: Quality::Medium };
@@ -229,13 +229,14 @@ fn half_a_frustum_is_half_the_picture() {
     assert!(apart < right.len() / 100, "{apart} of {} differ", right.len());
 }
 
-/// Depth is near plane over distance along the view axis, of ground and sea; what the caller drew before and is nearer stays.
+/// Depth is near plane over distance along the view axis, of ground and sea; what the caller drew before and is nearer
+/// stays.
 #[test]
 fn depth_is_of_ground_and_sea_and_nearer_things_stay() {
     // A sea without land, seen from above.
     let planet = Arc::new(Planet { layers: Vec::new(), atmosphere: None, clouds: None, ..earth() });
     let sea_m = planet.sea_level_m().unwrap();
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut ocean = Planet::clone(&planet);
     ocean.water.as_mut().unwrap().level_m = sea_m + 500.0;
     let ocean = Arc::new(ocean);
@@ -280,7 +281,7 @@ fn depth_is_of_ground_and_sea_and_nearer_things_stay() {
 #[test]
 fn targets_that_do_not_fit_are_refused() {
     let planet = Arc::new(earth());
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let camera = camera(&planet, 0.0, 0.0, 1e6, 0.0, -90.0);
     let surface = surface(&planet, &camera);
     let scene = frame(&surface, &planet, camera, (0.0, 0.0));

@@ -1,6 +1,6 @@
-//! Shadows of the ground as they are drawn, against rays cast at the evaluator itself; and what they cost.
+//! Drawn shadows of the ground against ray casts with the evaluator, and the cost of horizon angles.
 
-use crate::support::{Gpu, camera_over, frame_of, lights, settled, surface_of};
+use crate::support::{Gpu, camera_over, frame_of, gpu, lights, settled, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Culling, Quality, View};
@@ -12,7 +12,7 @@ use tellus::tiles::{Builder, Leaf, Surface, lowest_radius_m};
 
 const SIZE_PX: [u32; 2] = [112, 70];
 
-/// A shipped planet as a moon of one colour: what is dark is in shadow.
+/// A shipped planet as a moon of one colour: dark pixels are in shadow.
 fn bare(file: &str) -> Arc<Planet> {
     let mut planet = shipped::ALL.iter().find(|preset| preset.file == file).unwrap().load().unwrap();
     (planet.water, planet.atmosphere, planet.clouds) = (None, None, None);
@@ -34,8 +34,9 @@ fn frame<'a>(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_plane
     scene
 }
 
-/// What rays from the ground to the star say of a picture, of the pixels that are not next to a change: how many are in shadow and how
-/// many lit, the share of the former that is drawn lit, and the share of the latter that horizons make dark.
+/// A picture against ray casts from the ground to the star, without pixels next to a shadow edge: the number of pixels
+/// in shadow and lit, the share of shadowed pixels that is drawn lit, and the share of lit pixels that horizon angles
+/// darken.
 struct Verdict {
     shadowed: usize,
     lit: usize,
@@ -54,7 +55,7 @@ fn verdict(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun_dir: DVec3) -> V
             let ray = view.camera.ray_dir_planet(x, y, view.aspect());
             let distance_m = surface.terrain.raycast(eye, ray)?;
             let ground = eye + ray * distance_m;
-            // From a little above, as relief smaller than a pixel is nothing but shading.
+            // The ray starts slightly above the ground: relief below a pixel affects only shading.
             let from = ground + ground.normalize() * (distance_m * view.pixel_rad() * 0.2);
             Some(surface.terrain.raycast(from, sun_dir).is_none())
         })
@@ -84,8 +85,8 @@ fn verdict(gpu: &mut Gpu, planet: &Arc<Planet>, view: View, sun_dir: DVec3) -> V
 
 #[test]
 fn what_is_dark_is_what_cannot_see_the_star() {
-    let mut gpu = Gpu::new();
-    // Several faces of the cube, from orbit to the ground; how high the star stands and in which azimuth, degrees.
+    let mut gpu = gpu();
+    // Several cube faces, from orbit to the ground; elevation and azimuth of the star in degrees.
     for (file, lat, lon, altitude_m, pitch, (height_deg, azimuth_deg)) in [
         ("pallor.ron", 10.0, 20.0, 300e3, -90.0, (5.0_f64, 80.0_f64)),
         ("pallor.ron", -35.0, 140.0, 20e3, -60.0, (6.0, 250.0)),
@@ -104,14 +105,14 @@ fn what_is_dark_is_what_cannot_see_the_star() {
             "{file} from {altitude_m} m: of {shadowed} in shadow {missing:.3} are lit, of {lit} others {wrong:.3} are dark"
         );
         assert!(shadowed > 100 && lit > 200, "{told}");
-        // Ground that the star only grazes is dim: without horizons some of it counts as lit.
+        // Ground at grazing light is dim: without horizon angles some of it counts as lit.
         assert!(missing < 0.08 && wrong < 0.08, "{told}");
     }
 }
 
 #[test]
 fn at_noon_nothing_is_in_shadow() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let planet = bare("pallor.ron");
     let view = view(&planet, 10.0, 20.0, 100e3, -90.0);
     let mut surface = surface_of(&planet, &view);
@@ -119,12 +120,12 @@ fn at_noon_nothing_is_in_shadow() {
     let with = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));
     surface.leaves.iter_mut().for_each(|leaf| leaf.horizon = None);
     let without = lights(&gpu.draw(&frame(&planet, &surface, view, noon)));
-    // Of three times 255; what slopes throw at each other is left.
+    // Of 3 x 255; light reflected between slopes remains.
     let most = with.iter().zip(&without).map(|(a, b)| a.abs_diff(*b)).max();
     assert!(most < Some(60), "{most:?}");
 }
 
-/// Where a place is in a picture, in pixels; the camera must have it before it.
+/// The pixel of a point, which must be in front of the camera.
 fn pixel_of(view: &View, place_planet_m: DVec3) -> [f64; 2] {
     let camera = &view.camera;
     let in_view = camera.planet_from_view.conjugate() * (place_planet_m - camera.position_planet_m);
@@ -133,7 +134,7 @@ fn pixel_of(view: &View, place_planet_m: DVec3) -> [f64; 2] {
     [(in_view.x / (tan * view.aspect()) + 1.0) * 0.5 * width, (1.0 - in_view.y / tan) * 0.5 * height]
 }
 
-/// Whether the pixels around a place are all lit or all dark; nothing where some are and some are not.
+/// Whether the pixels around a point are all lit or all dark; `None` if mixed.
 fn state(lit: &[bool], [width, height]: [usize; 2], [x, y]: [f64; 2]) -> Option<bool> {
     let inside = |at: f64, side: usize| (at >= 1.0 && at < side as f64 - 1.0).then_some(at as usize);
     let (x, y) = (inside(x, width)?, inside(y, height)?);
@@ -145,14 +146,14 @@ fn state(lit: &[bool], [width, height]: [usize; 2], [x, y]: [f64; 2]) -> Option<
 #[test]
 fn shadows_stay_where_they_are_while_the_camera_moves() {
     const FRAMES: usize = 26;
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let planet = bare("aurel.ron");
     let (lat, lon) = (30.0, 10.0);
     let up = LatLon::from_degrees(lat, lon).direction();
     let (east, north) = geo::east_north(up);
     let (rise, along) = 9.0_f64.to_radians().sin_cos();
     let sun_dir = up * rise + (north * 0.6 + east * 0.8) * along;
-    // Down from 90 km to 20 km and sideways: tiles split, and horizons with them, all over the picture.
+    // A descent from 90 km to 20 km with a sideways motion: tiles split all over the picture.
     let views: Vec<View> = (0..FRAMES)
         .map(|i| view(&planet, lat, lon + 0.012 * i as f64, 90e3 * 0.9417_f64.powi(i as i32), -80.0))
         .collect();
@@ -167,7 +168,7 @@ fn shadows_stay_where_they_are_while_the_camera_moves() {
     }
     assert!(levels.last() >= levels.first().map(|level| level + 2).as_ref(), "{levels:?}");
 
-    // Places seen in the last picture are in all of them.
+    // Points seen in the last picture are in all pictures.
     let (last, terrain) = (views[FRAMES - 1], Terrain::try_new(planet.clone()).unwrap());
     let (mut seen, mut dark, mut jumped, mut back) = (0, 0, 0, 0);
     for i in 0..40 * 25 {
@@ -179,7 +180,7 @@ fn shadows_stay_where_they_are_while_the_camera_moves() {
         let size = SIZE_PX.map(|side| side as usize);
         let states: Vec<Option<bool>> =
             views.iter().zip(&pictures).map(|(v, lit)| state(lit, size, pixel_of(v, place))).collect();
-        // From dark all around to lit all around in one frame: an edge went by over more than two pixels.
+        // All dark, then all lit in the next frame: a shadow edge jumped more than two pixels.
         let jumps = states.windows(2).filter(|pair| matches!(pair, [Some(a), Some(b)] if a != b)).count();
         let known: Vec<bool> = states.into_iter().flatten().collect();
         let changes = known.windows(2).filter(|pair| pair[0] != pair[1]).count();

@@ -1,6 +1,6 @@
-//! No shimmer at a distance: a slow flight changes a picture as smoothly as one with sixteen samples for each pixel.
+//! No shimmer at a distance: in a slow flight, pictures change nearly as smoothly as with sixteen samples per pixel.
 
-use crate::support::{Gpu, frame_of, settled};
+use crate::support::{Gpu, frame_of, gpu, settled};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, shipped};
@@ -9,7 +9,7 @@ use tellus::terrain::Terrain;
 use tellus::tiles::Builder;
 
 const SIZE_PX: [u32; 2] = [144, 96];
-/// Samples of the truth along each side of a pixel.
+/// Samples of the reference along each side of a pixel.
 const FINER: u32 = 4;
 /// Pictures of a flight, and pixels from one to the next.
 const PICTURES: usize = 5;
@@ -28,7 +28,8 @@ const fn flight(file: &'static str, [lat_deg, lon_deg]: [f64; 2], altitude_m: f6
     Flight { file, lat_deg, lon_deg, altitude_m, pitch_deg }
 }
 
-/// Where much is as narrow as pixels: coasts and snowy mountains from orbit, rivers, a mountain with snow above a beach, crevasses.
+/// Scenes with many features as narrow as a pixel: coasts and snowy mountains from orbit, rivers, snow above a beach,
+/// crevasses.
 const FLIGHTS: [Flight; 4] = [
     flight("aurel.ron", [16.0, -8.0], 4.0e6, -90.0),
     flight("aurel.ron", [16.0, -8.0], 3.0e5, -40.0),
@@ -36,7 +37,7 @@ const FLIGHTS: [Flight; 4] = [
     flight("hoarfrost.ron", [66.4, 85.0], 1.0e4, -30.0),
 ];
 
-/// Each pixel of a picture that is drawn so many times as large and averaged, 0 to 255.
+/// Pixels, 0 to 255, of a picture drawn `finer` times as wide and high, and averaged.
 fn picture(
     gpu: &mut Gpu,
     builder: &Builder,
@@ -59,10 +60,10 @@ fn picture(
     (0..width * height).map(mean).collect()
 }
 
-/// Second differences that are due to rounding alone.
+/// Second differences caused by rounding alone.
 const ROUNDING: f32 = 2.0;
 
-/// Root mean square of what changes from picture to picture, and of how unevenly it does: the second differences.
+/// Root mean squares of the first and second differences from picture to picture.
 fn changes(pictures: &[Vec<[f32; 3]>]) -> [f64; 2] {
     let (mut sums, mut count) = ([0.0; 2], 0.0);
     for three in pictures.windows(3) {
@@ -81,7 +82,7 @@ fn changes(pictures: &[Vec<[f32; 3]>]) -> [f64; 2] {
 
 #[test]
 fn what_is_as_narrow_as_pixels_moves_as_smoothly_as_in_the_truth() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     for Flight { file, lat_deg, lon_deg, altitude_m, pitch_deg } in FLIGHTS {
         let planet = shipped::ALL.iter().find(|shipped| shipped.file == file).unwrap().load().unwrap();
@@ -108,8 +109,8 @@ fn what_is_as_narrow_as_pixels_moves_as_smoothly_as_in_the_truth() {
             "{file} from {altitude_m} m: changes by {first:.2} ({true_first:.2} in truth), unevenly by {second:.2} ({true_second:.2})"
         );
         println!("{told}");
-        // Something moves; and pixels do not jump: those that do change by nothing in one step and by all of it in the next.
-        // A little more than they change is what rounding to whole codes does under a steep curve.
+        // Something moves, and pixels do not jump: a jump has a second difference as large as its first. The margin
+        // allows for rounding to display codes under a steep tone curve.
         if true_first < 0.2 || second > (1.15 * first).max(1.1 * true_second) {
             problems.push(told);
         }

@@ -1,22 +1,22 @@
-//! The shaders of the air against the same method in 64 bits.
+//! The shaders of the air against the same method in f64.
 
-use crate::support::Gpu;
+use crate::support::gpu;
 use std::f64::consts::{PI, TAU};
 use tellus::atmosphere::{Air, SkyRay};
 use tellus::lod::Quality;
 use tellus::planet::{Planet, shipped};
 
-/// The air of every shipped planet that has some, and that of the Earth.
+/// Every shipped planet with an atmosphere, and the Earth.
 fn planets() -> Vec<(&'static str, Planet)> {
     let earth = Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap();
     let shipped = shipped::ALL.iter().map(|preset| (preset.file, preset.load().unwrap()));
     shipped.filter(|(_, planet)| planet.atmosphere.is_some()).chain([("earth_air.ron", earth)]).collect()
 }
 
-/// A ten-thousandth of a sky at noon.
+/// Radiance below which errors are absolute: a ten-thousandth of the sky at noon.
 const FLOOR: f64 = 3e-6;
 
-/// So many rays from altitudes of 1 m to 10,000 km. Half of them look near the horizon, where it is hardest.
+/// Random rays from altitudes of 1 m to 10,000 km. Half of them are near the horizon, the hardest case.
 fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
     let mut state = 1_u64;
     let mut dice = || {
@@ -27,7 +27,7 @@ fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
         let altitude_m = 10_f64.powf(7.0 * dice());
         let horizon = PI - (planet.radius_m() / (planet.radius_m() + altitude_m)).asin();
         let anywhere = (1.0 - 2.0 * dice()).acos();
-        // Nearer to the horizon, 32 bits do not tell whether a ray meets the ground.
+        // Closer to the horizon, f32 cannot decide whether a ray hits the ground.
         let off = 0.3 * (dice() - 0.5).powi(3);
         let off = off.abs().max(4e-6).copysign(off);
         let view_zenith_rad = if i.is_multiple_of(2) { anywhere } else { (horizon + off).clamp(0.0, 3.1) };
@@ -38,7 +38,7 @@ fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
 
 #[test]
 fn the_shaders_agree_with_the_physics() {
-    let mut gpu = Gpu::new();
+    let mut gpu = gpu();
     let mut problems = Vec::new();
     for (file, planet) in planets() {
         let rays = rays(&planet, 500);

@@ -1,4 +1,4 @@
-//! Chance that falls the same in each run.
+//! Reproducible random numbers.
 #![allow(dead_code, unreachable_pub)]
 
 use tellus::sphere::LatLon;
@@ -15,7 +15,7 @@ impl Dice {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Anywhere on a sphere, everywhere as likely.
+    /// A uniformly distributed direction.
     pub fn place(&mut self) -> LatLon {
         LatLon {
             lat_rad: libm::asin(2.0 * self.roll() - 1.0),

@@ -1,11 +1,11 @@
-//! A planet to draw in tests, a device to draw it on, and how to read the picture.
+//! For tests of the renderer: a planet, a device, and reading pictures back.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 pub mod dice;
 pub mod edits;
 
 use glam::DVec3;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
@@ -16,19 +16,19 @@ use tellus::tiles::{Builder, Surface, add_detail, build_now};
 
 pub const SIZE_PX: [u32; 2] = [320, 180];
 
-/// The surface that a camera sees, coarse.
+/// The surface for a camera at low quality.
 pub fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
     surface_of(planet, &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
 }
 
-/// The surface that a view sees, with all its detail.
+/// The surface for a view, with horizon angles and detail textures.
 pub fn surface_of(planet: &Arc<Planet>, view: &View) -> Surface {
     let mut surface = build_now(planet, view).unwrap();
     add_detail(&mut surface, view);
     surface
 }
 
-/// The surface of a view once a builder has made everything.
+/// The surface for a view, after the builder has finished.
 pub fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surface> {
     builder.request(planet, view);
     while builder.is_busy() {
@@ -37,7 +37,7 @@ pub fn settled(builder: &Builder, planet: &Arc<Planet>, view: &View) -> Arc<Surf
     builder.surface().expect("a surface")
 }
 
-/// A planet like the Earth, with everything on.
+/// A planet like the Earth, with sea, atmosphere and clouds.
 pub fn earth() -> Planet {
     let layer = |name: &str, wavelength_km, octaves, amplitude_m| Layer {
         name: name.to_owned(),
@@ -70,18 +70,27 @@ pub fn earth() -> Planet {
     planet
 }
 
-/// A device on whichever adapter there is.
+/// A device on the default adapter, with a renderer.
 pub struct Gpu {
     /// The adapter's name and driver, for messages.
     pub adapter: String,
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub renderer: Renderer,
-    /// Of every scene but for its exposure.
+    /// Post-processing for all scenes; the exposure is each scene's own.
     pub post: Post,
 }
 
 pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// The device that all tests of a binary share, with the default post-processing. On a software driver the pipelines of
+/// a renderer take seconds to compile, longer than most pictures.
+pub fn gpu() -> MutexGuard<'static, Gpu> {
+    static GPU: LazyLock<Mutex<Gpu>> = LazyLock::new(|| Mutex::new(Gpu::new()));
+    let mut gpu = GPU.lock().unwrap_or_else(PoisonError::into_inner);
+    gpu.post = Post::default();
+    gpu
+}
 
 impl Gpu {
     pub fn new() -> Self {
@@ -122,7 +131,7 @@ impl Gpu {
         self.renderer.render(&texture.create_view(&wgpu::TextureViewDescriptor::default()), &scene)
     }
 
-    /// Draws a scene so many times and waits.
+    /// Draws a scene several times and waits.
     pub fn draw_only(&mut self, scene: &Scene<'_>, times: usize) {
         let texture = self.texture(scene.size_px, FORMAT);
         for _ in 0..times {
@@ -145,14 +154,14 @@ impl Gpu {
     }
 }
 
-/// A camera over a place, `altitude_m` above the ground or the sea; angles in degrees.
+/// A camera above a location, `altitude_m` above the ground or the sea; angles in degrees.
 pub fn camera(planet: &Planet, lat: f64, lon: f64, altitude_m: f64, heading: f64, pitch: f64) -> Camera {
     let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let (place, angles) = (LatLon::from_degrees(lat, lon), [heading, pitch].map(f64::to_radians));
     camera_over(&terrain, place, altitude_m, angles)
 }
 
-/// The same of a terrain that is there already; heading and pitch in radians.
+/// The same for a compiled terrain; heading and pitch in radians.
 pub fn camera_over(terrain: &Terrain, place: LatLon, altitude_m: f64, [heading, pitch]: [f64; 2]) -> Camera {
     let planet = terrain.planet();
     let surface_m = terrain.height_m(place.direction()).max(planet.sea_level_m().unwrap_or(f64::MIN));
@@ -160,7 +169,7 @@ pub fn camera_over(terrain: &Terrain, place: LatLon, altitude_m: f64, [heading, 
     Camera::over(place, radius_m, heading, pitch, Camera::DEFAULT_FOV_Y_RAD)
 }
 
-/// A scene with the sun over a place.
+/// A scene with the sun overhead at a location (degrees).
 pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: (f64, f64)) -> Scene<'a> {
     let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
     frame_of(surface, planet, view, LatLon::from_degrees(sun.0, sun.1).direction())
@@ -182,12 +191,12 @@ pub fn view_of(scene: &Scene<'_>) -> View {
     scene.view_of(scene.bodies[0].position_m, scene.bodies[0].scene_from_body)
 }
 
-/// Red, green and blue of each pixel, summed.
+/// The sum of red, green and blue for each pixel.
 pub fn lights(picture: &[u8]) -> Vec<u32> {
     picture.chunks(4).map(|p| u32::from(p[0]) + u32::from(p[1]) + u32::from(p[2])).collect()
 }
 
-/// Whether the middle of each pixel of the picture lies well within the planet's disc.
+/// For each pixel, whether its centre lies well inside the planet's disc.
 pub fn inside_disc(frame: &Scene<'_>, lowest_m: f64) -> Vec<bool> {
     let [width, height] = frame.size_px;
     let view = view_of(frame);

@@ -15,9 +15,9 @@ use super::places::{CORNERS, Places, neighbour, unit};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::scalar::Scalar;
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Octave};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 

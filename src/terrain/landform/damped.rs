@@ -75,7 +75,8 @@ impl Evaluate for Damped {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Scratch { sums, noise, jets: [damped, px, py, pz, slope_x, slope_y, slope_z, ..], in_f64, .. } = scratch;
-        let Scratch64 { noise: noise64, jets: [damped64, ex, ey, ez, slope_x_64, slope_y_64, slope_z_64, ..], .. } = in_f64;
+        let Scratch64 { noise: noise64, jets: [damped64, ex, ey, ez, slope_x_64, slope_y_64, slope_z_64, ..], .. } =
+            in_f64;
         let exact = chunk.f64_octaves(self.f64_octaves);
         let n = chunk.len();
         chunk.directions([px, py, pz]);

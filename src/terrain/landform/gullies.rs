@@ -12,15 +12,15 @@
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::varying::{Around, Point};
 use super::scratch::Carving;
+use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
 use crate::terrain::approx;
 use crate::terrain::jet::{Jet, Jets, Real};
-use crate::terrain::scalar::Scalar;
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Noise, Octave};
+use crate::terrain::scalar::Scalar;
 use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::f32::consts::TAU;
@@ -171,7 +171,11 @@ impl Evaluate for Gullies {
                 sums.add(chunk, &noise.value, &noise.gradient, *weight, &fades);
             }
         }
-        if shaded { settle::<Jet>(simd, n, carving) } else { settle::<f32>(simd, n, carving) }
+        if shaded {
+            settle::<Jet>(simd, n, carving)
+        } else {
+            settle::<f32>(simd, n, carving)
+        }
         settle::<f64>(simd, n, carving64);
         for (k, gully) in self.gullies.iter().enumerate() {
             let fades = fades_of(&gully.lattices[0]);

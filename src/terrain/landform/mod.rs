@@ -25,20 +25,33 @@
 //! list below is the only other code that names it. Its value must not depend on the spacing of the points. Every
 //! operation of the value must be correctly rounded by IEEE 754 (`+ - * /`, `sqrt`) or come from `libm`.
 
+mod billow;
+mod canyons;
+mod cells;
 mod chunk;
+mod continents;
+mod craters;
 mod curve;
+mod damped;
+mod dunes;
+mod fbm;
 mod folded;
+mod gullies;
+mod heightmap;
 mod octaves;
 mod places;
 #[cfg(test)]
 mod precision;
+mod ridged;
 mod scratch;
+mod terraces;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tightness;
 mod varying;
 mod warp;
+mod warped;
 
 use crate::planet::Shape;
 use chunk::Sums;
@@ -51,8 +64,6 @@ use scratch::{JETS, Scratch64};
 /// Lists the kinds: `Kind in file`.
 macro_rules! landforms {
     ($($kind:ident in $file:ident,)+) => {
-        $(mod $file;)+
-
         /// A compiled landform: everything that its values depend on, and nothing else. Equal landforms have equal
         /// fields, so this is the key of a kept field.
         #[derive(Clone, Debug, PartialEq)]

@@ -58,14 +58,7 @@ impl Evaluate for Ridged {
 }
 
 impl Fold for Ridged {
-    fn fold<R: Real>(
-        &self,
-        simd: Simd,
-        n: usize,
-        noise: &Noise<R::S>,
-        feed: &mut Jets<R::S>,
-        height: &mut Jets<R::S>,
-    ) {
+    fn fold<R: Real>(&self, simd: Simd, n: usize, noise: &Noise<R::S>, feed: &mut Jets<R::S>, height: &mut Jets<R::S>) {
         fold::<R>(simd, n, noise, self.feedback, feed, height);
     }
 }
