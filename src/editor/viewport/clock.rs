@@ -4,6 +4,7 @@ use super::timeline::{Drawing, Timeline};
 use crate::planet::Planet;
 use crate::terrain::{Revision, Terrain};
 use crate::tiles::Surface;
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -103,8 +104,20 @@ impl EditClock {
 
 /// Whether the tiles of a terrain are those of another revision, too.
 pub(super) fn same_tiles(terrain: &Terrain, planet: &Arc<Planet>) -> bool {
-    let revision = Revision::try_new(planet.clone());
-    revision.is_ok_and(|revision| !revision.keys().changes_since(terrain.keys()).touches_tiles())
+    revision_of(planet).is_some_and(|revision| !revision.keys().changes_since(terrain.keys()).touches_tiles())
+}
+
+/// The revision of a valid planet. The last one is kept: it is asked for in every frame until the new tiles are there.
+fn revision_of(planet: &Arc<Planet>) -> Option<Revision> {
+    thread_local! {
+        static LAST: RefCell<Option<Revision>> = const { RefCell::new(None) };
+    }
+    LAST.with_borrow_mut(|last| {
+        if !last.as_ref().is_some_and(|revision| Arc::ptr_eq(revision.planet(), planet)) {
+            *last = Revision::try_new(planet.clone()).ok();
+        }
+        last.clone()
+    })
 }
 
 /// The time from frame to frame while frames follow each other without a pause.
