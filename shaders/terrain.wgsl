@@ -24,7 +24,7 @@ struct Vertex {
     @location(11) shift_m: f32,
     // Moisture and temperature at sea level (at the reference sphere of a planet with no sea), and height in metres,
     // all with morph.
-    @location(12) shown: vec3f,
+    @location(12) morphed: vec3f,
     // Horizon tile; see `exposed`.
     @location(13) horizon: vec4f,
 }
@@ -74,8 +74,8 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.normal = from_octahedral(in.normal_oct);
     out.parent_normal = from_octahedral(in.parent_normal_oct);
     out.fade_m = in.tile.xy;
-    out.level_climate = in.shown.xy;
-    out.height_m = in.shown.z;
+    out.level_climate = in.morphed.xy;
+    out.height_m = in.morphed.z;
     out.level = in.tile.z;
     // The vertices of a tile start at a multiple of the vertices of a tile in the buffer.
     let number = index % (TILE_SIDE * TILE_SIDE);
@@ -124,23 +124,23 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
     let texels = log2(footprint_m / in.detail_fade.z);
     let by_distance = faded(in.detail_fade.xy, in.chosen_distance_m);
     let parent = max(by_distance, saturate1(texels));
-    let place = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
+    let footprint = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
     let change_m = 0.5 * (abs(step.right.z) + abs(step.below.z));
-    let steep = Steepness(place, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
+    let steep = Steepness(footprint, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
     var out = Relief(smooth_normal, in.height_m, change_m, change_m, steep);
     if in.layer < 0.0 { return out; }
-    let slopes = detail_slopes_at(place);
+    let slopes = detail_slopes_at(footprint);
     let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
-    let apart = smoothstep(-2.0, -1.0, place.width - by_distance);
-    let heights = heights_at(place, apart);
+    let apart = smoothstep(-2.0, -1.0, footprint.width - by_distance);
+    let heights = heights_at(footprint, apart);
     out.height_m = in.detail_fade.w + heights.middle_m;
-    out.plane_m = plane_spread_m(heights, place);
+    out.plane_m = plane_spread_m(heights, footprint);
     // Half the range of an even distribution with this standard deviation (sqrt(3)).
     out.spread_m = out.plane_m + 1.732 * heights.rest_m;
-    if apart < 1.0 { out.steep.shown = rises_at(place); }
+    if apart < 1.0 { out.steep.shown = rises_at(footprint); }
     out.steep.heights = heights;
     out.steep.apart = apart;
     return out;
@@ -301,7 +301,7 @@ fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
     // Computed before the switch, in uniform control flow, as derivatives require.
     let edge = border(in);
     let climate = climate_at(in, in.height_m);
-    let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
+    let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
     switch frame.debug_view {
         case VIEW_HEIGHT: {
             let span = max(body.height_range_m.y - body.height_range_m.x, 1.0);
@@ -310,8 +310,8 @@ fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
         case VIEW_NORMAL: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case VIEW_SLOPE: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case VIEW_BIOME: {
-            let site = site_of(in, relief, up, climate.temperature_c, place, 1.0, 0.0);
-            return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
+            let site = site_of(in, relief, up, climate.temperature_c, location, 1.0, 0.0);
+            return lit_up(biome_param(biome_of(site), 0).rgb, location, vec3f(1.0));
         }
         case VIEW_TEMPERATURE: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
         case VIEW_MOISTURE: { return moisture_color(climate.moisture) * lit; }
@@ -400,9 +400,9 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let v = -in.rel_m / max(distance_m, 1e-6);
     let mottle = mottle_at(in.rel_m, footprint_m);
     let climate = climate_at(in, in.height_m);
-    let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
-    cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, relief, up, climate.temperature_c, place, footprint_m, mottle);
+    let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
+    cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
+    let site = site_of(in, relief, up, climate.temperature_c, location, footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, relief.spread_m); }
     n = bumped(n, in.rel_m, footprint_m);
@@ -418,8 +418,8 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
         if i > 0u { from_here = exposed_at(on_mesh, up); }
         radiance += lit(ground, facet, from_here);
     }
-    let shown = lit_up(radiance, place, body.suns[0].irradiance / PI);
-    return Shaded(min(shown, vec3f(60000.0)), over_sea_m, relief.spread_m);
+    let highlighted = lit_up(radiance, location, body.suns[0].irradiance / PI);
+    return Shaded(min(highlighted, vec3f(60000.0)), over_sea_m, relief.spread_m);
 }
 
 struct Output {
