@@ -237,8 +237,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     var weight = 1.0;
     if !ground {
         // Bright sky hides the stars, at dusk as well, when the exposure is long.
-        let brightness = 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered);
-        let star_visibility = 1.0 / (1.0 + brightness);
+        let dimming = 1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered);
+        let star_visibility = 1.0 / dimming;
         // Stars are as wide as a pixel of the display, not of this target, so that their brightness does not depend on
         // the render scale.
         let star_width_rad = frame.pixel_rad * max(frame.render_scale, 1.0);

@@ -124,7 +124,8 @@ fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) ->
     let texels = log2(footprint_m / in.detail_fade.z);
     let by_distance = faded(in.detail_fade.xy, in.chosen_distance_m);
     let parent = max(by_distance, saturate1(texels));
-    let footprint = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
+    let texel = in.place.zw * (DETAIL_SIDE - 1.0);
+    let footprint = detail_place(in.layer, texel, step.right.xy, step.below.xy, by_distance);
     let change_m = 0.5 * (abs(step.right.z) + abs(step.below.z));
     let steep = Steepness(footprint, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
     var out = Relief(smooth_normal, in.height_m, change_m, change_m, steep);
