@@ -19,7 +19,7 @@ struct DetailFootprint {
     parent: f32,
     // log2 of the shorter side in texels
     width: f32,
-    // log2 of the stride between the sampled texels. Above 1 where texels are finer than pixels
+    // log2 of the stride between the sampled texels: the greater of `width` and `parent`, at most 5
     level: f32,
     // Samples along the longer side, as in anisotropic texture filters
     parts: i32,
