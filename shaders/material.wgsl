@@ -20,7 +20,7 @@ struct Site {
     temperature_c: f32,
     // Height above sea level in metres; above every beach on a planet with no sea
     over_sea_m: f32,
-    // Half the range of heights within the pixel in metres: from the slope alone, and with all relief no wider than
+    // Half the range of heights within the pixel in metres: from the slope alone, and with all unevenness no wider than
     // pixels
     plane_m: f32,
     spread_m: f32,
