@@ -1,8 +1,9 @@
 //! Tellus: whole planets from one small file.
 //!
 //! A planet is a preset, a small RON text that an artist shapes in the `tellus` editor. A game loads the same text
-//! through this crate and asks the same evaluator that drew the artist's picture: the height that is queried is the
-//! height that was seen, bit for bit, on every machine.
+//! through this crate and queries the evaluator that made the artist's picture. Heights are bit-identical on every
+//! machine. A query has the height of the picture's finest mesh vertices, and between them a height within the
+//! screen-space error of the mesh.
 //!
 //! ```
 //! use tellus::planet::Planet;
