@@ -172,9 +172,9 @@ impl Evaluate for Gullies {
             }
         }
         if shaded {
-            settle::<Jet>(simd, n, carving)
+            settle::<Jet>(simd, n, carving);
         } else {
-            settle::<f32>(simd, n, carving)
+            settle::<f32>(simd, n, carving);
         }
         settle::<f64>(simd, n, carving64);
         for (k, gully) in self.gullies.iter().enumerate() {
