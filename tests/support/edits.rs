@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-//! A planet that uses every parameter, and an edit of each.
-=======
 //! A planet with every feature, and an edit of each of its parameters.
->>>>>>> t2
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use std::sync::Arc;
@@ -12,11 +8,7 @@ use tellus::planet::{
 };
 use tellus::terrain::Revision;
 
-<<<<<<< HEAD
-/// A planet on which every parameter has an effect: all landforms, masks, all biomes in the biome table.
-=======
 /// A planet that reads almost every parameter: each landform, each mask, all biomes in the table.
->>>>>>> t2
 pub fn full_planet() -> Planet {
     let mut planet = Planet {
         radius_km: 1500.0,
@@ -25,11 +17,7 @@ pub fn full_planet() -> Planet {
         clouds: Some(Clouds::default()),
         ..Planet::default()
     };
-<<<<<<< HEAD
-    // A height map without its picture has no effect.
-=======
     // A height map without a picture does nothing.
->>>>>>> t2
     let kinds = Shape::all().into_iter().filter(|shape| !matches!(shape, Shape::HeightMap(_)));
     for (i, mut shape) in kinds.enumerate() {
         shrink(&mut shape);
@@ -75,11 +63,7 @@ fn shrink(shape: &mut Shape) {
 /// An edit of one parameter.
 pub struct Edit {
     pub path: String,
-<<<<<<< HEAD
-    /// The stages that its description declares stale.
-=======
     /// The stages that its description declares, and those that follow.
->>>>>>> t2
     pub declared: Stages,
     pub planet: Planet,
 }
@@ -90,11 +74,7 @@ pub fn is_idle(path: &str) -> bool {
     path.starts_with("biomes.palette[0].steep_") || ["biomes.lowest_m", "biomes.highest_m"].contains(&path)
 }
 
-<<<<<<< HEAD
-/// One edit of each parameter that can take another value, and one of the biome table.
-=======
 /// An edit of each parameter that has another value, and one of the biome table.
->>>>>>> t2
 pub fn every_edit(planet: &Planet) -> Vec<Edit> {
     let mut places: Vec<(ParamPath, Stages)> = Vec::new();
     planet.each_value(&mut |path, param, _| places.push((path.clone(), param.stages)));
@@ -192,20 +172,12 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
             let is_free = |key: &char| planet.biomes.palette.iter().all(|biome| biome.key != *key);
             Value::Letter(('a'..='z').rev().find(is_free).unwrap_or(key))
         }
-<<<<<<< HEAD
-        // A reference to a biome: another one of the palette.
-=======
         // Another biome of the palette.
->>>>>>> t2
         (Value::Letter(key), _) => {
             let others = planet.biomes.palette.iter().map(|biome| biome.key);
             Value::Letter(others.rev().find(|other| *other != key).unwrap_or(key))
         }
-<<<<<<< HEAD
-        // A mask's layer: another one. A layer that masks refer to keeps its name.
-=======
         // Another layer. A layer that masks refer to keeps its name.
->>>>>>> t2
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
         (Value::Text(text), _) => Value::Text(format!("{text}!")),
         (value, _) => value,
