@@ -53,9 +53,9 @@ fn glare(dir: vec3f) -> vec3f {
             open += through / 9.0;
         }
     }
-    let way = body.eye_altitude_km;
+    let altitude_km = body.eye_altitude_km;
     var clear = vec3f(1.0);
-    if way < body.air_height_km { clear = sun_transmittance(way, dot(body.eye_up, sun)); }
+    if altitude_km < body.air_height_km { clear = sun_transmittance(altitude_km, dot(body.eye_up, sun)); }
     return active_sun.irradiance / PI * clear * (shape * open);
 }
 
@@ -90,7 +90,7 @@ fn clouds_around(pixel: vec2i) -> Clouds {
     return Clouds(light / count, select(NOTHING_KM, distance / seen, seen > 1e-5));
 }
 
-struct Seen {
+struct Output {
     // rgb: radiance; a: weight of the pixel for metering
     @location(0) light: vec4f,
     // Square roots of the stars' light. Stars are stored apart because metering must not change them: they are as
@@ -99,7 +99,7 @@ struct Seen {
 }
 
 // Result of a ray, without stars and glare.
-struct Along {
+struct RayLight {
     light: vec3f,
     // Luminance of the sunlight scattered by the air
     air_only: f32,
@@ -118,7 +118,7 @@ fn airglow(dir: vec3f) -> f32 {
     return below * 0.45 * min(slant, 5.0) * exp(-0.12 / (mu + 0.06));
 }
 
-fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Along {
+fn ray_light(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> RayLight {
     var air = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
     var light = vec3f(0.0);
     if body.air_height_km > 0.0 {
@@ -136,14 +136,14 @@ fn along(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -> Al
         light += NIGHT_SKY * (NIGHT_AIRGLOW * glow);
     }
     let through = air.transmittance * clouds.a;
-    return Along(light + air.to_cloud * clouds.rgb + through * scene, air_only, through);
+    return RayLight(light + air.to_cloud * clouds.rgb + through * scene, air_only, through);
 }
 
 // Antialiases the limb from afar, where the bright rim of the air is narrower than a pixel: the mean of several rays
 // side by side across the limb. `center`: result of the pixel's central ray. `ground`: whether that ray hits ground.
 fn across_limb(
-    pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: Along,
-) -> Along {
+    pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: RayLight,
+) -> RayLight {
     const RAYS: i32 = 8;
     let radius = body.radius_km;
     let eye = body.eye_altitude_km + radius;
@@ -175,7 +175,7 @@ fn across_limb(
     var behind = NIGHT_BACKGROUND * NIGHT_SKY;
     if body.is_backmost == 0u { behind = textureLoad(scene_color, outer, 0).rgb; }
     let space = select(scene, behind, ground);
-    var sum = Along(vec3f(0.0), 0.0, vec3f(0.0));
+    var sum = RayLight(vec3f(0.0), 0.0, vec3f(0.0));
     for (var i = 0; i < RAYS; i++) {
         let aside = (f32(i) + 0.5) / f32(RAYS) - 0.5;
         let ray = normalize(dir + outwards * (aside * frame.pixel_rad));
@@ -186,12 +186,13 @@ fn across_limb(
         let over = height + aside * step > body.cloud_top_km;
         let ray_far = select(NOTHING_KM, hits.x, meets);
         let ray_clouds = select(clouds, vec4f(0.0, 0.0, 0.0, 1.0), over);
-        let seen = along(ray, ray_far, select(space, surface, meets), ray_clouds, select(cloud_at, NOTHING_KM, over));
+        let ray_scene = select(space, surface, meets);
+        let seen = ray_light(ray, ray_far, ray_scene, ray_clouds, select(cloud_at, NOTHING_KM, over));
         sum.light += seen.light / f32(RAYS);
         sum.air_only += seen.air_only / f32(RAYS);
         sum.transmittance += select(seen.transmittance, vec3f(0.0), meets) / f32(RAYS);
     }
-    return Along(
+    return RayLight(
         mix(center.light, sum.light, outside),
         mix(center.air_only, sum.air_only, outside),
         mix(center.transmittance, sum.transmittance, outside),
@@ -199,7 +200,7 @@ fn across_limb(
 }
 
 @fragment
-fn fragment(@builtin(position) position: vec4f) -> Seen {
+fn fragment(@builtin(position) position: vec4f) -> Output {
     let pixel = vec2i(position.xy);
     let ray = pixel_ray(position.xy);
     let ray_length = length(ray);
@@ -222,7 +223,7 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
         clouds = around.light;
         cloud_at = around.at_km;
     }
-    let seen = across_limb(pixel, dir, ground, scene, clouds, cloud_at, along(dir, far, scene, clouds, cloud_at));
+    let seen = across_limb(pixel, dir, ground, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
     var scattered = vec3f(0.0);
     if body.is_frontmost != 0u {
         for (var i = 0u; i < body.sun_count; i++) {
@@ -231,21 +232,22 @@ fn fragment(@builtin(position) position: vec4f) -> Seen {
         }
     }
     // Factor on the stars left by the bodies farther away.
-    var points = select(vec3f(1.0), vec3f(0.0), ground);
+    var star_light = select(vec3f(1.0), vec3f(0.0), ground);
     // Weight of the sky for metering: small from within the air, zero from outer space.
-    var counts = 1.0;
+    var weight = 1.0;
     if !ground {
         // Bright sky hides the stars, at dusk as well, when the exposure is long.
-        let drowned = 1.0 / (1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered));
+        let dimming = 1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered);
+        let star_visibility = 1.0 / dimming;
         // Stars are as wide as a pixel of the display, not of this target, so that their brightness does not depend on
         // the render scale.
-        let shown = frame.pixel_rad * max(frame.render_scale, 1.0);
+        let star_width_rad = frame.pixel_rad * max(frame.render_scale, 1.0);
         let spread = select(1.0, 0.5, frame.render_scale < 1.0);
-        points = drowned * seen.transmittance;
-        if starry { points *= stars(dir, shown) * spread; }
+        star_light = star_visibility * seen.transmittance;
+        if starry { star_light *= stars(dir, star_width_rad) * spread; }
         let inside = 1.0 - smoothstep(0.1, 0.5, body.eye_altitude_km / max(body.air_height_km, 1e-3));
         let sky = seen.air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
-        counts = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));
+        weight = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));
     }
-    return Seen(vec4f(min(seen.light + scattered, vec3f(60000.0)), counts), vec4f(sqrt(points), 1.0));
+    return Output(vec4f(min(seen.light + scattered, vec3f(60000.0)), weight), vec4f(sqrt(star_light), 1.0));
 }

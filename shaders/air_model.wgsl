@@ -52,10 +52,10 @@ fn depth_uv(h_km: f32, mu: f32) -> vec2f {
     let rho2 = h * (2.0 * radius + h);
     let horizon2 = top * (2.0 * radius + top);
     let r = radius + h;
-    let way = max(0.0, -r * mu + sqrt(max(r * r * mu * mu + horizon2 - rho2, 0.0)));
-    let way_min = top - h;
-    let way_max = sqrt(rho2) + sqrt(horizon2);
-    let x = vec2f((way - way_min) / max(way_max - way_min, 1e-9), sqrt(rho2 / horizon2));
+    let path_km = max(0.0, -r * mu + sqrt(max(r * r * mu * mu + horizon2 - rho2, 0.0)));
+    let path_min_km = top - h;
+    let path_max_km = sqrt(rho2) + sqrt(horizon2);
+    let x = vec2f((path_km - path_min_km) / max(path_max_km - path_min_km, 1e-9), sqrt(rho2 / horizon2));
     return texel_from_unit(saturate(x), OPTICAL_DEPTH_SIZE);
 }
 

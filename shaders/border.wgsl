@@ -10,7 +10,7 @@ var<private> cells_per_pixel: vec2f;
 
 // Vector in metres from the point of the reference sphere under the eye to the point under `rel_m`, without
 // cancellation.
-fn way_on_sphere_m(rel_m: vec3f) -> vec3f {
+fn offset_on_sphere_m(rel_m: vec3f) -> vec3f {
     let radius_m = body.radius_km * 1000.0;
     let up = body.eye_up;
     let eye_m = radius_m + body.eye_altitude_km * 1000.0;
@@ -24,15 +24,15 @@ fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
     if body.border_jitter_cells <= 0.0 { return vec2f(0.0); }
     var sum = vec2f(0.0);
     var weight = body.border_jitter_cells;
-    var place_m = way_on_sphere_m(rel_m);
+    var position_m = offset_on_sphere_m(rel_m);
     for (var i = 0u; i < BORDER_OCTAVES; i++) {
         let octave = body.border[i];
         let lod = log2(max(footprint_m, 1e-6) * BORDER_TILE_SIDE / octave.period);
         let share = 1.0 - smoothstep(0.0, 3.0, lod);
         if share <= 0.0 { break; }
-        let at = octave.offset + place_m / octave.period;
+        let at = octave.offset + position_m / octave.period;
         sum += weight * share * textureSampleLevel(border_tile, repeated, at, max(lod, 0.0)).rg;
-        place_m = OCTAVE_TURN * place_m;
+        position_m = OCTAVE_TURN * position_m;
         weight *= BORDER_GAIN;
     }
     return sum;
@@ -41,8 +41,8 @@ fn border_offset(rel_m: vec3f, footprint_m: f32) -> vec2f {
 // Location in the biome table, 0 to 1: column and row, the first row at 0. `climate`: moisture and 1 minus the row.
 fn table_place(climate: vec2f, rel_m: vec3f, footprint_m: f32) -> vec2f {
     let cells = vec2f(textureDimensions(biome_ids));
-    let place = vec2f(climate.x, 1.0 - climate.y) + border_offset(rel_m, footprint_m) / cells;
-    return clamp(place, vec2f(0.0), vec2f(1.0) - 0.5 / cells / cells);
+    let location = vec2f(climate.x, 1.0 - climate.y) + border_offset(rel_m, footprint_m) / cells;
+    return clamp(location, vec2f(0.0), vec2f(1.0) - 0.5 / cells / cells);
 }
 
 // Weight of the next cell at the share `f` of the way from the middle of one cell to the middle of the next.

@@ -22,7 +22,7 @@ fn cover_over(dir: vec3f) -> f32 {
 // edge widens.
 fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f32 {
     if wide_cover <= 0.0 { return 0.0; }
-    var place = drifted(rel);
+    var position = drifted(rel);
     // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
     var bend = 0.0;
     var carve = 0.5;
@@ -34,7 +34,7 @@ fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f3
         // A band fades out before its tile is small enough on screen for the repetition to show.
         let share = 1.0 - smoothstep(-1.0, 2.0, lod);
         if share <= 0.0 { break; }
-        let n = textureSampleLevel(noise_tile, repeated, band.offset + place / band.period, lod);
+        let n = textureSampleLevel(noise_tile, repeated, band.offset + position / band.period, lod);
         if i < CLOUD_PUFF_BAND {
             bend += (n.g - 0.5) * share * (0.9 - 0.1 * f32(i));
         } else {
@@ -42,7 +42,7 @@ fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f3
             strength *= 0.42;
             if i == CLOUD_PUFF_BAND { blurred = 1.0 - share; }
         }
-        place = OCTAVE_TURN * place;
+        position = OCTAVE_TURN * position;
     }
     // The bend has no effect where the cover is 0 or 1.
     let cover = saturate1(wide_cover + 4.0 * bend * wide_cover * (1.0 - wide_cover));
@@ -64,8 +64,8 @@ fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     let radius = body.radius_km;
     let middle = 0.5 * (body.cloud_bottom_km + body.cloud_top_km);
     let at = max(h, middle);
-    let way = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
-    let point = rel + active_sun.dir * way;
+    let path_km = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
+    let point = rel + active_sun.dir * path_km;
     let up = normalize(body.eye_km + point);
     let density = cloud_density(point, cover_over(up), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
     let left = saturate1((body.cloud_top_km - h) / (body.cloud_top_km - body.cloud_bottom_km));

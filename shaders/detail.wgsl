@@ -7,7 +7,7 @@
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 
 // Footprint of a pixel in a detail texture.
-struct DetailPlace {
+struct DetailFootprint {
     // Layer; -1 without a detail texture
     layer: i32,
     // Its middle, in texels from the node's corner
@@ -19,14 +19,14 @@ struct DetailPlace {
     parent: f32,
     // log2 of the shorter side in texels
     width: f32,
-    // log2 of the stride between the sampled texels. Above 1 where texels are finer than pixels
+    // log2 of the stride between the sampled texels: the greater of `width` and `parent`, at most 5
     level: f32,
     // Samples along the longer side, as in anisotropic texture filters
     parts: i32,
 }
 
 // `right`, `below`: steps to the next pixel, in texels. `parent`: share of the parent by distance.
-fn detail_place(layer: f32, at: vec2f, right: vec2f, below: vec2f, parent: f32) -> DetailPlace {
+fn detail_place(layer: f32, at: vec2f, right: vec2f, below: vec2f, parent: f32) -> DetailFootprint {
     let is_right = dot(right, right) > dot(below, below);
     let along = select(below, right, is_right);
     // Component of the other side perpendicular to the longer one.
@@ -37,21 +37,21 @@ fn detail_place(layer: f32, at: vec2f, right: vec2f, below: vec2f, parent: f32) 
     let fewest = length_along / max(length(across), length_along / 8.0);
     let parts = select(select(4, 2, fewest <= 4.0), 1, fewest <= 2.0 || length_along < 2.0);
     let width = log2(max(length(across), length_along / 8.0));
-    return DetailPlace(i32(layer), at, along, across, parent, width, clamp(width, parent, 5.0), parts);
+    return DetailFootprint(i32(layer), at, along, across, parent, width, clamp(width, parent, 5.0), parts);
 }
 
 // One of the parts of a footprint. `detail_slopes_at` is not meant for parts.
-fn part_of(place: DetailPlace, number: i32) -> DetailPlace {
-    var out = place;
-    out.at += place.along * ((f32(number) + 0.5) / f32(place.parts) - 0.5);
-    out.along /= f32(place.parts);
+fn part_of(footprint: DetailFootprint, number: i32) -> DetailFootprint {
+    var out = footprint;
+    out.at += footprint.along * ((f32(number) + 0.5) / f32(footprint.parts) - 0.5);
+    out.along /= f32(footprint.parts);
     return out;
 }
 
-fn detail_slopes_at(place: DetailPlace) -> vec4f {
+fn detail_slopes_at(footprint: DetailFootprint) -> vec4f {
     let apron = f32(DETAIL_APRON);
-    let at = (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
-    return textureSampleLevel(detail_slopes, clamped, at, place.layer, 0.0);
+    let at = (footprint.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+    return textureSampleLevel(detail_slopes, clamped, at, footprint.layer, 0.0);
 }
 
 // Texels around the middle of a footprint, `reach` to each side: every texel of the tile, every second one (those of
@@ -72,11 +72,11 @@ struct Tap {
 }
 
 // Taps of the level just finer than the footprint's level, or of the level just coarser.
-fn taps_around(place: DetailPlace, coarser: i32, reach: f32) -> Taps {
-    let finer = floor(place.level);
-    let share = select(1.0 + finer - place.level, place.level - finer, coarser == 1);
+fn taps_around(footprint: DetailFootprint, coarser: i32, reach: f32) -> Taps {
+    let finer = floor(footprint.level);
+    let share = select(1.0 + finer - footprint.level, footprint.level - finer, coarser == 1);
     let stride = 1 << u32(i32(finer) + coarser);
-    return Taps(place.at / f32(stride), reach, i32(2.0 * reach), share, stride);
+    return Taps(footprint.at / f32(stride), reach, i32(2.0 * reach), share, stride);
 }
 
 fn tap_of(taps: Taps, number: i32) -> Tap {
@@ -90,14 +90,14 @@ fn tap_of(taps: Taps, number: i32) -> Tap {
 
 // Height above the tile's base height in metres (x) and its change to the next texel along both sides (yz),
 // interpolated in the patches between texels that are drawn.
-fn patch_height(place: DetailPlace) -> vec3f {
+fn patch_height(footprint: DetailFootprint) -> vec3f {
     var sum = vec3f(0.0);
     for (var coarser = 0; coarser < 2; coarser++) {
-        let taps = taps_around(place, coarser, 1.0);
+        let taps = taps_around(footprint, coarser, 1.0);
         if taps.share <= 0.0 { continue; }
         var corners: vec4f;
         for (var i = 0; i < 4; i++) {
-            let texel = textureLoad(detail_heights, tap_of(taps, i).texel, place.layer, 0);
+            let texel = textureLoad(detail_heights, tap_of(taps, i).texel, footprint.layer, 0);
             corners[i] = texel.x + texel.y;
         }
         let f = fract(taps.at);
@@ -119,8 +119,8 @@ struct Heights {
 }
 
 // How far the plane rises and falls from the middle within the pixel, metres.
-fn plane_spread_m(heights: Heights, place: DetailPlace) -> f32 {
-    return 0.5 * (abs(dot(heights.change, place.along)) + abs(dot(heights.change, place.across)));
+fn plane_spread_m(heights: Heights, footprint: DetailFootprint) -> f32 {
+    return 0.5 * (abs(dot(heights.change, footprint.along)) + abs(dot(heights.change, footprint.across)));
 }
 
 // A plane fitted to few texels (about nine, by weight) absorbs a third of the variance of their true deviation. This
@@ -131,52 +131,52 @@ const SWELL: f32 = 1.25;
 const NEAR: f32 = 0.58;
 
 // Fit over the texels around the pixel, two to each side.
-fn heights_around(place: DetailPlace) -> Heights {
+fn heights_around(footprint: DetailFootprint) -> Heights {
     // Heights are relative to a nearby texel, because squares of full heights would lose all precision.
-    let near = textureLoad(detail_heights, tap_of(taps_around(place, 0, 1.0), 0).texel, place.layer, 0);
+    let near = textureLoad(detail_heights, tap_of(taps_around(footprint, 0, 1.0), 0).texel, footprint.layer, 0);
     let zero_m = near.x + near.y;
     var sum = 0.0;
     var squares = 0.0;
-    var by_place = vec2f(0.0);
-    var places = vec3f(0.0);
-    let one = 1.0 / f32(place.parts);
-    for (var number = 0; number < place.parts; number++) {
-        let part = part_of(place, number);
+    var by_offset = vec2f(0.0);
+    var moments = vec3f(0.0);
+    let one = 1.0 / f32(footprint.parts);
+    for (var number = 0; number < footprint.parts; number++) {
+        let part = part_of(footprint, number);
         for (var coarser = 0; coarser < 2; coarser++) {
             let taps = taps_around(part, coarser, 2.0);
             if taps.share <= 0.0 { continue; }
             for (var i = 0; i < taps.across * taps.across; i++) {
                 let tap = tap_of(taps, i);
-                let texel = textureLoad(detail_heights, tap.texel, place.layer, 0);
+                let texel = textureLoad(detail_heights, tap.texel, footprint.layer, 0);
                 let height_m = texel.x + texel.y - zero_m;
-                let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
+                let offset = vec2f(tap.texel - DETAIL_APRON) - footprint.at;
                 sum += one * tap.weight * height_m;
                 squares += one * tap.weight * height_m * height_m;
-                by_place += one * tap.weight * height_m * away;
-                places += one * tap.weight * away.xxy * away.xyy;
+                by_offset += one * tap.weight * height_m * offset;
+                moments += one * tap.weight * offset.xxy * offset.xyy;
             }
         }
     }
-    let determinant = max(places.x * places.z - places.y * places.y, 1e-6);
+    let determinant = max(moments.x * moments.z - moments.y * moments.y, 1e-6);
     let change = vec2f(
-        places.z * by_place.x - places.y * by_place.y,
-        places.x * by_place.y - places.y * by_place.x,
+        moments.z * by_offset.x - moments.y * by_offset.y,
+        moments.x * by_offset.y - moments.y * by_offset.x,
     ) / determinant;
-    return Heights(zero_m + sum, change, SWELL * sqrt(max(squares - sum * sum - dot(change, by_place), 0.0)));
+    return Heights(zero_m + sum, change, SWELL * sqrt(max(squares - sum * sum - dot(change, by_offset), 0.0)));
 }
 
 // Heights at the pixel: interpolated where texels are wider than pixels, fitted over the texels around where texels are
 // no wider, because peaks, valleys and rivers as wide as a texel would sparkle. The deviation from the plane still
 // counts while texels are a few pixels wide, because the ground between them deviates, too. `apart`: 0 to 1.
-fn heights_at(place: DetailPlace, apart: f32) -> Heights {
-    let rough = smoothstep(-4.0, -3.0, place.width - place.parent);
+fn heights_at(footprint: DetailFootprint, apart: f32) -> Heights {
+    let rough = smoothstep(-4.0, -3.0, footprint.width - footprint.parent);
     if rough <= 0.0 {
-        let patch_m = patch_height(place);
+        let patch_m = patch_height(footprint);
         return Heights(patch_m.x, patch_m.yz, 0.0);
     }
-    let around = heights_around(place);
+    let around = heights_around(footprint);
     if apart >= 1.0 { return around; }
-    let patch_m = patch_height(place);
+    let patch_m = patch_height(footprint);
     return Heights(
         mix(patch_m.x, around.middle_m, apart),
         mix(patch_m.yz, around.change, apart),
@@ -186,19 +186,19 @@ fn heights_at(place: DetailPlace, apart: f32) -> Heights {
 
 // Steepness (rise over run) shown by the detail texture at a pixel: its own (x) and the parent's (y). Means of the
 // steepness of texels; averaged slopes would be gentler.
-fn rises_at(place: DetailPlace) -> vec2f {
+fn rises_at(footprint: DetailFootprint) -> vec2f {
     let apron = f32(DETAIL_APRON);
-    let own_at = (place.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
-    let own = textureSampleLevel(detail_heights, clamped, own_at, place.layer, 0.0).z;
-    if place.parent <= 0.0 { return vec2f(own, 0.0); }
-    let at = 0.5 * place.at;
+    let own_at = (footprint.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+    let own = textureSampleLevel(detail_heights, clamped, own_at, footprint.layer, 0.0).z;
+    if footprint.parent <= 0.0 { return vec2f(own, 0.0); }
+    let at = 0.5 * footprint.at;
     let f = fract(at);
     var parents = 0.0;
     for (var i = 0; i < 4; i++) {
         let corner = vec2i(i & 1, i >> 1u);
         let share = mix(1.0 - f, f, vec2f(corner));
         let texel = min(2 * (vec2i(floor(at)) + corner), vec2i(i32(DETAIL_SIDE) - 1)) + DETAIL_APRON;
-        parents += share.x * share.y * length(textureLoad(detail_slopes, texel, place.layer, 0).zw);
+        parents += share.x * share.y * length(textureLoad(detail_slopes, texel, footprint.layer, 0).zw);
     }
     return vec2f(own, parents);
 }
@@ -206,7 +206,7 @@ fn rises_at(place: DetailPlace) -> vec2f {
 // Steepness of the ground around a pixel, including slopes too fine to be drawn: they still decide the share of steep
 // ground.
 struct Steepness {
-    place: DetailPlace,
+    footprint: DetailFootprint,
     // Rise over run in the detail texture at the pixel: its own and the parent's
     shown: vec2f,
     heights: Heights,
@@ -255,31 +255,31 @@ fn add_slope(shares: ptr<function, SlopeShares>, rules: SlopeRules, cosine: f32,
 // would give rough ground less rock and more snow, and more so with distance.
 fn slope_shares(steep: Steepness, rules: SlopeRules) -> SlopeShares {
     var out = SlopeShares(vec4f(0.0), vec2f(0.0));
-    let place = steep.place;
-    if place.layer < 0 {
+    let footprint = steep.footprint;
+    if footprint.layer < 0 {
         add_slope(&out, rules, steep.cosine, 0.0, 1.0);
         return out;
     }
-    for (var part = 0; part < place.parts; part++) {
+    for (var part = 0; part < footprint.parts; part++) {
         for (var coarser = 0; coarser < 2; coarser++) {
-            let taps = taps_around(part_of(place, part), coarser, steep.reach);
+            let taps = taps_around(part_of(footprint, part), coarser, steep.reach);
             if taps.share <= 0.0 { continue; }
             for (var i = 0; i < taps.across * taps.across; i++) {
                 let tap = tap_of(taps, i);
                 if tap.weight <= 0.0 { continue; }
-                let heights = textureLoad(detail_heights, tap.texel, place.layer, 0);
+                let heights = textureLoad(detail_heights, tap.texel, footprint.layer, 0);
                 var rise = heights.w;
                 // Where texels are wider than pixels, the position of the pixel between them counts.
                 if steep.apart < 1.0 && taps.stride == 1 { rise += (1.0 - steep.apart) * (steep.shown.x - heights.z); }
                 if steep.apart < 1.0 && taps.stride == 2 {
-                    let parents = textureLoad(detail_slopes, tap.texel, place.layer, 0).zw;
+                    let parents = textureLoad(detail_slopes, tap.texel, footprint.layer, 0).zw;
                     rise += (1.0 - steep.apart) * (steep.shown.y - length(parents));
                 }
                 // Height of the texel above the plane.
-                let away = vec2f(tap.texel - DETAIL_APRON) - place.at;
-                let above_m = heights.x + heights.y - steep.heights.middle_m - dot(steep.heights.change, away);
+                let offset = vec2f(tap.texel - DETAIL_APRON) - footprint.at;
+                let above_m = heights.x + heights.y - steep.heights.middle_m - dot(steep.heights.change, offset);
                 let swollen_m = mix(NEAR * SWELL, SWELL, steep.apart) * above_m;
-                add_slope(&out, rules, cosine_of(rise), swollen_m, tap.weight / f32(place.parts));
+                add_slope(&out, rules, cosine_of(rise), swollen_m, tap.weight / f32(footprint.parts));
             }
         }
     }

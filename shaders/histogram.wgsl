@@ -22,9 +22,9 @@ fn compute(@builtin(global_invocation_id) at: vec3u, @builtin(local_invocation_i
         // The strongest channel counts as well, because colours clip when it is too bright, whatever their luminance.
         let strongest = max(light.r, max(light.g, light.b));
         let bright = mix(luminance(light.rgb), strongest, 0.6);
-        let place = (log2(max(bright, 1e-12)) - DARKEST_EV) * BINS_PER_EV;
+        let bin = (log2(max(bright, 1e-12)) - DARKEST_EV) * BINS_PER_EV;
         let counts = u32(light.a * 16.0);
-        if place >= 0.0 { atomicAdd(&here[min(u32(place), METER_BINS - 1u)], counts); }
+        if bin >= 0.0 { atomicAdd(&here[min(u32(bin), METER_BINS - 1u)], counts); }
         let weakest = min(light.r, min(light.g, light.b));
         if luminance(light.rgb) > WHITE_LUMINANCE && weakest > WHITE_SHARE * strongest {
             atomicAdd(&here[WHITE], counts);

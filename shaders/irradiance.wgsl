@@ -3,7 +3,7 @@
 #include "ring.wgsl"
 
 // Nodes of Gauss-Legendre quadrature between 0 and 1, and their weights.
-const PLACES: array<vec2f, 4> = array<vec2f, 4>(
+const NODES: array<vec2f, 4> = array<vec2f, 4>(
     vec2f(0.0694318442, 0.1739274226),
     vec2f(0.3300094782, 0.3260725774),
     vec2f(0.6699905218, 0.3260725774),
@@ -21,8 +21,8 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     var sum = vec3f(0.0);
     for (var i = 0u; i < 4u; i++) {
         // Nodes are spaced in the squared cosine: the square root weights each ring by its cosine, as irradiance does.
-        let place = PLACES[i];
-        sum += ring_light(h, sqrt(place.x), sun_mu, 5u, 8u) * place.y;
+        let node = NODES[i];
+        sum += ring_light(h, sqrt(node.x), sun_mu, 5u, 8u) * node.y;
     }
     return vec4f(sum * PI, 1.0);
 }

@@ -10,9 +10,9 @@ fn clear_transmittance(h: f32, mu: f32) -> vec3f {
     if h > top {
         // From outer space, the path starts where the ray enters the air, if it does.
         let b = (body.radius_km + h) * mu;
-        let into = b * b - (h - top) * (2.0 * body.radius_km + h + top);
-        if b >= 0.0 || into <= 0.0 { return vec3f(1.0); }
-        at = vec2f(top, -sqrt(into) / (body.radius_km + top));
+        let discriminant = b * b - (h - top) * (2.0 * body.radius_km + h + top);
+        if b >= 0.0 || discriminant <= 0.0 { return vec3f(1.0); }
+        at = vec2f(top, -sqrt(discriminant) / (body.radius_km + top));
     }
     return exp(-textureSampleLevel(depth_table, clamped, depth_uv(at.x, at.y), 0.0).rgb);
 }

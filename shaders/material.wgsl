@@ -20,7 +20,7 @@ struct Site {
     temperature_c: f32,
     // Height above sea level in metres; above every beach on a planet with no sea
     over_sea_m: f32,
-    // Half the range of heights within the pixel in metres: from the slope alone, and with all relief no wider than
+    // Half the range of heights within the pixel in metres: from the slope alone, and with all unevenness no wider than
     // pixels
     plane_m: f32,
     spread_m: f32,
@@ -141,7 +141,7 @@ fn patch_share(tile_m: f32, patches: f32, site: Site) -> f32 {
 }
 
 // Adds a biome with a weight.
-fn put(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
+fn add_biome(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) {
     let plain = biome_param(id, 0);
     let patches = biome_param(id, 1);
     let surface = biome_param(id, 2);
@@ -211,7 +211,7 @@ fn mixture_of(cells: Cells, steep: vec4f, cover: vec2f, site: Site) -> Mixture {
     }
     var mixture = Mixture(vec3f(0.0), 0.0, 0.0, vec2i(-1), vec2f(0.0), vec3f(0.0), vec3f(0.0));
     for (var i = 0; i < i32(frame.mixture_entries); i++) {
-        if weights[i] > 0.001 { put(&mixture, ids[i], weights[i], site); }
+        if weights[i] > 0.001 { add_biome(&mixture, ids[i], weights[i], site); }
     }
     return mixture;
 }
@@ -232,8 +232,8 @@ fn mixture_at(site: Site) -> Mixture {
     let share = 1.0 / f32(2 * half + 1);
     for (var i = -half; i <= half; i++) {
         if i == 0 { continue; }
-        let place = clamp(site.table + f32(2 * i) * share * spread, vec2f(0.0), vec2f(1.0) - 0.5 / size / size);
-        let others = cells_at(place);
+        let location = clamp(site.table + f32(2 * i) * share * spread, vec2f(0.0), vec2f(1.0) - 0.5 / size / size);
+        let others = cells_at(location);
         let others_rules = slope_rules(others.rules, site);
         var steep = shares.cells;
         if any(others_rules.cells_from != rules.cells_from) || any(others_rules.cells_to != rules.cells_to) {

@@ -41,16 +41,16 @@ fn share_by_height(a: Pattern, b: Pattern, share: f32) -> f32 {
 }
 
 // Rotation by the angle of the triangle with sides 3, 4 and 5: a pattern that repeats after 1024 m still does.
-fn turned(p: vec2f) -> vec2f { return vec2f(0.6 * p.x + 0.8 * p.y, 0.6 * p.y - 0.8 * p.x); }
-fn turned_back(p: vec2f) -> vec2f { return vec2f(0.6 * p.x - 0.8 * p.y, 0.6 * p.y + 0.8 * p.x); }
+fn rotated(p: vec2f) -> vec2f { return vec2f(0.6 * p.x + 0.8 * p.y, 0.6 * p.y - 0.8 * p.x); }
+fn rotated_back(p: vec2f) -> vec2f { return vec2f(0.6 * p.x - 0.8 * p.y, 0.6 * p.y + 0.8 * p.x); }
 
 // The two coordinates in the plane perpendicular to an axis, and back.
-fn flat_on(p: vec3f, axis: u32) -> vec2f {
+fn projected(p: vec3f, axis: u32) -> vec2f {
     if axis == 0u { return p.yz; }
     if axis == 1u { return p.zx; }
     return p.xy;
 }
-fn raised_from(p: vec2f, axis: u32) -> vec3f {
+fn unprojected(p: vec2f, axis: u32) -> vec3f {
     if axis == 0u { return vec3f(0.0, p.xy); }
     if axis == 1u { return vec3f(p.y, 0.0, p.x); }
     return vec3f(p.xy, 0.0);
@@ -116,7 +116,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let flows = size.z > 0.0 && lod < 6.0;
     let downhill = seen.n - seen.up * dot(seen.n, seen.up);
     let steep = length(downhill);
-    let way_m = downhill / max(steep, 0.02) * saturate1(0.15 + 3.0 * steep) * 0.5 * size.x;
+    let flow_m = downhill / max(steep, 0.02) * saturate1(0.15 + 3.0 * steep) * 0.5 * size.x;
     let turn = fract(frame.time_secs * size.z / (0.5 * size.x));
 
     let planes = plane_shares(seen.n);
@@ -128,7 +128,7 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
     let taps = copies * select(1u, 2u, flows);
     var tint = vec3f(0.0);
     var slope = vec3f(0.0);
-    var rest = vec3f(0.0);
+    var coarse = vec3f(0.0);
     for (var tap = 0u; tap < taps; tap++) {
         let axis = shown_axis(planes, tap % axes);
         let is_fine = (tap / axes) % scales == 1u;
@@ -138,35 +138,35 @@ fn pattern_of(id: i32, seen: Seen) -> Pattern {
         let phase = fract(turn + select(0.0, 0.5, is_second));
         if flows { weight *= 1.0 - abs(2.0 * phase - 1.0); }
         weight /= f32(steps);
-        let carried_m = select(vec3f(0.0), way_m * (phase - 0.5), flows);
-        let x = flat_on(seen.rel_x, axis);
-        let y = flat_on(seen.rel_y, axis);
+        let carried_m = select(vec3f(0.0), flow_m * (phase - 0.5), flows);
+        let x = projected(seen.rel_x, axis);
+        let y = projected(seen.rel_y, axis);
         let is_x_longer = dot(x, x) > dot(y, y);
         let long_m = select(y, x, is_x_longer);
         let wide_m = max(length(select(x, y, is_x_longer)), length(long_m) / f32(steps));
-        var p = flat_on(body.eye_wrap_m + seen.rel_m - carried_m, axis);
+        var p = projected(body.eye_wrap_m + seen.rel_m - carried_m, axis);
         p += long_m * ((f32(step) + 0.5) / f32(steps) - 0.5);
         var period_m = size.x;
         if is_fine {
-            p = turned(p);
+            p = rotated(p);
             period_m = glow.w;
         }
         let level = log2(max(wide_m, 1e-6) * PATTERN_SIDE / period_m);
         let t = textureSampleLevel(material_tint, repeated, p / period_m, layer, level);
         let s = textureSampleLevel(material_surface, repeated, p / period_m, layer, level);
         var tilt = s.xy - 0.5;
-        if is_fine { tilt = turned_back(tilt); }
+        if is_fine { tilt = rotated_back(tilt); }
         let strength = weight * select(1.0, 0.5, is_fine);
         tint += strength * (2.0 * t.rgb - 1.0);
-        slope += strength * raised_from(tilt, axis);
-        if !is_fine { rest += weight * vec3f(t.a, s.zw); }
+        slope += strength * unprojected(tilt, axis);
+        if !is_fine { coarse += weight * vec3f(t.a, s.zw); }
     }
     out.tint = max(1.0 + tint * size.y, vec3f(0.0));
     out.slope = slope * (2.0 * PATTERN_STEEPEST * size.y);
-    out.height = rest.x;
-    out.roughness = (rest.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
+    out.height = coarse.x;
+    out.roughness = (coarse.y - 0.5) * (2.0 * PATTERN_ROUGHNESS * min(size.y, 1.0));
     // Cooler ground glows redder.
-    out.glow = heat(seen, size.x, size.w) * rest.z * size.w * pow(glow.rgb, vec3f(1.7 - 0.9 * saturate1(rest.z)));
+    out.glow = heat(seen, size.x, size.w) * coarse.z * size.w * pow(glow.rgb, vec3f(1.7 - 0.9 * saturate1(coarse.z)));
     out.far = smoothstep(1.0, 5.0, lod);
     out.shown = 1.0;
     return out;

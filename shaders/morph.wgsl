@@ -15,7 +15,7 @@ struct Tile {
 @group(0) @binding(0) var<storage, read> vertices: array<f32>;
 // For each vertex: shift in metres; moisture and temperature at sea level, or at the reference sphere of a planet with
 // no sea; height in metres.
-@group(0) @binding(1) var<storage, read_write> shown: array<f32>;
+@group(0) @binding(1) var<storage, read_write> morphed: array<f32>;
 @group(0) @binding(2) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(3) var<uniform> eye: MorphEye;
 
@@ -30,8 +30,8 @@ fn share_of(word: u32, spacing_m: f32) -> f32 {
     return saturate((begin_m - distance_m) / (begin_m * eye.width_share));
 }
 
-// Moisture, temperature and height of the vertex without morph, in the order of `shown`.
-fn own(word: u32) -> vec3f {
+// Moisture, temperature and height of the vertex without morph, in the order of `morphed`.
+fn unmorphed(word: u32) -> vec3f {
     return vec3f(
         vertices[word + VERTEX_MOISTURE],
         vertices[word + VERTEX_TEMPERATURE],
@@ -39,11 +39,11 @@ fn own(word: u32) -> vec3f {
     );
 }
 
-fn shown_of(word: u32) -> vec3f { return vec3f(shown[word + 1u], shown[word + 2u], shown[word + 3u]); }
+fn morphed_of(word: u32) -> vec3f { return vec3f(morphed[word + 1u], morphed[word + 2u], morphed[word + 3u]); }
 
-fn show(word: u32, shift_m: f32, rest: vec3f) {
-    shown[word] = shift_m;
-    for (var i = 0u; i < 3u; i++) { shown[word + 1u + i] = rest[i]; }
+fn store(word: u32, shift_m: f32, rest: vec3f) {
+    morphed[word] = shift_m;
+    for (var i = 0u; i < 3u; i++) { morphed[word + 1u + i] = rest[i]; }
 }
 
 @compute @workgroup_size(LANES)
@@ -51,7 +51,7 @@ fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
     let tile = tiles[group.x];
     let first = tile.first_vertex;
     for (var i = lane; i < TILE_VERTICES; i += LANES) {
-        show((first + i) * SHOWN_WORDS, 0.0, own((first + i) * VERTEX_WORDS));
+        store((first + i) * SHOWN_WORDS, 0.0, unmorphed((first + i) * VERTEX_WORDS));
     }
     for (var stride = COARSEST_MORPHING; stride > 0u; stride /= 2u) {
         storageBarrier();
@@ -70,11 +70,11 @@ fn compute(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
             let v = first + (y * TILE_SIDE + x) * stride;
             let word = v * VERTEX_WORDS;
             let share = share_of(word, tile.spacing_m * f32(stride));
-            let ends_m = shown[a * SHOWN_WORDS] + shown[b * SHOWN_WORDS];
+            let ends_m = morphed[a * SHOWN_WORDS] + morphed[b * SHOWN_WORDS];
             let shift_m = 0.5 * ends_m - (1.0 - share) * vertices[word + VERTEX_DEVIATION];
-            let deviation = own(word) - 0.5 * (own(a * VERTEX_WORDS) + own(b * VERTEX_WORDS));
-            let rest = 0.5 * (shown_of(a * SHOWN_WORDS) + shown_of(b * SHOWN_WORDS)) + share * deviation;
-            show(v * SHOWN_WORDS, shift_m, rest);
+            let deviation = unmorphed(word) - 0.5 * (unmorphed(a * VERTEX_WORDS) + unmorphed(b * VERTEX_WORDS));
+            let rest = 0.5 * (morphed_of(a * SHOWN_WORDS) + morphed_of(b * SHOWN_WORDS)) + share * deviation;
+            store(v * SHOWN_WORDS, shift_m, rest);
         }
     }
 }

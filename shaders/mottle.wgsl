@@ -9,22 +9,22 @@ const BUMPS: f32 = 0.02;
 // Weight of an octave: it fades out before its tile is small enough on screen for the repetition to show.
 fn octave_share(lod: f32) -> f32 { return 1.0 - smoothstep(-0.5, 3.0, lod); }
 
-fn octave_at(octave: Octave, place: vec3f, lod: f32) -> f32 {
-    return textureSampleLevel(noise_tile, repeated, octave.offset + place / octave.period, lod).g;
+fn octave_at(octave: Octave, position: vec3f, lod: f32) -> f32 {
+    return textureSampleLevel(noise_tile, repeated, octave.offset + position / octave.period, lod).g;
 }
 
 // Macro variation, about -1 to 1 with mean 0, at a point relative to the eye. `footprint_m`: width of a pixel at the
 // point.
 fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
     var sum = 0.0;
-    var place = rel_m;
+    var position = rel_m;
     for (var i = 0u; i < MOTTLE_OCTAVES; i++) {
         let octave = body.mottle[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
-        sum += (octave_at(octave, place, lod) - 0.5) * share;
-        place = OCTAVE_TURN * place;
+        sum += (octave_at(octave, position, lod) - 0.5) * share;
+        position = OCTAVE_TURN * position;
     }
     return clamp(sum * 1.1, -1.0, 1.0);
 }
@@ -34,7 +34,7 @@ fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
 // triangles.
 fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f {
     var rise = vec2f(0.0);
-    var place = rel_m;
+    var position = rel_m;
     var along = tangents;
     for (var i = 0u; i < MOTTLE_OCTAVES; i++) {
         let octave = body.mottle[i];
@@ -45,11 +45,11 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
             let step_m = max(octave.period / NOISE_TILE_SIDE, 0.5 * footprint_m);
             for (var axis = 0u; axis < 2u; axis++) {
                 let aside = along[axis] * step_m;
-                let risen = octave_at(octave, place + aside, lod) - octave_at(octave, place - aside, lod);
+                let risen = octave_at(octave, position + aside, lod) - octave_at(octave, position - aside, lod);
                 rise[axis] += risen * share * BUMPS * octave.period / (2.0 * step_m);
             }
         }
-        place = OCTAVE_TURN * place;
+        position = OCTAVE_TURN * position;
         along = array<vec3f, 2>(OCTAVE_TURN * along[0], OCTAVE_TURN * along[1]);
     }
     return rise;
@@ -58,17 +58,17 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
 // Broad independent octaves that bend the edges of ice.
 fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = vec2f(0.0);
-    var place = rel_m;
+    var position = rel_m;
     for (var i = 0u; i < 4u; i++) {
         let octave = body.mottle[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
         if i >= 1u {
-            let at = (octave.offset + place / octave.period).yzx;
+            let at = (octave.offset + position / octave.period).yzx;
             sum += (textureSampleLevel(noise_tile, repeated, at, lod).rg - 0.5) * share;
         }
-        place = OCTAVE_TURN * place;
+        position = OCTAVE_TURN * position;
     }
     return sum;
 }

@@ -7,7 +7,7 @@
 // with their weights.
 const UPPER: u32 = 7u;
 const LOWER: u32 = 5u;
-const PLACES: array<vec2f, 12> = array<vec2f, 12>(
+const NODES: array<vec2f, 12> = array<vec2f, 12>(
     vec2f(0.0254460438, 0.0647424831),
     vec2f(0.1292344072, 0.1398526957),
     vec2f(0.2970774243, 0.1909150253),
@@ -41,18 +41,18 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     var second = vec3f(0.0);
     var returned = vec3f(0.0);
     for (var i = 0u; i < UPPER + LOWER; i++) {
-        let place = PLACES[i];
+        let node = NODES[i];
         let hits = i >= UPPER;
         let span = select(1.0 - horizon, -1.0 - horizon, hits);
-        let mu = horizon + span * place.x;
-        let share = 0.5 * abs(span) * place.y;
+        let mu = horizon + span * node.x;
+        let share = 0.5 * abs(span) * node.y;
         let b = (radius + h) * mu;
         let shell = ray_sphere(b, (h - top) * (2.0 * radius + h + top));
         let ground = ray_sphere(b, h * (2.0 * radius + h));
-        let way = select(shell.y, ground.x, hits);
-        let middle = clamp(-b, 0.0, way);
+        let path_km = select(shell.y, ground.x, hits);
+        let middle = clamp(-b, 0.0, path_km);
         let start = -sqrt(middle);
-        let step = (sqrt(way - middle) - start) / f32(STEPS);
+        let step = (sqrt(path_km - middle) - start) / f32(STEPS);
         let ahead = ASIDE * sqrt(1.0 - mu * mu) * sun_flat;
         let cosines = mu * sun_mu + vec2f(ahead, -ahead);
         var transmittance = vec3f(1.0);
@@ -70,7 +70,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
             transmittance *= exp(-air.extinction * length_km);
         }
         if hits {
-            let mus = clamp(((radius + h) * sun_mu + way * cosines) / radius, vec2f(-1.0), vec2f(1.0));
+            let mus = clamp(((radius + h) * sun_mu + path_km * cosines) / radius, vec2f(-1.0), vec2f(1.0));
             let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0)
                 + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
             second += transmittance * light * body.ground_albedo * (share / (2.0 * PI));

@@ -13,17 +13,17 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let rho = x.y * sqrt(horizon2);
     let h = rho * rho / (radius + sqrt(radius * radius + rho * rho));
     let r = radius + h;
-    let way_min = top - h;
-    let way_max = rho + sqrt(horizon2);
-    let way = way_min + x.x * (way_max - way_min);
+    let path_min_km = top - h;
+    let path_max_km = rho + sqrt(horizon2);
+    let path_km = path_min_km + x.x * (path_max_km - path_min_km);
     var mu = 1.0;
-    if way > 0.0 { mu = clamp((horizon2 - rho * rho - way * way) / (2.0 * r * way), -1.0, 1.0); }
+    if path_km > 0.0 { mu = clamp((horizon2 - rho * rho - path_km * path_km) / (2.0 * r * path_km), -1.0, 1.0); }
 
     // Steps are dense around the lowest point of the path, where the air is densest.
     const STEPS: u32 = 40u;
-    let middle = clamp(-r * mu, 0.0, way);
+    let middle = clamp(-r * mu, 0.0, path_km);
     let start = -sqrt(middle);
-    let step = (sqrt(way - middle) - start) / f32(STEPS);
+    let step = (sqrt(path_km - middle) - start) / f32(STEPS);
     var depth = vec3f(0.0);
     for (var i = 0u; i < STEPS; i++) {
         let w = start + f32(i) * step;

@@ -8,8 +8,8 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
     let radius = body.radius_km;
     let top = body.air_height_km;
     let b = (radius + h) * mu;
-    let way = max(ray_sphere(b, (h - top) * (2.0 * radius + h + top)).y, 0.0);
-    let step = sqrt(way) / f32(steps);
+    let path_km = max(ray_sphere(b, (h - top) * (2.0 * radius + h + top)).y, 0.0);
+    let step = sqrt(path_km) / f32(steps);
     let flat = sqrt(max(0.0, 1.0 - mu * mu)) * sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
     var sum = vec3f(0.0);
     var transmittance = vec3f(1.0);

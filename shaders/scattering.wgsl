@@ -2,7 +2,7 @@
 #include "light.wgsl"
 
 // Range of a ray within the air: start and end in km; end <= start without air.
-fn way_through_air(h: f32, mu: f32, far: f32) -> vec2f {
+fn path_through_air(h: f32, mu: f32, far: f32) -> vec2f {
     let radius = body.radius_km;
     let top = body.air_height_km;
     let shell = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
@@ -25,15 +25,15 @@ fn air_light(
     var out = AirLight(vec3f(0.0), vec3f(1.0), vec3f(1.0));
     let radius = body.radius_km;
     let mu = dot(dir, up);
-    let way = way_through_air(h, mu, far);
-    if way.y <= way.x { return out; }
+    let path_km = path_through_air(h, mu, far);
+    if path_km.y <= path_km.x { return out; }
     let cosine = dot(dir, sun);
     let phase_rayleigh = rayleigh_phase(cosine);
     let phase_mie = mie_phase(cosine);
     let sun_up = dot(sun, up);
-    let middle = clamp(-(radius + h) * mu, way.x, way.y);
-    let start = -sqrt(middle - way.x);
-    let step = (sqrt(way.y - middle) - start) / steps;
+    let middle = clamp(-(radius + h) * mu, path_km.x, path_km.y);
+    let start = -sqrt(middle - path_km.x);
+    let step = (sqrt(path_km.y - middle) - start) / steps;
     var last_over = 0.0;
     for (var i = 0.0; i < steps; i += 1.0) {
         let w = start + i * step;

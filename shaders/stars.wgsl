@@ -18,8 +18,8 @@ fn star_layer(dir: vec3f, cells: f32, seed: u32, share: f32, pixel_rad: f32) -> 
     // Few bright stars, many faint ones.
     let magnitude = pow(more.x, 7.0);
     if more.y > share { return vec3f(0.0); }
-    let place = cell + 0.2 + 0.6 * r.xy;
-    let away = (x - place) * (2.0 / cells) / max(pixel_rad, 0.0006);
+    let center = cell + 0.2 + 0.6 * r.xy;
+    let away = (x - center) * (2.0 / cells) / max(pixel_rad, 0.0006);
     let spot = exp(-dot(away, away) * 1.6);
     let tint = mix(vec3f(1.0, 0.82, 0.66), vec3f(0.72, 0.83, 1.0), r.z);
     // Stars are dimmed where a pixel is wider than a star; otherwise a small picture would be full of blots.

@@ -24,7 +24,7 @@ struct Vertex {
     @location(11) shift_m: f32,
     // Moisture and temperature at sea level (at the reference sphere of a planet with no sea), and height in metres,
     // all with morph.
-    @location(12) shown: vec3f,
+    @location(12) morphed: vec3f,
     // Horizon tile; see `exposed`.
     @location(13) horizon: vec4f,
 }
@@ -74,8 +74,8 @@ fn vertex(in: Vertex, @builtin(vertex_index) index: u32) -> Ground {
     out.normal = from_octahedral(in.normal_oct);
     out.parent_normal = from_octahedral(in.parent_normal_oct);
     out.fade_m = in.tile.xy;
-    out.level_climate = in.shown.xy;
-    out.height_m = in.shown.z;
+    out.level_climate = in.morphed.xy;
+    out.height_m = in.morphed.z;
     out.level = in.tile.z;
     // The vertices of a tile start at a multiple of the vertices of a tile in the buffer.
     let number = index % (TILE_SIDE * TILE_SIDE);
@@ -97,10 +97,10 @@ fn faded(range_m: vec2f, distance_m: f32) -> f32 {
 }
 
 // The ground at a pixel, from the detail texture, or from the vertices where there is none yet.
-struct Relief {
+struct PixelGround {
     normal: vec3f,
     height_m: f32,
-    // Half the range of heights within the pixel in metres: from the slope alone, and with all relief no wider than
+    // Half the range of heights within the pixel in metres: from the slope alone, and with all unevenness no wider than
     // pixels
     plane_m: f32,
     spread_m: f32,
@@ -117,30 +117,31 @@ struct Step {
 // `footprint_m`: the longer side of a pixel on the ground. Normals finer than the footprint would sparkle. Octave by
 // octave of the footprint, the detail texture fades to its parent's, then to the vertices, then to the parent's
 // vertices. A child tile fades one octave later, so both show the same normals.
-fn relief_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) -> Relief {
+fn pixel_ground_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f32) -> PixelGround {
     let quarters = log2(footprint_m * 4.0 / spacing_m(in.level));
     let coarse = max(faded(in.fade_m, in.chosen_distance_m), saturate1(quarters - 2.0));
     let smooth_normal = normalize(mix(in.normal, in.parent_normal, coarse));
     let texels = log2(footprint_m / in.detail_fade.z);
     let by_distance = faded(in.detail_fade.xy, in.chosen_distance_m);
     let parent = max(by_distance, saturate1(texels));
-    let place = detail_place(in.layer, in.place.zw * (DETAIL_SIDE - 1.0), step.right.xy, step.below.xy, by_distance);
+    let texel = in.place.zw * (DETAIL_SIDE - 1.0);
+    let footprint = detail_place(in.layer, texel, step.right.xy, step.below.xy, by_distance);
     let change_m = 0.5 * (abs(step.right.z) + abs(step.below.z));
-    let steep = Steepness(place, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
-    var out = Relief(smooth_normal, in.height_m, change_m, change_m, steep);
+    let steep = Steepness(footprint, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
+    var out = PixelGround(smooth_normal, in.height_m, change_m, change_m, steep);
     if in.layer < 0.0 { return out; }
-    let slopes = detail_slopes_at(place);
+    let slopes = detail_slopes_at(footprint);
     let slope = mix(slopes.xy, slopes.zw, parent);
     let east = normalize(in.slope_axis - up * dot(up, in.slope_axis));
     let fine = normalize(up - slope.x * east - slope.y * cross(up, east));
     out.normal = normalize(mix(fine, smooth_normal, saturate1(texels - 1.0)));
-    let apart = smoothstep(-2.0, -1.0, place.width - by_distance);
-    let heights = heights_at(place, apart);
+    let apart = smoothstep(-2.0, -1.0, footprint.width - by_distance);
+    let heights = heights_at(footprint, apart);
     out.height_m = in.detail_fade.w + heights.middle_m;
-    out.plane_m = plane_spread_m(heights, place);
+    out.plane_m = plane_spread_m(heights, footprint);
     // Half the range of an even distribution with this standard deviation (sqrt(3)).
     out.spread_m = out.plane_m + 1.732 * heights.rest_m;
-    if apart < 1.0 { out.steep.shown = rises_at(place); }
+    if apart < 1.0 { out.steep.shown = rises_at(footprint); }
     out.steep.heights = heights;
     out.steep.apart = apart;
     return out;
@@ -172,16 +173,16 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
 
 // Inputs of biome and surface rules at a pixel. `at`: location in the biome table.
 fn site_of(
-    in: Ground, relief: Relief, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32,
+    in: Ground, pixel_ground: PixelGround, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32,
 ) -> Site {
-    let over_sea_m = select(1e9, relief.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
+    let over_sea_m = select(1e9, pixel_ground.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
     // As in `climate_at`.
     let colder = select(0.0, body.lapse_c_per_m, over_sea_m > 0.0);
     let drier = select(0.0, body.moisture_per_m, over_sea_m > 0.0);
     let by_height = vec3f(drier, body.row_per_c * colder - body.row_per_m, -colder);
     return Site(
-        at, in.rel_m, dot(relief.normal, up), relief.steep, temperature_c, over_sea_m, relief.plane_m, relief.spread_m,
-        by_height, footprint_m, mottle,
+        at, in.rel_m, dot(pixel_ground.normal, up), pixel_ground.steep, temperature_c, over_sea_m,
+        pixel_ground.plane_m, pixel_ground.spread_m, by_height, footprint_m, mottle,
     );
 }
 
@@ -200,11 +201,11 @@ fn seabed(ground: Material, site: Site) -> Material {
     return out;
 }
 
-// Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model). The result is multiplied by the
-// cosine to the light. The cosine here ignores tilts that are part of the roughness: counted twice, they would make
-// patterns brighter from near than from far away, where patterns are too fine to be drawn. `tilted_l`: cosine of the
-// tilted normal to the light. It bounds the retroreflection, which would grow without limit on ground seen edge-on
-// under a low sun.
+// Oren-Nayar in the form of Fujii (A tiny improvement of Oren-Nayar reflectance model). The result is to be multiplied
+// by the cosine of the tilted normal to the light. `n_l` and `n_v` ignore the tilt, because it is part of the roughness
+// already: counted twice, it would make patterns brighter from near than from far away, where they are too fine to be
+// drawn. `tilted_l`: cosine of the tilted normal to the light. It bounds the retroreflection, which would grow without
+// limit on ground seen edge-on under a low sun.
 fn rough_diffuse(n_l: f32, n_v: f32, l_v: f32, tilted_l: f32, roughness: f32) -> f32 {
     let sigma = roughness * 0.6;
     let s = l_v - n_l * n_v;
@@ -295,13 +296,13 @@ fn border(in: Ground) -> f32 {
     return 1.0 - smoothstep(0.7, 1.7, min(away.x, away.y));
 }
 
-fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
-    let n = relief.normal;
+fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f) -> vec3f {
+    let n = pixel_ground.normal;
     let lit = 0.35 + 0.65 * saturate1(dot(n, normalize(-in.rel_m)));
     // Computed before the switch, in uniform control flow, as derivatives require.
     let edge = border(in);
     let climate = climate_at(in, in.height_m);
-    let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
+    let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, 0.0);
     switch frame.debug_view {
         case VIEW_HEIGHT: {
             let span = max(body.height_range_m.y - body.height_range_m.x, 1.0);
@@ -310,8 +311,8 @@ fn debug_color(in: Ground, relief: Relief, up: vec3f) -> vec3f {
         case VIEW_NORMAL: { return pow(n * 0.5 + 0.5, vec3f(2.2)); }
         case VIEW_SLOPE: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case VIEW_BIOME: {
-            let site = site_of(in, relief, up, climate.temperature_c, place, 1.0, 0.0);
-            return lit_up(biome_param(biome_of(site), 0).rgb, place, vec3f(1.0));
+            let site = site_of(in, pixel_ground, up, climate.temperature_c, location, 1.0, 0.0);
+            return lit_up(biome_param(biome_of(site), 0).rgb, location, vec3f(1.0));
         }
         case VIEW_TEMPERATURE: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
         case VIEW_MOISTURE: { return moisture_color(climate.moisture) * lit; }
@@ -386,25 +387,25 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     let exact = frame.debug_view == VIEW_BIOME;
     let share = select(1.0, 0.0, exact);
     let step = Step(share * dpdx(at), share * dpdy(at));
-    let relief = relief_of(on_mesh, up, select(footprint_m, 1e-6, exact), step, select(2.0, 1.0, exact));
+    let pixel_ground = pixel_ground_of(on_mesh, up, select(footprint_m, 1e-6, exact), step, select(2.0, 1.0, exact));
     var in = on_mesh;
-    in.height_m = relief.height_m;
-    var n = relief.normal;
+    in.height_m = pixel_ground.height_m;
+    var n = pixel_ground.normal;
     let sea_level_m = body.sea_level_km * 1000.0;
     let over_sea_m = clamp(in.height_m - sea_level_m, -60000.0, 60000.0);
     if frame.debug_view != VIEW_SHADED && frame.debug_view != VIEW_ALBEDO {
-        return Shaded(debug_color(in, relief, up), over_sea_m, relief.spread_m);
+        return Shaded(debug_color(in, pixel_ground, up), over_sea_m, pixel_ground.spread_m);
     }
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
     let mottle = mottle_at(in.rel_m, footprint_m);
     let climate = climate_at(in, in.height_m);
-    let place = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
-    cells_per_pixel = (abs(dpdx(place)) + abs(dpdy(place))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, relief, up, climate.temperature_c, place, footprint_m, mottle);
+    let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
+    cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
+    let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, mottle);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
-    if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, relief.spread_m); }
+    if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, pixel_ground.spread_m); }
     n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground has a larger area than the untilted ground below it. With the area included, bumps vary the light
     // but not its mean, so the ground is as bright from near as from far away, where bumps are too fine to be drawn.
@@ -418,8 +419,8 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
         if i > 0u { from_here = exposed_at(on_mesh, up); }
         radiance += lit(ground, facet, from_here);
     }
-    let shown = lit_up(radiance, place, body.suns[0].irradiance / PI);
-    return Shaded(min(shown, vec3f(60000.0)), over_sea_m, relief.spread_m);
+    let highlighted = lit_up(radiance, location, body.suns[0].irradiance / PI);
+    return Shaded(min(highlighted, vec3f(60000.0)), over_sea_m, pixel_ground.spread_m);
 }
 
 struct Output {

@@ -10,14 +10,14 @@
 // `depths_m`: least and greatest depth in the pixel.
 fn water_body(floor: vec3f, depths_m: vec2f, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
     // Refraction (Snell, refractive index 1.333): paths under water are steeper.
-    let way = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769)
+    let path = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769)
         + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
-    let shallow = body.water_absorption_per_m * min(way * depths_m.x, 1e5);
-    let deeper = body.water_absorption_per_m * min(way * (depths_m.y - depths_m.x), 1e5);
+    let shallow = body.water_absorption_per_m * min(path * depths_m.x, 1e5);
+    let deeper = body.water_absorption_per_m * min(path * (depths_m.y - depths_m.x), 1e5);
     // Mean over all depths in between.
     let mean = (1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3));
-    let left = exp(-shallow) * select(mean, 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
-    return floor * left + body.water_color * downwelling / PI * (1.0 - left);
+    let transmittance = exp(-shallow) * select(mean, 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
+    return floor * transmittance + body.water_color * downwelling / PI * (1.0 - transmittance);
 }
 
 // Greatest depth of foam.
@@ -109,8 +109,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
 
     if body.eye_over_sea_km < 0.0 {
         // The eye is under water: the water's colour replaces distant light.
-        let way_m = min(terrain, hits.y) * 1000.0;
-        let left = exp(-body.water_absorption_per_m * min(way_m, 1e5));
+        let path_m = min(terrain, hits.y) * 1000.0;
+        let transmittance = exp(-body.water_absorption_per_m * min(path_m, 1e5));
         let h = max(body.sea_level_km, 0.0);
         var light = vec3f(0.0);
         for (var i = 0u; i < body.sun_count; i++) {
@@ -120,7 +120,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         }
         let dimmed = exp(body.water_absorption_per_m * min(body.eye_over_sea_km * 1000.0, 0.0));
         let water = body.water_color * light * dimmed / PI;
-        return Output(vec4f(scene.rgb * left + water * (1.0 - left), height_m), ground.depth);
+        return Output(vec4f(scene.rgb * transmittance + water * (1.0 - transmittance), height_m), ground.depth);
     }
     if hits.y < hits.x || hits.x <= 0.0 {
         if terrain >= NOTHING_KM { discard; }

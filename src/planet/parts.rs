@@ -41,8 +41,8 @@ params! {
     }
 }
 
-/// The climate belts as a cubic in sin² latitude, by ascending power: wet at the equator (1) and at 50° (0.6), dry at 25°
-/// and at the poles (-1). Moisture gains half of it times [`Climate::belts`]; clouds follow the same curve.
+/// The climate belts as a cubic in sin² latitude, by ascending power: wet at the equator (1) and at 50° (0.6), dry at
+/// 25° and at the poles (-1). Moisture gains half of it times [`Climate::belts`]; clouds follow the same curve.
 pub const CLIMATE_BELTS: [f64; 4] = [1.0, -19.404_782, 52.369_621, -34.964_839];
 
 choice! {

@@ -1,5 +1,5 @@
-//! The air of a body (`air.wgsl`): in front of everything that is drawn, with clouds at their distance. The body farthest
-//! away has stars and the discs of suns behind it.
+//! The air of a body (`air.wgsl`): in front of everything that is drawn, with clouds at their distance. The body
+//! farthest away has stars and the discs of suns behind it.
 
 use super::screen_pass::{Input, Output, Scope, ScreenPass, writes};
 use super::targets::Target;

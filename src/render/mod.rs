@@ -1,8 +1,8 @@
 //! Draws planets with wgpu, on the caller's own device.
 //!
-//! A [`Scene`] holds a camera, suns and bodies. [`Renderer::render`] draws it into one texture. A game that has things of
-//! its own to draw uses the stages instead: [`Renderer::prepare`], then of [`PreparedFrame`] `draw_opaque`, its own draw
-//! calls into the same targets, `draw_air`, and `draw_post` or a post-process of its own.
+//! A [`Scene`] holds a camera, suns and bodies. [`Renderer::render`] draws it into one texture. A game that has things
+//! of its own to draw uses the stages instead: [`Renderer::prepare`], then of [`PreparedFrame`] `draw_opaque`, its own
+//! draw calls into the same targets, `draw_air`, and `draw_post` or a post-process of its own.
 //!
 //! - `scene`: what is drawn. `renderer`: resources and preparation. `prepared`: the stages. `error`: what can go wrong
 //! - `passes`: the list of all passes; `screen_pass`: a pass over all pixels; `targets`: the textures between them
@@ -10,8 +10,8 @@
 //!   `horizon_pool`; then `water`
 //! - air stage: `clouds`, `air`; `copy` where there is no air
 //! - post-process: `exposure` (compute), `tonemap` with `tone` and `white_balance`, `antialias`, `display`
-//! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps` (of
-//!   `material_kinds`, by `material_noise`)
+//! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
+//!   (of `material_kinds`, by `material_noise`)
 //! - `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes, checks, hot reload
 //! - `gpu`: helpers around wgpu; `sky_probe`: single rays through the shaders of the air
 //!

@@ -90,8 +90,8 @@ impl<'r> PreparedFrame<'r> {
 
     /// Stage 1: ground and sea of all bodies.
     ///
-    /// # Errors
-    /// [`RenderError::TargetSize`], [`RenderError::TargetFormat`], [`RenderError::TargetUsage`]: the targets do not fit.
+    /// # Errors [`RenderError::TargetSize`], [`RenderError::TargetFormat`], [`RenderError::TargetUsage`]: the targets
+    /// do not fit.
     pub fn draw_opaque(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -243,8 +243,8 @@ impl<'r> PreparedFrame<'r> {
         pass.draw(device, encoder, of, composite, self.plan.viewport_px, self.plan.metering);
     }
 
-    /// The exposure that was metered: a uniform and storage buffer of two `f32`, the factor on radiance and its logarithm
-    /// to base 2. With [`Metering::Manual`] it is 1 and 0.
+    /// The exposure that was metered: a uniform and storage buffer of two `f32`, the factor on radiance and its
+    /// logarithm to base 2. With [`Metering::Manual`] it is 1 and 0.
     pub fn exposure(&self) -> &wgpu::Buffer {
         &self.view.exposure.result
     }

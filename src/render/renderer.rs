@@ -100,8 +100,8 @@ impl Renderer {
         })
     }
 
-    /// Layouts of the two bind groups of a body ([`PreparedFrame::body_groups`]): group 0 and 1 of a pipeline whose shader
-    /// begins with [`super::air_wgsl`].
+    /// Layouts of the two bind groups of a body ([`PreparedFrame::body_groups`]): group 0 and 1 of a pipeline whose
+    /// shader begins with [`super::air_wgsl`].
     pub fn body_layouts(&self) -> [&wgpu::BindGroupLayout; 2] {
         [&self.shared.layout, &self.patterns.layout]
     }
@@ -233,8 +233,8 @@ impl Renderer {
         }
     }
 
-    /// Draws a scene into a target as large as [`Scene::size_px`] and submits it: all stages in the view's own targets, at
-    /// the render scale of the scene's quality.
+    /// Draws a scene into a target as large as [`Scene::size_px`] and submits it: all stages in the view's own targets,
+    /// at the render scale of the scene's quality.
     ///
     /// # Errors
     /// [`RenderError::TargetSize`]: the target has another size, and nothing is drawn. Others as [`Renderer::prepare`].
@@ -253,8 +253,8 @@ impl Renderer {
         Ok(stats)
     }
 
-    /// The radiance of the newest [`Renderer::render`] before exposure and tone curve, without stars: size of the picture as
-    /// it was drawn, and red, green and blue of each pixel (1: white ground at noon). Waits for the device.
+    /// The radiance of the newest [`Renderer::render`] before exposure and tone curve, without stars: size of the
+    /// picture as it was drawn, and red, green and blue of each pixel (1: white ground at noon). Waits for the device.
     ///
     /// # Errors
     /// [`RenderError::Device`]: the device does not answer.

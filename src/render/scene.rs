@@ -85,7 +85,8 @@ impl<'a> Body<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Projection {
-    /// Left, right, bottom and top edge of the picture at unit distance; left and bottom are negative in a symmetric one.
+    /// Left, right, bottom and top edge of the picture at unit distance; left and bottom are negative in a symmetric
+    /// one.
     pub tangents: [f64; 4],
     /// Offset of the picture in pixels, right and down: for temporal antialiasing.
     pub jitter_px: [f64; 2],
@@ -195,7 +196,8 @@ impl<'a> Scene<'a> {
         scene
     }
 
-    /// The camera as a body sees it: the view to build its tiles for. An off-axis picture lies inside the view's frustum.
+    /// The camera as a body sees it: the view to build its tiles for. An off-axis picture lies inside the view's
+    /// frustum.
     pub fn view_of(&self, position_m: DVec3, scene_from_body: DQuat) -> View {
         let body_from_scene = scene_from_body.inverse();
         let [left, right, bottom, top] = self.projection.tangents;
@@ -237,7 +239,8 @@ pub(crate) fn height_range_m(surface: &Surface) -> (f64, f64) {
     heights.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((0.0, 0.0))
 }
 
-/// Matrices of a frame. Depth is reversed, the far plane at infinity: depth = near plane / distance along the view axis.
+/// Matrices of a frame. Depth is reversed, the far plane at infinity: depth = near plane / distance along the view
+/// axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Matrices {

@@ -1,7 +1,7 @@
 //! The textures that passes read and write, by name.
 //!
-//! A view owns those between the stages; the caller lends the others. All are as large as the caller's targets, so that a
-//! pixel has the same coordinates in each of them.
+//! A view owns those between the stages; the caller lends the others. All are as large as the caller's targets, so that
+//! a pixel has the same coordinates in each of them.
 
 use super::{RenderError, gpu};
 use std::collections::HashMap;
@@ -18,8 +18,8 @@ pub(crate) enum Target {
     GroundRadiance,
     /// Depth of the ground under the sea.
     GroundDepth,
-    /// Of the ground at a pixel: temperature at the level of the sea in °C, share of the sun that the ground around takes,
-    /// height range within the pixel in metres.
+    /// Of the ground at a pixel: temperature at the level of the sea in °C, share of the sun that the ground around
+    /// takes, height range within the pixel in metres.
     GroundSurface,
     /// Radiance of ground and sea: the caller's.
     Radiance,

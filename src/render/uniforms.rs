@@ -44,7 +44,8 @@ uniform_struct! {
         air_steps: f32,
         /// Quality of the ground's patterns: 0 (one tap of one pattern) to 2.
         pattern_quality: f32,
-        /// Biomes in a mixture: MIXTURE_ENTRIES. Loops count to a uniform: software drivers compile an unrolled one for minutes.
+        /// Biomes in a mixture: MIXTURE_ENTRIES. Loops count to a uniform: software drivers compile an unrolled one for
+        /// minutes.
         mixture_entries: u32,
     }
 }
@@ -103,7 +104,8 @@ uniform_struct! {
         eye_up: Vec3,
         /// Height of the eye above the reference sphere.
         eye_altitude_km: f32,
-        /// Ray of a pixel = ray_center + x ray_right + y ray_up with x, y from -1 to 1: one unit of it is one unit of depth.
+        /// Ray of a pixel = ray_center + x ray_right + y ray_up with x, y from -1 to 1: one unit of it is one unit of
+        /// depth.
         ray_right: Vec3,
         ray_up: Vec3,
         ray_center: Vec3,

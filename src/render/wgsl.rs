@@ -1,7 +1,7 @@
 //! One source for what the CPU and the shaders share: Rust definitions, written out as WGSL and as bytes.
 //!
-//! [`uniform_struct!`] declares a struct once. It gives the Rust type, its WGSL declaration, and its bytes in the layout
-//! of WGSL's uniform address space (WGSL specification, section 14.4.1: alignment and size).
+//! [`uniform_struct!`] declares a struct once. It gives the Rust type, its WGSL declaration, and its bytes in the
+//! layout of WGSL's uniform address space (WGSL specification, section 14.4.1: alignment and size).
 
 use glam::{DMat3, Mat4, UVec2, Vec2, Vec3, Vec4};
 

@@ -4,7 +4,7 @@
 //! The planet frame is right-handed, in metres, with its origin at the centre: +Z through the north pole, +X through
 //! latitude 0, longitude 0, +Y through longitude 90° east.
 //!
-//! - [`cube`]: faces and the mapping, with its exact inverse
+//! - [`cube`]: faces and the mapping, with its inverse
 //! - [`node`]: addresses of quadtree nodes and their neighbours across all face edges
 //! - [`geo`]: latitude, longitude, local north and east, evenly spread directions
 //! - [`raster`]: grids of numbers over the sphere, sampled smoothly

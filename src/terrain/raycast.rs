@@ -22,9 +22,9 @@ const TOLERANCE_M: f64 = 1e-5;
 const MAX_SEARCH: usize = 60;
 
 impl Terrain {
-    /// Distance in metres along a ray from `origin_planet_m` to the ground or to the sea's surface, whichever is nearer.
-    /// `None` if the ray meets neither, if the origin is infinite or NaN, or if the direction is zero, infinite or NaN.
-    /// The direction may have any other length. A ray that starts in the ground meets it at 0.
+    /// Distance in metres along a ray from `origin_planet_m` to the ground or to the sea's surface, whichever is
+    /// nearer. `None` if the ray meets neither, if the origin is infinite or NaN, or if the direction is zero, infinite
+    /// or NaN. The direction may have any other length. A ray that starts in the ground meets it at 0.
     ///
     /// The march takes steps in proportion to the height above the ground: it can miss a ridge thinner than a step.
     pub fn raycast(&self, origin_planet_m: DVec3, dir_planet: DVec3) -> Option<f64> {
@@ -132,8 +132,8 @@ impl Ray<'_> {
         (above, None)
     }
 
-    /// The distance of the crossing between a point above the ground and one below: by the secant, halving the weight of
-    /// an end that stays (the Illinois method; Dowell and Jarratt 1971).
+    /// The distance of the crossing between a point above the ground and one below: by the secant, halving the weight
+    /// of an end that stays (the Illinois method; Dowell and Jarratt 1971).
     fn crossing(&mut self, mut above: RayPoint, mut below: RayPoint) -> f64 {
         // Which end moved last: 1 the one above, -1 the one below.
         let mut moved = 0;

@@ -1,5 +1,6 @@
 //! Height maps: pictures as terrain, from the file to the ground, and the messages for wrong pictures.
 
+use crate::support::dice::directions;
 use exr::prelude::*;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
@@ -84,15 +85,6 @@ fn loaded(folder: &Path, file: &str, layout: PictureLayout) -> Terrain {
     Terrain::try_new(Arc::new(Planet::load(&preset).unwrap())).unwrap()
 }
 
-fn directions(n: u64) -> Vec<DVec3> {
-    let mut state = 1_u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
-}
-
 #[test]
 fn every_file_and_layout_gives_the_same_planet() {
     let folder = tempfile::tempdir().unwrap();
@@ -116,7 +108,7 @@ fn every_file_and_layout_gives_the_same_planet() {
     ] {
         let terrain = loaded(folder.path(), file, layout);
         let (lo, hi) = terrain.height_bounds_m();
-        for dir in directions(2000).into_iter().chain([DVec3::Z, DVec3::NEG_Z, DVec3::NEG_X, DVec3::ONE]) {
+        for dir in directions(1, 2000).into_iter().chain([DVec3::Z, DVec3::NEG_Z, DVec3::NEG_X, DVec3::ONE]) {
             let height_m = terrain.height_m(dir);
             assert!((height_m - right(dir.normalize())).abs() < tolerance_m, "{file} {dir}: {height_m} {}", right(dir));
             assert!((lo..=hi).contains(&height_m));
@@ -130,7 +122,7 @@ fn normals_are_those_of_the_heights_and_bits_are_the_same_everywhere() {
     png16(&folder.path().join("a.png"), &equirectangular(64));
     let terrain = loaded(folder.path(), "a.png", PictureLayout::Equirectangular);
     let radius_m = terrain.planet().radius_m();
-    let dirs = directions(500);
+    let dirs = directions(1, 500);
     for &dir in dirs.iter().chain(&[DVec3::Z, DVec3::NEG_X]) {
         let at = |d: DVec3| d.normalize() * (radius_m + terrain.height_m(d));
         let (a, b) = dir.any_orthonormal_pair();

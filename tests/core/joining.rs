@@ -1,5 +1,6 @@
 //! Joining layers: against plain formulas, against differences, and with any values that a preset allows.
 
+use crate::support::dice::directions;
 use glam::DVec3;
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -9,15 +10,6 @@ use tellus::planet::{
 };
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
-
-fn directions(n: u64) -> Vec<DVec3> {
-    let mut state = 7_u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
-}
 
 /// Smooth ground with steep slopes.
 fn ground(name: &str, seed: u32, wavelength_km: f64, amplitude_m: f64) -> Layer {
@@ -180,7 +172,7 @@ fn cases() -> Vec<(String, Planet)> {
 
 #[test]
 fn heights_are_those_of_the_plain_formulas() {
-    let dirs = directions(1500);
+    let dirs = directions(7, 1500);
     for (name, planet) in cases() {
         let mut changed = 0;
         let alone = heights(&Planet { layers: planet.layers[..1].to_vec(), ..planet.clone() }, &dirs);
@@ -198,7 +190,7 @@ fn normals_match_central_differences_for_every_way_of_joining() {
         let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
         let radius_m = terrain.planet().radius_m();
         let mut angles: Vec<f64> = Vec::new();
-        for dir in directions(400) {
+        for dir in directions(7, 400) {
             let sample = terrain.sample(dir);
             let (a, b) = dir.any_orthonormal_pair();
             // Far enough for the rounding of the noise not to matter.
@@ -227,7 +219,7 @@ fn on_slopes(over_m: f64, invert: bool) -> Planet {
 #[test]
 fn masks_by_slope_find_the_slope_of_the_ground_below() {
     let below = Terrain::try_new(Arc::new(planet(vec![ground("Base", 1, 40.0, 1500.0)]))).unwrap();
-    let dirs = directions(1000);
+    let dirs = directions(7, 1000);
     for invert in [false, true] {
         // Over a metre every octave counts: the slope is that of a sample, at the reference radius.
         let terrain = Terrain::try_new(Arc::new(on_slopes(1.0, invert))).unwrap();
@@ -326,7 +318,7 @@ proptest! {
     fn any_layers_make_finite_ground_within_its_bounds_and_the_same_everywhere(planet in any_planet()) {
         prop_assert_eq!(validate::problems(&planet), []);
         let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
-        let dirs = directions(333);
+        let dirs = directions(7, 333);
         let heights = terrain.heights_m(&dirs);
         let bits = |heights: &[f64]| -> Vec<u64> { heights.iter().map(|h| h.to_bits()).collect() };
         for simd in Simd::available() {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Biome, Biomes, Fbm, Layer, Planet, Shape, Table};
-use tellus::sphere::LatLon;
+use tellus::sphere::{LatLon, spread};
 use tellus::terrain::Terrain;
 use tellus::terrain::simd::Simd;
 use tellus::tiles::{Builder, build_now};
@@ -38,17 +38,6 @@ fn hummocky() -> Planet {
     }
 }
 
-fn directions(count: u32) -> Vec<DVec3> {
-    let golden = 2.399_963_229_728_653;
-    (0..count)
-        .map(|i| {
-            let z = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(count);
-            let (sin, cos) = (f64::from(i) * golden).sin_cos();
-            DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
-        })
-        .collect()
-}
-
 fn without(planet: &Planet) -> Planet {
     let mut flat = planet.clone();
     flat.biomes.palette.iter_mut().for_each(|biome| biome.relief_m = 0.0);
@@ -60,7 +49,7 @@ fn relief_lies_where_its_biome_does_and_within_the_bounds() {
     let planet = hummocky();
     let (with, flat) =
         (Terrain::try_new(Arc::new(planet.clone())).unwrap(), Terrain::try_new(Arc::new(without(&planet))).unwrap());
-    let dirs = directions(4000);
+    let dirs: Vec<DVec3> = spread(4000).collect();
     let (mut bare, mut raised) = (0, 0);
     for ((dir, height_m), below_m) in dirs.iter().zip(with.heights_m(&dirs)).zip(flat.heights_m(&dirs)) {
         let relief_m = (height_m - below_m).abs();
@@ -83,7 +72,7 @@ fn slopes_are_those_of_the_raised_ground() {
     let planet = hummocky();
     let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     let radius_m = planet.radius_m();
-    for dir in directions(1500) {
+    for dir in spread(1500) {
         let sample = terrain.sample(dir);
         let east = dir.cross(DVec3::Z).normalize();
         let h = 1e-6;
@@ -119,7 +108,7 @@ fn no_cliff_stands_where_a_relief_ends() {
 fn every_instruction_set_batch_and_tile_gives_the_same_bits() {
     let planet = Arc::new(hummocky());
     let terrain = Terrain::try_new(planet.clone()).unwrap();
-    let dirs = directions(700);
+    let dirs: Vec<DVec3> = spread(700).collect();
     let heights = terrain.heights_m(&dirs);
     for simd in Simd::available().iter().copied() {
         let other = Terrain::try_new(planet.clone()).unwrap().with_simd(simd);

@@ -1,5 +1,6 @@
 //! The evaluator and the tiles: exactness, determinism, seams, incremental rebuilds.
 
+use crate::support::dice::directions;
 use glam::DVec3;
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -62,15 +63,6 @@ fn view(altitude_m: f64, pitch_deg: f64) -> View {
     View { camera, size_px: [640, 400], quality: Quality::Low }
 }
 
-fn directions(n: u64) -> Vec<DVec3> {
-    let mut state = 1_u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
-}
-
 /// FNV-1a over the bits of the heights.
 fn hash(heights_m: &[f64]) -> u64 {
     heights_m
@@ -82,7 +74,7 @@ fn hash(heights_m: &[f64]) -> u64 {
 #[test]
 fn heights_have_the_same_bits_on_every_instruction_set_and_for_ever() {
     let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
-    let dirs = directions(5000);
+    let dirs = directions(1, 5000);
     for simd in Simd::available() {
         let heights = terrain.clone().with_simd(simd).heights_m(&dirs);
         assert_eq!(
@@ -97,7 +89,7 @@ fn heights_have_the_same_bits_on_every_instruction_set_and_for_ever() {
 #[test]
 fn one_point_and_a_batch_agree_to_the_bit() {
     let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
-    let dirs = directions(700);
+    let dirs = directions(1, 700);
     let batch = terrain.heights_m(&dirs);
     for (dir, height_m) in dirs.iter().zip(&batch) {
         assert_eq!(terrain.height_m(*dir).to_bits(), height_m.to_bits());
@@ -111,7 +103,7 @@ fn one_point_and_a_batch_agree_to_the_bit() {
 #[test]
 fn all_queries_of_a_point_agree() {
     let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
-    let dirs = directions(700);
+    let dirs = directions(1, 700);
     let samples = terrain.samples(&dirs, Wanted::ALL);
     let (mut heights_m, mut scratch) = (vec![0.0; dirs.len()], Scratch::default());
     terrain.heights_into(&dirs, &mut heights_m, &mut scratch);
@@ -147,7 +139,7 @@ fn normals_match_central_differences() {
     let terrain = Terrain::try_new(Arc::new(planet)).unwrap();
     let radius_m = terrain.planet().radius_m();
     let mut worst = 0.0_f64;
-    for dir in directions(500) {
+    for dir in directions(1, 500) {
         let sample = terrain.sample(dir);
         let (a, b) = dir.any_orthonormal_pair();
         let step = 2.0 / radius_m;
@@ -238,7 +230,7 @@ fn the_same_planet_seen_from_many_places_is_one_planet() {
 fn a_ray_meets_the_ground_where_the_ground_is() {
     let terrain = Terrain::try_new(Arc::new(planet())).unwrap();
     let radius_m = terrain.planet().radius_m();
-    for dir in directions(60) {
+    for dir in directions(1, 60) {
         let surface_m = radius_m + terrain.height_m(dir).max(0.0);
         let hit = terrain.raycast(dir * (surface_m + 5000.0), -dir).unwrap();
         assert!((hit - 5000.0).abs() < 0.01, "{hit}");
@@ -398,7 +390,7 @@ fn the_sea_makes_its_shores_moister_than_the_inland() {
     let without = Terrain::try_new(Arc::new(planet())).unwrap();
     let again = Terrain::try_new(Arc::new(moist())).unwrap();
     let (mut shore, mut inland) = (Vec::new(), Vec::new());
-    for dir in directions(4000) {
+    for dir in directions(1, 4000) {
         let (a, b) = (with.sample(dir), without.sample(dir));
         assert_eq!(a.moisture.to_bits(), again.sample(dir).moisture.to_bits());
         assert_eq!((a.height_m, a.temperature_c), (b.height_m, b.temperature_c));

@@ -1,6 +1,7 @@
 //! Reproducible random numbers.
 #![allow(dead_code, unreachable_pub)]
 
+use glam::DVec3;
 use tellus::sphere::LatLon;
 
 /// Numbers from 0 to 1 (SplitMix64).
@@ -22,4 +23,13 @@ impl Dice {
             lon_rad: (2.0 * self.roll() - 1.0) * std::f64::consts::PI,
         }
     }
+}
+
+/// Pseudo-random unit directions (a linear congruential generator; goldens depend on them).
+pub fn directions(mut state: u64, n: usize) -> Vec<DVec3> {
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
 }

@@ -1,4 +1,4 @@
-//! A planet with every feature, and an edit of each of its parameters.
+//! A planet that uses every parameter, and an edit of each.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use tellus::planet::{
 };
 use tellus::terrain::Revision;
 
-/// A planet that reads almost every parameter: each landform, each mask, all biomes in the table.
+/// A planet on which every parameter has an effect: all landforms, masks, all biomes in the biome table.
 pub fn full_planet() -> Planet {
     let mut planet = Planet {
         radius_km: 1500.0,
@@ -17,7 +17,7 @@ pub fn full_planet() -> Planet {
         clouds: Some(Clouds::default()),
         ..Planet::default()
     };
-    // A height map without a picture does nothing.
+    // A height map without its picture has no effect.
     let kinds = Shape::all().into_iter().filter(|shape| !matches!(shape, Shape::HeightMap(_)));
     for (i, mut shape) in kinds.enumerate() {
         shrink(&mut shape);
@@ -63,7 +63,7 @@ fn shrink(shape: &mut Shape) {
 /// An edit of one parameter.
 pub struct Edit {
     pub path: String,
-    /// The stages that its description declares, and those that follow.
+    /// The stages that its description declares stale.
     pub declared: Stages,
     pub planet: Planet,
 }
@@ -74,7 +74,7 @@ pub fn is_idle(path: &str) -> bool {
     path.starts_with("biomes.palette[0].steep_") || ["biomes.lowest_m", "biomes.highest_m"].contains(&path)
 }
 
-/// An edit of each parameter that has another value, and one of the biome table.
+/// One edit of each parameter that can take another value, and one of the biome table.
 pub fn every_edit(planet: &Planet) -> Vec<Edit> {
     let mut places: Vec<(ParamPath, Stages)> = Vec::new();
     planet.each_value(&mut |path, param, _| places.push((path.clone(), param.stages)));
@@ -172,12 +172,12 @@ fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
             let is_free = |key: &char| planet.biomes.palette.iter().all(|biome| biome.key != *key);
             Value::Letter(('a'..='z').rev().find(is_free).unwrap_or(key))
         }
-        // Another biome of the palette.
+        // A reference to a biome: another one of the palette.
         (Value::Letter(key), _) => {
             let others = planet.biomes.palette.iter().map(|biome| biome.key);
             Value::Letter(others.rev().find(|other| *other != key).unwrap_or(key))
         }
-        // Another layer. A layer that masks refer to keeps its name.
+        // A mask's layer: another one. A layer that masks refer to keeps its name.
         (Value::Text(_), _) if param.name == "layer" => Value::Text(planet.layers[2].name.clone()),
         (Value::Text(text), _) => Value::Text(format!("{text}!")),
         (value, _) => value,

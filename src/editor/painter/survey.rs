@@ -88,7 +88,8 @@ impl Surveyor {
         Self { terrains, answers, asked: None, survey: None }
     }
 
-    /// Asks for a survey of a terrain, unless the newest request was for equal ground, or its world maps are not final yet.
+    /// Asks for a survey of a terrain, unless the newest request was for equal ground, or its world maps are not final
+    /// yet.
     pub fn ask(&mut self, terrain: &Arc<Terrain>) {
         if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(|asked| same_ground(asked, terrain)) {
             // Fails only if the thread could not be started.

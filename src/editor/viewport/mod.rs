@@ -44,7 +44,7 @@ use eframe::egui_wgpu::RenderState;
 use frames::FrameLog;
 use glam::DVec3;
 use ground::PlanetGround;
-use picture::{Meters, Picture, Scene, quality_for};
+use picture::{Meters, Picture, Subject, quality_for};
 use pointer::{Probe, UnderPointer, in_view};
 use std::sync::Arc;
 
@@ -288,9 +288,9 @@ impl Viewport {
         let shown = surface.terrain.planet().clone();
         let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&surface.terrain, valid) { valid } else { &shown };
         let (settings, marked) = (&self.settings, self.painter.marked.clone());
-        let scene = Scene { surface, planet, view, frozen: self.frozen, settings, marked };
+        let subject = Subject { surface, planet, view, frozen: self.frozen, settings, marked };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
-        self.picture.draw(&scene, &mut Meters { frames, frame_meter, edit_clock });
+        self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });
     }
 
     /// Asks for the ground under the pointer.

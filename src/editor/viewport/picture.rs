@@ -9,15 +9,15 @@ use super::target::Target;
 use super::timeline::{self, Span};
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{self, BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Renderer, Tone};
+use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Renderer, Scene, Tone};
 use crate::tiles::{Leaf, Surface};
 use eframe::egui::{self, TextureId};
 use eframe::egui_wgpu::RenderState;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The scene to draw.
-pub(super) struct Scene<'a> {
+/// The subject of the picture.
+pub(super) struct Subject<'a> {
     pub(super) surface: Arc<Surface>,
     /// The planet that gives sea, air, clouds and light.
     pub(super) planet: &'a Arc<Planet>,
@@ -143,11 +143,11 @@ impl Picture {
         }
     }
 
-    /// Draws the scene, unless the texture holds that picture already.
-    pub(super) fn draw(&mut self, scene: &Scene<'_>, meters: &mut Meters<'_>) {
+    /// Draws the subject, unless the texture holds that picture already.
+    pub(super) fn draw(&mut self, subject: &Subject<'_>, meters: &mut Meters<'_>) {
         let Drawing::Ready(renderer, state) = &mut self.drawing else { return };
-        let Scene { planet, settings, .. } = scene;
-        let key = PictureKey::of(scene);
+        let Subject { planet, settings, .. } = subject;
+        let key = PictureKey::of(subject);
         let target = self.target.get_or_insert_with(|| Target::new(state, key.view.size_px));
         let resized = target.resize(key.view.size_px);
         let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
@@ -160,17 +160,17 @@ impl Picture {
         }
         let begin = Instant::now();
         let sun_dir_planet = planet.star.place(key.time_secs).direction();
-        let mut drawn_scene = render::Scene::of_planet(planet, &key.surface, key.view, sun_dir_planet);
-        drawn_scene.time_secs = key.time_secs;
-        drawn_scene.debug_view = key.debug_view;
-        drawn_scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
-        drawn_scene.post.exposure_ev = key.exposure_ev;
-        drawn_scene.post.tone = key.tone;
-        for body in &mut drawn_scene.bodies {
+        let mut scene = Scene::of_planet(planet, &key.surface, key.view, sun_dir_planet);
+        scene.time_secs = key.time_secs;
+        scene.debug_view = key.debug_view;
+        scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
+        scene.post.exposure_ev = key.exposure_ev;
+        scene.post.tone = key.tone;
+        for body in &mut scene.bodies {
             body.frozen = key.frozen;
             body.marked.clone_from(&key.marked);
         }
-        let drawn = renderer.render(target.view(), &drawn_scene);
+        let drawn = renderer.render(target.view(), &scene);
         match drawn {
             Ok(stats) => self.stats = stats,
             Err(error) => {
@@ -214,18 +214,18 @@ struct PictureKey {
 }
 
 impl PictureKey {
-    fn of(scene: &Scene<'_>) -> Self {
+    fn of(subject: &Subject<'_>) -> Self {
         Self {
-            surface: scene.surface.clone(),
-            planet: scene.planet.clone(),
-            view: scene.view,
-            frozen: scene.frozen,
-            time_secs: scene.settings.time_secs,
-            exposure_ev: scene.settings.exposure_ev,
-            auto_exposure: scene.settings.auto_exposure,
-            tone: scene.settings.tone,
-            debug_view: scene.settings.debug_view,
-            marked: scene.marked.clone(),
+            surface: subject.surface.clone(),
+            planet: subject.planet.clone(),
+            view: subject.view,
+            frozen: subject.frozen,
+            time_secs: subject.settings.time_secs,
+            exposure_ev: subject.settings.exposure_ev,
+            auto_exposure: subject.settings.auto_exposure,
+            tone: subject.settings.tone,
+            debug_view: subject.settings.debug_view,
+            marked: subject.marked.clone(),
         }
     }
 

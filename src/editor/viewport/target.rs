@@ -71,11 +71,11 @@ fn make_view(device: &wgpu::Device, size_px: [u32; 2]) -> wgpu::TextureView {
             height: size_px[1].clamp(1, limit),
             depth_or_array_layers: 1,
         },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
         format: FORMAT,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        dimension: wgpu::TextureDimension::D2,
+        mip_level_count: 1,
+        sample_count: 1,
         view_formats: &[],
     });
     texture.create_view(&wgpu::TextureViewDescriptor::default())

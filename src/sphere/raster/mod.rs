@@ -1,4 +1,4 @@
-//! Rasters: grids of numbers over the whole sphere, sampled smoothly and with exact gradients.
+//! Rasters: grids of numbers over the whole sphere, sampled smoothly, with analytic gradients.
 //!
 //! Samples are uniform cubic B-splines of the texels (de Boor 1978). They are twice continuously differentiable, so
 //! that shading shows no grid; they stay within the range of the texels, so that nothing rings; and they are softer

@@ -1,15 +1,7 @@
 //! Rasters against the functions that they were made from.
 
 use super::*;
-
-fn directions(n: u64) -> Vec<DVec3> {
-    let mut state = 7_u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..n).map(|_| DVec3::new(next(), next(), next()).normalize()).collect()
-}
+use crate::sphere::spread;
 
 fn at<T: Texel>(raster: &Raster<T>, dir: DVec3, level: usize) -> (f64, DVec3) {
     raster.sample(&raster.place(dir), level)
@@ -46,7 +38,7 @@ fn rough(d: DVec3) -> f64 {
 fn both_kinds_follow_what_they_were_made_of() {
     for (raster, least) in [(globe(128, pattern), 0.005), (cube(64, pattern), 0.005)] {
         let (lo, hi) = raster.bounds();
-        for dir in directions(4000).into_iter().chain([DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::ONE.normalize()]) {
+        for dir in spread(4000).chain([DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::ONE.normalize()]) {
             let (value, _) = at(&raster, dir, 0);
             assert!((value - pattern(dir)).abs() < least, "{dir}: {value} {}", pattern(dir));
             assert!((lo..=hi).contains(&value));
@@ -83,7 +75,7 @@ fn gradients_match_central_differences() {
     for raster in [globe(32, rough), cube(16, rough)] {
         let near_pole =
             (0..400).map(|k| DVec3::new(f64::from(k % 20) * 0.01, f64::from(k / 20) * 0.01, 1.0).normalize());
-        for dir in directions(4000).into_iter().chain(near_pole) {
+        for dir in spread(4000).chain(near_pole) {
             let (_, gradient) = at(&raster, dir, 0);
             for along in <[DVec3; 2]>::from(dir.any_orthonormal_pair()) {
                 let value = |step: f64| at(&raster, (dir + along * step).normalize(), 0).0;
@@ -98,9 +90,9 @@ fn gradients_match_central_differences() {
 fn bounds_near_a_direction_hold_around_it_and_are_tight() {
     for raster in [globe(96, rough), cube(48, rough), globe(96, pattern), cube(48, pattern)] {
         let edges = [DVec3::Z, DVec3::NEG_Z, DVec3::NEG_X, DVec3::new(1.0, 1.0, 0.2), DVec3::ONE];
-        let near_edges = directions(200).into_iter().flat_map(|d| edges.map(|e| e.normalize() + d * 0.03));
+        let near_edges = spread(200).flat_map(|d| edges.map(|e| e.normalize() + d * 0.03));
         let mut looseness = Vec::new();
-        for (k, dir) in directions(2000).into_iter().chain(near_edges).map(DVec3::normalize).enumerate() {
+        for (k, dir) in spread(2000).chain(near_edges).map(DVec3::normalize).enumerate() {
             let angle_rad = libm::pow(10.0, -0.2 - (k % 37) as f64 * 0.1);
             let (lo, hi) = raster.bounds_near(dir, angle_rad);
             let (a, b) = dir.any_orthonormal_pair();
@@ -123,7 +115,7 @@ fn bounds_near_a_direction_hold_around_it_and_are_tight() {
 fn a_constant_stays_what_it_is() {
     let globe = Raster::globe(30, vec![40_000_u16; 1800]);
     let cube = Raster::cube(9, vec![40_000_u16; 6 * 81]);
-    for dir in directions(500) {
+    for dir in spread(500) {
         for level in 0..2 {
             assert!((at(&globe, dir, level).0 - 40_000.0).abs() < 1e-9);
             assert!((at(&cube, dir, level).0 - 40_000.0).abs() < 1e-9);

@@ -275,20 +275,8 @@ fn crater<R: Real>(to: [R::S; 3], dir: [R::S; 3], random: u32, mould: Mould) -> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::moon;
     use super::*;
-
-    fn moon() -> planet::Craters {
-        planet::Craters {
-            octaves: 3,
-            density: 0.4,
-            power: 2.4,
-            floor: 0.5,
-            peak: 0.4,
-            age: 0.9,
-            fresh: 0.1,
-            ..Default::default()
-        }
-    }
 
     /// Counts above a diameter follow its power, within an octave and from one to the next.
     #[test]

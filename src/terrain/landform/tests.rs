@@ -31,10 +31,9 @@ pub(super) fn gradients(landform: &Landform, dirs: &[DVec3]) -> Vec<DVec3> {
     (0..dirs.len()).map(|i| DVec3::new(x[i].into(), y[i].into(), z[i].into())).collect()
 }
 
-/// Each kind with a name: with defaults, in its other styles, and with parameters that the defaults leave at 0.
-pub(super) fn shapes() -> Vec<(&'static str, Shape)> {
-    let cells = |style| Shape::Cells(planet::Cells { style, width: 0.4, octaves: 2, ..Default::default() });
-    let moon = planet::Craters {
+/// The craters of a moon: of all ages, some with floors and peaks.
+pub(super) fn moon() -> planet::Craters {
+    planet::Craters {
         octaves: 3,
         density: 0.4,
         power: 2.4,
@@ -43,9 +42,14 @@ pub(super) fn shapes() -> Vec<(&'static str, Shape)> {
         age: 0.9,
         fresh: 0.1,
         ..Default::default()
-    };
+    }
+}
+
+/// Each kind with a name: with defaults, in its other styles, and with parameters that the defaults leave at 0.
+pub(super) fn shapes() -> Vec<(&'static str, Shape)> {
+    let cells = |style| Shape::Cells(planet::Cells { style, width: 0.4, octaves: 2, ..Default::default() });
     let more = [
-        ("Craters of a moon", Shape::Craters(moon)),
+        ("Craters of a moon", Shape::Craters(moon())),
         ("Plates", cells(planet::CellStyle::Plates)),
         ("Cracks", cells(planet::CellStyle::Cracks)),
         ("Bumps", cells(planet::CellStyle::Bumps)),
