@@ -140,9 +140,9 @@ fn ray_light(dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32) -
 }
 
 // Antialiases the limb from afar, where the bright rim of the air is narrower than a pixel: the mean of several rays
-// side by side across the limb. `center`: result of the pixel's central ray. `ground`: whether that ray hits ground.
+// side by side across the limb. `center`: result of the pixel's central ray. `far`: where that ray ends, km.
 fn across_limb(
-    pixel: vec2i, dir: vec3f, ground: bool, scene: vec3f, clouds: vec4f, cloud_at: f32, center: RayLight,
+    pixel: vec2i, dir: vec3f, far: f32, scene: vec3f, clouds: vec4f, cloud_at: f32, center: RayLight,
 ) -> RayLight {
     const RAYS: i32 = 8;
     let radius = body.radius_km;
@@ -154,6 +154,9 @@ fn across_limb(
     // not that of the sphere.
     let step = frame.pixel_rad * ahead;
     if body.air_height_km <= 0.0 || ahead <= 0.0 || step < 1.5 { return center; }
+    // A nearer body hides the limb. Ground farther away is another body's.
+    if far < ahead - 0.5 * radius { return center; }
+    let ground = far < ahead + 0.5 * radius;
     if abs(height) > body.air_height_km + 2.0 * step || (height < 0.0) != ground { return center; }
     // From within the air, the rim is as wide as the air is deep, and a ray pointing down meets the ground long before
     // the limb.
@@ -223,7 +226,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         clouds = around.light;
         cloud_at = around.at_km;
     }
-    let seen = across_limb(pixel, dir, ground, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
+    let seen = across_limb(pixel, dir, far, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
     var scattered = vec3f(0.0);
     if body.is_frontmost != 0u {
         for (var i = 0u; i < body.sun_count; i++) {

@@ -137,7 +137,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     second.y = min(second.y, far);
     // Jitter between neighbouring pixels hides the steps, which would show as terraces (interleaved gradient noise,
     // Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
-    let jitter = fract(52.9829189 * fract(dot(floor(position.xy), vec2f(0.06711056, 0.00583715))));
+    let jitter = fract(52.9829189 * fract(dot(floor(position.xy) - frame.origin_px, vec2f(0.06711056, 0.00583715))));
     var light = vec3f(0.0);
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
     for (var i = 0u; i < body.sun_count; i++) {

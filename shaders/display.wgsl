@@ -33,7 +33,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     var encoded = encode_srgb(light);
     if frame.debug_view == VIEW_SHADED {
         // Triangular noise with the amplitude of one step hides the 256 steps of the display.
-        let bits = hash3(vec3u(vec2u(pixel), 7u));
+        let bits = hash3(vec3u(vec2u(pixel) - vec2u(frame.origin_px), 7u));
         // No noise on black, so that black stays exactly black.
         let strength = min(encoded, vec3f(1.0 / 255.0));
         encoded += (unit_from_hash(bits) - unit_from_hash(hash3(bits + 1u))) * strength;
