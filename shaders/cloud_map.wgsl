@@ -70,8 +70,10 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         q = q.yzx * 2.03 + 17.3;
         amplitude *= 0.62;
     }
-    // More cloud at the equator and in middle latitudes, less between them (Hadley and Ferrel cells).
-    let belt = 0.10 * cos(6.0 * asin(clamp(dir.z, -1.0, 1.0)));
+    // More cloud in the wet belts of the climate (Hadley and Ferrel cells), less in the dry ones.
+    let s = dir.z * dir.z;
+    let wet = CLIMATE_BELTS.x + s * (CLIMATE_BELTS.y + s * (CLIMATE_BELTS.z + s * CLIMATE_BELTS.w));
+    let belt = body.cloud_belts * wet;
     let evenly = 0.5 + 0.5 * tanh((sum + belt) * 1.9);
     return vec4f(evenly, 0.0, 0.0, 1.0);
 }

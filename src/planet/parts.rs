@@ -22,7 +22,7 @@ params! {
         /// Amplitude of the moisture noise.
         moisture_variation: f64 = 0.6, "Moisture variation", Unit::None, linear(0.0, 2.0), Stage::Climate;
         /// Strength of the climate belts: wet at the equator and at 50° latitude, dry at 25° and at the poles.
-        belts: f64 = 0.3, "Belts", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        belts: f64 = 0.3, "Belts", Unit::None, linear(0.0, 1.0), Stage::Climate | Stage::CloudMap;
         /// How much drier it gets for each kilometre of height.
         drying_per_km: f64 = 0.06, "Drying with height", Unit::PerKilometre, linear(0.0, 1.0), Stage::Uniform;
         /// Moisture that the sea adds at the coast.

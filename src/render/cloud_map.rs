@@ -1,10 +1,8 @@
 //! The weather map (`cloud_map.wgsl`): six faces of a cube map, drawn again when scale, curl or seed changes.
 
+use super::shared::WEATHER_SIDE;
 use super::{RenderError, gpu, shaders};
 use wgpu::util::DeviceExt;
-
-/// Texels along an edge of a face.
-pub(crate) const WEATHER_SIDE: u32 = 512;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 

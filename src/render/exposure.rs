@@ -1,24 +1,11 @@
 //! Automatic exposure: a histogram of the finished radiance (`histogram.wgsl`), and the exposure computed from it
 //! (`exposure.wgsl`). The result stays on the GPU in a buffer, which tone mapping reads.
 
-use super::wgsl::{self, Uniform as _, uniform_struct};
+use super::scene::Metering;
+use super::shared::{METER_BINS, METER_GROUP, METER_STRIDE, MeterStep};
+use super::wgsl::{self, Uniform as _};
 use super::{RenderError, gpu, shaders};
 use glam::UVec2;
-
-/// How the exposure of a picture is chosen, and the meaning of [`super::Post::exposure_ev`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Metering {
-    /// `exposure_ev` is the exposure: manual control.
-    #[default]
-    Manual,
-    /// `exposure_ev` corrects the exposure metered from this picture.
-    Instant,
-    /// As [`Metering::Instant`], but the exposure follows the picture over time, as an eye adapts.
-    Adapting {
-        /// Seconds since the last picture.
-        secs: f64,
-    },
-}
 
 impl Metering {
     /// Share of the difference to the metered exposure that this picture closes; `None` for manual exposure.
@@ -33,28 +20,10 @@ impl Metering {
 
 /// Time constant of adaptation in seconds: after it, 63% of the difference is closed.
 const ADAPTATION_SECS: f64 = 0.35;
-/// Bins of the histogram.
-pub(crate) const METER_BINS: u32 = 128;
-/// Spacing of counted pixels in each direction, in pixels.
-pub(crate) const METER_STRIDE: u32 = 4;
-/// Invocations along a side of a workgroup.
-pub(crate) const METER_GROUP: u32 = 16;
 /// Bytes of the histogram and of its counter of white pixels.
 const HISTOGRAM_BYTES: u64 = (METER_BINS as u64 + 1) * 4;
 /// Side in pixels of the square that one workgroup counts.
 const GROUP_PX: u32 = METER_GROUP * METER_STRIDE;
-
-uniform_struct! {
-    /// Uniforms of one metering.
-    MeterStep {
-        /// Upper left corner of the picture in the texture, pixels.
-        origin_px: UVec2,
-        /// Width and height of the picture, pixels.
-        size_px: UVec2,
-        /// Share of the difference to the metered exposure that is closed now.
-        share: f32,
-    }
-}
 
 /// The pipelines of metering.
 pub(crate) struct ExposurePass {

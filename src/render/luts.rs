@@ -11,16 +11,11 @@ use super::cloud_map::{CloudMapPass, WeatherMap};
 use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
 use super::screen_pass::Shared;
+use super::shared::{IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SKY_SIZE};
 use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Atmosphere, Biomes, Planet};
 use std::sync::Arc;
-
-/// Size of each LUT of the air in texels.
-pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
-pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 32];
-pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
-pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 
 /// The LUTs of the air in order of dependence: name, shader, size.
 const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
@@ -36,8 +31,8 @@ const AIR_LUTS_READ: [usize; 4] = [0, 1, 2, 2];
 /// terminator.
 type AirKey = (Atmosphere, f64, u32);
 
-/// Key of the weather map: scale, curl, seeds of clouds and planet, radius.
-type WeatherKey = (f64, f64, u32, u32, f64);
+/// Key of the weather map: scale, curl, seeds of clouds and planet, radius, climate belts.
+type WeatherKey = (f64, f64, u32, u32, f64, f64);
 
 /// Number of times that each texture of a body, and its uniforms, have been written since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -179,7 +174,7 @@ impl Luts {
             }
         }
         if let Some(clouds) = planet.clouds.as_ref().filter(|clouds| clouds.coverage > 0.0 && marked.is_none()) {
-            let key = (clouds.scale_km, clouds.curl, clouds.seed, planet.seed, planet.radius_km);
+            let key = (clouds.scale_km, clouds.curl, clouds.seed, planet.seed, planet.radius_km, planet.climate.belts);
             if self.weather_key != Some(key) {
                 pipelines.cloud_map.draw(encoder, uniforms, &self.weather);
                 self.weather_key = Some(key);

@@ -59,13 +59,13 @@ mod white_balance;
 
 pub use biome_table::MarkedCells;
 pub use error::RenderError;
-pub use exposure::Metering;
 pub use gpu::read_texture;
 pub use luts::LutRuns;
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
-pub use scene::{Body, BodyId, DebugView, MAX_SUNS, Matrices, Post, Projection, Scene, Sun, ViewId, split_position};
+pub use scene::{Body, BodyId, DebugView, Matrices, Metering, Post, Projection, Scene, Sun, ViewId, split_position};
 pub use shaders::air_wgsl;
+pub use shared::MAX_SUNS;
 pub use sky_probe::SkyAnswer;
 pub use targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 pub use tone::Tone;

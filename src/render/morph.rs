@@ -3,37 +3,19 @@
 
 use super::pool::{Place, SLOTS};
 use super::scene::split_position;
-use super::wgsl::{self, Uniform as _, uniform_struct};
+use super::shared::{MorphEye, SHOWN_BYTES};
+use super::wgsl::{self, Uniform as _};
 use super::{RenderError, gpu, shaders};
 use crate::lod::Ranges;
 use crate::lod::range::FULL_AT;
 use crate::lod::tile::TILE_VERTICES;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 /// Morphed values of a vertex: vertical shift in metres; then moisture, temperature in °C and height in metres.
 pub(crate) const SHOWN_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
     wgpu::vertex_attr_array![11 => Float32, 12 => Float32x3];
-/// Bytes of the morphed values of a vertex.
-pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Bytes of the morphed values for one buffer of the pool.
 const PART_BYTES: u64 = SLOTS as u64 * TILE_VERTICES as u64 * SHOWN_BYTES;
-
-uniform_struct! {
-    /// Uniforms of the morph: the eye, and the distances at which vertices morph.
-    MorphEye {
-        /// Position in the planet frame, metres: high part and low part.
-        high_m: Vec3,
-        /// Distance within which a level always shows, in vertex spacings.
-        least_spacings: f32,
-        low_m: Vec3,
-        /// Distance beyond which a level never shows, in vertex spacings.
-        most_spacings: f32,
-        /// Metres of distance for each metre of expected geometric error.
-        reach: f32,
-        /// Share of that distance over which a vertex morphs.
-        width_share: f32,
-    }
-}
 
 /// A tile in the shader's storage buffer.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]

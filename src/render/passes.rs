@@ -10,18 +10,6 @@ pub(crate) const AIR: &[&ScreenPass] = &[&clouds::PASS, &air::PASS];
 /// Passes of the post-process that follow the metering.
 pub(crate) const POST: &[&ScreenPass] = &[&tonemap::PASS, &antialias::PASS, &display::PASS];
 
-/// What there is to draw: decides which passes run.
-pub(crate) struct Work {
-    /// The planets, not a debug view.
-    pub(crate) shaded: bool,
-    /// The body has a sea.
-    pub(crate) sea: bool,
-    /// The body has clouds.
-    pub(crate) clouds: bool,
-    /// Edges are smoothed.
-    pub(crate) smooth_edges: bool,
-}
-
 /// Every pipeline; made anew as a whole when a shader changes on disk.
 pub(crate) struct Pipelines {
     pub(crate) luts: luts::LutPipelines,

@@ -1,9 +1,8 @@
 //! A frame whose uniforms, tiles and LUTs are on the GPU: the stages that the caller records.
 
-use super::passes::Work;
 use super::renderer::{Renderer, ViewResources};
 use super::scene::BodyId;
-use super::screen_pass::{Drawing, ScreenPipeline};
+use super::screen_pass::{Drawing, ScreenPipeline, Work};
 use super::targets::{self, DEPTH_FORMAT, Owned, RADIANCE_FORMAT, Target};
 use super::terrain::GroundTargets;
 use super::{FrameStats, Metering, RenderError};

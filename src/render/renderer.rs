@@ -3,10 +3,11 @@
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::luts::{LutRuns, Luts, Patterns};
-use super::passes::{Pipelines, Work};
+use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
-use super::scene::{Body, BodyId, DebugView, MAX_SUNS, Scene, ViewId};
-use super::screen_pass::Shared;
+use super::scene::{Body, BodyId, DebugView, Scene, ViewId};
+use super::screen_pass::{Shared, Work};
+use super::shared::MAX_SUNS;
 use super::targets::{self, Owned, Target, Targets};
 use super::terrain::Indices;
 use super::uniforms::{self, Drawn, UniformBuffer};

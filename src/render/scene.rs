@@ -3,16 +3,13 @@
 //! Scene space has its origin at the camera; its axes are the caller's. Positions are f64 metres. A body's own frame is
 //! the planet frame of [`crate`]: the renderer draws each body in that frame, relative to the eye.
 
-use super::{Metering, Tone};
+use super::biome_table::MarkedCells;
+use super::tone::Tone;
 use crate::lod::{Camera, Quality, View};
 use crate::planet::{Planet, Star};
-use crate::render::MarkedCells;
 use crate::tiles::Surface;
 use glam::{DQuat, DVec3, Mat4};
 use std::sync::Arc;
-
-/// The most suns of a scene.
-pub const MAX_SUNS: usize = 4;
 
 /// Key of a body: the renderer keeps the body's tiles and LUTs under it from frame to frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -122,6 +119,21 @@ impl Projection {
         let up = self.jitter_px[1] * step(half_y, size_px[1]);
         [0.5 * (left + right) + aside, 0.5 * (bottom + top) + up]
     }
+}
+
+/// How the exposure of a picture is chosen, and the meaning of [`Post::exposure_ev`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Metering {
+    /// `exposure_ev` is the exposure: manual control.
+    #[default]
+    Manual,
+    /// `exposure_ev` corrects the exposure metered from this picture.
+    Instant,
+    /// As [`Metering::Instant`], but the exposure follows the picture over time, as an eye adapts.
+    Adapting {
+        /// Seconds since the last picture.
+        secs: f64,
+    },
 }
 
 /// How radiance becomes a picture.

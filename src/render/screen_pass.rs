@@ -1,7 +1,6 @@
 //! A pass over all pixels of the picture: its description, and its pipeline.
 
 use super::gpu::{self, Slot};
-use super::passes::Work;
 use super::targets::Target;
 use super::{RenderError, shaders};
 use std::collections::HashMap;
@@ -40,6 +39,18 @@ pub(crate) enum Scope {
     Body,
     /// The frame alone. Groups: uniforms, inputs.
     View,
+}
+
+/// What there is to draw: decides which passes run.
+pub(crate) struct Work {
+    /// The planets, not a debug view.
+    pub(crate) shaded: bool,
+    /// The body has a sea.
+    pub(crate) sea: bool,
+    /// The body has clouds.
+    pub(crate) clouds: bool,
+    /// Edges are smoothed.
+    pub(crate) smooth_edges: bool,
 }
 
 /// A pass over all pixels of the picture.

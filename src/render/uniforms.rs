@@ -7,205 +7,13 @@ mod clouds;
 mod ground;
 mod water;
 
-use super::scene::{self, MAX_SUNS, Scene, height_range_m, split_position};
-use super::shared::{BORDER_OCTAVES, CLOUD_BANDS, MOTTLE_OCTAVES, WAVES};
-use super::wgsl::uniform_struct;
+use super::scene::{self, Scene, height_range_m, split_position};
+pub(crate) use super::shared::{Body, Frame};
+use super::shared::{MAX_SUNS, MIXTURE_ENTRIES, Octave, Sun};
 use super::{gpu, wgsl, white_balance};
 use crate::lod::Quality;
 use glam::{DQuat, DVec3, Mat4, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;
-
-uniform_struct! {
-    /// Uniforms of a frame.
-    Frame {
-        /// Left upper corner of the picture in its targets, pixels.
-        origin_px: Vec2,
-        /// Width and height of the picture, pixels.
-        size_px: Vec2,
-        /// The view axis in the picture: right and up, 0 in a symmetric projection, +-1 at the edges.
-        lens_shift: Vec2,
-        /// Distance of the near plane. Depth = near_m / distance along the view axis.
-        near_m: f32,
-        /// Angle of a pixel in the middle of the picture.
-        pixel_rad: f32,
-        /// Pixels drawn for each pixel shown, in one direction: 2, 1 or 0.5.
-        render_scale: f32,
-        /// Seconds since time zero.
-        time_secs: f32,
-        /// Factor on radiance, set by hand.
-        exposure: f32,
-        /// VIEW_SHADED, ...
-        debug_view: u32,
-        /// TONE_AGX, ...
-        tone: u32,
-        /// White balance: gains on radiance.
-        white: Vec3,
-        /// Steps of a march through the air.
-        air_steps: f32,
-        /// Quality of the ground's patterns: 0 (one tap of one pattern) to 2.
-        pattern_quality: f32,
-        /// Biomes in a mixture: MIXTURE_ENTRIES. Loops count to a uniform: software drivers compile an unrolled one for
-        /// minutes.
-        mixture_entries: u32,
-    }
-}
-
-uniform_struct! {
-    /// A light at infinity.
-    Sun {
-        /// Unit vector towards it.
-        dir: Vec3,
-        /// Angular radius of its disc.
-        radius_rad: f32,
-        /// Irradiance outside the air on a surface that faces it.
-        irradiance: Vec3,
-        /// Radiance of its disc over its irradiance.
-        disc_gain: f32,
-    }
-}
-
-uniform_struct! {
-    /// An octave of a noise that repeats.
-    Octave {
-        /// The eye in the octave's own frame, in periods, 0 to 1.
-        offset: Vec3,
-        /// Length after which it repeats, in the unit of the noise's positions.
-        period: f32,
-    }
-}
-
-uniform_struct! {
-    /// A plane wave of the sea.
-    Wave {
-        /// Wave vector, radians per metre.
-        vector_per_m: Vec3,
-        /// Phase at the eye.
-        phase: f32,
-    }
-}
-
-uniform_struct! {
-    /// Uniforms of a body in a view, in the body's frame.
-    Body {
-        /// Metres from the eye, in the body's axes, to clip space.
-        clip_from_rel_m: Mat4,
-        /// The eye from the body's centre: greater part and rest.
-        eye_high_m: Vec3,
-        /// 1 for the body farthest away: behind it are stars.
-        is_backmost: u32,
-        eye_low_m: Vec3,
-        /// 1 for the body nearest to the eye: before it the lens scatters light.
-        is_frontmost: u32,
-        /// The eye from the body's centre.
-        eye_km: Vec3,
-        /// Radius of the reference sphere.
-        radius_km: f32,
-        /// Unit vector from the centre to the eye.
-        eye_up: Vec3,
-        /// Height of the eye above the reference sphere.
-        eye_altitude_km: f32,
-        /// Ray of a pixel = ray_center + x ray_right + y ray_up with x, y from -1 to 1: one unit of it is one unit of
-        /// depth.
-        ray_right: Vec3,
-        ray_up: Vec3,
-        ray_center: Vec3,
-        /// Unit vector along the view axis.
-        view_axis: Vec3,
-        /// Change of the ray from a pixel to the next on the right.
-        pixel_right: Vec3,
-        /// Change of the ray from a pixel to the next above.
-        pixel_up: Vec3,
-        /// Suns that shine.
-        sun_count: u32,
-        suns: [Sun; MAX_SUNS],
-        /// Angular radius that the LUTs of the air were made with.
-        lut_sun_radius_rad: f32,
-        /// Rayleigh scattering at the reference sphere.
-        rayleigh_per_km: Vec3,
-        rayleigh_scale_km: f32,
-        /// Mie scattering and extinction at the reference sphere.
-        mie_scattering_per_km: Vec3,
-        mie_scale_km: f32,
-        mie_extinction_per_km: Vec3,
-        /// Parameter g of the phase function of Cornette and Shanks.
-        mie_anisotropy: f32,
-        /// Absorption in the middle of the absorber, whose density is a triangle over height.
-        absorber_per_km: Vec3,
-        absorber_height_km: f32,
-        /// Half width of the absorber.
-        absorber_width_km: f32,
-        /// Thickness of the air; 0 without air.
-        air_height_km: f32,
-        /// Mean albedo of the ground, for multiple scattering.
-        ground_albedo: Vec3,
-        /// 1 where there is a sea.
-        has_sea: u32,
-        water_absorption_per_m: Vec3,
-        /// Height of the sea above the reference sphere.
-        sea_level_km: f32,
-        water_color: Vec3,
-        /// Height of the eye above the sea.
-        eye_over_sea_km: f32,
-        ice_color: Vec3,
-        freezing_c: f32,
-        /// Variance of the slope of all waves (Cox and Munk).
-        wave_slope_variance: f32,
-        /// Temperature at the level of the sea.
-        equator_c: f32,
-        pole_c: f32,
-        waves: [Wave; WAVES],
-        cloud_color: Vec3,
-        /// Of the layer from top to bottom.
-        cloud_optical_depth: f32,
-        cloud_bottom_km: f32,
-        cloud_top_km: f32,
-        /// Share of the sky that clouds cover; 0 without clouds.
-        cloud_coverage: f32,
-        /// Period of the noise band that makes puffs.
-        cloud_puff_period_km: f32,
-        /// Bands of the noise that shapes clouds, widest first; periods in km.
-        cloud_bands: [Octave; CLOUD_BANDS],
-        cloud_steps: f32,
-        /// First step of a march that begins in the layer, and the ratio of each step to the one before.
-        cloud_first_step_km: f32,
-        cloud_step_growth: f32,
-        /// Weather systems along the radius.
-        cloud_systems_per_radius: f32,
-        /// Cosine and sine of the drift about the pole.
-        cloud_drift: Vec2,
-        cloud_curl: f32,
-        cloud_seed: u32,
-        /// Octaves of the macro variation; periods in metres.
-        mottle: [Octave; MOTTLE_OCTAVES],
-        /// The eye's position modulo 1024 m, for patterns that repeat.
-        eye_wrap_m: Vec3,
-        /// How much colder it gets with each metre of height.
-        lapse_c_per_m: f32,
-        /// The eye's position modulo 2^20 m.
-        eye_wrap_far_m: Vec3,
-        /// Of the eye that the tiles were chosen for.
-        chosen_pixel_rad: f32,
-        /// The eye that the tiles were chosen for: greater part and rest.
-        chosen_eye_high_m: Vec3,
-        /// How far noise moves the borders between biomes, in cells of the biome table.
-        border_jitter_cells: f32,
-        chosen_eye_low_m: Vec3,
-        /// 1 for crisp borders between biomes.
-        crisp_borders: u32,
-        /// Octaves of the border jitter at the point of the reference sphere under the eye; periods in metres.
-        border: [Octave; BORDER_OCTAVES],
-        /// Lowest and highest height of the tiles.
-        height_range_m: Vec2,
-        /// Row of the biome table, 0 to 1: row_offset + row_per_c temperature in °C + row_per_m height over the sea.
-        row_offset: f32,
-        row_per_c: f32,
-        row_per_m: f32,
-        /// Change of moisture with height.
-        moisture_per_m: f32,
-        /// 1 while cells of the biome table are highlighted.
-        marked: u32,
-    }
-}
 
 /// Where the picture lies and how it is drawn.
 pub(crate) struct Drawn {
@@ -242,7 +50,7 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
         white: DVec3::from_array(white).as_vec3(),
         air_steps,
         pattern_quality,
-        mixture_entries: super::shared::MIXTURE_ENTRIES,
+        mixture_entries: MIXTURE_ENTRIES,
     }
 }
 

@@ -156,6 +156,12 @@ impl Constant for [f64; 2] {
     }
 }
 
+impl Constant for [f64; 4] {
+    fn text(&self) -> (&'static str, String) {
+        ("vec4f", format!("vec4f({:?}, {:?}, {:?}, {:?})", self[0], self[1], self[2], self[3]))
+    }
+}
+
 impl Constant for DMat3 {
     fn text(&self) -> (&'static str, String) {
         let column = |c: glam::DVec3| format!("vec3f({:?}, {:?}, {:?})", c.x, c.y, c.z);

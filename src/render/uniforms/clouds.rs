@@ -15,6 +15,8 @@ const BAND_RATIO: f64 = 3.3;
 const PUFFS_PER_TILE: f64 = 4.0;
 /// First step of a march that begins in the layer, in thicknesses of the layer.
 const FIRST_STEP: f64 = 0.06;
+/// Belts in the weather map for each unit of the climate's belts: chosen by eye.
+const BELTS: f64 = 1.0 / 3.0;
 /// Steps of a march through a layer that is thinner than a pixel.
 const FAR_STEPS: f64 = 3.0;
 
@@ -54,6 +56,7 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
     out.cloud_drift = Vec2::new(c as f32, s as f32);
     out.cloud_systems_per_radius = (planet.radius_km / clouds.scale_km) as f32;
     out.cloud_curl = clouds.curl as f32;
+    out.cloud_belts = (planet.climate.belts * BELTS) as f32;
     out.cloud_seed = clouds.seed ^ planet.seed.rotate_left(16);
 }
 

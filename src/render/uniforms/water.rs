@@ -1,8 +1,8 @@
 //! Uniforms of the sea.
 
-use super::{Body, Wave, rgb};
+use super::{Body, rgb};
 use crate::planet::{Planet, Water};
-use crate::render::shared::WAVES;
+use crate::render::shared::{WAVES, Wave};
 use glam::DVec3;
 use std::f64::consts::TAU;
 

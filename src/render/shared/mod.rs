@@ -1,43 +1,36 @@
-//! Constants that the CPU and the shaders share, written out as the shader file `shared.wgsl`.
+//! What the CPU and the shaders share, from one source: constants and structs, written out as the shader file
+//! `shared.wgsl`.
+//!
+//! - `constants`: sizes and counts that belong to both sides
+//! - `structs`: the structs of uniform buffers
+
+mod constants;
+mod structs;
+
+pub use constants::MAX_SUNS;
+pub(crate) use constants::*;
+pub(crate) use structs::*;
 
 use super::biome_table::{ROCK, RULES};
-use super::cloud_map::WEATHER_SIDE;
-use super::exposure::{METER_BINS, METER_GROUP, METER_STRIDE, MeterStep};
-use super::horizon_pool::IMAGES_ALONG;
-use super::luts::{IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SKY_SIZE};
 use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
-use super::morph::{MorphEye, SHOWN_BYTES};
+use super::scene::DebugView;
+use super::tone::{self, Tone};
 use super::wgsl::{Constant, constant};
-use super::{DebugView, Tone, material_noise, noise_tile, tone, uniforms};
+use super::{horizon_pool, material_noise, noise_tile};
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
+use crate::planet::CLIMATE_BELTS;
 use crate::sphere::cube::C_SQUARED;
 use crate::terrain::border::{self, OCTAVE_TURN};
 use std::mem::offset_of;
-
-/// Plane waves of the sea near the eye.
-pub(crate) const WAVES: usize = 16;
-/// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
-pub(crate) const MOTTLE_PERIODS_M: [f64; MOTTLE_OCTAVES] = [330_000.0, 41_000.0, 5100.0, 640.0, 80.0, 10.0, 1.25];
-/// Octaves of the macro variation.
-pub(crate) const MOTTLE_OCTAVES: usize = 7;
-/// Octaves of the border jitter.
-pub(crate) const BORDER_OCTAVES: usize = border::OCTAVES;
-/// Bands of the noise that shapes clouds, widest first; each is turned against the one before, so that the repeats of
-/// their tile never coincide.
-pub(crate) const CLOUD_BANDS: usize = 6;
-/// The band that makes puffs.
-pub(crate) const CLOUD_PUFF_BAND: i32 = 3;
-/// Biomes in a mixture: four cells of the biome table, each with the biome of its steep ground, beach and snow.
-pub(crate) const MIXTURE_ENTRIES: u32 = 10;
 
 /// The text of `shared.wgsl`.
 pub(crate) fn text() -> String {
     let words = |bytes: usize| (bytes / size_of::<u32>()) as u32;
     let size = |size: [u32; 2]| size.map(f64::from);
     let constants: &[(&str, &dyn Constant)] = &[
-        ("MAX_SUNS", &(super::MAX_SUNS as u32)),
+        ("MAX_SUNS", &(MAX_SUNS as u32)),
         // Tiles
         ("TILE_QUADS", &(TILE_QUADS as u32)),
         ("TILE_SIDE", &(TILE_SIDE as u32)),
@@ -45,7 +38,7 @@ pub(crate) fn text() -> String {
         ("DETAIL_SIDE", &(DETAIL_SIDE as f64)),
         ("DETAIL_APRON", &(DETAIL_APRON as i32)),
         ("HORIZON_AZIMUTHS", &(AZIMUTHS as u32)),
-        ("HORIZON_IMAGES_ALONG", &(IMAGES_ALONG as u32)),
+        ("HORIZON_IMAGES_ALONG", &(horizon_pool::IMAGES_ALONG as u32)),
         ("FACE_BEND", &C_SQUARED),
         // Vertices as arrays of words, for morphing
         ("VERTEX_WORDS", &words(size_of::<Vertex>())),
@@ -80,6 +73,8 @@ pub(crate) fn text() -> String {
         ("IRRADIANCE_SIZE", &size(IRRADIANCE_SIZE)),
         ("SKY_SIZE", &size(SKY_SIZE)),
         ("WEATHER_SIDE", &WEATHER_SIDE),
+        // Climate belts as a cubic in the squared sine of latitude
+        ("CLIMATE_BELTS", &CLIMATE_BELTS),
         // Exposure
         ("METER_BINS", &METER_BINS),
         ("METER_STRIDE", &METER_STRIDE),
@@ -99,11 +94,11 @@ pub(crate) fn text() -> String {
         text += &constant(name, &*value);
     }
     let structs = [
-        uniforms::Frame::declaration(),
-        uniforms::Sun::declaration(),
-        uniforms::Octave::declaration(),
-        uniforms::Wave::declaration(),
-        uniforms::Body::declaration(),
+        Frame::declaration(),
+        Sun::declaration(),
+        Octave::declaration(),
+        Wave::declaration(),
+        Body::declaration(),
         MorphEye::declaration(),
         MeterStep::declaration(),
     ];

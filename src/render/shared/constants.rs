@@ -1,0 +1,36 @@
+//! Sizes and counts that belong to the CPU and the shaders alike.
+
+use crate::terrain::border;
+
+/// The most suns of a scene.
+pub const MAX_SUNS: usize = 4;
+/// Plane waves of the sea near the eye.
+pub(crate) const WAVES: usize = 16;
+/// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
+pub(crate) const MOTTLE_PERIODS_M: [f64; MOTTLE_OCTAVES] = [330_000.0, 41_000.0, 5100.0, 640.0, 80.0, 10.0, 1.25];
+/// Octaves of the macro variation.
+pub(crate) const MOTTLE_OCTAVES: usize = 7;
+/// Octaves of the border jitter.
+pub(crate) const BORDER_OCTAVES: usize = border::OCTAVES;
+/// Bands of the noise that shapes clouds, widest first; each is turned against the one before, so that the repeats of
+/// their tile never coincide.
+pub(crate) const CLOUD_BANDS: usize = 6;
+/// The band that makes puffs.
+pub(crate) const CLOUD_PUFF_BAND: i32 = 3;
+/// Biomes in a mixture: four cells of the biome table, each with the biome of its steep ground, beach and snow.
+pub(crate) const MIXTURE_ENTRIES: u32 = 10;
+/// Bytes of the morphed values of a vertex: vertical shift, and three values.
+pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
+/// Size of each LUT of the air, texels.
+pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
+pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 32];
+pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
+pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
+/// Texels along a face of the weather map.
+pub(crate) const WEATHER_SIDE: u32 = 512;
+/// Bins of the exposure's histogram.
+pub(crate) const METER_BINS: u32 = 128;
+/// Spacing of counted pixels in each direction, in pixels.
+pub(crate) const METER_STRIDE: u32 = 4;
+/// Invocations along a side of a workgroup of the histogram.
+pub(crate) const METER_GROUP: u32 = 16;
