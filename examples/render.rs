@@ -8,11 +8,11 @@
 
 mod common;
 
-use common::{Failure, open_gpu, picture_path, save_png, texture, view};
+use common::{Failure, open_gpu, picture_path, save_png, view};
 use std::sync::Arc;
 use tellus::lod::{Quality, opening};
 use tellus::planet::shipped;
-use tellus::render::{Metering, Renderer, Scene, wgpu};
+use tellus::render::{Metering, Renderer, Scene, texture, wgpu};
 use tellus::tiles::build_now;
 
 fn main() -> Result<(), Failure> {
@@ -26,7 +26,7 @@ fn main() -> Result<(), Failure> {
     let mut scene = Scene::of_planet(&planet, &surface, camera_view, sun_dir_planet);
     scene.post.metering = Metering::Instant;
 
-    let target = texture(&device, scene.size_px, wgpu::TextureFormat::Rgba8UnormSrgb);
+    let target = texture(&device, "picture", scene.size_px, wgpu::TextureFormat::Rgba8UnormSrgb);
     renderer.render(&view(&target), &scene)?;
     save_png(&device, &queue, &target, &picture_path("tellus_render.png"))
 }

@@ -8,12 +8,12 @@
 
 mod common;
 
-use common::{Failure, open_gpu, picture_path, save_png, texture, view};
+use common::{Failure, open_gpu, picture_path, save_png, view};
 use std::sync::Arc;
 use tellus::glam::{DQuat, DVec3};
 use tellus::lod::Quality;
 use tellus::planet::{Planet, shipped};
-use tellus::render::{Body, BodyId, Metering, Projection, Renderer, Scene, Sun, wgpu};
+use tellus::render::{Body, BodyId, Metering, Projection, Renderer, Scene, Sun, texture, wgpu};
 use tellus::tiles::build_now;
 
 const SIZE_PX: [u32; 2] = [960, 540];
@@ -48,7 +48,7 @@ fn main() -> Result<(), Failure> {
     }
     scene.post.metering = Metering::Instant;
 
-    let target = texture(&device, SIZE_PX, wgpu::TextureFormat::Rgba8UnormSrgb);
+    let target = texture(&device, "picture", SIZE_PX, wgpu::TextureFormat::Rgba8UnormSrgb);
     renderer.render(&view(&target), &scene)?;
     save_png(&device, &queue, &target, &picture_path("tellus_two_planets.png"))
 }

@@ -13,12 +13,14 @@ mod common;
 mod towers;
 mod window;
 
-use common::{Failure, open_gpu, picture_path, save_png, texture, view};
+use common::{Failure, open_gpu, picture_path, save_png, view};
 use std::sync::Arc;
 use tellus::glam::DVec3;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, shipped};
-use tellus::render::{DEPTH_FORMAT, Metering, OpaqueTargets, RADIANCE_FORMAT, RenderError, Renderer, Scene, wgpu};
+use tellus::render::{
+    DEPTH_FORMAT, Metering, OpaqueTargets, RADIANCE_FORMAT, RenderError, Renderer, Scene, texture, wgpu,
+};
 use tellus::sphere::{LatLon, geo};
 use tellus::terrain::Terrain;
 use tellus::tiles::{Surface, add_detail, build_now};
@@ -80,8 +82,8 @@ impl Game {
         let sun_dir_planet = LatLon::from_degrees(10.0, PLACE_DEG.1 - 60.0).direction();
         let mut scene = Scene::of_planet(&self.planet, surface, camera_view, sun_dir_planet);
         scene.post.metering = Metering::Instant;
-        let [radiance, depth, composite] =
-            [RADIANCE_FORMAT, DEPTH_FORMAT, RADIANCE_FORMAT].map(|format| view(&texture(device, size_px, format)));
+        let [radiance, depth, composite] = [RADIANCE_FORMAT, DEPTH_FORMAT, RADIANCE_FORMAT]
+            .map(|format| view(&texture(device, "game", size_px, format)));
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let frame = renderer.prepare(&mut encoder, &scene, size_px, [0, 0, size_px[0], size_px[1]])?;
         frame.draw_opaque(&mut encoder, &OpaqueTargets::cleared(&radiance, &depth))?;
@@ -107,7 +109,7 @@ fn picture() -> Result<(), Failure> {
     let camera_view = game.view(SIZE_PX, Quality::Medium);
     let mut surface = build_now(&game.planet, &camera_view)?;
     add_detail(&mut surface, &camera_view);
-    let target = texture(&device, SIZE_PX, wgpu::TextureFormat::Rgba8UnormSrgb);
+    let target = texture(&device, "picture", SIZE_PX, wgpu::TextureFormat::Rgba8UnormSrgb);
     game.draw((&device, &queue), &mut renderer, &surface, camera_view, &view(&target))?;
     save_png(&device, &queue, &target, &picture_path("tellus_game.png"))
 }

@@ -2,7 +2,7 @@
 //!
 //! The adapter is selected by wgpu's environment variables (`WGPU_BACKEND`, `WGPU_ADAPTER_NAME`, `WGPU_POWER_PREF`).
 
-use crate::render::{Renderer, read_texture};
+use crate::render::{Renderer, read_texture, texture};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Format of pictures.
@@ -61,18 +61,7 @@ impl Gpu {
         size_px: [u32; 2],
         draw: impl FnOnce(&wgpu::TextureView) -> Result<(), String>,
     ) -> Result<Vec<u8>, String> {
-        let [width, height] = size_px;
-        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let texture = self.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("picture"),
-            size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let texture = texture(&self.device, "picture", size_px, FORMAT);
         draw(&texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
 
         let texels = read_texture(&self.device, &self.queue, &texture);

@@ -78,14 +78,9 @@ pub(crate) fn pipeline_layout(
     })
 }
 
-/// A texture to draw into and then to read.
-pub(crate) fn target(
-    device: &wgpu::Device,
-    label: &str,
-    size_px: [u32; 2],
-    format: wgpu::TextureFormat,
-) -> wgpu::TextureView {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
+/// A texture to draw into, to bind, and to copy from.
+pub fn texture(device: &wgpu::Device, label: &str, size_px: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: size_px[0], height: size_px[1], depth_or_array_layers: 1 },
         mip_level_count: 1,
@@ -96,8 +91,17 @@ pub(crate) fn target(
             | wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    })
+}
+
+/// All of such a texture.
+pub(crate) fn target(
+    device: &wgpu::Device,
+    label: &str,
+    size_px: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> wgpu::TextureView {
+    texture(device, label, size_px, format).create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// A pipeline that draws one triangle over all pixels of its targets.

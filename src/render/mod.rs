@@ -59,7 +59,7 @@ mod white_balance;
 
 pub use biome_table::MarkedCells;
 pub use error::RenderError;
-pub use gpu::read_texture;
+pub use gpu::{read_texture, texture};
 pub use luts::LutRuns;
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;

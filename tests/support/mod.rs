@@ -9,7 +9,7 @@ use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
-use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture};
+use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture, texture};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 use tellus::tiles::{Builder, Surface, add_detail, build_now};
@@ -108,19 +108,8 @@ impl Gpu {
         Self { adapter, device, queue, renderer, post: Post::default() }
     }
 
-    pub fn texture(&self, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
-        self.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("picture"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::COPY_SRC
-                | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        })
+    pub fn texture(&self, size_px: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+        texture(&self.device, "picture", size_px, format)
     }
 
     fn render(&mut self, scene: &Scene<'_>, texture: &wgpu::Texture) -> Result<FrameStats, RenderError> {
