@@ -170,7 +170,7 @@ pub struct Scene<'a> {
     pub size_px: [u32; 2],
     /// How well the picture is drawn.
     pub quality: Quality,
-    /// The lights, brightest first: at most [`MAX_SUNS`].
+    /// The lights, brightest first: at most [`super::MAX_SUNS`].
     pub suns: Vec<Sun>,
     /// The planets, in any order.
     pub bodies: Vec<Body<'a>>,

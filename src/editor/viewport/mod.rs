@@ -7,7 +7,7 @@
 //! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
 //!   upload
 //! - `outline`: the frustum of a frozen view
-//! - [`pointer`]: the ground under the pointer; [`clicks`]: clicks for the painter
+//! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the painter
 //! - [`adaptation`]: exposure that adapts gradually
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, its parts, the time of each frame
 
