@@ -147,7 +147,8 @@ fn upload(device: &wgpu::Device, floats: &[f32]) -> wgpu::Buffer {
     })
 }
 
-/// A prism of so many sides, radius 1 and height 1, with a pointed roof: triangles of position and normal.
+/// A tower with `sides` walls, radius 1 and height 1, and a pointed roof. A triangle list: position and normal of each
+/// corner.
 fn prism(sides: usize) -> Vec<f32> {
     let corner = |i: usize, radius: f32, z: f32| {
         let angle = i as f32 / sides as f32 * std::f32::consts::TAU;

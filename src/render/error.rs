@@ -45,7 +45,10 @@ pub enum RenderError {
         missing: wgpu::TextureUsages,
     },
     /// The viewport is empty or reaches beyond the targets.
-    #[error("the viewport {viewport_px:?} (x, y, width, height) is not inside targets of {} x {} pixels", target_px[0], target_px[1])]
+    #[error(
+        "the viewport {viewport_px:?} (x, y, width, height) is not inside targets of {} x {} pixels",
+        target_px[0], target_px[1]
+    )]
     Viewport {
         /// Left, top, width, height.
         viewport_px: [u32; 4],

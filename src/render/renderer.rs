@@ -166,7 +166,13 @@ impl Renderer {
         if width == 0 || height == 0 || x + width > wide || y + height > high {
             return Err(RenderError::Viewport { viewport_px, target_px });
         }
-        self.prepare_drawn(encoder, scene, target_px, &Drawn { viewport_px, render_scale: 1.0 }, false)
+        self.prepare_drawn(
+            encoder,
+            scene,
+            target_px,
+            &Drawn { viewport_px, render_scale: 1.0, matrices: scene.matrices() },
+            false,
+        )
     }
 
     fn prepare_drawn(
@@ -246,7 +252,8 @@ impl Renderer {
         let (size_px, render_scale) = drawn_size(scene, limit_px);
         let (device, queue) = (self.device.clone(), self.queue.clone());
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        let drawn = Drawn { viewport_px: [0, 0, size_px[0], size_px[1]], render_scale };
+        let viewport_px = [0, 0, size_px[0], size_px[1]];
+        let drawn = Drawn { viewport_px, render_scale, matrices: scene.matrices() };
         let frame = self.prepare_drawn(&mut encoder, scene, size_px, &drawn, true)?;
         let (stats, radiance) = frame.draw_all(&mut encoder, target)?;
         self.newest = Some((scene.view_id, radiance));

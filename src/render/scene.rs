@@ -85,7 +85,7 @@ pub struct Projection {
     /// Left, right, bottom and top edge of the picture at unit distance; left and bottom are negative in a symmetric
     /// one.
     pub tangents: [f64; 4],
-    /// Offset of the picture in pixels, right and down: for temporal antialiasing.
+    /// Offset of the picture in pixels of [`Scene::size_px`], right and down: for temporal antialiasing.
     pub jitter_px: [f64; 2],
     /// Distance of the near plane. `None`: 0.05 to 1000 m, by the distance of the highest ground.
     pub near_m: Option<f64>,
@@ -109,7 +109,7 @@ impl Projection {
         [0.5 * (right - left), 0.5 * (top - bottom)]
     }
 
-    /// The middle of the picture at unit distance, jitter counted in.
+    /// Centre of the jittered picture at unit distance: right and up. `size_px`: [`Scene::size_px`].
     pub(crate) fn center(&self, size_px: [u32; 2]) -> [f64; 2] {
         let [left, right, bottom, top] = self.tangents;
         let [half_x, half_y] = self.half_extent();

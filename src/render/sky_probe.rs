@@ -72,7 +72,7 @@ impl Renderer {
     ) -> (wgpu::BindGroup, Luts) {
         let (device, queue) = (&self.device, &self.queue);
         let view = Scene::new(DQuat::IDENTITY, Projection::symmetric(1.0, 1.0), [1, 1], quality);
-        let drawn = Drawn { viewport_px: [0, 0, 1, 1], render_scale: 1.0 };
+        let drawn = Drawn { viewport_px: [0, 0, 1, 1], render_scale: 1.0, matrices: view.matrices() };
         let mut frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
         frame.write(queue, &uniforms::frame(&view, &drawn));
         let mut body = UniformBuffer::new::<uniforms::Body>(device, "body");

@@ -7,7 +7,7 @@ mod clouds;
 mod ground;
 mod water;
 
-use super::scene::{self, Scene, height_range_m, split_position};
+use super::scene::{self, Matrices, Scene, height_range_m, split_position};
 pub(crate) use super::shared::{Body, Frame};
 use super::shared::{MAX_SUNS, MIXTURE_ENTRIES, Octave, Sun};
 use super::{gpu, wgsl, white_balance};
@@ -21,13 +21,20 @@ pub(crate) struct Drawn {
     pub(crate) viewport_px: [u32; 4],
     /// Pixels drawn for each pixel shown, in one direction.
     pub(crate) render_scale: f32,
+    /// The scene's, found once for all uniforms of the frame.
+    pub(crate) matrices: Matrices,
+}
+
+/// Angle of a pixel in the middle of the picture.
+fn pixel_rad(scene: &Scene<'_>, drawn: &Drawn) -> f32 {
+    (2.0 * scene.projection.half_extent()[1] / f64::from(drawn.viewport_px[3])) as f32
 }
 
 /// The uniforms of a frame.
 pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
     let [x, y, width, height] = drawn.viewport_px;
     let [half_x, half_y] = scene.projection.half_extent();
-    let [center_x, center_y] = scene.projection.center([width, height]);
+    let [center_x, center_y] = scene.projection.center(scene.size_px);
     let (air_steps, pattern_quality) = match scene.quality {
         Quality::Low => (12.0, 0.0),
         Quality::Medium => (20.0, 1.0),
@@ -40,8 +47,8 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
         origin_px: UVec2::new(x, y).as_vec2(),
         size_px: UVec2::new(width, height).as_vec2(),
         lens_shift: Vec2::new((center_x / half_x) as f32, (center_y / half_y) as f32),
-        near_m: scene.matrices().near_m as f32,
-        pixel_rad: (2.0 * half_y / f64::from(height)) as f32,
+        near_m: drawn.matrices.near_m as f32,
+        pixel_rad: pixel_rad(scene, drawn),
         render_scale: drawn.render_scale,
         time_secs: scene.time_secs as f32,
         exposure: scene.post.exposure_ev.exp2() as f32,
@@ -64,8 +71,8 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, ord
     let planet = body.planet;
     let eye_m = body.eye_planet_m();
     let body_from_view = body.scene_from_body.inverse() * scene.scene_from_view;
-    let (frame, mut out) = (frame(scene, drawn), planet_only(planet));
-    place(&mut out, scene, drawn, eye_m, body_from_view);
+    let mut out = planet_only(planet);
+    place(&mut out, scene, drawn, planet.radius_m(), eye_m, body_from_view);
     [out.is_backmost, out.is_frontmost] = order.map(u32::from);
     let (low_m, high_m) = height_range_m(body.surface);
     out.height_range_m = Vec2::new(low_m as f32, high_m as f32);
@@ -86,7 +93,7 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, ord
     ground::from_eye(&mut out, planet, eye_m);
     water::from_eye(&mut out, planet, eye_m, scene.time_secs);
     if !marked {
-        clouds::from_eye(&mut out, planet, eye_m, scene, frame.pixel_rad);
+        clouds::from_eye(&mut out, planet, eye_m, scene, pixel_rad(scene, drawn));
     }
     out
 }
@@ -102,15 +109,14 @@ pub(crate) fn planet_only(planet: &crate::planet::Planet) -> Body {
 }
 
 /// The eye, its rays and matrices in the body's frame.
-fn place(out: &mut Body, scene: &Scene<'_>, drawn: &Drawn, eye_m: DVec3, body_from_view: DQuat) {
+fn place(out: &mut Body, scene: &Scene<'_>, drawn: &Drawn, radius_m: f64, eye_m: DVec3, body_from_view: DQuat) {
     let [_, _, width, height] = drawn.viewport_px;
-    let radius_m = f64::from(out.radius_km) * 1e3;
     let eye_r = eye_m.length().max(1.0);
     let [half_x, half_y] = scene.projection.half_extent();
-    let [center_x, center_y] = scene.projection.center([width, height]);
+    let [center_x, center_y] = scene.projection.center(scene.size_px);
     let turned = |v: DVec3| (body_from_view * v).as_vec3();
     let view_from_rel = Mat4::from_quat(body_from_view.inverse().as_quat());
-    out.clip_from_rel_m = scene.matrices().clip_from_view * view_from_rel;
+    out.clip_from_rel_m = drawn.matrices.clip_from_view * view_from_rel;
     [out.eye_high_m, out.eye_low_m] = split_position(eye_m);
     out.eye_km = (eye_m * 1e-3).as_vec3();
     out.eye_up = (eye_m / eye_r).as_vec3();
@@ -185,4 +191,33 @@ impl UniformBuffer {
 pub(crate) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     use gpu::Slot::{Sampler, Uniform};
     gpu::layout(device, "uniforms", &[Uniform, Uniform, Sampler, Sampler])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::Planet;
+    use crate::render::Projection;
+
+    /// The matrix projects the ray of a pixel to that pixel, in any projection, with jitter, at any render scale.
+    #[test]
+    fn rays_and_matrix_agree() {
+        let mut projection = Projection::off_axis([-0.3, 0.9, -0.5, 0.4]);
+        (projection.jitter_px, projection.near_m) = ([7.0, -3.0], Some(1.0));
+        let scene = Scene::new(DQuat::from_rotation_x(0.7), projection, [120, 90], Quality::High);
+        let drawn = Drawn { viewport_px: [0, 0, 240, 180], render_scale: 2.0, matrices: scene.matrices() };
+        // Its radius in kilometres is no number of 32 bits.
+        let planet = Planet { radius_km: 6371.2345, ..Planet::default() };
+        let eye_m = DVec3::Y * (planet.radius_m() + 2.0);
+        let mut body = planet_only(&planet);
+        place(&mut body, &scene, &drawn, planet.radius_m(), eye_m, DQuat::from_rotation_y(1.1));
+        assert!((body.eye_altitude_km - 0.002).abs() < 1e-7, "{} km", body.eye_altitude_km);
+        for (x, y) in [(0.0, 0.0), (1.0, 1.0), (-1.0, 0.5)] {
+            let ray = body.ray_center + x * body.ray_right + y * body.ray_up;
+            let clip = body.clip_from_rel_m * (ray * 1000.0).extend(1.0);
+            let ndc = clip.truncate() / clip.w;
+            assert!((ndc.x - x).abs() < 1e-5 && (ndc.y - y).abs() < 1e-5, "({x}, {y}) went to {ndc}");
+            assert!((ndc.z - 1e-3).abs() < 1e-8, "depth is the near plane over the distance: {ndc}");
+        }
+    }
 }
