@@ -23,7 +23,7 @@ fn main() -> Result<(), Failure> {
     let camera_view = opening::opening_view(&planet, [640, 360], Quality::Medium);
     let surface = build_now(&planet, &camera_view)?;
     let sun_dir_planet = planet.star.place(0.0).direction();
-    let mut scene = Scene::of_planet(&planet, &surface, camera_view, sun_dir_planet);
+    let mut scene = Scene::of_planet(&surface, camera_view, sun_dir_planet);
     scene.post.metering = Metering::Instant;
 
     let target = texture(&device, "picture", scene.size_px, wgpu::TextureFormat::Rgba8UnormSrgb);

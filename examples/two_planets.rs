@@ -41,8 +41,8 @@ fn main() -> Result<(), Failure> {
         surfaces.push(build_now(planet, &scene.view_of(*position_m, *scene_from_body))?);
     }
     scene.suns.push(Sun::new(&far.star, DVec3::new(-0.75, 0.35, 0.55)));
-    for ((id, planet, position_m, scene_from_body), surface) in placed.iter().zip(&surfaces) {
-        let mut body = Body::new(*id, planet, surface, *position_m);
+    for ((id, _, position_m, scene_from_body), surface) in placed.iter().zip(&surfaces) {
+        let mut body = Body::new(*id, surface, *position_m);
         body.scene_from_body = *scene_from_body;
         scene.bodies.push(body);
     }

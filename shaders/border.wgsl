@@ -2,7 +2,7 @@
 // a line of equal climate shows. Noise, octaves and weights are those of src/terrain/border.rs, evaluated on the
 // reference sphere.
 #include "uniforms.wgsl"
-#include "tables.wgsl"
+#include "luts.wgsl"
 
 // Cells of the biome table from one pixel to the next; finer structure is blended. Must be set before the material is
 // evaluated.

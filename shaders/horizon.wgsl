@@ -6,7 +6,7 @@
 // parent's (g).
 @group(3) @binding(0) var horizons: texture_2d_array<f32>;
 
-struct Exposed {
+struct Visibility {
     // Visible share of the sun's disc, relative to the share over the horizon of the smooth planet
     star: f32,
     // Sky visibility
@@ -54,15 +54,15 @@ fn horizon_sine(position: vec2f, layer: i32, azimuth: f32, far: f32) -> f32 {
 // Visibility at `tile_position` (0 to 1) of a tile. `tile`: layer (-1 for none), width of the tile as a share of the
 // node that has the horizon tile, and the tile's corner in that node. `tile_far`: share to which the parent has taken
 // over. `h`: altitude in km.
-fn exposed(tile: vec4f, slope_axis: vec3f, tile_position: vec2f, tile_far: f32, up: vec3f, h: f32) -> Exposed {
-    if tile.x < 0.0 { return Exposed(1.0, 1.0); }
+fn visibility(tile: vec4f, slope_axis: vec3f, tile_position: vec2f, tile_far: f32, up: vec3f, h: f32) -> Visibility {
+    if tile.x < 0.0 { return Visibility(1.0, 1.0); }
     let layer = i32(tile.x);
     let position = tile.zw + tile_position * tile.y;
     let far = select(tile_far, 0.0, tile.y < 1.0);
     let sky = horizon_image(position, layer, HORIZON_AZIMUTHS, far);
     let sun_mu = dot(up, active_sun.dir);
     let plain = disc_share(sun_mu - horizon_cosine(h), 0.0);
-    if plain <= 0.0 { return Exposed(0.0, sky); }
+    if plain <= 0.0 { return Visibility(0.0, sky); }
     let over = sun_mu - horizon_sine(position, layer, star_azimuth(slope_axis, up), far);
-    return Exposed(saturate1(disc_share(over, 0.0) / plain), sky);
+    return Visibility(saturate1(disc_share(over, 0.0) / plain), sky);
 }

@@ -1,6 +1,6 @@
 // Light of sun and sky at a point, from the LUTs.
 #include "air_model.wgsl"
-#include "tables.wgsl"
+#include "luts.wgsl"
 
 // Transmittance of the air along a ray that misses the ground, from altitude `h` (km) with cosine `mu` to the zenith.
 fn clear_transmittance(h: f32, mu: f32) -> vec3f {
@@ -14,7 +14,7 @@ fn clear_transmittance(h: f32, mu: f32) -> vec3f {
         if b >= 0.0 || discriminant <= 0.0 { return vec3f(1.0); }
         at = vec2f(top, -sqrt(discriminant) / (body.radius_km + top));
     }
-    return exp(-textureSampleLevel(depth_table, clamped, depth_uv(at.x, at.y), 0.0).rgb);
+    return exp(-textureSampleLevel(optical_depth_lut, clamped, depth_uv(at.x, at.y), 0.0).rgb);
 }
 
 // Transmittance to the sun, times the share of its disc over the horizon of the smooth planet.
@@ -42,7 +42,7 @@ const MULTISCATTER_SCALE: f32 = 1024.0;
 fn multiscatter(h: f32, mu: f32) -> vec3f {
     let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / body.air_height_km)));
     let at = texel_from_unit(x, MULTISCATTER_SIZE);
-    return textureSampleLevel(multiscatter_table, clamped, at, 0.0).rgb / MULTISCATTER_SCALE;
+    return textureSampleLevel(multiscatter_lut, clamped, at, 0.0).rgb / MULTISCATTER_SCALE;
 }
 
 // Radiance of the night sky: mean over stars, dust and airglow. Sunlit white ground has radiance 1. On the Earth,
@@ -60,7 +60,7 @@ fn sky_irradiance(h: f32, mu: f32) -> vec3f {
     let night = select(vec3f(0.0), PI * NIGHT_SKY, is_first_sun);
     if body.air_height_km <= 0.0 { return night; }
     let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / body.air_height_km)));
-    let table = textureSampleLevel(irradiance_table, clamped, texel_from_unit(x, IRRADIANCE_SIZE), 0.0).rgb;
+    let table = textureSampleLevel(irradiance_lut, clamped, texel_from_unit(x, IRRADIANCE_SIZE), 0.0).rgb;
     return table * active_sun.irradiance + night;
 }
 
@@ -69,6 +69,6 @@ fn sky_radiance(view_mu: f32, sun_mu: f32) -> vec3f {
     let night = select(vec3f(0.0), NIGHT_SKY, is_first_sun);
     if body.air_height_km <= 0.0 { return night; }
     let x = vec2f(signed_root(sun_mu) * 0.5 + 0.5, sqrt(saturate1(view_mu)));
-    let table = textureSampleLevel(sky_table, clamped, texel_from_unit(x, SKY_SIZE), 0.0).rgb;
+    let table = textureSampleLevel(sky_lut, clamped, texel_from_unit(x, SKY_SIZE), 0.0).rgb;
     return table * active_sun.irradiance + night;
 }

@@ -3,7 +3,7 @@
 // src/terrain/ground.rs; they have soft edges centred on the thresholds there. Layout of the texels:
 // src/render/biome_table.rs.
 #include "detail.wgsl"
-#include "mottle.wgsl"
+#include "macro_variation.wgsl"
 #include "border.wgsl"
 #include "material_pattern.wgsl"
 
@@ -28,7 +28,7 @@ struct Site {
     by_height: vec3f,
     footprint_m: f32,
     // Macro variation, -1 to 1
-    mottle: f32,
+    variation: f32,
 }
 
 struct Material {
@@ -65,7 +65,7 @@ fn beach_to(edge_m: f32, height_m: f32) -> f32 {
 fn beach_by_height(site: Site) -> f32 {
     let beach = biome_param(BIOME_RULES, 0);
     if beach.x < 0.0 { return 0.0; }
-    let edge_m = beach.y * (1.0 + 0.25 * site.mottle);
+    let edge_m = beach.y * (1.0 + 0.25 * site.variation);
     let spread_m = max(site.spread_m, 0.02 * edge_m);
     let high_m = site.over_sea_m + spread_m;
     let low_m = site.over_sea_m - spread_m;
@@ -78,7 +78,7 @@ fn beach_by_height(site: Site) -> f32 {
 fn snow_heights(site: Site) -> vec2f {
     let snow = biome_param(BIOME_RULES, 1);
     if snow.x < 0.0 { return vec2f(2e9, 1e9); }
-    let line_c = snow.y + 0.35 * snow.z * site.mottle;
+    let line_c = snow.y + 0.35 * snow.z * site.variation;
     // The edge is widened by the range of temperatures within the pixel that is due to its slope.
     let colder = min(site.by_height.z, -1e-6);
     let plane_c = site.plane_m * colder;
@@ -89,10 +89,10 @@ fn snow_heights(site: Site) -> vec2f {
 // Slope rules of the four biomes around (row 5 of their parameters), of beaches and of snow.
 fn slope_rules(cells: array<vec4f, 4>, site: Site) -> SlopeRules {
     let covers = biome_param(BIOME_RULES, 2);
-    let shift = 0.04 * site.mottle;
+    let shift = 0.04 * site.variation;
     let from_x = vec4f(cells[0].y, cells[1].y, cells[2].y, cells[3].y) - shift;
     let to_x = vec4f(cells[0].z, cells[1].z, cells[2].z, cells[3].z) - shift;
-    let covers_shift = vec2f(0.0, 0.03 * site.mottle);
+    let covers_shift = vec2f(0.0, 0.03 * site.variation);
     return SlopeRules(from_x, to_x, covers.yw - covers_shift, covers.xz - covers_shift, snow_heights(site));
 }
 
@@ -101,7 +101,7 @@ fn biome_of(site: Site) -> i32 {
     var id = biome_at(vec2i(floor(site.table * vec2f(textureDimensions(biome_ids)))));
     let rule = biome_param(id, 5);
     var plain = site;
-    plain.mottle = 0.0;
+    plain.variation = 0.0;
     let steep = slope_shares(site.steep, slope_rules(array<vec4f, 4>(rule, rule, rule, rule), plain)).cells.x;
     if rule.x >= 0.0 && steep > 0.5 && i32(rule.x) != BIOME_ROCK { id = i32(rule.x); }
     let rules = covers_hard(plain);
@@ -145,7 +145,7 @@ fn add_biome(mixture: ptr<function, Mixture>, id: i32, weight: f32, site: Site) 
     let plain = biome_param(id, 0);
     let patches = biome_param(id, 1);
     let surface = biome_param(id, 2);
-    let color = mix(plain.rgb, patches.rgb, patch_share(surface.z, patches.w, site)) * (1.0 + site.mottle * plain.a);
+    let color = mix(plain.rgb, patches.rgb, patch_share(surface.z, patches.w, site)) * (1.0 + site.variation * plain.a);
     (*mixture).albedo += weight * color;
     (*mixture).roughness += weight * surface.x;
     (*mixture).specular += weight * surface.y;

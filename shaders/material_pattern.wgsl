@@ -2,7 +2,7 @@
 // periods never coincide, and advected downhill where the material flows. Layout of the texels:
 // src/render/material_maps.rs and src/render/biome_table.rs.
 #include "uniforms.wgsl"
-#include "tables.wgsl"
+#include "luts.wgsl"
 
 // The ground under a pixel.
 struct Seen {

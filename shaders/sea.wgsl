@@ -1,11 +1,11 @@
 // The surface of the sea: waves, reflection, ice.
 #include "cloud_model.wgsl"
-#include "mottle.wgsl"
+#include "macro_variation.wgsl"
 
 // Amplitudes of three sets of wave groups, some hundred metres wide; their mean square is 1. `footprint_m`: width of a
 // pixel at the point.
 fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
-    let octave = body.mottle[2];
+    let octave = body.variation[2];
     let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
     let at = octave.offset + rel_m / octave.period;
     let first = textureSampleLevel(noise_tile, repeated, at.zxy * 4.0, lod + 2.0).rg;
@@ -81,7 +81,7 @@ fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
 }
 
 // Share of ice at a temperature, with an edge broken up by noise.
-fn frozen(temperature_c: f32, mottle: f32, broad: f32) -> f32 {
-    let broken = temperature_c + broad * 3.0 + mottle * 1.2;
+fn frozen(temperature_c: f32, variation: f32, broad: f32) -> f32 {
+    let broken = temperature_c + broad * 3.0 + variation * 1.2;
     return 1.0 - smoothstep(-0.4, 0.4, broken - body.freezing_c);
 }

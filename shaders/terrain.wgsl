@@ -25,7 +25,7 @@ struct Vertex {
     // Moisture and temperature at sea level (at the reference sphere of a planet with no sea), and height in metres,
     // all with morph.
     @location(12) morphed: vec3f,
-    // Horizon tile; see `exposed`.
+    // Horizon tile; see `visibility`.
     @location(13) horizon: vec4f,
 }
 
@@ -173,7 +173,7 @@ fn bumped(n: vec3f, rel_m: vec3f, footprint_m: f32) -> vec3f {
 
 // Inputs of biome and surface rules at a pixel. `at`: location in the biome table.
 fn site_of(
-    in: Ground, pixel_ground: PixelGround, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, mottle: f32,
+    in: Ground, pixel_ground: PixelGround, up: vec3f, temperature_c: f32, at: vec2f, footprint_m: f32, variation: f32,
 ) -> Site {
     let over_sea_m = select(1e9, pixel_ground.height_m - body.sea_level_km * 1000.0, body.has_sea != 0u);
     // As in `climate_at`.
@@ -182,7 +182,7 @@ fn site_of(
     let by_height = vec3f(drier, body.row_per_c * colder - body.row_per_m, -colder);
     return Site(
         at, in.rel_m, dot(pixel_ground.normal, up), pixel_ground.steep, temperature_c, over_sea_m,
-        pixel_ground.plane_m, pixel_ground.spread_m, by_height, footprint_m, mottle,
+        pixel_ground.plane_m, pixel_ground.spread_m, by_height, footprint_m, variation,
     );
 }
 
@@ -196,8 +196,8 @@ fn seabed(ground: Material, site: Site) -> Material {
     let depth_m = -site.over_sea_m;
     sand = mix(sand, vec3f(0.10, 0.10, 0.10), smoothstep(5.0, 250.0, depth_m));
     // While there is land in the pixel, the sea bed counts by the share of the pixel under the sea.
-    let wet = smoothstep(-2.0, 2.0, depth_m - site.spread_m + site.mottle * 2.0);
-    out.albedo = mix(out.albedo, sand * (1.0 + site.mottle * 0.3), wet);
+    let wet = smoothstep(-2.0, 2.0, depth_m - site.spread_m + site.variation * 2.0);
+    out.albedo = mix(out.albedo, sand * (1.0 + site.variation * 0.3), wet);
     return out;
 }
 
@@ -312,7 +312,7 @@ fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f) -> vec3f {
         case VIEW_SLOPE: { return ramp(acos(clamp(dot(n, up), -1.0, 1.0)) / (PI / 3.0)); }
         case VIEW_BIOME: {
             let site = site_of(in, pixel_ground, up, climate.temperature_c, location, 1.0, 0.0);
-            return lit_up(biome_param(biome_of(site), 0).rgb, location, vec3f(1.0));
+            return highlighted(biome_param(biome_of(site), 0).rgb, location, vec3f(1.0));
         }
         case VIEW_TEMPERATURE: { return temperature_color((climate.temperature_c + 40.0) / 80.0) * lit; }
         case VIEW_MOISTURE: { return moisture_color(climate.moisture) * lit; }
@@ -339,7 +339,7 @@ struct Facet {
 }
 
 // Radiance that the ground reflects of the active sun's light and of the sky lit by it.
-fn lit(ground: Material, facet: Facet, from_ground: Exposed) -> vec3f {
+fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
     let sun = active_sun.dir;
     let n = facet.tilted;
     let tilted_l = lit_cosine(dot(n, sun));
@@ -361,9 +361,9 @@ fn lit(ground: Material, facet: Facet, from_ground: Exposed) -> vec3f {
 }
 
 // Visibility of the active sun and of the sky over the surrounding ground.
-fn exposed_at(in: Ground, up: vec3f) -> Exposed {
+fn visibility_at(in: Ground, up: vec3f) -> Visibility {
     let altitude_km = max(in.height_m, body.sea_level_km * 1000.0) * 0.001;
-    return exposed(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, altitude_km);
+    return visibility(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, altitude_km);
 }
 
 // Radiance; height above sea level in metres; half the range of heights within the pixel in metres.
@@ -373,7 +373,7 @@ struct Shaded {
     spread_m: f32,
 }
 
-fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
+fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let rel_km = on_mesh.rel_m * 0.001;
     let up = normalize(body.eye_km + rel_km);
     // On ground seen at a slant, a pixel is long. The longer side decides; otherwise far slopes sparkle. The normals of
@@ -399,11 +399,11 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
 
     let distance_m = length(in.rel_m);
     let v = -in.rel_m / max(distance_m, 1e-6);
-    let mottle = mottle_at(in.rel_m, footprint_m);
+    let variation = macro_variation(in.rel_m, footprint_m);
     let climate = climate_at(in, in.height_m);
     let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
-    let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, mottle);
+    let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, variation);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, pixel_ground.spread_m); }
     n = bumped(n, in.rel_m, footprint_m);
@@ -416,11 +416,11 @@ fn shade(on_mesh: Ground, from_ground: Exposed) -> Shaded {
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun(i);
         var from_here = from_ground;
-        if i > 0u { from_here = exposed_at(on_mesh, up); }
+        if i > 0u { from_here = visibility_at(on_mesh, up); }
         radiance += lit(ground, facet, from_here);
     }
-    let highlighted = lit_up(radiance, location, body.suns[0].irradiance / PI);
-    return Shaded(min(highlighted, vec3f(60000.0)), over_sea_m, pixel_ground.spread_m);
+    let marked_radiance = highlighted(radiance, location, body.suns[0].irradiance / PI);
+    return Shaded(min(marked_radiance, vec3f(60000.0)), over_sea_m, pixel_ground.spread_m);
 }
 
 struct Output {
@@ -435,7 +435,7 @@ struct Output {
 fn fragment(in: Ground) -> Output {
     let up = normalize(body.eye_km + in.rel_m * 0.001);
     use_sun(0u);
-    let from_ground = exposed_at(in, up);
+    let from_ground = visibility_at(in, up);
     let shaded = shade(in, from_ground);
     let spread_m = min(shaded.spread_m, 60000.0);
     let surface = vec4f(in.level_climate.y, 1.0 - from_ground.star, spread_m, 0.0);

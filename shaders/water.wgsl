@@ -43,9 +43,9 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
     let footprint_m = distance_km * 1000.0 * frame.pixel_rad / max(sqrt(view_mu), 0.1);
     let h = max(body.sea_level_km, 0.0);
     let rel_m = rel_km * 1000.0;
-    let mottle = mottle_at(rel_m, footprint_m);
+    let variation = macro_variation(rel_m, footprint_m);
     let broad = border_jitter(rel_m, footprint_m).x;
-    let ice = frozen(temperature_c, mottle, broad);
+    let ice = frozen(temperature_c, variation, broad);
     // Only the first sun determines the path of light down through the water.
     let first_mu = max(dot(up, body.suns[0].dir), 0.0);
     var waves = Waves(up, 0.0);
@@ -82,10 +82,10 @@ fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temper
     var water = vec3f(0.0);
     if ice < 1.0 {
         water = water_body(floor, depths_m, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
-        let foam = foam_between(depths_m) * smoothstep(0.1, 0.6, mottle + 0.25);
+        let foam = foam_between(depths_m) * smoothstep(0.1, 0.6, variation + 0.25);
         water = mix(water, vec3f(0.7) * downwelling / PI, foam * 0.6);
     }
-    let white = body.ice_color * (1.0 + 0.18 * mottle) * downwelling / PI;
+    let white = body.ice_color * (1.0 + 0.18 * variation) * downwelling / PI;
     return mix(water, white, ice);
 }
 

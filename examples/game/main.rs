@@ -80,7 +80,7 @@ impl Game {
     ) -> Result<(), RenderError> {
         let size_px = camera_view.size_px;
         let sun_dir_planet = LatLon::from_degrees(10.0, PLACE_DEG.1 - 60.0).direction();
-        let mut scene = Scene::of_planet(&self.planet, surface, camera_view, sun_dir_planet);
+        let mut scene = Scene::of_planet(surface, camera_view, sun_dir_planet);
         scene.post.metering = Metering::Instant;
         let [radiance, depth, composite] = [RADIANCE_FORMAT, DEPTH_FORMAT, RADIANCE_FORMAT]
             .map(|format| view(&texture(device, "game", size_px, format)));

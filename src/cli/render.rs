@@ -150,7 +150,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut surface = build_now(&planet, &view).map_err(|error| error.to_string())?;
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
-    let mut scene = Scene::of_planet(&planet, &surface, view, sun.direction());
+    let mut scene = Scene::of_planet(&surface, view, sun.direction());
     scene.time_secs = args.time;
     scene.debug_view = args.view;
     scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };

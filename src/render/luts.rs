@@ -14,7 +14,8 @@ use super::screen_pass::Shared;
 use super::shared::{IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SKY_SIZE};
 use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
-use crate::planet::{Atmosphere, Biomes, Planet};
+use crate::planet::{Biomes, Key};
+use crate::terrain::Revision;
 use std::sync::Arc;
 
 /// The LUTs of the air in order of dependence: name, shader, size.
@@ -26,13 +27,6 @@ const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
 ];
 /// Number of earlier LUTs in the list that each LUT of the air reads.
 const AIR_LUTS_READ: [usize; 4] = [0, 1, 2, 2];
-
-/// Key of the LUTs of the air: atmosphere, radius in km, and bits of the widest sun's angular radius, which softens the
-/// terminator.
-type AirKey = (Atmosphere, f64, u32);
-
-/// Key of the weather map: scale, curl, seeds of clouds and planet, radius, climate belts.
-type WeatherKey = (f64, f64, u32, u32, f64, f64);
 
 /// Number of times that each texture of a body, and its uniforms, have been written since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -102,9 +96,10 @@ pub(crate) struct Luts {
     weather: WeatherMap,
     biomes: BiomeTextures,
     groups: Groups,
-    air_key: Option<AirKey>,
-    weather_key: Option<WeatherKey>,
-    biome_key: Option<(Biomes, Option<Arc<MarkedCells>>)>,
+    /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
+    air_key: Option<(Key, u32)>,
+    weather_key: Option<Key>,
+    biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
 }
@@ -148,7 +143,7 @@ impl Luts {
         self.weather_key = None;
     }
 
-    /// Updates everything that `planet` has made stale. `uniforms`: those of the body, already written.
+    /// Updates everything that a revision has made stale. `uniforms`: those of the body, already written.
     /// `sun_radius_rad`: angular radius of the widest sun in them.
     pub(crate) fn update(
         &mut self,
@@ -156,30 +151,28 @@ impl Luts {
         encoder: &mut wgpu::CommandEncoder,
         (patterns, pipelines): (&Patterns, &LutPipelines),
         (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
-        planet: &Planet,
+        revision: &Revision,
         marked: Option<&Arc<MarkedCells>>,
     ) {
-        let same = |key: &(Biomes, Option<Arc<MarkedCells>>)| key.0 == planet.biomes && key.1.as_ref() == marked;
-        if !self.biome_key.as_ref().is_some_and(same) {
+        let (planet, keys) = (revision.planet(), revision.keys());
+        let biome_key = Some((keys.materials(), marked.cloned()));
+        if self.biome_key != biome_key {
             let texels = BiomeTexels::new(&planet.biomes, marked.map(|marked| &**marked));
             self.write_biomes(device, queue, patterns, texels);
-            self.biome_key = Some((planet.biomes.clone(), marked.cloned()));
+            self.biome_key = biome_key;
         }
-        if let Some(air) = &planet.atmosphere {
-            let key = (air.clone(), planet.radius_km, sun_radius_rad.to_bits());
-            if self.air_key.as_ref() != Some(&key) {
-                self.fill_air(encoder, uniforms, pipelines);
-                self.air_key = Some(key);
-                self.runs.air += 1;
-            }
+        let air_key = Some((keys.air_tables(), sun_radius_rad.to_bits()));
+        if planet.atmosphere.is_some() && self.air_key != air_key {
+            self.fill_air(encoder, uniforms, pipelines);
+            self.air_key = air_key;
+            self.runs.air += 1;
         }
-        if let Some(clouds) = planet.clouds.as_ref().filter(|clouds| clouds.coverage > 0.0 && marked.is_none()) {
-            let key = (clouds.scale_km, clouds.curl, clouds.seed, planet.seed, planet.radius_km, planet.climate.belts);
-            if self.weather_key != Some(key) {
-                pipelines.cloud_map.draw(encoder, uniforms, &self.weather);
-                self.weather_key = Some(key);
-                self.runs.weather += 1;
-            }
+        let has_clouds = planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && marked.is_none();
+        let weather_key = Some(keys.cloud_map());
+        if has_clouds && self.weather_key != weather_key {
+            pipelines.cloud_map.draw(encoder, uniforms, &self.weather);
+            self.weather_key = weather_key;
+            self.runs.weather += 1;
         }
     }
 

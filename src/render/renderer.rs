@@ -229,7 +229,7 @@ impl Renderer {
                 encoder,
                 (&self.patterns, &self.pipelines.luts),
                 (&body_view.group, values.lut_sun_radius_rad),
-                body.planet,
+                &body.revision,
                 body.marked.as_ref(),
             );
         }
@@ -325,11 +325,11 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
     order.sort_by(|&a, &b| away_m(&scene.bodies[b]).total_cmp(&away_m(&scene.bodies[a])));
     let planned = |(number, index): (usize, usize)| {
         let body = &scene.bodies[index];
-        let clouds = body.planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && body.marked.is_none();
-        let sea = body.planet.water.is_some();
+        let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && body.marked.is_none();
+        let sea = body.planet().water.is_some();
         let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges };
         // The farthest body brings the stars, whether it has air or not.
-        let has_air = shaded && (number == 0 || clouds || body.planet.atmosphere.is_some());
+        let has_air = shaded && (number == 0 || clouds || body.planet().atmosphere.is_some());
         PlannedBody { id: body.id, index, work, has_air }
     };
     let bodies: Vec<PlannedBody> = order.into_iter().enumerate().map(planned).collect();

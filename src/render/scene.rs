@@ -7,6 +7,7 @@ use super::biome_table::MarkedCells;
 use super::tone::Tone;
 use crate::lod::{Camera, Quality, View};
 use crate::planet::{Planet, Star};
+use crate::terrain::Revision;
 use crate::tiles::Surface;
 use glam::{DQuat, DVec3, Mat4};
 use std::sync::Arc;
@@ -51,8 +52,8 @@ impl Sun {
 pub struct Body<'a> {
     /// Different for each body of the scene; the same from frame to frame.
     pub id: BodyId,
-    /// The planet for everything that is not in the tiles. It may be newer than the surface's.
-    pub planet: &'a Planet,
+    /// The planet for everything that is not in the tiles, with its content keys. It may be newer than the surface's.
+    pub revision: Revision,
     /// The tiles, built for [`Scene::view_of`] this body.
     pub surface: &'a Surface,
     /// Centre of the body, metres from the camera, scene space.
@@ -66,10 +67,15 @@ pub struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// A body at a position in scene space, its axes those of the scene.
-    pub fn new(id: BodyId, planet: &'a Planet, surface: &'a Surface, position_m: DVec3) -> Self {
-        let scene_from_body = DQuat::IDENTITY;
-        Self { id, planet, surface, position_m, scene_from_body, frozen: None, marked: None }
+    /// A body at a position in scene space, its axes those of the scene. Its planet is the surface's own.
+    pub fn new(id: BodyId, surface: &'a Surface, position_m: DVec3) -> Self {
+        let (revision, scene_from_body) = (surface.terrain.revision(), DQuat::IDENTITY);
+        Self { id, revision, surface, position_m, scene_from_body, frozen: None, marked: None }
+    }
+
+    /// The planet.
+    pub fn planet(&self) -> &Planet {
+        self.revision.planet()
     }
 
     /// The eye in the body's frame, metres from its centre.
@@ -200,11 +206,17 @@ impl<'a> Scene<'a> {
     }
 
     /// One planet under its own star; scene space has the planet's axes.
-    pub fn of_planet(planet: &'a Planet, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Self {
+    pub fn of_planet(surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Self {
+        Self::of_revision(surface.terrain.revision(), surface, view, sun_dir_planet)
+    }
+
+    /// As [`Scene::of_planet`], with another revision of the planet for everything that is not in the tiles.
+    pub fn of_revision(revision: Revision, surface: &'a Surface, view: View, sun_dir_planet: DVec3) -> Self {
         let projection = Projection::symmetric(view.camera.fov_y_rad, view.aspect());
         let mut scene = Self::new(view.camera.planet_from_view, projection, view.size_px, view.quality);
-        scene.suns.push(Sun::new(&planet.star, sun_dir_planet));
-        scene.bodies.push(Body::new(BodyId::default(), planet, surface, -view.camera.position_planet_m));
+        scene.suns.push(Sun::new(&revision.planet().star, sun_dir_planet));
+        let body = Body::new(BodyId::default(), surface, -view.camera.position_planet_m);
+        scene.bodies.push(Body { revision, ..body });
         scene
     }
 
@@ -241,7 +253,7 @@ impl<'a> Scene<'a> {
 
 /// Near plane for a body: a twentieth of the distance to its highest ground.
 fn near_m(body: &Body<'_>) -> f64 {
-    let highest_m = body.planet.radius_m() + height_range_m(body.surface).1;
+    let highest_m = body.planet().radius_m() + height_range_m(body.surface).1;
     ((body.position_m.length() - highest_m) * 0.05).clamp(0.05, 1000.0)
 }
 

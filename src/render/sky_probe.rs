@@ -9,7 +9,9 @@ use super::{RenderError, Renderer, shaders};
 use crate::atmosphere::SkyRay;
 use crate::lod::Quality;
 use crate::planet::Planet;
+use crate::terrain::Revision;
 use glam::{DQuat, DVec3};
+use std::sync::Arc;
 
 const ENTRY: &str = "sky_probe.wgsl";
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
@@ -33,7 +35,7 @@ impl Renderer {
         if columns == 0 {
             return Ok(Vec::new());
         }
-        planet.check()?;
+        let revision = Revision::try_new(Arc::new(planet.clone()))?;
         let (device, queue) = (&self.device, &self.queue);
         let inputs = gpu::layout(device, ENTRY, &[Slot::Unfiltered2d]);
         let [uniforms, luts] = self.body_layouts();
@@ -50,7 +52,7 @@ impl Renderer {
         let input = gpu::group(device, ENTRY, &inputs, [wgpu::BindingResource::TextureView(&input)]);
         let outputs = ["radiance", "transmittance"].map(|label| gpu::target(device, label, [columns, 1], FORMAT));
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("sky probe") });
-        let (group, luts) = self.bind_planet(&mut encoder, planet, quality);
+        let (group, luts) = self.bind_planet(&mut encoder, &revision, quality);
         let groups = [&group, luts.group(), &input];
         gpu::draw_screen(&mut encoder, ENTRY, &pipeline, &groups, &[&outputs[0], &outputs[1]]);
         queue.submit([encoder.finish()]);
@@ -67,7 +69,7 @@ impl Renderer {
     fn bind_planet(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        planet: &Planet,
+        revision: &Revision,
         quality: Quality,
     ) -> (wgpu::BindGroup, Luts) {
         let (device, queue) = (&self.device, &self.queue);
@@ -76,12 +78,12 @@ impl Renderer {
         let mut frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
         frame.write(queue, &uniforms::frame(&view, &drawn));
         let mut body = UniformBuffer::new::<uniforms::Body>(device, "body");
-        let values = uniforms::planet_only(planet);
+        let values = uniforms::planet_only(revision.planet());
         body.write(queue, &values);
         let group = self.uniform_group(&frame, &body);
         let mut luts = Luts::new(device, queue, &self.patterns);
         let pipelines = (&self.patterns, &self.pipelines.luts);
-        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), planet, None);
+        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), revision, None);
         (group, luts)
     }
 }

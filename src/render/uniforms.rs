@@ -42,7 +42,7 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
     };
     // The nearest body's sky decides how white the picture is.
     let nearest = scene.bodies.iter().min_by(|a, b| away_m(a).total_cmp(&away_m(b)));
-    let white = nearest.map_or([1.0; 3], |body| white_balance(body.planet));
+    let white = nearest.map_or([1.0; 3], |body| white_balance(body.planet()));
     Frame {
         origin_px: UVec2::new(x, y).as_vec2(),
         size_px: UVec2::new(width, height).as_vec2(),
@@ -63,12 +63,12 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
 
 /// Distance of the ground of a body, metres.
 pub(crate) fn away_m(body: &scene::Body<'_>) -> f64 {
-    body.position_m.length() - body.planet.radius_m()
+    body.position_m.length() - body.planet().radius_m()
 }
 
 /// The uniforms of a body. `order`: whether it is the farthest, and the nearest, of those whose air is drawn.
 pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, order: [bool; 2]) -> Body {
-    let planet = body.planet;
+    let planet = body.planet();
     let eye_m = body.eye_planet_m();
     let body_from_view = body.scene_from_body.inverse() * scene.scene_from_view;
     let mut out = planet_only(planet);

@@ -1,6 +1,9 @@
 //! Builds surfaces in the background: one thread takes the newest request, works on all cores in slices, and hands over
 //! complete sets of tiles.
 //!
+//! A request is a planet and the views of it. All views share the terrain and the cache. A slice works for one view: for
+//! the view that has waited longest, until each has a surface of the request; then tiles come before detail.
+//!
 //! A slice ends when its time is up or a newer request arrives. It always ends with a complete surface, perhaps a
 //! coarser one. Only the first slice of a request has a grace period, so that a slider that is held shows every edit,
 //! however heavy the planet is. Stale work is dropped, and no surface mixes two revisions.
@@ -10,7 +13,7 @@
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
 use super::horizon::HorizonFinder;
-use super::refine::refine;
+use super::refine::{Cut, refine};
 use super::{BuildStats, Memory, Surface, find_detail};
 use crate::lod::View;
 use crate::lod::tile::{DetailTile, Tile};
@@ -33,7 +36,7 @@ const DETAIL_GRACE: Duration = Duration::from_millis(15);
 /// Time limit of each further slice. Something is on screen by then, and fewer swaps disturb less.
 const NEXT_SLICE: Duration = Duration::from_millis(80);
 
-/// Builds surfaces in the background. The newest planet and view win; stale work is dropped.
+/// Builds surfaces in the background. The newest planet and views win; stale work is dropped.
 pub struct Builder {
     shared: Arc<Shared>,
 }
@@ -51,20 +54,29 @@ struct Shared {
 #[derive(Default)]
 struct State {
     request: Option<Request>,
-    surface: Option<Arc<Surface>>,
-    /// Number of the newest request whose tiles are all built, with final world maps.
-    tiled: u64,
-    /// Number of the newest request that is finished or was given up.
-    finished: u64,
+    /// As many as the newest request has.
+    views: Vec<Progress>,
     memory: Memory,
     error: Option<String>,
     closing: bool,
 }
 
+/// What there is for one view. Requests are known by their numbers.
+#[derive(Default)]
+struct Progress {
+    surface: Option<Arc<Surface>>,
+    /// The newest request that the view had a slice of.
+    begun: u64,
+    /// The newest request whose tiles are all built, with final world maps.
+    tiled: u64,
+    /// The newest request that is finished or was given up.
+    finished: u64,
+}
+
 #[derive(Clone)]
 struct Request {
     planet: Arc<Planet>,
-    view: View,
+    views: Vec<View>,
     asked: Instant,
     number: u64,
 }
@@ -85,9 +97,13 @@ impl Shared {
 }
 
 impl State {
-    /// The request to work on.
-    fn pending(&self) -> Option<&Request> {
-        self.request.as_ref().filter(|request| request.number != self.finished)
+    /// The request to work on, and which of its views.
+    fn pending(&self) -> Option<(&Request, usize)> {
+        let request = self.request.as_ref()?;
+        let number = request.number;
+        let unfinished = self.views.iter().enumerate().filter(|(_, view)| view.finished != number);
+        let next = unfinished.min_by_key(|(_, view)| (view.begun == number, view.tiled == number, view.begun))?;
+        Some((request, next.0))
     }
 }
 
@@ -117,23 +133,36 @@ impl Builder {
 
     /// Requests a planet as seen from a view. Cheap if nothing changed since the last call; call it every frame.
     pub fn request(&self, planet: &Arc<Planet>, view: &View) {
+        self.request_views(planet, std::slice::from_ref(view));
+    }
+
+    /// As [`Builder::request`], for several views, such as a main picture and a mirror. A view is known by its place in
+    /// the list.
+    pub fn request_views(&self, planet: &Arc<Planet>, views: &[View]) {
         let mut state = self.shared.lock();
         let before = state.request.as_ref();
         let same_planet =
             before.is_some_and(|request| Arc::ptr_eq(&request.planet, planet) || request.planet == *planet);
-        if !same_planet || before.is_some_and(|request| request.view != *view) {
+        if !same_planet || before.is_some_and(|request| request.views != views) {
             let number = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
             if !same_planet {
                 self.shared.newest_planet.store(number, Ordering::Relaxed);
             }
-            state.request = Some(Request { planet: planet.clone(), view: *view, asked: Instant::now(), number });
+            let (planet, views) = (planet.clone(), views.to_vec());
+            state.views.resize_with(views.len(), Progress::default);
+            state.request = Some(Request { planet, views, asked: Instant::now(), number });
             self.shared.changed.notify_all();
         }
     }
 
-    /// The newest surface, complete or not.
+    /// The newest surface of the first view, complete or not.
     pub fn surface(&self) -> Option<Arc<Surface>> {
-        self.shared.lock().surface.clone()
+        self.surface_of(0)
+    }
+
+    /// The newest surface of a view, complete or not. None if there is none yet, or no such view.
+    pub fn surface_of(&self, view: usize) -> Option<Arc<Surface>> {
+        self.shared.lock().views.get(view)?.surface.clone()
     }
 
     /// Whether a request is being worked on.
@@ -144,7 +173,8 @@ impl Builder {
     /// Whether all tiles of the newest request are built. Their horizon angles and detail textures may follow.
     pub fn has_all_tiles(&self) -> bool {
         let state = self.shared.lock();
-        state.pending().is_none_or(|request| request.number == state.tiled)
+        let done = |view: &Progress, number| view.tiled == number || view.finished == number;
+        state.request.as_ref().is_none_or(|request| state.views.iter().all(|view| done(view, request.number)))
     }
 
     /// Memory use of the cache.
@@ -168,7 +198,8 @@ impl Drop for Builder {
 }
 
 /// The function that builds tiles; tests replace it.
-type Refine = fn(&Arc<Terrain>, &View, &Cache, Instant, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
+type Refine =
+    fn(&Arc<Terrain>, &View, &Cache, &mut Option<Cut>, Instant, BuildStats, &(dyn Fn() -> bool + Sync)) -> Surface;
 
 /// State of the worker thread.
 struct Worker {
@@ -176,49 +207,60 @@ struct Worker {
     terrain: Option<Arc<Terrain>>,
     /// Layer fields at the cells of world maps, kept for the next revision.
     cell_fields: CellFields,
-    /// The finished tiles of a request whose horizon angles and detail textures are being computed.
-    complete: Option<(u64, Surface, Option<HorizonFinder>)>,
+    /// Number of the request that the newest slice worked for.
+    request: u64,
+    views: Vec<ViewWork>,
     refine: Refine,
+}
+
+/// Work on one view.
+#[derive(Default)]
+struct ViewWork {
+    /// Number of the request.
+    request: u64,
+    /// What it has taken so far.
+    stats: BuildStats,
+    /// The finished tiles, while their horizon angles and detail textures are computed.
+    complete: Option<(Surface, Option<HorizonFinder>)>,
+    /// The last finished LOD cut.
+    cut: Option<Cut>,
 }
 
 impl Worker {
     fn new(budget_bytes: usize) -> Self {
         let cache = Cache::new(budget_bytes);
-        Self { cache, terrain: None, cell_fields: CellFields::default(), complete: None, refine }
+        Self { cache, terrain: None, cell_fields: CellFields::default(), request: 0, views: Vec::new(), refine }
     }
 
     fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
-        // Number of the current request, and what it has taken so far.
-        let mut under_way = (0, BuildStats::default());
         loop {
-            let request = {
+            let (request, index) = {
                 let mut state = shared.lock();
                 loop {
                     if state.closing {
                         return;
                     }
-                    if let Some(request) = state.pending() {
-                        break request.clone();
+                    if let Some((request, index)) = state.pending() {
+                        break (request.clone(), index);
                     }
                     state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
                 }
             };
-            let is_first = under_way.0 != request.number;
-            if is_first {
-                under_way = (request.number, BuildStats::default());
-            }
-            let slice = catch_unwind(AssertUnwindSafe(|| self.slice(shared, &request, is_first, under_way.1)));
+            let slice = catch_unwind(AssertUnwindSafe(|| self.slice(shared, &request, index)));
             let mut state = shared.lock();
             let gone_wrong = match slice {
                 Ok(Ok((surface, done))) => {
-                    under_way.1 = surface.stats;
-                    if surface.complete {
-                        state.tiled = request.number;
+                    // A newer request may have fewer views.
+                    if let Some(view) = state.views.get_mut(index) {
+                        view.begun = request.number;
+                        if surface.complete {
+                            view.tiled = request.number;
+                        }
+                        if done {
+                            view.finished = request.number;
+                        }
+                        view.surface = Some(Arc::new(surface));
                     }
-                    if done {
-                        state.finished = request.number;
-                    }
-                    state.surface = Some(Arc::new(surface));
                     None
                 }
                 Ok(Err(invalid)) => Some(invalid.to_string()),
@@ -227,12 +269,12 @@ impl Worker {
                     self.cache.clear();
                     self.cell_fields.clear();
                     self.terrain = None;
-                    self.complete = None;
+                    self.views.clear();
                     Some(text_of(panic.as_ref()))
                 }
             };
             if gone_wrong.is_some() {
-                state.finished = request.number;
+                state.views.iter_mut().for_each(|view| view.finished = request.number);
             }
             state.error = gone_wrong.map(|why| format!("This planet could not be built: {why}"));
             state.memory = self.cache.memory();
@@ -241,56 +283,63 @@ impl Worker {
         }
     }
 
-    /// Builds a surface. Returns whether it has everything that the request asks for: first all tiles, then their
-    /// detail.
-    fn slice(
-        &mut self,
-        shared: &Shared,
-        request: &Request,
-        is_first: bool,
-        mut stats: BuildStats,
-    ) -> Result<(Surface, bool), InvalidPlanet> {
+    /// Builds a surface of one view. Returns whether it has everything that the request asks for: first all tiles, then
+    /// their detail.
+    fn slice(&mut self, shared: &Shared, request: &Request, index: usize) -> Result<(Surface, bool), InvalidPlanet> {
         let begun = Instant::now();
         let mut terrain = self.compile(&request.planet)?;
+        if std::mem::replace(&mut self.request, request.number) != request.number {
+            self.cache.begin_request();
+        }
+        self.views.resize_with(request.views.len(), ViewWork::default);
+        let before = std::mem::take(&mut self.views[index]);
+        let is_first = before.request != request.number;
+        let mut work = if is_first {
+            ViewWork { request: request.number, cut: before.cut, ..ViewWork::default() }
+        } else {
+            before
+        };
         let planet_wanted = || shared.is_newest_planet(request.number);
         if is_first {
-            self.cache.begin_request();
-            stats.compile_secs = begun.elapsed().as_secs_f64();
+            work.stats.compile_secs = begun.elapsed().as_secs_f64();
         } else {
-            terrain = self.solve_maps(terrain, &planet_wanted, &mut stats);
+            terrain = self.solve_maps(terrain, &planet_wanted, &mut work.stats);
         }
         let keep_going = || {
             let elapsed = begun.elapsed();
             let wanted = shared.is_newest(request.number);
             if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
         };
+        let view = &request.views[index];
         // Once all tiles are built, only their detail is missing.
-        let (mut surface, finder) = match self.complete.take().filter(|(number, ..)| *number == request.number) {
-            Some((_, surface, finder)) => (surface, finder),
+        let (mut surface, finder) = match work.complete.take() {
+            Some(complete) => complete,
             None => {
-                let mut surface =
-                    (self.refine)(&terrain, &request.view, &self.cache, request.asked, stats, &keep_going);
+                let tiles_before = work.stats.tiles_built;
+                let (cut, stats) = (&mut work.cut, work.stats);
+                let mut surface = (self.refine)(&terrain, view, &self.cache, cut, request.asked, stats, &keep_going);
                 surface.complete &= terrain.has_final_maps();
-                if !surface.complete {
-                    return Ok((surface, false));
-                }
+                work.stats = surface.stats;
                 // Show the tiles before spending time on their detail.
-                if is_first || surface.stats.tiles_built > stats.tiles_built {
-                    self.complete = Some((request.number, surface.clone(), None));
+                if !surface.complete || is_first || surface.stats.tiles_built > tiles_before {
+                    work.complete = surface.complete.then(|| (surface.clone(), None));
+                    self.views[index] = work;
                     return Ok((surface, false));
                 }
                 (surface, None)
             }
         };
-        let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, &request.view));
+        let mut finder = finder.unwrap_or_else(|| HorizonFinder::new(&surface, view));
         let (known, keep) = (|id| self.cache.horizon(id), |tile: &Arc<_>| self.cache.keep_horizon(tile));
         // While the camera moves, each view gives some time to detail that serves the next view, too; an edit gives
         // none.
         let keep_going = || keep_going() || (begun.elapsed() < DETAIL_GRACE && planet_wanted());
         let has_horizons = finder.find(&mut surface, &known, &keep, &keep_going, &planet_wanted);
         let keep = |tile: &Tile, detail: &Arc<DetailTile>| self.cache.keep_detail(tile.id, detail);
-        let done = find_detail(&mut surface, &request.view, &keep, &keep_going, &planet_wanted) && has_horizons;
-        self.complete = (!done).then(|| (request.number, surface.clone(), Some(finder)));
+        let done = find_detail(&mut surface, view, &keep, &keep_going, &planet_wanted) && has_horizons;
+        work.stats = surface.stats;
+        work.complete = (!done).then(|| (surface.clone(), Some(finder)));
+        self.views[index] = work;
         Ok((surface, done))
     }
 
@@ -341,9 +390,9 @@ mod tests {
     #[test]
     fn a_panic_gives_up_one_planet_and_is_told() {
         static BROKEN: AtomicBool = AtomicBool::new(true);
-        let refine_or_panic: Refine = |terrain, view, cache, asked, stats, keep_going| {
+        let refine_or_panic: Refine = |terrain, view, cache, cut, asked, stats, keep_going| {
             assert!(!BROKEN.load(Ordering::Relaxed), "the ground gave way");
-            refine(terrain, view, cache, asked, stats, keep_going)
+            refine(terrain, view, cache, cut, asked, stats, keep_going)
         };
         let builder = Builder::start(Worker { refine: refine_or_panic, ..Worker::new(DEFAULT_BUDGET_BYTES) }, || {});
         let planet = Arc::new(Planet::default());

@@ -6,14 +6,13 @@
 
 use super::make::{Before, Parts, make_tile};
 use super::stats::{Memory, Work};
-use crate::lod::View;
 use crate::lod::horizon::HorizonTile;
 use crate::lod::tile::{DetailTile, Tile, Vertex};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::kept::KeptFields;
 use crate::terrain::revision::TileKeys;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -53,23 +52,11 @@ impl Entry {
     }
 }
 
-/// The last LOD cut.
-#[derive(Clone)]
-pub(crate) struct Shown {
-    /// The view that it was made for.
-    pub(crate) view: View,
-    /// Its LOD bias, as a step of `refine`.
-    pub(crate) bias: u32,
-    /// The nodes that are split.
-    pub(crate) split: HashSet<NodeId>,
-}
-
 #[derive(Default)]
 struct State {
     entries: HashMap<NodeId, Entry>,
     /// Content keys of valid tiles.
     keys: TileKeys,
-    shown: Option<Arc<Shown>>,
     /// Resident size of all entries.
     bytes: usize,
     /// Number of the current request.
@@ -186,21 +173,7 @@ impl Cache {
 
     /// From now on, only tiles with these content keys are valid.
     pub(crate) fn set_keys(&self, keys: TileKeys) {
-        let mut state = self.lock();
-        if state.keys.heights != keys.heights {
-            state.shown = None;
-        }
-        state.keys = keys;
-    }
-
-    /// The last LOD cut for the current heights.
-    pub(crate) fn shown(&self) -> Option<Arc<Shown>> {
-        self.lock().shown.clone()
-    }
-
-    /// Remembers a LOD cut.
-    pub(crate) fn show(&self, shown: Shown) {
-        self.lock().shown = Some(Arc::new(shown));
+        self.lock().keys = keys;
     }
 
     /// Begins a new request: entries that it does not ask for may be dropped.
@@ -212,7 +185,6 @@ impl Cache {
     pub(crate) fn clear(&self) {
         let mut state = self.lock();
         state.entries.clear();
-        state.shown = None;
         state.bytes = 0;
     }
 

@@ -66,8 +66,8 @@ pub struct Leaf {
     /// Parent edges, as bits of [`crate::sphere::Edge::bit`]: edges beyond which the neighbour is one level coarser.
     pub coarser_edges: u8,
     /// The tile whose detail texture is to be shown: this one, or an ancestor if the mesh is finer than shading needs.
-    pub relief: Arc<Tile>,
-    /// The detail texture of `relief`, or of an ancestor of it until that is there.
+    pub shading_tile: Arc<Tile>,
+    /// The detail texture of `shading_tile`, or of an ancestor of it until that is there.
     pub detail: Option<Arc<DetailTile>>,
     /// Its horizon angles, or those of an ancestor; perhaps of an earlier revision while new ones are computed.
     pub horizon: Option<Arc<HorizonTile>>,
@@ -76,7 +76,7 @@ pub struct Leaf {
 impl Leaf {
     /// Whether the detail texture that is to be shown is there.
     fn has_own_detail(&self) -> bool {
-        self.detail.as_ref().is_some_and(|detail| detail.heights_serial == self.relief.heights_serial)
+        self.detail.as_ref().is_some_and(|detail| detail.heights_serial == self.shading_tile.heights_serial)
     }
 }
 
@@ -102,7 +102,7 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPl
     stats.octave_samples = fields.take_octave_samples();
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
     cache.set_keys(terrain.tile_keys());
-    Ok(refine::refine(&terrain, view, &cache, Instant::now(), stats, &|| true))
+    Ok(refine::refine(&terrain, view, &cache, &mut None, Instant::now(), stats, &|| true))
 }
 
 /// Computes the horizon angles and detail textures of all tiles that a view shows, and waits for them.
@@ -125,7 +125,8 @@ pub(crate) fn find_detail(
     let eye = view.camera.position_planet_m;
     let terrain = surface.terrain.clone();
     let lacking = surface.leaves.iter().filter(|leaf| !leaf.has_own_detail() && culling.sees(&leaf.tile));
-    let missing: HashMap<NodeId, Arc<Tile>> = lacking.map(|leaf| (leaf.relief.id, leaf.relief.clone())).collect();
+    let missing: HashMap<NodeId, Arc<Tile>> =
+        lacking.map(|leaf| (leaf.shading_tile.id, leaf.shading_tile.clone())).collect();
     let mut missing: Vec<Arc<Tile>> = missing.into_values().collect();
     let away_m = |tile: &Tile| tile.center_planet_m.distance(eye) - tile.bounding_radius_m;
     missing.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)).then(a.id.cmp(&b.id)));
@@ -144,7 +145,7 @@ pub(crate) fn find_detail(
             })
             .collect();
         for leaf in &mut surface.leaves {
-            if let Some(detail) = made.get(&leaf.relief.id) {
+            if let Some(detail) = made.get(&leaf.shading_tile.id) {
                 leaf.detail = Some(detail.clone());
             }
         }

@@ -4,12 +4,13 @@
 //! planet without a gap whenever time runs out. A node is split only together with the neighbours that must be split so
 //! that neighbours differ by at most one level. Within a level, nodes near the camera come first.
 
-use super::cache::{Cache, Shown};
+use super::cache::Cache;
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
 use crate::lod::cull::lowest_radius_m;
 use crate::lod::tile::{DetailTile, Tile};
 use crate::lod::{Quality, Ranges, Selection, View};
+use crate::planet::Key;
 use crate::sphere::{Edge, NodeId};
 use crate::terrain::Terrain;
 use std::collections::{HashMap, HashSet};
@@ -36,12 +37,13 @@ fn bias_factor(step: u32) -> f64 {
 const MAX_BIAS: u32 = 48;
 
 /// Builds the tiles of a view. `keep_going` is asked before each layer of each tile; once it says no, no finer level is
-/// begun, but the coarsest level is always built. Tiles are taken from `cache` and stored there. `stats` continues from
-/// earlier slices of the request made at `asked`.
+/// begun, but the coarsest level is always built. Tiles are taken from `cache` and stored there. `before` is the last
+/// finished LOD cut, and becomes the new one. `stats` continues from earlier slices of the request made at `asked`.
 pub(crate) fn refine(
     terrain: &Arc<Terrain>,
     view: &View,
     cache: &Cache,
+    before: &mut Option<Cut>,
     asked: Instant,
     mut stats: BuildStats,
     keep_going: &(dyn Fn() -> bool + Sync),
@@ -49,15 +51,16 @@ pub(crate) fn refine(
     profiling::scope!("refine");
     let begun = Instant::now();
     let lowest_radius_m = lowest_radius_m(terrain);
-    let shown = cache.shown().filter(|shown| is_near(&shown.view, view, lowest_radius_m));
+    let heights = terrain.tile_keys().heights;
+    let start = before.as_ref().filter(|cut| cut.heights == heights && is_near(&cut.view, view, lowest_radius_m));
     let mut builder = LevelBuilder { terrain, cache, asked, stats: &mut stats, secs: 0.0 };
     let budget = budget_tiles(view.quality);
     let mut choose = |bias: u32| {
         let ranges = Ranges::new(view, terrain.planet().radius_m(), bias_factor(bias));
-        let selection = Selection::new(view, &ranges, lowest_radius_m, shown.as_ref().map(|shown| &shown.split));
+        let selection = Selection::new(view, &ranges, lowest_radius_m, start.map(|cut| &cut.split));
         choose(&mut builder, &selection, (ranges, bias), view, keep_going)
     };
-    let choice = within_budget(&mut choose, budget, shown.as_ref().map_or(0, |shown| shown.bias));
+    let choice = within_budget(&mut choose, budget, start.map_or(0, |cut| cut.bias));
     // Splits forced by neighbours. They are few and prevent cracks, so they are never cut short.
     let mut forced: Vec<NodeId> =
         choice.split.iter().flat_map(|id| id.children()).filter(|id| cache.tile(*id).is_none()).collect();
@@ -73,12 +76,24 @@ pub(crate) fn refine(
     stats.slices += 1;
     let Choice { ranges, complete, bias, split, .. } = choice;
     if complete {
-        cache.show(Shown { view: *view, bias, split });
+        *before = Some(Cut { heights, view: *view, bias, split });
     }
     Surface { terrain: terrain.clone(), leaves, complete, view: *view, ranges, asked, stats }
 }
 
-/// A LOD cut.
+/// A finished LOD cut, from which the search for the next one starts.
+pub(crate) struct Cut {
+    /// Content key of the heights.
+    heights: Key,
+    /// The view that it was made for.
+    view: View,
+    /// Its LOD bias, as a step.
+    bias: u32,
+    /// The nodes that are split.
+    split: HashSet<NodeId>,
+}
+
+/// A LOD cut that is searched for.
 struct Choice {
     ranges: Ranges,
     bias: u32,
@@ -242,7 +257,7 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
     let split = &choice.split;
     let mut ids: Vec<NodeId> = leaf_ids(split).collect();
     ids.sort_unstable();
-    let mut reliefs: HashMap<NodeId, Option<Relief>> = HashMap::new();
+    let mut details: HashMap<NodeId, Option<Shading>> = HashMap::new();
     ids.into_iter()
         .filter_map(|id| {
             let coarser = |edge: &Edge| id.neighbour(*edge).parent().is_some_and(|parent| !split.contains(&parent));
@@ -252,18 +267,18 @@ fn leaves(choice: &Choice, cache: &Cache) -> Vec<Leaf> {
             while let Some(parent) = shaded.parent().filter(|parent| !choice.shaded_finer.contains(parent)) {
                 shaded = parent;
             }
-            let relief = reliefs.entry(shaded).or_insert_with(|| relief(shaded, cache));
-            let (relief, detail) = relief.clone().unwrap_or_else(|| (tile.clone(), None));
+            let shading = details.entry(shaded).or_insert_with(|| shading(shaded, cache));
+            let (shading_tile, detail) = shading.clone().unwrap_or_else(|| (tile.clone(), None));
             let horizon = cache.nearest_horizon(id);
-            Some(Leaf { tile, coarser_edges, relief, detail, horizon })
+            Some(Leaf { tile, coarser_edges, shading_tile, detail, horizon })
         })
         .collect()
 }
 
 /// The tile whose detail texture is shown, and that texture or the one of the nearest ancestor that has one.
-type Relief = (Arc<Tile>, Option<Arc<DetailTile>>);
+type Shading = (Arc<Tile>, Option<Arc<DetailTile>>);
 
-fn relief(id: NodeId, cache: &Cache) -> Option<Relief> {
+fn shading(id: NodeId, cache: &Cache) -> Option<Shading> {
     let detail = |id: NodeId| cache.tile(id).and_then(|tile| cache.detail(&tile));
     let detail = std::iter::successors(Some(id), |id| id.parent()).find_map(detail);
     Some((cache.tile(id)?, detail))

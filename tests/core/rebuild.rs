@@ -37,6 +37,49 @@ fn bits(surface: &Surface) -> Vec<(NodeId, u8, Vec<Vertex>)> {
 }
 
 #[test]
+fn one_builder_serves_several_views_which_share_their_tiles() {
+    let planet = Arc::new(full_planet());
+    let views = [view(30.0, 1.3), view(32.0, 1.3), view(110.0, 3.0)];
+    let alone: Vec<_> = views.iter().map(|view| build_now(&planet, view).unwrap()).collect();
+    let builder = Builder::new(|| {});
+    builder.request_views(&planet, &views);
+    settled(&builder);
+    let built: usize = (0..views.len()).map(|i| builder.surface_of(i).unwrap().stats.tiles_built).sum();
+    for (i, alone) in alone.iter().enumerate() {
+        assert!(bits(&builder.surface_of(i).unwrap()) == bits(alone), "view {i}");
+    }
+    let each_alone: usize = alone.iter().map(|surface| surface.stats.tiles_built).sum();
+    assert!(built < each_alone * 3 / 4, "{built} of {each_alone} tiles");
+    assert!(builder.surface_of(3).is_none());
+    // An edit reaches every view, and a view that is gone has no surface.
+    let mut edited = Planet::clone(&planet);
+    edited.layers[0].amplitude_m *= 1.25;
+    let edited = Arc::new(edited);
+    builder.request_views(&edited, &views[..2]);
+    settled(&builder);
+    for (i, view) in views[..2].iter().enumerate() {
+        assert!(bits(&builder.surface_of(i).unwrap()) == bits(&build_now(&edited, view).unwrap()), "view {i}");
+    }
+    assert!(builder.surface_of(2).is_none());
+}
+
+#[test]
+fn a_view_that_moves_all_the_time_leaves_time_to_the_others() {
+    let planet = Arc::new(full_planet());
+    let other = view(-60.0, 3.0);
+    let builder = Builder::new(|| {});
+    // A new request every few milliseconds: slices of the first view alone could take all the time.
+    for step in 0..2000 {
+        builder.request_views(&planet, &[view(30.0 + 0.01 * f64::from(step), 1.3), other]);
+        std::thread::sleep(Duration::from_millis(2));
+        if builder.surface_of(1).is_some() && builder.surface_of(0).is_some() {
+            return;
+        }
+    }
+    panic!("a view got no surface");
+}
+
+#[test]
 fn each_parameter_runs_the_stages_it_declares_and_no_others() {
     let planet = full_planet();
     let view = view(30.0, 3.0);

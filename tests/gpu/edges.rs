@@ -1,7 +1,7 @@
 //! Antialiased edges (limb, ridge, shore, glint) against a reference: the same picture drawn four times as wide and
 //! high, and averaged. Compares the errors with and without antialiasing, in still and in moving pictures.
 
-use crate::support::{Gpu, camera, earth, gpu};
+use crate::support::{Gpu, camera, earth, frame_of, gpu};
 use glam::DQuat;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
@@ -98,7 +98,7 @@ fn frame<'a>(
 ) -> Scene<'a> {
     let view = View { camera, size_px: chosen.size_px.map(|side| side * finer), quality };
     let sun_dir_planet = LatLon::from_degrees(scene.sun.0, scene.sun.1).direction();
-    let mut drawn = Scene::of_planet(&scene.planet, surface, view, sun_dir_planet);
+    let mut drawn = frame_of(surface, &scene.planet, view, sun_dir_planet);
     drawn.post.exposure_ev = -STAR_BRIGHTNESS.log2();
     drawn.bodies[0].frozen = Some(chosen);
     drawn

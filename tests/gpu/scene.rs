@@ -36,7 +36,7 @@ impl Pair {
     }
 
     fn body(&self, i: usize) -> Body<'_> {
-        Body::new(BodyId(i as u32), &self.planets[i], &self.surfaces[i], self.positions_m[i])
+        Body::new(BodyId(i as u32), &self.surfaces[i], self.positions_m[i])
     }
 
     /// The scene with some of the bodies, in this order.

@@ -11,7 +11,7 @@ use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
 use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture, texture};
 use tellus::sphere::LatLon;
-use tellus::terrain::Terrain;
+use tellus::terrain::{Revision, Terrain};
 use tellus::tiles::{Builder, Surface, add_detail, build_now};
 
 pub const SIZE_PX: [u32; 2] = [320, 180];
@@ -159,14 +159,15 @@ pub fn camera_over(terrain: &Terrain, place: LatLon, altitude_m: f64, [heading, 
 }
 
 /// A scene with the sun overhead at a location (degrees).
-pub fn frame<'a>(surface: &'a Surface, planet: &'a Planet, camera: Camera, sun: (f64, f64)) -> Scene<'a> {
+pub fn frame<'a>(surface: &'a Surface, planet: &Planet, camera: Camera, sun: (f64, f64)) -> Scene<'a> {
     let view = View { camera, size_px: SIZE_PX, quality: Quality::Medium };
     frame_of(surface, planet, view, LatLon::from_degrees(sun.0, sun.1).direction())
 }
 
 /// A scene of a view.
-pub fn frame_of<'a>(surface: &'a Surface, planet: &'a Planet, view: View, sun_dir_planet: DVec3) -> Scene<'a> {
-    Scene::of_planet(planet, surface, view, sun_dir_planet)
+pub fn frame_of<'a>(surface: &'a Surface, planet: &Planet, view: View, sun_dir_planet: DVec3) -> Scene<'a> {
+    let revision = Revision::try_new(Arc::new(planet.clone())).unwrap();
+    Scene::of_revision(revision, surface, view, sun_dir_planet)
 }
 
 /// A scene that shows a debug view.
@@ -190,7 +191,7 @@ pub fn inside_disc(frame: &Scene<'_>, lowest_m: f64) -> Vec<bool> {
     let [width, height] = frame.size_px;
     let view = view_of(frame);
     let eye = view.camera.position_planet_m;
-    let radius_m = frame.bodies[0].planet.radius_m() + lowest_m;
+    let radius_m = frame.bodies[0].planet().radius_m() + lowest_m;
     (0..height)
         .flat_map(|y| (0..width).map(move |x| (x, y)))
         .map(|(x, y)| {

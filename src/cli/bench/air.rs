@@ -5,6 +5,7 @@ use super::{median, repeat};
 use crate::lod::{Quality, opening};
 use crate::planet::Planet;
 use crate::render::{Renderer, Scene};
+use crate::terrain::Revision;
 use crate::tiles::build_now;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -26,7 +27,8 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
             if let Some(air) = planet.atmosphere.as_mut().filter(|_| change) {
                 air.mie_anisotropy = if air.mie_anisotropy > 0.7 { 0.65 } else { 0.75 };
             }
-            let scene = Scene::of_planet(&planet, &surface, view, planet.star.place(0.0).direction());
+            let Ok(revision) = Revision::try_new(Arc::new(planet.clone())) else { return };
+            let scene = Scene::of_revision(revision, &surface, view, planet.star.place(0.0).direction());
             // An error here shows in every figure of the GPU.
             let _ = gpu.picture(SIZE_PX, |target| {
                 renderer.render(target, &scene).map(drop).map_err(|error| error.to_string())

@@ -4,7 +4,6 @@ use super::timeline::{Drawing, Timeline};
 use crate::planet::Planet;
 use crate::terrain::{Revision, Terrain};
 use crate::tiles::Surface;
-use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -41,14 +40,14 @@ impl EditClock {
         }
     }
 
-    /// Notes that a picture has been drawn.
-    pub fn drawn(&mut self, surface: &Surface, planet: &Arc<Planet>, drawing: &Drawing) {
+    /// Notes that a picture of a revision has been drawn.
+    pub fn drawn(&mut self, surface: &Surface, revision: &Revision, drawing: &Drawing) {
         if !surface.complete {
             return;
         }
         let made_for = |edit: &Edit| Arc::ptr_eq(surface.terrain.planet(), &edit.planet);
         let shown = self.pending.iter().rposition(|edit| {
-            made_for(edit) || (Arc::ptr_eq(planet, &edit.planet) && same_tiles(&surface.terrain, planet))
+            made_for(edit) || (Arc::ptr_eq(revision.planet(), &edit.planet) && same_tiles(&surface.terrain, revision))
         });
         if let Some(index) = shown {
             let edit = &self.pending[index];
@@ -103,21 +102,8 @@ impl EditClock {
 }
 
 /// Whether the tiles of a terrain are those of another revision, too.
-pub(super) fn same_tiles(terrain: &Terrain, planet: &Arc<Planet>) -> bool {
-    revision_of(planet).is_some_and(|revision| !revision.keys().changes_since(terrain.keys()).touches_tiles())
-}
-
-/// The revision of a valid planet. The last one is kept: it is asked for in every frame until the new tiles are there.
-fn revision_of(planet: &Arc<Planet>) -> Option<Revision> {
-    thread_local! {
-        static LAST: RefCell<Option<Revision>> = const { RefCell::new(None) };
-    }
-    LAST.with_borrow_mut(|last| {
-        if !last.as_ref().is_some_and(|revision| Arc::ptr_eq(revision.planet(), planet)) {
-            *last = Revision::try_new(planet.clone()).ok();
-        }
-        last.clone()
-    })
+pub(super) fn same_tiles(terrain: &Terrain, revision: &Revision) -> bool {
+    !revision.keys().changes_since(terrain.keys()).touches_tiles()
 }
 
 /// The time from frame to frame while frames follow each other without a pause.

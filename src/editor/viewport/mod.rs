@@ -34,6 +34,7 @@ use crate::lod::opening::opening_place;
 use crate::planet::Planet;
 use crate::render::{FrameStats, LutRuns};
 use crate::sphere::LatLon;
+use crate::terrain::Revision;
 use crate::tiles::{Builder, Memory, Surface};
 use camera::pose::Pose;
 use camera::{Cameras, Ground};
@@ -64,6 +65,8 @@ pub struct Viewport {
     /// What the painter of the biome table shows on the planet, and which clicks it takes.
     pub painter: PainterLink,
     builder: Builder,
+    /// The newest valid planet.
+    newest: Option<Revision>,
     picture: Picture,
     cameras: Cameras,
     /// Radius of the reference sphere over which the cameras are placed.
@@ -91,6 +94,7 @@ impl Viewport {
             frames: FrameLog::default(),
             painter: PainterLink::default(),
             builder: Builder::new(waker()),
+            newest: None,
             picture: Picture::new(render_state),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
@@ -284,11 +288,14 @@ impl Viewport {
     }
 
     fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View) {
+        if !self.newest.as_ref().is_some_and(|newest| Arc::ptr_eq(newest.planet(), valid)) {
+            self.newest = Revision::try_new(valid.clone()).ok();
+        }
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
-        let shown = surface.terrain.planet().clone();
-        let planet = if Arc::ptr_eq(&shown, valid) || same_tiles(&surface.terrain, valid) { valid } else { &shown };
+        let newest = self.newest.clone().filter(|newest| same_tiles(&surface.terrain, newest));
+        let revision = newest.unwrap_or_else(|| surface.terrain.revision());
         let (settings, marked) = (&self.settings, self.painter.marked.clone());
-        let subject = Subject { surface, planet, view, frozen: self.frozen, settings, marked };
+        let subject = Subject { surface, revision, view, frozen: self.frozen, settings, marked };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });
     }

@@ -10,6 +10,7 @@ use super::timeline::{self, Span};
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
 use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Renderer, Scene, Tone};
+use crate::terrain::Revision;
 use crate::tiles::{Leaf, Surface};
 use eframe::egui::{self, TextureId};
 use eframe::egui_wgpu::RenderState;
@@ -20,7 +21,7 @@ use std::time::{Duration, Instant};
 pub(super) struct Subject<'a> {
     pub(super) surface: Arc<Surface>,
     /// The planet that gives sea, air, clouds and light.
-    pub(super) planet: &'a Arc<Planet>,
+    pub(super) revision: Revision,
     pub(super) view: View,
     /// The view whose tiles are kept, if detail is frozen.
     pub(super) frozen: Option<View>,
@@ -146,7 +147,7 @@ impl Picture {
     /// Draws the subject, unless the texture holds that picture already.
     pub(super) fn draw(&mut self, subject: &Subject<'_>, meters: &mut Meters<'_>) {
         let Drawing::Ready(renderer, state) = &mut self.drawing else { return };
-        let Subject { planet, settings, .. } = subject;
+        let Subject { revision, settings, .. } = subject;
         let key = PictureKey::of(subject);
         let target = self.target.get_or_insert_with(|| Target::new(state, key.view.size_px));
         let resized = target.resize(key.view.size_px);
@@ -159,8 +160,8 @@ impl Picture {
             return;
         }
         let begin = Instant::now();
-        let sun_dir_planet = planet.star.place(key.time_secs).direction();
-        let mut scene = Scene::of_planet(planet, &key.surface, key.view, sun_dir_planet);
+        let sun_dir_planet = revision.planet().star.place(key.time_secs).direction();
+        let mut scene = Scene::of_revision(revision.clone(), &key.surface, key.view, sun_dir_planet);
         scene.time_secs = key.time_secs;
         scene.debug_view = key.debug_view;
         scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
@@ -185,7 +186,7 @@ impl Picture {
         let upload = if self.swap.is_uploading() { None } else { self.upload.take() };
         let (upload, before) = upload.unzip();
         let uploaded_bytes = before.map_or(0, |before| renderer.uploaded_bytes() - before);
-        meters.edit_clock.drawn(&key.surface, planet, &timeline::Drawing { upload, uploaded_bytes, draw });
+        meters.edit_clock.drawn(&key.surface, revision, &timeline::Drawing { upload, uploaded_bytes, draw });
         self.drawn = Some(key);
     }
 }
@@ -217,7 +218,7 @@ impl PictureKey {
     fn of(subject: &Subject<'_>) -> Self {
         Self {
             surface: subject.surface.clone(),
-            planet: subject.planet.clone(),
+            planet: subject.revision.planet().clone(),
             view: subject.view,
             frozen: subject.frozen,
             time_secs: subject.settings.time_secs,

@@ -53,7 +53,7 @@ pub(crate) fn text() -> String {
         // Noises
         ("OCTAVE_TURN", &OCTAVE_TURN),
         ("NOISE_TILE_SIDE", &(noise_tile::SIDE as f64)),
-        ("MOTTLE_OCTAVES", &(MOTTLE_OCTAVES as u32)),
+        ("VARIATION_OCTAVES", &(VARIATION_OCTAVES as u32)),
         ("BORDER_OCTAVES", &(BORDER_OCTAVES as u32)),
         ("BORDER_GAIN", &border::GAIN),
         ("BORDER_TILE_SIDE", &(border::TILE_SIDE as f64)),

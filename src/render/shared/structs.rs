@@ -1,6 +1,6 @@
 //! The structs of uniform buffers, declared once for Rust and WGSL.
 
-use super::constants::{BORDER_OCTAVES, CLOUD_BANDS, MAX_SUNS, MOTTLE_OCTAVES, WAVES};
+use super::constants::{BORDER_OCTAVES, CLOUD_BANDS, MAX_SUNS, VARIATION_OCTAVES, WAVES};
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3};
 
@@ -167,7 +167,7 @@ uniform_struct! {
         cloud_belts: f32,
         cloud_seed: u32,
         /// Octaves of the macro variation; periods in metres.
-        mottle: [Octave; MOTTLE_OCTAVES],
+        variation: [Octave; VARIATION_OCTAVES],
         /// The eye's position modulo 1024 m, for patterns that repeat.
         eye_wrap_m: Vec3,
         /// How much colder it gets with each metre of height.

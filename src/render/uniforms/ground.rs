@@ -3,7 +3,7 @@
 use super::{Body, octave, wrapped};
 use crate::planet::{Planet, TableBlend, TableRows};
 use crate::render::biome_table::{WRAP_FAR_M, WRAP_M};
-use crate::render::shared::MOTTLE_PERIODS_M;
+use crate::render::shared::VARIATION_PERIODS_M;
 use crate::terrain::border::{self, OCTAVE_TURN};
 use glam::DVec3;
 
@@ -20,7 +20,7 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
 /// Sets the offsets of noises and patterns around an eye.
 pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3) {
     let mut position_m = eye_m;
-    for (slot, period_m) in out.mottle.iter_mut().zip(MOTTLE_PERIODS_M) {
+    for (slot, period_m) in out.variation.iter_mut().zip(VARIATION_PERIODS_M) {
         *slot = octave(position_m, period_m);
         position_m = OCTAVE_TURN * position_m;
     }

@@ -1,7 +1,7 @@
 // Macro variation of ground and ice: octaves of a tiling noise with mip levels. The mip level follows the pixel's
 // footprint, so structure finer than a pixel gives exactly its mean: no shimmer, and no change of colour with distance.
 #include "uniforms.wgsl"
-#include "tables.wgsl"
+#include "luts.wgsl"
 
 // Height of an octave's bumps, as a share of its period.
 const BUMPS: f32 = 0.02;
@@ -15,11 +15,11 @@ fn octave_at(octave: Octave, position: vec3f, lod: f32) -> f32 {
 
 // Macro variation, about -1 to 1 with mean 0, at a point relative to the eye. `footprint_m`: width of a pixel at the
 // point.
-fn mottle_at(rel_m: vec3f, footprint_m: f32) -> f32 {
+fn macro_variation(rel_m: vec3f, footprint_m: f32) -> f32 {
     var sum = 0.0;
     var position = rel_m;
-    for (var i = 0u; i < MOTTLE_OCTAVES; i++) {
-        let octave = body.mottle[i];
+    for (var i = 0u; i < VARIATION_OCTAVES; i++) {
+        let octave = body.variation[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
@@ -36,8 +36,8 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
     var rise = vec2f(0.0);
     var position = rel_m;
     var along = tangents;
-    for (var i = 0u; i < MOTTLE_OCTAVES; i++) {
-        let octave = body.mottle[i];
+    for (var i = 0u; i < VARIATION_OCTAVES; i++) {
+        let octave = body.variation[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
@@ -60,7 +60,7 @@ fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = vec2f(0.0);
     var position = rel_m;
     for (var i = 0u; i < 4u; i++) {
-        let octave = body.mottle[i];
+        let octave = body.variation[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }

@@ -1,9 +1,9 @@
 // LUTs and maps that are reused from frame to frame.
 
-@group(1) @binding(0) var depth_table: texture_2d<f32>;
-@group(1) @binding(1) var multiscatter_table: texture_2d<f32>;
-@group(1) @binding(2) var irradiance_table: texture_2d<f32>;
-@group(1) @binding(3) var sky_table: texture_2d<f32>;
+@group(1) @binding(0) var optical_depth_lut: texture_2d<f32>;
+@group(1) @binding(1) var multiscatter_lut: texture_2d<f32>;
+@group(1) @binding(2) var irradiance_lut: texture_2d<f32>;
+@group(1) @binding(3) var sky_lut: texture_2d<f32>;
 @group(1) @binding(4) var weather_map: texture_cube<f32>;
 @group(1) @binding(5) var noise_tile: texture_3d<f32>;
 // r: index into the palette; g: 1 if the cell is marked in the editor
