@@ -10,6 +10,7 @@
 //! - [`validate`]: ranges, references between names, the shape of the biome table
 //! - [`mod@file`]: loading and saving; `open` opens files, `text` writes a preset, `explain` parses one and explains
 //!   errors, `locate` finds lines and columns, `migrate` reads old versions
+//! - [`structure`]: plates, weather and rivers of a preset
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`shipped`]: the presets that come with the program
 //! - [`notes`]: the editor's own section of a preset
@@ -38,6 +39,7 @@ pub mod random;
 pub mod shapes;
 pub mod shipped;
 mod star_color;
+pub mod structure;
 pub mod table;
 mod tables;
 pub(crate) mod text;
@@ -58,6 +60,7 @@ pub use shapes::{
     Terraces, Warped,
 };
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
+pub use structure::{Plates, Rivers, Rotation, Structure, Weather};
 pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
 pub use validate::InvalidPlanet;

@@ -15,7 +15,12 @@
 
 pub(crate) mod cells;
 pub(crate) mod coast;
+pub(crate) mod drainage;
+pub(crate) mod grid;
 mod map;
+pub(crate) mod noise;
+pub(crate) mod plates;
+pub(crate) mod weather;
 mod slot;
 
 use coast::Coast;

@@ -17,7 +17,9 @@ pub enum Unit {
     MetresPerSecond,
     KilometresPerHour,
     Millimetres,
+    MillimetresPerYear,
     Hours,
+    MillionYears,
 }
 
 impl Unit {
@@ -35,7 +37,9 @@ impl Unit {
             Unit::MetresPerSecond => "m/s",
             Unit::KilometresPerHour => "km/h",
             Unit::Millimetres => "mm",
+            Unit::MillimetresPerYear => "mm/yr",
             Unit::Hours => "h",
+            Unit::MillionYears => "Myr",
         }
     }
 }

@@ -1,0 +1,122 @@
+//! Lakes: basins that an outlet has not drained yet, and basins from which water only evaporates.
+
+use super::route::Routes;
+use super::{DISCHARGE_UNIT, Lake, Level};
+use crate::world::cells::Cells;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// The ground, the lake of each cell (1-based; 0 is none), and the lakes.
+pub(super) struct Lakes {
+    pub(super) ground_m: Vec<f64>,
+    pub(super) lake: Vec<u32>,
+    pub(super) lakes: Vec<Lake>,
+}
+
+/// Depth in metres that a basin needs to hold a lake, if the parameter `lakes` is 1.
+const LEAST_DEPTH_M: f64 = 30.0;
+
+/// Depth in metres beyond which the floor of a lake is taken for filled with sediment.
+const MOST_DEPTH_M: f64 = 900.0;
+
+impl Lakes {
+    /// Finds the lakes. `beds_m` is raised to the surface of each lake, and beyond it so far that it still falls along
+    /// all routes.
+    pub(super) fn find(level: &Level<'_>, cells: &Cells, routes: &Routes, discharge: &[u64], beds_m: &mut [f64]) -> Self {
+        let mut lakes = Self { ground_m: Vec::new(), lake: vec![0; beds_m.len()], lakes: Vec::new() };
+        if level.params.lakes > 0.0 {
+            lakes.add_closed(level, cells, routes, discharge, beds_m);
+        }
+        lakes.ground_m = beds_m.to_vec();
+        if level.params.lakes > 0.0 {
+            lakes.add_open(level, routes, beds_m);
+        }
+        lakes
+    }
+
+    /// Basins with an outlet: the rock under a river bed lies lower than the outlet of the basin has been cut.
+    fn add_open(&mut self, level: &Level<'_>, routes: &Routes, beds_m: &mut [f64]) {
+        let least_m = LEAST_DEPTH_M / level.params.lakes;
+        for &cell in &routes.order {
+            let (cell, to) = (cell as usize, routes.receiver[cell as usize] as usize);
+            if to == cell || self.lake[cell] != 0 {
+                continue;
+            }
+            let (below, rock_m) = (self.lake[to], level.surface_m(cell));
+            let joined = below.checked_sub(1).map(|k| self.lakes[k as usize]).filter(|lake| lake.outlet.is_some());
+            if let Some(lake) = joined {
+                if rock_m < lake.level_m - 0.3 * least_m {
+                    self.flood(level, cell, below, beds_m);
+                    continue;
+                }
+            } else if below == 0 && !level.is_sea[to] && rock_m < beds_m[to] - least_m {
+                self.lakes.push(Lake { level_m: beds_m[to], outlet: Some(to as u32), area_sr: 0.0 });
+                let number = self.lakes.len() as u32;
+                self.flood(level, cell, number, beds_m);
+                continue;
+            }
+            beds_m[cell] = beds_m[cell].max(beds_m[to] + 0.01);
+            self.ground_m[cell] = beds_m[cell];
+        }
+    }
+
+    fn flood(&mut self, level: &Level<'_>, cell: usize, number: u32, beds_m: &mut [f64]) {
+        let lake = &mut self.lakes[number as usize - 1];
+        lake.area_sr += level.areas_sr[cell];
+        self.lake[cell] = number;
+        beds_m[cell] = lake.level_m;
+        self.ground_m[cell] = level.surface_m(cell).clamp(lake.level_m - MOST_DEPTH_M, lake.level_m - 1.0);
+    }
+
+    /// Basins without an outlet: the lake around each sink grows until as much evaporates as flows in.
+    fn add_closed(
+        &mut self,
+        level: &Level<'_>,
+        cells: &Cells,
+        routes: &Routes,
+        discharge: &[u64],
+        beds_m: &mut [f64],
+    ) {
+        for &sink in &routes.order {
+            if routes.receiver[sink as usize] != sink {
+                continue;
+            }
+            let inflow = discharge[sink as usize] as f64 * DISCHARGE_UNIT;
+            let mut waiting = BinaryHeap::from([Reverse((0_u64, sink))]);
+            let (mut lost, mut level_m, mut area_sr) = (0.0, beds_m[sink as usize], 0.0);
+            let mut wet = Vec::new();
+            let number = self.lakes.len() as u32 + 1;
+            let above = |cell: u32, beds_m: &[f64]| ((beds_m[cell as usize] - beds_m[sink as usize]).max(0.0) * 1024.0) as u64;
+            while let Some(Reverse((_, cell))) = waiting.pop() {
+                if self.lake[cell as usize] != 0 {
+                    continue;
+                }
+                let dry_m = level.dryness_mm[cell as usize].max(100.0) * 1e-3;
+                if !wet.is_empty() && lost + dry_m * level.areas_sr[cell as usize] > inflow {
+                    break;
+                }
+                lost += dry_m * level.areas_sr[cell as usize];
+                area_sr += level.areas_sr[cell as usize];
+                level_m = level_m.max(beds_m[cell as usize]);
+                self.lake[cell as usize] = number;
+                wet.push(cell);
+                for &other in &cells.neighbours[cell as usize] {
+                    // Only ground that drains into the lake: beyond it lies another basin.
+                    if self.lake[other as usize] == 0 && self.lake[routes.receiver[other as usize] as usize] == number {
+                        waiting.push(Reverse((above(other, beds_m), other)));
+                    }
+                }
+            }
+            // A salt flat has no lake: less flows in than its lowest cell loses.
+            let is_flat = inflow < 0.3 * lost && wet.len() == 1;
+            for &cell in &wet {
+                if is_flat {
+                    self.lake[cell as usize] = 0;
+                }
+            }
+            if !is_flat {
+                self.lakes.push(Lake { level_m: level_m + 1.0, outlet: None, area_sr });
+            }
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! Rivers: where water runs, how much of it, the beds that it carves, and lakes.
+//!
+//! The solver works on a grid of a cube, coarse to fine. On each grid it repeats: fill pits, find the steepest way
+//! down, sum the discharge, and set the height of each bed by a closed form (see `carve`). The result is a function of
+//! rock, rise, rain and age, never of a history. Great rivers of a coarser grid are cut into the start of the finer
+//! one, so that both have them in the same places.
+//!
+//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes
+//! - `start`: sea, closed basins and the surface at which a grid starts; deltas
+
+mod carve;
+mod flood;
+mod lakes;
+mod route;
+mod start;
+
+use super::cells::Cells;
+use super::grid::{areas_sr, nodes};
+use super::map::KeepGoing;
+use super::noise::{hash, unit};
+use crate::planet::Rivers as Params;
+use glam::DVec3;
+use lakes::Lakes;
+use rayon::prelude::*;
+use route::Routes;
+
+/// The unit of summed discharge: m³ a year on a sphere of radius 1 m.
+pub(super) const DISCHARGE_UNIT: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// What the rivers of a planet depend on, at the cells of one grid.
+pub(crate) struct Inputs<'a> {
+    pub(crate) params: &'a Params,
+    /// Seed of the planet.
+    pub(crate) seed: u32,
+    /// Cells along the side of a face.
+    pub(crate) side: usize,
+    /// Radius of the planet. Only the talus depends on it.
+    pub(crate) radius_km: f64,
+    /// Height of the sea's surface in metres, if there is a sea.
+    pub(crate) sea_level_m: Option<f64>,
+    /// Height of the ground in metres before it rises and is carved.
+    pub(crate) initial_m: &'a [f64],
+    /// Height in metres by which rock rises in the age of the rivers.
+    pub(crate) uplift_m: &'a [f64],
+    /// Logarithm of how easily rock is carved.
+    pub(crate) softness: &'a [f64],
+    /// Water that runs off, in mm a year.
+    pub(crate) runoff_mm: &'a [f64],
+    /// What a lake loses to the air beyond the rain that falls on it, in mm a year. Below zero where it gains.
+    pub(crate) dryness_mm: &'a [f64],
+}
+
+/// A lake.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lake {
+    /// Height of the surface in metres.
+    pub(crate) level_m: f64,
+    /// The cell into which it overflows; none if its water only evaporates.
+    pub(crate) outlet: Option<u32>,
+    /// Area as a solid angle.
+    pub(crate) area_sr: f64,
+}
+
+/// A mouth of a great river, for its delta.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mouth {
+    pub(crate) dir: DVec3,
+    pub(crate) reach_rad: f64,
+}
+
+/// Rivers and lakes at the cells of a grid.
+pub(crate) struct Drainage {
+    pub(crate) side: usize,
+    /// Seed of the nodes: the river of a cell runs through [`super::grid::node`] of it.
+    pub(crate) seed: u32,
+    /// Height of the sea in metres, or of the plains into which rivers run dry on a planet without a sea.
+    pub(crate) base_m: f64,
+    /// Height of the ground in metres; under water that of the bed.
+    pub(crate) height_m: Vec<f32>,
+    /// Height of the river's bed in metres; in a lake with an outlet that of its surface. It falls along all receivers.
+    pub(crate) bed_m: Vec<f64>,
+    /// The cell to which a cell's water goes; itself in the sea and at the bottom of a basin without an outlet.
+    pub(crate) receiver: Vec<u32>,
+    /// Discharge in m³/s on this planet.
+    pub(crate) discharge_m3_s: Vec<f32>,
+    /// Discharge summed in whole units; see [`DISCHARGE_UNIT`].
+    pub(crate) discharge: Vec<u64>,
+    /// The lake of each cell: 0 is none, else one more than the index in `lakes`.
+    pub(crate) lake: Vec<u32>,
+    pub(crate) lakes: Vec<Lake>,
+    /// Whether a cell lies in the sea.
+    pub(crate) is_sea: Vec<bool>,
+    /// Bottoms of basins without an outlet.
+    pub(crate) sinks: Vec<u32>,
+    /// Mouths of the great rivers whose deltas a finer grid builds.
+    pub(crate) mouths: Vec<Mouth>,
+    /// Land cells, each after its receiver.
+    pub(crate) order: Vec<u32>,
+}
+
+/// The inputs of a grid, and what is derived from them once.
+pub(super) struct Level<'a> {
+    pub(super) params: &'a Params,
+    pub(super) radius_km: f64,
+    pub(super) base_m: f64,
+    pub(super) areas_sr: Vec<f64>,
+    pub(super) is_sea: Vec<bool>,
+    /// Height of the ground at the start; deltas are among it, and it is nowhere on land below the base.
+    pub(super) start_m: Vec<f64>,
+    pub(super) uplift_m: &'a [f64],
+    pub(super) softness: &'a [f64],
+    pub(super) dryness_mm: &'a [f64],
+}
+
+impl Level<'_> {
+    /// Height of the ground after rock has risen, if nothing had been carved.
+    pub(super) fn surface_m(&self, cell: usize) -> f64 {
+        self.start_m[cell] + self.uplift_m[cell]
+    }
+}
+
+/// How often routes and heights are found in turn on a grid.
+fn rounds(side: usize) -> usize {
+    match side {
+        0..=64 => 6,
+        65..=128 => 4,
+        129..=256 => 3,
+        _ => 2,
+    }
+}
+
+/// Share of the new heights that each round but the last takes over.
+const RELAXATION: f64 = 0.65;
+
+impl Drainage {
+    /// Solves the rivers on a grid, given those of the grid of half the side, if there is one. None if `keep_going`
+    /// said no.
+    pub(crate) fn solve(inputs: &Inputs<'_>, coarser: Option<&Drainage>, keep_going: &KeepGoing<'_>) -> Option<Self> {
+        let cells = Cells::of(inputs.side);
+        let seed = hash(hash(inputs.seed, inputs.params.seed), 0x21FE);
+        let coarser = coarser.filter(|coarser| coarser.side * 2 == inputs.side);
+        let base_m = inputs.sea_level_m.unwrap_or_else(|| start::plains_m(inputs));
+        let areas_sr = areas_sr(inputs.side);
+        let (start_m, is_sea) = start::ground(inputs, &cells, &areas_sr, base_m, coarser, seed);
+        let level = Level {
+            params: inputs.params,
+            radius_km: inputs.radius_km,
+            base_m,
+            areas_sr,
+            is_sea,
+            start_m,
+            uplift_m: inputs.uplift_m,
+            softness: inputs.softness,
+            dryness_mm: inputs.dryness_mm,
+        };
+        let nodes = nodes(inputs.side, seed);
+        let source = level.source(inputs);
+        let mut surface_m = start::surface(&level, &cells, coarser, seed);
+        let mut sinks = match coarser {
+            Some(coarser) => start::finer_sinks(&level, coarser, inputs.side),
+            None => start::sinks(&level, &cells, &nodes, &source, keep_going)?,
+        };
+        sinks.retain(|&sink| !level.is_sea[sink as usize]);
+        let rounds = rounds(inputs.side);
+        let mut found = None;
+        for round in 0..rounds {
+            if !keep_going() {
+                return None;
+            }
+            let rough: Vec<f64> =
+                surface_m.par_iter().enumerate().map(|(cell, m)| m + roughness_m(*m - base_m, seed, cell)).collect();
+            let filled = flood::fill(&cells, base_m, &rough, &level.is_sea, &sinks, keep_going)?;
+            let routes = Routes::new(&cells, &nodes, filled, &level.is_sea);
+            let discharge = routes.accumulated(&source);
+            let beds_m = carve::beds_m(&level, &routes, &discharge);
+            if round + 1 < rounds {
+                surface_m
+                    .par_iter_mut()
+                    .zip(&beds_m)
+                    .for_each(|(surface_m, bed_m)| *surface_m += (bed_m - *surface_m) * RELAXATION);
+            }
+            found = Some((routes, discharge, beds_m));
+        }
+        let (routes, discharge, mut bed_m) = found?;
+        let Lakes { ground_m, lake, lakes } = Lakes::find(&level, &cells, &routes, &discharge, &mut bed_m);
+        let height_m = (0..ground_m.len())
+            .map(|cell| (if level.is_sea[cell] { level.start_m[cell] } else { ground_m[cell] }) as f32)
+            .collect();
+        let radius_m = inputs.radius_km * 1000.0;
+        let true_m3_s = |units: &u64| (*units as f64 * (DISCHARGE_UNIT * radius_m * radius_m / 3.156e7)) as f32;
+        let mouths = start::mouths(&level, &routes, &discharge, &nodes, coarser, seed);
+        Some(Self {
+            side: inputs.side,
+            seed,
+            base_m,
+            height_m,
+            bed_m,
+            discharge_m3_s: discharge.iter().map(true_m3_s).collect(),
+            discharge,
+            lake,
+            lakes,
+            is_sea: level.is_sea,
+            sinks,
+            mouths,
+            receiver: routes.receiver,
+            order: routes.order,
+        })
+    }
+}
+
+impl Level<'_> {
+    /// Water that each cell adds to its river, in units of the discharge.
+    fn source(&self, inputs: &Inputs<'_>) -> Vec<u64> {
+        let even_mm = 350.0;
+        let of = |cell: usize| {
+            let pattern = inputs.params.rain_pattern;
+            let mm = inputs.params.rain * (even_mm + (inputs.runoff_mm[cell].max(4.0) - even_mm) * pattern);
+            if self.is_sea[cell] { 0 } else { (mm * 1e-3 * self.areas_sr[cell] / DISCHARGE_UNIT) as u64 + 1 }
+        };
+        (0..self.areas_sr.len()).into_par_iter().map(of).collect()
+    }
+}
+
+/// Roughness of the surface on which routes are found: without it rivers run straight over even slopes.
+fn roughness_m(above_m: f64, seed: u32, cell: usize) -> f64 {
+    (unit(hash(seed ^ 0x5EED, cell as u32)) - 0.5) * (0.06 * above_m.clamp(0.0, 1200.0) + 4.0)
+}
+
+#[cfg(test)]
+mod tests;

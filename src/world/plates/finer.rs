@@ -1,0 +1,55 @@
+//! The crust on finer grids than the one on which plates are solved.
+
+use super::{Layout, Plates};
+use crate::world::cells::Cells;
+use crate::world::grid::refined;
+use crate::world::noise::{fbm, hash, ramp};
+use rayon::prelude::*;
+
+/// What rivers read of the crust, at the cells of a grid.
+pub(crate) struct Rock {
+    pub(crate) side: usize,
+    /// See [`Plates::base_m`].
+    pub(crate) base_m: Vec<f64>,
+    /// See [`Plates::uplift_m`].
+    pub(crate) uplift_m: Vec<f64>,
+    /// See [`Plates::softness`].
+    pub(crate) softness: Vec<f64>,
+}
+
+impl Plates {
+    /// The crust at the cells of the plates' own grid.
+    pub(crate) fn rock(&self) -> Rock {
+        Rock {
+            side: self.side,
+            base_m: self.base_m.clone(),
+            uplift_m: self.uplift_m.clone(),
+            softness: self.softness.clone(),
+        }
+    }
+}
+
+impl Rock {
+    /// The crust on the grid of twice the side: detail is added that the coarser grid could not hold.
+    pub(crate) fn finer(&self, layout: &Layout) -> Self {
+        let (coarse, side) = (Cells::of(self.side), 2 * self.side);
+        let fine = Cells::of(side);
+        let frequency = 0.22 * side as f64;
+        let detail: Vec<f64> = fine
+            .dirs
+            .par_iter()
+            .map(|dir| fbm(*dir, frequency, 2, 0.6, hash(layout.seed, 41 + side as u32)))
+            .collect();
+        let amplitude = 128.0 / side as f64;
+        let mut base_m = refined(&coarse, &self.base_m);
+        let mut uplift_m = refined(&coarse, &self.uplift_m);
+        let softness = refined(&coarse, &self.softness);
+        for (cell, detail) in detail.iter().enumerate() {
+            // Most where a little height moves the coast.
+            let shallow = ramp(-900.0, -100.0, base_m[cell]);
+            base_m[cell] += detail * amplitude * (60.0 + 130.0 * shallow);
+            uplift_m[cell] *= (1.0 + 0.5 * amplitude * detail).max(0.2);
+        }
+        Self { side, base_m, uplift_m, softness }
+    }
+}

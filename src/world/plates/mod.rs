@@ -1,0 +1,187 @@
+//! Plates of the crust: heights before erosion, uplift, kinds of rock.
+//!
+//! The model is kinematic and instant: plates have a place and a motion, and their boundaries have the landforms that
+//! such a motion makes in the long run. Nothing is simulated step by step, so that every parameter has its effect at
+//! once. Methods and figures: plates as a power diagram with bent boundaries and Euler poles; ocean floors that sink
+//! with the square root of their age (Parsons and Sclater 1977); belts, arcs and trenches after Cortial et al. 2019.
+//!
+//! - `layout`: plates, their motion, cores of continents, hot spots; `edges`: what boundaries do to a point
+
+mod edges;
+mod finer;
+mod layout;
+
+use super::cells::Cells;
+use super::map::KeepGoing;
+use super::noise::{fbm, hash, noise, ramp};
+use crate::planet::Plates as Params;
+use edges::NO_EDGE_KM;
+use glam::DVec3;
+pub(crate) use finer::Rock;
+pub(crate) use layout::{EARTH_KM, Layout};
+use rayon::prelude::*;
+
+/// The crust at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Crust {
+    /// Height of the ground in metres before anything rises or is carved.
+    pub(crate) base_m: f64,
+    /// Height in metres by which rock rises while rivers carve.
+    pub(crate) uplift_m: f64,
+    /// Index of the plate.
+    pub(crate) plate: u16,
+    /// Unit tangent along the folds of the rock. Its sign means nothing.
+    pub(crate) fold: DVec3,
+    /// Share of folded rock, 0 to 1.
+    pub(crate) folded: f64,
+    /// Age of the crust in million years.
+    pub(crate) age_myr: f64,
+    /// Kind of rock as the logarithm of how easily it is carved, about -1.5 (hard) to 1.5 (soft).
+    pub(crate) softness: f64,
+}
+
+/// The crust at the cells of a grid.
+pub(crate) struct Plates {
+    pub(crate) side: usize,
+    pub(crate) layout: Layout,
+    /// Height in metres before rock rises and rivers carve.
+    pub(crate) base_m: Vec<f64>,
+    /// Height in metres by which rock rises while rivers carve.
+    pub(crate) uplift_m: Vec<f64>,
+    /// Index of the plate.
+    pub(crate) plate: Vec<u16>,
+    /// Unit tangent along the folds, and the share of folded rock.
+    pub(crate) folds: Vec<(DVec3, f64)>,
+    /// Age of the crust in million years.
+    pub(crate) age_myr: Vec<f64>,
+    /// See [`Crust::softness`].
+    pub(crate) softness: Vec<f64>,
+}
+
+impl Plates {
+    /// Solves the plates at the cells of `side`. None if `keep_going` said no.
+    pub(crate) fn solve(params: &Params, planet_seed: u32, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self> {
+        let layout = Layout::new(params, planet_seed);
+        let cells = Cells::of(side);
+        let rows: Option<Vec<Vec<Crust>>> = cells
+            .dirs
+            .par_chunks(side)
+            .map(|row| keep_going().then(|| row.iter().map(|dir| layout.crust(params, *dir)).collect()))
+            .collect();
+        let all = rows?.concat();
+        let each = |value: fn(&Crust) -> f64| all.iter().map(value).collect::<Vec<f64>>();
+        Some(Self {
+            side,
+            base_m: each(|crust| crust.base_m),
+            uplift_m: each(|crust| crust.uplift_m),
+            plate: all.iter().map(|crust| crust.plate).collect(),
+            folds: all.iter().map(|crust| (crust.fold, crust.folded)).collect(),
+            age_myr: each(|crust| crust.age_myr),
+            softness: each(|crust| crust.softness),
+            layout,
+        })
+    }
+}
+
+impl Layout {
+    /// The crust at a direction.
+    pub(crate) fn crust(&self, params: &Params, dir: DVec3) -> Crust {
+        let bent = self.bent(dir);
+        let plate = self.plate_at(bent);
+        let edges = self.edges(params, plate, bent);
+        let inside_km = self.crust_rad(plate, bent, 6) * EARTH_KM;
+        // A boundary that cuts a continent off makes its coast.
+        let coast_km = smooth_min(inside_km, edges.coast_km, 120.0);
+        let cut = ramp(0.0, 300.0, inside_km - edges.coast_km) * f64::from(u8::from(edges.coast_km < NO_EDGE_KM));
+        let seed = |k: u32| hash(self.seed, k);
+        let broad = fbm(dir, 3.1, 3, 0.55, seed(31));
+        let hills = fbm(dir, 11.0, 4, 0.55, seed(32));
+
+        let floor_m = -floor_depth(params, edges.floor_myr) + 90.0 * hills;
+        let shelf_km = params.shelf_km * (1.0 + 0.9 * broad).clamp(0.25, 2.0) * (1.0 - 0.85 * cut);
+        let on_slope = ramp(-shelf_km - 230.0 + 90.0 * cut, -shelf_km, coast_km);
+        let shelf_m = -150.0 * ramp(0.0, -shelf_km - 20.0, coast_km);
+        let low_m = 45.0 * ramp(0.0, 250.0, coast_km) + (45.0 * hills + 130.0 * broad) * ramp(-100.0, 300.0, coast_km);
+        let mut base_m = floor_m + (shelf_m + low_m - floor_m) * on_slope + edges.ground_m;
+
+        // Inside continents: gentle rises and basins, old belts between old cores, what boundaries push up.
+        let on_land = ramp(-70.0, 60.0, coast_km);
+        let (suture_km, core) = self.cores(plate, bent);
+        let inland = 0.3 * ramp(0.0, 500.0, coast_km) + 0.7 * ramp(150.0, 1700.0, coast_km);
+        let rises = (1.0 + 1.5 * fbm(dir, 2.2, 2, 0.5, seed(33))).clamp(0.12, 2.4);
+        let worn = (1.0 - ramp(0.0, 170.0, suture_km)) * ramp(-0.15, 0.45, noise(bent * 3.4, seed(34)));
+        let rough = (1.0 + 0.55 * hills).clamp(0.35, 1.7);
+        let mut uplift_m = edges.uplift_m * rough + params.inland_m * inland * rises + 40.0;
+        uplift_m += params.old_belts_m * worn * rough * on_land;
+        uplift_m *= f64::max(on_land, edges.folded * ramp(-3000.0, -300.0, base_m));
+
+        let (volcano_m, volcanic) = self.volcano_m(params, dir, hills, on_land);
+        base_m += volcano_m;
+
+        let folded = edges.folded.max(0.7 * worn * on_land);
+        // Folded rock lies in bands of hard and soft along the belt.
+        let bands = noise(DVec3::new(edges.edge_km / 75.0, suture_km / 75.0, 3.0 * broad), seed(35));
+        let softness = 1.9 * bands * folded + 1.1 * broad * (1.0 - folded) - 0.8 * core
+            + 0.35 * hills
+            + 0.5 * (1.0 - ramp(0.0, 500.0, coast_km))
+            + 0.3 * volcanic;
+        let land_myr = 400.0 + 2200.0 * core - 300.0 * folded;
+        Crust {
+            base_m,
+            uplift_m,
+            plate: plate as u16,
+            fold: (edges.fold - dir * edges.fold.dot(dir)).normalize_or(dir.any_orthonormal_vector()),
+            folded,
+            age_myr: if coast_km > 0.0 { land_myr } else { edges.floor_myr },
+            softness: softness.clamp(-1.8, 1.8),
+        }
+    }
+
+    /// The distance in km to the line where two old cores of a plate's continent grew together, and how near the
+    /// middle of a core the direction lies, 0 to 1.
+    fn cores(&self, plate: usize, bent: DVec3) -> (f64, f64) {
+        let (mut first, mut second) = (f64::MAX, f64::MAX);
+        for craton in &self.plates[plate].cratons {
+            let away = bent.distance(craton.center) - 0.5 * craton.radius_rad;
+            if away < first {
+                second = std::mem::replace(&mut first, away);
+            } else if away < second {
+                second = away;
+            }
+        }
+        let suture_km = if second < f64::MAX { 0.5 * (second - first) * EARTH_KM } else { 1e4 };
+        (suture_km, 1.0 - ramp(-0.05, 0.12, first))
+    }
+
+    /// Height of the volcanoes of hot spots, and the share of volcanic rock.
+    fn volcano_m(&self, params: &Params, dir: DVec3, rough: f64, on_land: f64) -> (f64, f64) {
+        let (mut most_m, mut swell_m) = (0.0_f64, 0.0_f64);
+        for volcano in &self.volcanoes {
+            let away = dir.distance_squared(volcano.center);
+            let reach = volcano.radius_rad * (1.0 + 0.25 * rough);
+            if away < 9.0 * reach * reach {
+                let t = 1.0 - away.sqrt() / reach;
+                let cone = if t > 0.0 { t * (0.4 + 0.6 * t) } else { 0.0 };
+                most_m = most_m.max(cone * volcano.height * params.hot_spots_m);
+                swell_m = swell_m.max(ramp(3.0, 0.0, away.sqrt() / reach) * volcano.height * 0.1 * params.hot_spots_m);
+            }
+        }
+        let share = 1.0 - 0.6 * on_land;
+        (share * (most_m + swell_m), ramp(0.0, 300.0, most_m))
+    }
+}
+
+/// Depth of an ocean floor of an age in million years: it grows with the square root of the age, and ends at 90.
+fn floor_depth(params: &Params, age_myr: f64) -> f64 {
+    let old = (age_myr / 90.0).min(1.0).sqrt();
+    params.ridge_m + (params.ocean_m - params.ridge_m) * old
+}
+
+/// The smaller of two numbers, rounded off where they differ by less than `soft`.
+fn smooth_min(a: f64, b: f64, soft: f64) -> f64 {
+    let near = (1.0 - (a - b).abs() / soft).max(0.0);
+    f64::min(a, b) - near * near * (0.25 * soft)
+}
+
+#[cfg(test)]
+mod tests;

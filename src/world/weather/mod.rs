@@ -1,0 +1,142 @@
+//! Weather of a mean year: winds, rain, temperature, and how much water the air would take up.
+//!
+//! The model is diagnostic: belts of wind that the rotation turns, monsoons towards warm land, and moisture that winds
+//! carry from the sea and lose on slopes. It is solved for two seasons, and the means are given. Distances are those
+//! of a planet of the Earth's size.
+//!
+//! - `winds`: the wind of a season; `moisture`: what it carries, and rain
+
+mod moisture;
+mod winds;
+
+use super::cells::Cells;
+use super::grid::smoothed;
+use super::map::KeepGoing;
+use crate::planet::Weather as Params;
+use crate::sphere::geo::east_north;
+use rayon::prelude::*;
+use winds::Season;
+
+/// What the weather depends on, at the cells of one grid.
+pub(crate) struct Inputs<'a> {
+    pub(crate) params: &'a Params,
+    pub(crate) side: usize,
+    /// Height of the ground in metres.
+    pub(crate) heights_m: &'a [f64],
+    /// Height of the sea's surface in metres, if there is a sea.
+    pub(crate) sea_level_m: Option<f64>,
+    /// Temperatures at sea level, and how much colder it gets with height.
+    pub(crate) equator_c: f64,
+    pub(crate) pole_c: f64,
+    pub(crate) lapse_c_per_km: f64,
+}
+
+/// The weather of a mean year at the cells of a grid.
+pub(crate) struct Weather {
+    pub(crate) side: usize,
+    /// Mean wind to the east and to the north in m/s.
+    pub(crate) wind_m_s: Vec<[f64; 2]>,
+    /// Rain and snow in mm a year.
+    pub(crate) rain_mm: Vec<f64>,
+    /// Water that the air would take up from a wet surface, in mm a year.
+    pub(crate) evaporation_mm: Vec<f64>,
+    /// Mean temperature of the ground in °C.
+    pub(crate) temperature_c: Vec<f64>,
+}
+
+/// What both seasons have in common.
+struct Ground<'a> {
+    inputs: &'a Inputs<'a>,
+    cells: &'a Cells,
+    is_sea: Vec<bool>,
+    /// Height above the sea in km; 0 in the sea.
+    height_km: Vec<f64>,
+    /// Share of land within some hundred km.
+    land: Vec<f64>,
+    temperature_c: Vec<f64>,
+}
+
+impl Weather {
+    /// Solves the weather. None if `keep_going` said no.
+    pub(crate) fn solve(inputs: &Inputs<'_>, keep_going: &KeepGoing<'_>) -> Option<Self> {
+        let cells = Cells::of(inputs.side);
+        let ground = Ground::new(inputs, &cells);
+        let (mut rain_mm, mut wind_m_s) = (vec![0.0; cells.dirs.len()], vec![[0.0; 2]; cells.dirs.len()]);
+        for sign in [1.0, -1.0] {
+            let season = Season::new(&ground, sign);
+            let fallen_mm = moisture::rain_mm(&ground, &season, keep_going)?;
+            for (cell, dir) in cells.dirs.iter().enumerate() {
+                let (east, north) = east_north(*dir);
+                rain_mm[cell] += 0.5 * fallen_mm[cell];
+                wind_m_s[cell][0] += 0.5 * season.wind_m_s[cell].dot(east);
+                wind_m_s[cell][1] += 0.5 * season.wind_m_s[cell].dot(north);
+            }
+        }
+        let rain_mm = smoothed(&cells, &rain_mm, 1);
+        let evaporation_mm = ground.temperature_c.iter().map(|c| potential_mm(*c)).collect();
+        Some(Self { side: inputs.side, wind_m_s, rain_mm, evaporation_mm, temperature_c: ground.temperature_c })
+    }
+
+    /// Water that runs off in mm a year: what is left of the rain after evaporation (Schreiber 1904).
+    pub(crate) fn runoff_mm(&self) -> Vec<f64> {
+        let of = |(rain, potential): (&f64, &f64)| rain * libm::exp(-potential / rain.max(1.0));
+        self.rain_mm.iter().zip(&self.evaporation_mm).map(of).collect()
+    }
+
+    /// What a lake loses beyond the rain that falls on it, in mm a year.
+    pub(crate) fn dryness_mm(&self) -> Vec<f64> {
+        self.evaporation_mm.iter().zip(&self.rain_mm).map(|(potential, rain)| potential - rain).collect()
+    }
+}
+
+/// Potential evaporation in mm a year by the mean temperature (after Holdridge 1967).
+fn potential_mm(temperature_c: f64) -> f64 {
+    60.0 + 56.0 * temperature_c.clamp(0.0, 34.0)
+}
+
+impl<'a> Ground<'a> {
+    fn new(inputs: &'a Inputs<'a>, cells: &'a Cells) -> Self {
+        let level_m = inputs.sea_level_m.unwrap_or(f64::MIN);
+        let is_sea: Vec<bool> = inputs.heights_m.iter().map(|m| *m < level_m).collect();
+        let zero_m = inputs.sea_level_m.unwrap_or(0.0);
+        let height_km: Vec<f64> = inputs.heights_m.iter().map(|m| (m - zero_m).max(0.0) * 1e-3).collect();
+        let share: Vec<f64> = is_sea.iter().map(|sea| if *sea { 0.0 } else { 1.0 }).collect();
+        // The same distance on every grid: a random walk goes as far as the root of its steps.
+        let rounds = (inputs.side * inputs.side / 340).clamp(1, 48);
+        let land = smoothed(cells, &share, rounds);
+        let mut ground = Self { inputs, cells, is_sea, height_km, land, temperature_c: Vec::new() };
+        ground.temperature_c = (0..cells.dirs.len()).into_par_iter().map(|cell| ground.temperature_c(cell)).collect();
+        ground
+    }
+
+    /// Mean temperature: by latitude and height, and by the current along the coast. Water that flows towards a pole
+    /// along the east side of a continent is warm; what returns along a west side in the tropics is cold.
+    fn temperature_c(&self, cell: usize) -> f64 {
+        let dir = self.cells.dirs[cell];
+        let Inputs { params, equator_c, pole_c, lapse_c_per_km, .. } = *self.inputs;
+        let (east, _) = east_north(dir);
+        let flat2 = 1.0 - dir.z * dir.z;
+        let turn = winds::turn(params);
+        // Land to the east: a west coast. The sign turns at 42 degrees.
+        let west_coast = turn * self.slope(&self.land, cell).dot(east) * 0.12;
+        let current_c = -params.currents * 6.0 * west_coast.clamp(-1.0, 1.0) * (flat2 - 0.55) / 0.45;
+        pole_c + (equator_c - pole_c) * flat2 - lapse_c_per_km * self.height_km[cell] + current_c
+    }
+
+    /// The gradient of values by the direction, from the neighbours of a cell.
+    fn slope(&self, values: &[f64], cell: usize) -> glam::DVec3 {
+        let here = self.cells.dirs[cell];
+        let mut sum = glam::DVec3::ZERO;
+        let mut weight = 0.0;
+        for &other in &self.cells.neighbours[cell] {
+            let step = self.cells.dirs[other as usize] - here;
+            sum += step * (values[other as usize] - values[cell]);
+            weight += step.length_squared();
+        }
+        let gradient = sum * (2.0 / weight.max(1e-12));
+        gradient - here * gradient.dot(here)
+    }
+}
+
+#[cfg(test)]
+mod tests;

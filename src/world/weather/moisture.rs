@@ -1,0 +1,105 @@
+//! Moisture that the wind carries, and the rain that falls from it.
+//!
+//! Each round gives every cell the moisture of the cells from which its wind comes, less what has rained out on the
+//! way. After as many rounds as it takes to cross a continent the moisture is steady.
+
+use super::Ground;
+use super::winds::Season;
+use crate::world::map::KeepGoing;
+use crate::world::noise::ramp;
+use crate::world::plates::EARTH_KM;
+use rayon::prelude::*;
+
+/// Distance in km over which the air takes up moisture from the sea.
+const UPTAKE_KM: f64 = 900.0;
+
+/// Share of the rain on land that evaporates again and goes on with the wind.
+const RECYCLED: f64 = 0.5;
+
+/// Share of the moisture that is lost for each km of climb, as an exponent.
+const CLIMB: f64 = 0.75;
+
+/// Rain in mm a year where saturated air of 27 °C loses a thousandth of its moisture a km at the mean wind.
+const RAIN_MM: f64 = 4600.0;
+
+/// What a cell does with the air that comes to it.
+struct Step {
+    /// Share of the air that comes from each neighbour.
+    from: [f64; 8],
+    km: f64,
+    /// Share of the moisture that rains out.
+    lost: f64,
+    /// Moisture of saturated air here; 1 at 27 °C.
+    most: f64,
+    speed: f64,
+}
+
+/// Moisture of saturated air: it doubles with every 11 °C.
+fn saturated(temperature_c: f64) -> f64 {
+    libm::exp(0.063 * (temperature_c.clamp(-60.0, 45.0) - 27.0))
+}
+
+/// Rain of a season in mm a year. None if `keep_going` said no.
+pub(super) fn rain_mm(ground: &Ground<'_>, season: &Season, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+    let count = ground.cells.dirs.len();
+    let steps: Vec<Step> = (0..count).into_par_iter().map(|cell| Step::new(ground, season, cell)).collect();
+    let mut carried: Vec<f64> =
+        steps.iter().zip(&ground.is_sea).map(|(step, sea)| step.most * if *sea { 0.8 } else { 0.25 }).collect();
+    let before = |carried: &[f64], cell: usize| {
+        let around = &ground.cells.neighbours[cell];
+        steps[cell].from.iter().zip(around).map(|(share, &other)| share * carried[other as usize]).sum::<f64>()
+    };
+    for _ in 0..ground.cells.side {
+        if !keep_going() {
+            return None;
+        }
+        let after = |cell: usize| {
+            let (step, from) = (&steps[cell], before(&carried, cell));
+            if ground.is_sea[cell] {
+                let taken = 1.0 - libm::exp(-step.km / UPTAKE_KM);
+                from * (1.0 - 0.4 * step.lost) + (0.85 * step.most - from).max(0.0) * taken
+            } else {
+                (from * (1.0 - step.lost * (1.0 - RECYCLED))).min(1.15 * step.most)
+            }
+        };
+        carried = (0..count).into_par_iter().map(after).collect();
+    }
+    let rain = |cell: usize| {
+        let (step, from) = (&steps[cell], before(&carried, cell));
+        // What the air cannot hold any more falls too.
+        let excess = if ground.is_sea[cell] { 0.0 } else { (from * (1.0 - step.lost) - 1.15 * step.most).max(0.0) };
+        let lost = from * step.lost + 0.5 * excess;
+        let mm = RAIN_MM * lost * (1000.0 / step.km) * (0.35 + 0.65 * step.speed);
+        // The rain of a very steep cell falls on its neighbours too.
+        ground.inputs.params.wetness * mm / (1.0 + mm / 9000.0)
+    };
+    Some((0..count).into_par_iter().map(rain).collect())
+}
+
+impl Step {
+    fn new(ground: &Ground<'_>, season: &Season, cell: usize) -> Self {
+        let params = ground.inputs.params;
+        let (here, wind) = (ground.cells.dirs[cell], season.wind_m_s[cell]);
+        let speed = wind.length() / params.wind_m_s.max(1e-6);
+        let (mut from, mut sum) = ([0.0; 8], 0.0);
+        for (share, &other) in from.iter_mut().zip(&ground.cells.neighbours[cell]) {
+            let way = here - ground.cells.dirs[other as usize];
+            let along = (way.dot(wind) / (way.length() * wind.length()).max(1e-12)).max(0.0);
+            // Some air comes from all around: weather is never as steady as its mean.
+            *share = 0.012 + along * along * along;
+            sum += *share;
+        }
+        let (mut km, mut climb_km) = (0.0, 0.0);
+        for (share, &other) in from.iter_mut().zip(&ground.cells.neighbours[cell]) {
+            *share /= sum;
+            km += *share * here.distance(ground.cells.dirs[other as usize]) * EARTH_KM;
+            climb_km += *share * (ground.height_km[cell] - ground.height_km[other as usize]);
+        }
+        // Rising air rains; sinking air, and air that flows downhill, keeps its moisture.
+        let rising = 0.12 + 1.25 * ramp(-1.05, 1.1, season.rising[cell]);
+        let downhill = libm::exp((1.8 * params.rain_shadow * climb_km).min(0.0));
+        let uphill = CLIMB * params.rain_shadow * climb_km.max(0.0) * (0.45 + 0.55 * rising);
+        let lost = 1.0 - libm::exp(-(km / params.reach_km * rising * downhill + uphill));
+        Self { from, km: km.max(1.0), lost, most: saturated(ground.temperature_c[cell]), speed: speed.min(2.0) }
+    }
+}
