@@ -15,7 +15,11 @@
 
 pub(crate) mod cells;
 pub(crate) mod coast;
+#[expect(dead_code)]
+mod drainage;
 mod map;
+#[expect(dead_code)]
+mod rivers;
 mod slot;
 
 use coast::Coast;
