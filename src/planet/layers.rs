@@ -29,6 +29,9 @@ params! {
         /// Reshapes the noise before bias and amplitude: points (noise, new value). An empty curve changes nothing.
         /// Beyond its ends the curve is a straight line.
         curve: Curve = Curve::new(), "Curve", Unit::None, NOISE_CURVE, Stage::Height;
+        /// Whether the layer lies under the structure of the planet, which rivers carve. Without a structure it has no
+        /// effect.
+        under: bool = false, "Under the structure", Unit::None, Domain::Flag, Stage::Field;
     } with {
         /// Landform: the kind of terrain and its parameters.
         shape: Shape = Shape::default();

@@ -111,6 +111,8 @@ params! {
         climate: Climate = Climate::default();
         /// The biome table, its palette and the surface rules.
         biomes: Biomes = Biomes::default();
+        /// Plates, weather and rivers, or None.
+        structure: Option<Structure> = None;
         /// The sea, or None.
         water: Option<Water> = None;
         /// The air, or None.

@@ -55,6 +55,7 @@ pub fn random(seed: u64) -> Planet {
         layers,
         biomes: grounds::biomes(kind, &climate, &mut dice),
         climate,
+        structure: None,
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,

@@ -4,8 +4,9 @@ use super::field::Field;
 use super::landform::Landform;
 use super::points::Points;
 use super::simd::Simd;
-use crate::planet::{CLIMATE_BELTS, Planet, TableRows};
+use crate::planet::{CLIMATE_BELTS, Key, Planet, TableRows};
 use crate::world::World;
+use crate::world::weather::WARMEST_C;
 use glam::DVec3;
 
 /// The climate of a planet, compiled.
@@ -68,10 +69,21 @@ impl CompiledClimate {
         }
     }
 
-    /// Distance to the coast of each point in radians; empty if the climate does not read it, or if no map serves yet.
-    pub(crate) fn inland_rad<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = f64> + 'a {
-        let coast = self.world.coast.map().into_iter();
-        coast.flat_map(|coast| dirs_planet.iter().map(|&dir| coast.inland_rad(dir)))
+    /// What world maps say at each point; empty if the climate reads none, or if none serves yet.
+    pub(crate) fn from_maps<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = MapClimate> + 'a {
+        let (coast, weather) = (self.world.coast.map(), self.world.weather.map());
+        let at = move |&dir: &DVec3| {
+            let inland_rad = coast.map_or(MapClimate::NONE.inland_rad, |coast| coast.inland_rad(dir));
+            let [warmer_c, humidity] = weather.map_or([0.0; 2], |weather| weather.at(dir));
+            MapClimate { inland_rad, warmer_c, humidity }
+        };
+        let dirs = if coast.is_some() || weather.is_some() { dirs_planet } else { &[] };
+        dirs.iter().map(at)
+    }
+
+    /// Keys of the maps that [`CompiledClimate::from_maps`] reads.
+    pub(crate) fn map_keys(&self) -> MapKeys {
+        [self.world.coast.key(), self.world.weather.key()]
     }
 }
 
@@ -80,21 +92,42 @@ impl CompiledClimate {
 pub(crate) struct ClimateInputs<'a> {
     /// Noise for temperature and moisture.
     pub(crate) noise: [&'a [f64]; 2],
-    /// Distance to the coast as an angle; empty if the climate does not depend on it.
-    pub(crate) inland_rad: &'a [f64],
+    /// What world maps say; empty if the climate reads none.
+    pub(crate) from_maps: &'a [MapClimate],
 }
 
 impl ClimateInputs<'_> {
-    /// Noise and distance to the coast of one point.
+    /// Noise and what world maps say of one point.
     #[inline(always)]
-    pub(crate) fn at(&self, i: usize) -> ([f64; 2], f64) {
-        let at = |numbers: &[f64], missing: f64| numbers.get(i).copied().unwrap_or(missing);
-        ([at(self.noise[0], 0.0), at(self.noise[1], 0.0)], at(self.inland_rad, NO_SEA))
+    pub(crate) fn at(&self, i: usize) -> ([f64; 2], MapClimate) {
+        let at = |numbers: &[f64]| numbers.get(i).copied().unwrap_or(0.0);
+        ([at(self.noise[0]), at(self.noise[1])], self.from_maps.get(i).copied().unwrap_or(MapClimate::NONE))
     }
 }
 
-/// A distance beyond the reach of any coast.
-pub(crate) const NO_SEA: f64 = f64::INFINITY;
+/// Keys of the maps of coast and weather.
+pub(crate) type MapKeys = [Option<Key>; 2];
+
+/// What world maps say about the climate of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MapClimate {
+    /// Distance from the sea as an angle; infinite beyond the reach of any coast.
+    pub(crate) inland_rad: f64,
+    /// How much warmer currents of the sea make it, in °C.
+    pub(crate) warmer_c: f64,
+    /// Share of the air's demand for water that rain meets, 0 to 1; see [`crate::world::weather::Weather::at`].
+    pub(crate) humidity: f64,
+}
+
+impl MapClimate {
+    /// Without maps.
+    pub(crate) const NONE: Self = Self { inland_rad: f64::INFINITY, warmer_c: 0.0, humidity: 0.0 };
+    /// The driest and the wettest climate.
+    const EXTREMES: [Self; 2] = [
+        Self { inland_rad: f64::INFINITY, warmer_c: -WARMEST_C, humidity: 0.0 },
+        Self { inland_rad: 0.0, warmer_c: WARMEST_C, humidity: 1.0 },
+    ];
+}
 
 /// The climate at sea level: the climate parameters whose results tiles hold, converted for evaluation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,6 +143,8 @@ pub(crate) struct SeaLevelClimate {
     sea_moisture: f64,
     /// How far moisture from the sea reaches inland.
     sea_reach_rad: f64,
+    /// Share of the solved weather in the climate; 0 without a structure.
+    weather: f64,
 }
 
 impl SeaLevelClimate {
@@ -124,26 +159,30 @@ impl SeaLevelClimate {
             moisture_variation: climate.moisture_variation,
             sea_moisture: climate.sea_moisture,
             sea_reach_rad: climate.sea_reach_km / planet.radius_km,
+            weather: planet.structure.as_ref().map_or(0.0, |structure| structure.weather.share),
         }
     }
 
     /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature and
-    /// moisture, at a distance to the coast in radians ([`NO_SEA`] where there is none).
+    /// moisture.
     #[inline(always)]
-    pub(crate) fn at(&self, sin_lat: f64, noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
-        self.lifted(sin_lat, [0.0; 2], noise, inland_rad)
+    pub(crate) fn at(&self, sin_lat: f64, noise: [f64; 2], from_maps: MapClimate) -> [f64; 2] {
+        self.lifted(sin_lat, [0.0; 2], noise, from_maps)
     }
 
     /// As [`Self::at`], colder by `less[0]` °C and drier by `less[1]`.
     #[inline(always)]
-    fn lifted(&self, sin_lat: f64, less: [f64; 2], noise: [f64; 2], inland_rad: f64) -> [f64; 2] {
+    fn lifted(&self, sin_lat: f64, less: [f64; 2], noise: [f64; 2], from_maps: MapClimate) -> [f64; 2] {
         let sin2_lat = sin_lat * sin_lat;
         let temperature_c =
             self.equator_c + self.warmer_c * sin2_lat - less[0] + self.temperature_variation_c * noise[0];
-        let left = (1.0 - inland_rad / self.sea_reach_rad).max(0.0);
-        let moisture = self.moisture + self.belts * belt(sin2_lat) + self.moisture_variation * noise[1] - less[1]
-            + self.sea_moisture * left * left;
-        [temperature_c, moisture]
+        let left = (1.0 - from_maps.inland_rad / self.sea_reach_rad).max(0.0);
+        let belts = self.belts * belt(sin2_lat);
+        let from_sea = self.sea_moisture * left * left;
+        let moisture = self.moisture + belts + self.moisture_variation * noise[1] - less[1] + from_sea;
+        // The solved weather replaces belts and sea. Without it, a product with 0 leaves every bit.
+        let drier = self.weather * (from_maps.humidity - (self.moisture + belts + from_sea));
+        [temperature_c + self.weather * from_maps.warmer_c, moisture + drier]
     }
 }
 
@@ -184,15 +223,14 @@ impl Rules {
         }
     }
 
-    /// The climate at the sine of a latitude, a height of the ground, noise for temperature and moisture, and a
-    /// distance to the coast (an angle; [`NO_SEA`] where there is none).
+    /// The climate at the sine of a latitude and a height of the ground, with noise for temperature and moisture.
     #[inline(always)]
-    pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> PointClimate {
+    pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], from_maps: MapClimate) -> PointClimate {
         // Above the sea bed the surface is the sea's.
         let above_m = height_m - self.sea_m;
         let above_km = above_m.max(0.0) / 1000.0;
         let less = [self.lapse_c_per_km * above_km, self.drying_per_km * above_km];
-        let [temperature_c, moisture] = self.sea_level.lifted(sin_lat, less, noise, inland_rad);
+        let [temperature_c, moisture] = self.sea_level.lifted(sin_lat, less, noise, from_maps);
         let temperature = (temperature_c - self.coldest_c) / self.range_c;
         let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
         PointClimate {
@@ -203,11 +241,11 @@ impl Rules {
         }
     }
 
-    /// Lowest and greatest moisture and row at a point, for any noise up to `most_noise` either way and any distance
-    /// to the coast.
+    /// Lowest and greatest moisture and row at a point, for any noise up to `most_noise` either way and any world maps.
     pub(crate) fn ranges(&self, sin_lat: f64, height_m: f64, most_noise: f64) -> [(f64, f64); 2] {
-        let low = self.at(sin_lat, height_m, [-most_noise; 2], NO_SEA);
-        let high = self.at(sin_lat, height_m, [most_noise; 2], 0.0);
+        let [driest, wettest] = MapClimate::EXTREMES;
+        let low = self.at(sin_lat, height_m, [-most_noise; 2], driest);
+        let high = self.at(sin_lat, height_m, [most_noise; 2], wettest);
         [(low.moisture, high.moisture), (low.row.min(high.row), low.row.max(high.row))]
     }
 

@@ -53,6 +53,7 @@ impl CellFields {
 pub(crate) struct LayerGround<'a> {
     pub(crate) inputs: &'a Inputs,
     pub(crate) stack: &'a LayerStack,
+    pub(crate) under: Option<&'a LayerStack>,
     pub(crate) simd: Simd,
     /// Where fields are taken from and kept.
     pub(crate) fields: &'a CellFields,
@@ -64,20 +65,32 @@ impl Ground for LayerGround<'_> {
     }
 
     fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+        self.heights_of(self.stack, cells, keep_going)
+    }
+
+    fn under_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+        self.heights_of(self.under?, cells, keep_going)
+    }
+}
+
+impl LayerGround<'_> {
+    fn heights_of(&self, stack: &LayerStack, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
         let mut kept = self.fields.lock().remove(&cells.side).unwrap_or_default();
         kept.resize_with(cells.dirs.len().div_ceil(BATCH), KeptFields::default);
         let batches = cells.dirs.par_chunks(BATCH).zip(&mut kept);
         let heights_m = batches.map(|(dirs, kept)| {
-            keep_going().then(|| self.batch_heights_m(&Points::new(dirs.to_vec()), cells.spacing_rad(), kept))
+            keep_going().then(|| {
+                let points = Points::spaced(dirs.to_vec(), cells.spacing_rad());
+                self.batch_heights_m(stack, &points, kept)
+            })
         });
         let heights_m: Option<Vec<Vec<f64>>> = heights_m.collect();
         self.fields.lock().insert(cells.side, kept);
         heights_m.map(|batches| batches.concat())
     }
-}
 
-impl LayerGround<'_> {
-    fn batch_heights_m(&self, points: &Points, spacing_rad: f64, kept: &mut KeptFields) -> Vec<f64> {
+    fn batch_heights_m(&self, stack: &LayerStack, points: &Points, kept: &mut KeptFields) -> Vec<f64> {
+        let spacing_rad = points.spacing_rad;
         let field = |layer: &CompiledLayer| {
             let spacings_rad = layer.spacings_rad(&[spacing_rad]);
             kept.find(&layer.landform, &spacings_rad).unwrap_or_else(|| {
@@ -86,9 +99,9 @@ impl LayerGround<'_> {
                 Arc::new(Field::seen_only(&layer.landform, self.simd, points, &spacings_rad))
             })
         };
-        let layers = &self.stack.layers;
+        let layers = &stack.layers;
         let fields: Vec<_> = layers.iter().map(|layer| layer.needed.then(|| field(layer))).collect();
         kept.adopt(layers, &fields, Instant::now());
-        height::combine(self.stack, self.simd, points, &fields, &[], |_, _| {}).height_m
+        height::combine(stack, self.simd, points, &fields, &[], |_, _| {}).height_m
     }
 }

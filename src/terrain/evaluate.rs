@@ -6,7 +6,7 @@
 //! when the pipeline asks for it, and only where the masks of its layer are not 0: most points need few layers.
 
 use super::Terrain;
-use super::climate::ClimateInputs;
+use super::climate::{ClimateInputs, MapClimate};
 use super::field::Field;
 use super::height::{self, Batch, Heights, LayerFields};
 use super::landform;
@@ -121,7 +121,7 @@ pub(crate) struct NoiseScratch {
     layers: Vec<Slot>,
     relief: Vec<Slot>,
     climate: [Slot; 2],
-    inland_rad: Vec<f64>,
+    from_maps: Vec<MapClimate>,
     /// The points of a layer whose mask is 0 elsewhere, and its field there.
     some_points: Points,
     some: Field,
@@ -142,7 +142,7 @@ impl NoiseScratch {
 
     /// The inputs of the climate at the points of the batch.
     pub(crate) fn climate(&mut self, terrain: &Terrain, points: &Points) -> ClimateInputs<'_> {
-        let Self { landform, climate, inland_rad, .. } = self;
+        let Self { landform, climate, from_maps, .. } = self;
         if climate[0].claim() {
             for (k, slot) in climate.iter_mut().enumerate() {
                 match terrain.climate.noises() {
@@ -150,11 +150,11 @@ impl NoiseScratch {
                     None => slot.field.value.clear(),
                 }
             }
-            inland_rad.clear();
-            inland_rad.extend(terrain.climate.inland_rad(&points.dirs));
+            from_maps.clear();
+            from_maps.extend(terrain.climate.from_maps(&points.dirs));
         }
         let [temperature, moisture] = &self.climate;
-        ClimateInputs { noise: [&temperature.field.value, &moisture.field.value], inland_rad: &self.inland_rad }
+        ClimateInputs { noise: [&temperature.field.value, &moisture.field.value], from_maps: &self.from_maps }
     }
 }
 

@@ -107,6 +107,7 @@ impl Field {
                 simd,
                 skewed: [&points.x[start..end], &points.y[start..end], &points.z[start..end]],
                 dirs: &points.dirs[start..end],
+                point_spacing_rad: points.spacing_rad,
                 spacings_rad,
                 seen_only,
             };

@@ -69,6 +69,8 @@ pub struct Terrain {
     planet: Arc<Planet>,
     simd: Simd,
     pub(crate) stack: LayerStack,
+    /// The layers under the structure.
+    under: Option<Arc<LayerStack>>,
     pub(crate) climate: CompiledClimate,
     /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
@@ -109,14 +111,34 @@ impl Terrain {
     /// As [`Terrain::try_new`].
     pub(crate) fn try_draft(planet: Arc<Planet>, world: &World) -> Result<Self, InvalidPlanet> {
         planet.check()?;
-        let Compiled { stack, mut climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
-        climate.world = world.serving(&map_inputs);
+        let Compiled { stack, under, climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
+        let (under, world) = (under.map(Arc::new), world.serving(&map_inputs));
         let simd = Simd::detect();
         let (rules, biomes, height_bounds_m) = (Rules::new(&planet), CompiledBiomes::new(&planet), (0.0, 0.0));
-        let mut terrain =
-            Self { planet, simd, stack, climate, relief, keys, content, map_inputs, rules, biomes, height_bounds_m };
-        terrain.height_bounds_m = terrain.with_relief(terrain.stack.bounds_m());
-        Ok(terrain)
+        let terrain = Self {
+            planet,
+            simd,
+            stack,
+            under,
+            climate,
+            relief,
+            keys,
+            content,
+            map_inputs,
+            rules,
+            biomes,
+            height_bounds_m,
+        };
+        Ok(terrain.over(world))
+    }
+
+    /// The same terrain with these world maps.
+    fn over(mut self, world: World) -> Self {
+        let carved = world.carved.key().zip(world.carved.map());
+        self.stack.set_structure(Landform::structure(carved.map(|(key, carved)| (key, &**carved))));
+        self.climate.world = world;
+        self.height_bounds_m = self.with_relief(self.stack.bounds_m());
+        self
     }
 
     /// The revision of the planet that the terrain was compiled from.
@@ -150,16 +172,15 @@ impl Terrain {
         if self.has_final_maps() {
             return None;
         }
-        let ground = LayerGround { inputs: &self.map_inputs, stack: &self.stack, simd: self.simd, fields };
+        let (stack, under) = (&self.stack, self.under.as_deref());
+        let ground = LayerGround { inputs: &self.map_inputs, stack, under, simd: self.simd, fields };
         let world = self.world().step(&ground, keep_going, work)?;
-        let mut terrain = self.clone();
-        terrain.climate.world = world;
-        Some(terrain)
+        Some(self.clone().over(world))
     }
 
     /// Content keys of the tiles that the terrain makes, with the world maps that serve.
     pub(crate) fn tile_keys(&self) -> TileKeys {
-        self.content.keys(self.world().coast.key())
+        self.content.keys(self.world().carved.key(), self.world().coast.key())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.

@@ -12,18 +12,26 @@ pub(crate) struct Points {
     pub(crate) z: Vec<f64>,
     /// The unit directions.
     pub(crate) dirs: Vec<DVec3>,
+    /// The distance between neighbouring points, as an angle; 0 for points that stand alone.
+    pub(crate) spacing_rad: f64,
 }
 
 impl Points {
     /// Points at unit directions.
     pub(crate) fn new(dirs: Vec<DVec3>) -> Self {
-        let mut points = Self { dirs, ..Self::default() };
+        Self::spaced(dirs, 0.0)
+    }
+
+    /// Points of a grid, `spacing_rad` apart.
+    pub(crate) fn spaced(dirs: Vec<DVec3>, spacing_rad: f64) -> Self {
+        let mut points = Self { dirs, spacing_rad, ..Self::default() };
         points.skew();
         points
     }
 
-    /// Other points in the same memory.
-    pub(crate) fn refill(&mut self, dirs: impl Iterator<Item = DVec3>) {
+    /// Other points in the same memory, `spacing_rad` apart.
+    pub(crate) fn refill(&mut self, dirs: impl Iterator<Item = DVec3>, spacing_rad: f64) {
+        self.spacing_rad = spacing_rad;
         self.dirs.clear();
         self.dirs.extend(dirs);
         self.skew();
@@ -33,6 +41,7 @@ impl Points {
     pub(crate) fn refill_from(&mut self, others: &Points, is_wanted: impl Fn(usize) -> bool) {
         self.clear_skewed();
         self.dirs.clear();
+        self.spacing_rad = others.spacing_rad;
         for i in (0..others.len()).filter(|&i| is_wanted(i)) {
             self.x.push(others.x[i]);
             self.y.push(others.y[i]);
@@ -43,7 +52,7 @@ impl Points {
 
     fn skew(&mut self) {
         self.clear_skewed();
-        let Self { x, y, z, dirs } = self;
+        let Self { x, y, z, dirs, .. } = self;
         for dir in dirs {
             let skewed = noise::skew(dir.to_array());
             x.push(skewed[0]);

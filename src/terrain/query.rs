@@ -178,8 +178,8 @@ impl Terrain {
         let BatchScratch { points, noise, .. } = &mut *scratch.0;
         let inputs = noise.climate(self, points);
         for (i, (sample, &dir)) in samples.iter_mut().zip(&points.dirs).enumerate() {
-            let (noise, inland_rad) = inputs.at(i);
-            let climate = self.rules.at(dir.z, sample.height_m, noise, inland_rad);
+            let (noise, from_maps) = inputs.at(i);
+            let climate = self.rules.at(dir.z, sample.height_m, noise, from_maps);
             let PointClimate { temperature_c, temperature, moisture, .. } = climate;
             let precipitation_mm = moisture * self.planet.climate.wettest_mm;
             *sample = Sample { temperature_c, temperature, moisture, precipitation_mm, ..*sample };
@@ -196,16 +196,17 @@ impl Terrain {
     pub fn layers_m(&self, dir_planet: DVec3) -> Vec<f64> {
         let (mut layers_m, mut before_m) = (vec![0.0; self.stack.layers.len()], 0.0);
         with_scratch(|Scratch(scratch)| {
-            scratch.points.refill(std::iter::once(unit(dir_planet)));
+            scratch.points.refill(std::iter::once(unit(dir_planet)), 0.0);
             self.evaluate(&[], scratch, |layer, heights_m| {
                 layers_m[layer] = heights_m[0] - before_m;
                 before_m = heights_m[0];
             });
         });
-        layers_m
+        layers_m.split_off(self.stack.layers_before())
     }
 
-    /// The ground at unit directions, with the slopes that points at each spacing (angles) can show.
+    /// The ground at unit directions, with the slopes that points at each spacing (angles) can show. The points
+    /// themselves lie as far apart as the first spacing says.
     pub(crate) fn slopes_at(&self, dirs_planet: &[DVec3], spacings_rad: &[f64]) -> Slopes {
         let mut ground = Slopes {
             height_m: Vec::with_capacity(dirs_planet.len()),
@@ -213,7 +214,8 @@ impl Terrain {
         };
         with_scratch(|scratch| {
             for dirs in dirs_planet.chunks(CHUNK) {
-                self.evaluate_at(dirs, spacings_rad, scratch);
+                scratch.0.points.refill(dirs.iter().map(|&dir| unit(dir)), spacings_rad.first().copied().unwrap_or(0.0));
+                self.evaluate(spacings_rad, &mut scratch.0, |_, _| {});
                 let heights = &scratch.0.heights;
                 ground.height_m.extend_from_slice(&heights.height_m);
                 for (slopes, gradient) in ground.slopes.iter_mut().zip(&heights.gradients) {
@@ -227,7 +229,7 @@ impl Terrain {
 
     /// Evaluates at most one chunk of directions.
     fn evaluate_at(&self, dirs_planet: &[DVec3], spacings_rad: &[f64], Scratch(scratch): &mut Scratch) {
-        scratch.points.refill(dirs_planet.iter().map(|&dir| unit(dir)));
+        scratch.points.refill(dirs_planet.iter().map(|&dir| unit(dir)), 0.0);
         self.evaluate(spacings_rad, scratch, |_, _| {});
     }
 

@@ -9,7 +9,7 @@
 //! would have creases in their normals, and cliffs where its finest octaves cross a cell of the table. So the relief
 //! of a biome begins gradually, up to half a cell before or after the border that is drawn.
 
-use super::climate::{ClimateInputs, CompiledClimate, Rules};
+use super::climate::{ClimateInputs, CompiledClimate, MapClimate, Rules};
 use super::field::Field;
 use super::height::Heights;
 use super::landform::Landform;
@@ -131,8 +131,8 @@ impl Relief {
         let climate = inputs.climate();
         shares.0.clear();
         shares.0.extend(points.dirs.iter().zip(&heights.height_m).enumerate().map(|(i, (dir, height_m))| {
-            let (noise, inland_rad) = climate.at(i);
-            self.shares(dir.z, *height_m, noise, inland_rad)
+            let (noise, from_maps) = climate.at(i);
+            self.shares(dir.z, *height_m, noise, from_maps)
         }));
         for noise in 0..self.noises.len() {
             if shares.0.iter().flatten().any(|share| share.noise == noise && share.height_m != 0.0) {
@@ -179,8 +179,8 @@ impl Relief {
     }
 
     /// The four cells around the climate of the ground, with bilinear weights.
-    fn shares(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], inland_rad: f64) -> [Share; 4] {
-        let climate = self.rules.at(sin_lat, height_m, noise, inland_rad);
+    fn shares(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], from_maps: MapClimate) -> [Share; 4] {
+        let climate = self.rules.at(sin_lat, height_m, noise, from_maps);
         let [by_moisture, by_row] = self.rules.by_height(height_m, &climate);
         let (x, y) = (climate.moisture * self.columns as f64 - 0.5, (1.0 - climate.row) * self.rows as f64 - 0.5);
         let (column, row) = (x.floor(), y.floor());

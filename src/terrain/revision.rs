@@ -11,7 +11,7 @@ use super::relief::Relief;
 use crate::planet::param::{ParamPath, Stage, Stages, Value};
 use crate::planet::{InvalidPlanet, Key, Planet};
 use crate::world::coast::Coast;
-use crate::world::{Inputs, Slot};
+use crate::world::{Inputs, Slot, StructureInputs, carved};
 use std::sync::Arc;
 
 /// One state of a planet, and the content keys of what is made from it.
@@ -118,16 +118,21 @@ pub(super) struct TileContent {
 }
 
 impl TileContent {
-    /// The keys of tiles whose climate reads this coast map.
-    pub(super) fn keys(&self, coast: Option<Key>) -> TileKeys {
+    /// The keys of tiles that read these maps: the carved ground, and the coast.
+    pub(super) fn keys(&self, carved: Option<Key>, coast: Option<Key>) -> TileKeys {
         let relief = self.relief.map(|(relief, reads_coast)| (relief, coast.filter(|_| reads_coast)));
-        TileKeys { heights: Key::of(&(self.stack, relief)), climate: Key::of(&(self.climate, coast)) }
+        // Without a structure, the keys are those of a planet that knows nothing of structures.
+        let stack = carved.map_or(self.stack, |carved| Key::of(&(self.stack, carved)));
+        let climate = carved.map_or(self.climate, |carved| Key::of(&(self.climate, carved)));
+        TileKeys { heights: Key::of(&(stack, relief)), climate: Key::of(&(climate, coast)) }
     }
 }
 
 /// A planet, compiled, before its world maps are known.
 pub(super) struct Compiled {
     pub(super) stack: LayerStack,
+    /// The layers under the structure.
+    pub(super) under: Option<LayerStack>,
     pub(super) climate: CompiledClimate,
     pub(super) relief: Option<Relief>,
     pub(super) map_inputs: Inputs,
@@ -138,23 +143,31 @@ pub(super) struct Compiled {
 impl Compiled {
     /// Compiles a valid planet.
     pub(super) fn new(planet: &Planet) -> Self {
-        let stack = LayerStack::new(planet);
+        let (stack, under) = (LayerStack::new(planet), LayerStack::under(planet));
         let climate = CompiledClimate::new(planet);
         let relief = Relief::new(planet, &climate, stack.limits_m());
         let relief_noises = relief.iter().flat_map(Relief::noises).map(|noise| Key::of(&**noise));
         let mut fields: Vec<Key> = stack.field_keys().chain(relief_noises).collect();
-        fields.sort_unstable();
 
         let heights = Key::of(&stack.joined());
         let reads_coast = CompiledClimate::reads_coast(planet);
-        let map_inputs = Inputs { heights, sea_level_m: planet.sea_level_m(), reads_coast };
+        let map_inputs = Inputs {
+            heights,
+            under: Key::of(&under.as_ref().map(LayerStack::joined)),
+            sea_level_m: planet.sea_level_m(),
+            reads_coast,
+            structure: structure_inputs(planet),
+        };
+        let carved = carved::final_key(&map_inputs);
+        fields.extend(carved);
+        fields.sort_unstable();
         let climate_noise = Key::of(&climate.noises());
         let content = TileContent {
             stack: heights,
             relief: relief.as_ref().map(|relief| (Key::of(relief), reads_coast)),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
-        let tiles = content.keys(Slot::<Coast>::final_key(&map_inputs));
+        let tiles = content.keys(carved, Slot::<Coast>::final_key(&map_inputs));
         let [materials, cloud_map, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
@@ -165,8 +178,21 @@ impl Compiled {
             cloud_map,
             air_tables,
         };
-        Self { stack, climate, relief, map_inputs, content, keys }
+        Self { stack, under, climate, relief, map_inputs, content, keys }
     }
+}
+
+/// What of a planet its structure depends on.
+fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
+    let climate = &planet.climate;
+    Some(Arc::new(StructureInputs {
+        params: planet.structure.clone()?,
+        seed: planet.seed,
+        radius_km: planet.radius_km,
+        equator_c: climate.equator_c,
+        pole_c: climate.pole_c,
+        lapse_c_per_km: climate.lapse_c_per_km,
+    }))
 }
 
 /// Keys of the parameters that the biome textures, the cloud coverage map and the scattering LUTs read.

@@ -6,11 +6,10 @@ use super::mesh::{VertexClimate, mesh, with_climate};
 use super::stats::Work;
 use crate::lod::range::spacing_rad;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES, Tile};
-use crate::planet::Key;
 use crate::planet::param::Stage;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
-use crate::terrain::climate::{ClimateField, ClimateInputs};
+use crate::terrain::climate::{ClimateField, ClimateInputs, MapClimate, MapKeys};
 use crate::terrain::evaluate::Kept;
 use crate::terrain::field::Field;
 use crate::terrain::height::Heights;
@@ -33,10 +32,10 @@ pub(crate) struct Parts {
     relief_fields: ReliefFields,
     climate_noises: Option<[Landform; 2]>,
     climate: Arc<ClimateField>,
-    /// Key of the coast map behind `inland_rad`.
-    coast: Option<Key>,
-    /// Distance from the sea at each vertex in radians.
-    inland_rad: Arc<Vec<f64>>,
+    /// Keys of the maps behind `from_maps`.
+    map_keys: MapKeys,
+    /// What world maps say about the climate of each vertex.
+    from_maps: Arc<Vec<MapClimate>>,
 }
 
 impl Parts {
@@ -44,7 +43,7 @@ impl Parts {
     pub(crate) fn bytes(&self) -> usize {
         let point = size_of::<DVec3>() + 3 * size_of::<f64>();
         let height = size_of::<f64>() + self.heights.gradients.len() * size_of::<[f32; 3]>();
-        let climate = 3 * size_of::<f64>();
+        let climate = 2 * size_of::<f64>() + size_of::<MapClimate>();
         let relief: usize = self.relief_fields.iter().map(|(_, field)| field.bytes()).sum();
         TILE_VERTICES * (point + height + climate) + relief
     }
@@ -78,10 +77,11 @@ pub(crate) fn make_tile(
     keep_going: &dyn Fn() -> bool,
 ) -> (Fields, Option<(Tile, Option<Parts>)>) {
     profiling::scope!("tile");
-    let points = before.parts.map_or_else(|| Arc::new(Points::new(directions(id))), |parts| parts.points.clone());
+    let own_spacing_rad = spacing_rad(id.level);
+    let new_points = || Arc::new(Points::spaced(directions(id), own_spacing_rad));
+    let points = before.parts.map_or_else(new_points, |parts| parts.points.clone());
     let simd = terrain.simd();
 
-    let own_spacing_rad = spacing_rad(id.level);
     let spacings_rad = [own_spacing_rad, 2.0 * own_spacing_rad];
     let layers = &terrain.stack.layers;
     let mut fields: Fields =
@@ -102,17 +102,17 @@ pub(crate) fn make_tile(
     };
 
     // Heights that change anywhere, however far away, make another coast.
-    let coast = terrain.world().coast.key();
-    let inland_rad = match before.parts {
-        Some(parts) if parts.coast == coast => parts.inland_rad.clone(),
-        _ => Arc::new(terrain.climate.inland_rad(&points.dirs).collect()),
+    let map_keys = terrain.climate.map_keys();
+    let from_maps = match before.parts {
+        Some(parts) if parts.map_keys == map_keys => parts.from_maps.clone(),
+        _ => Arc::new(terrain.climate.from_maps(&points.dirs).collect()),
     };
 
     let same_heights = before.keys.heights == terrain.tile_keys().heights;
     if let Some(tile) = before.tile.filter(|_| same_heights) {
-        let climate_of = VertexClimate { noise: &climate, inland_rad: &inland_rad };
+        let climate_of = VertexClimate { noise: &climate, from_maps: &from_maps };
         let tile = work.run(Stage::Climate, || with_climate(tile, simd, terrain.planet(), &points.dirs, &climate_of));
-        let parts = before.parts.map(|parts| Parts { climate_noises, climate, coast, inland_rad, ..parts.clone() });
+        let parts = before.parts.map(|parts| Parts { climate_noises, climate, map_keys, from_maps, ..parts.clone() });
         return (fields, Some((tile, parts)));
     }
 
@@ -150,7 +150,7 @@ pub(crate) fn make_tile(
             let mut kept = Kept {
                 layers: &fields,
                 relief: &relief_fields,
-                climate: ClimateInputs { noise: [&climate.temperature, &climate.moisture], inland_rad: &inland_rad },
+                climate: ClimateInputs { noise: [&climate.temperature, &climate.moisture], from_maps: &from_maps },
             };
             let heights = terrain.joined(&points, &spacings_rad, &mut kept);
             (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
@@ -159,10 +159,10 @@ pub(crate) fn make_tile(
 
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        let climate = VertexClimate { noise: &climate, inland_rad: &inland_rad };
+        let climate = VertexClimate { noise: &climate, from_maps: &from_maps };
         Tile { heights_serial, ..mesh(terrain, id, &points.dirs, &heights, &climate) }
     });
-    let parts = Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, coast, inland_rad };
+    let parts = Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, map_keys, from_maps };
     (fields, Some((tile, Some(parts))))
 }
 
@@ -191,6 +191,7 @@ fn climate_field(
         y: pick(&points.y),
         z: pick(&points.z),
         dirs: own.iter().map(|&i| points.dirs[i]).collect(),
+        spacing_rad: points.spacing_rad,
     };
     let found = terrain.climate.field(terrain.simd(), &own_points);
     let (right, upper) = id.quarter();

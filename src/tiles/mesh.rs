@@ -5,7 +5,7 @@ use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
 use crate::planet::Planet;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
-use crate::terrain::climate::{ClimateField, NO_SEA, SeaLevelClimate};
+use crate::terrain::climate::{ClimateField, MapClimate, SeaLevelClimate};
 use crate::terrain::height::Heights;
 use crate::terrain::lane::{CHUNK, Lane};
 use crate::terrain::simd::{Simd, for_each_simd};
@@ -85,14 +85,14 @@ fn chunks(points: usize) -> impl Iterator<Item = Range<usize>> {
 /// The inputs of the climate at the vertices of a tile.
 pub(super) struct VertexClimate<'a> {
     pub(super) noise: &'a ClimateField,
-    /// Distance from the sea in radians; empty if climate does not read it.
-    pub(super) inland_rad: &'a [f64],
+    /// What world maps say; empty if the climate reads none.
+    pub(super) from_maps: &'a [MapClimate],
 }
 
 impl VertexClimate<'_> {
     fn chunk(&self, simd: Simd, rules: &SeaLevelClimate, dirs: &[DVec3], range: Range<usize>, lanes: &mut Lanes) {
         let noise = [&self.noise.temperature[range.clone()], &self.noise.moisture[range.clone()]];
-        weather(simd, rules, dirs, noise, self.inland_rad.get(range).unwrap_or(&[NO_SEA; CHUNK]), lanes);
+        weather(simd, rules, dirs, noise, self.from_maps.get(range).unwrap_or(&[MapClimate::NONE; CHUNK]), lanes);
     }
 }
 
@@ -193,13 +193,13 @@ for_each_simd!(fn face(radius_m: f64, dirs: &[DVec3], height_m: &[f64], gradient
 
 /// Temperature and moisture at sea level.
 #[inline(always)]
-fn weather_body(rules: &SeaLevelClimate, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) {
+fn weather_body(rules: &SeaLevelClimate, dirs: &[DVec3], noise: [&[f64]; 2], maps: &[MapClimate], lanes: &mut Lanes) {
     let [temperature, moisture] = noise;
-    let n = dirs.len().min(temperature.len()).min(moisture.len()).min(inland_rad.len()).min(CHUNK);
+    let n = dirs.len().min(temperature.len()).min(moisture.len()).min(maps.len()).min(CHUNK);
     for i in 0..n {
-        let [temperature_c, moisture] = rules.at(dirs[i].z, [temperature[i], moisture[i]], inland_rad[i]);
+        let [temperature_c, moisture] = rules.at(dirs[i].z, [temperature[i], moisture[i]], maps[i]);
         lanes.temperature_c[i] = temperature_c as f32;
         lanes.moisture[i] = moisture as f32;
     }
 }
-for_each_simd!(fn weather(rules: &SeaLevelClimate, dirs: &[DVec3], noise: [&[f64]; 2], inland_rad: &[f64], lanes: &mut Lanes) = weather_body);
+for_each_simd!(fn weather(rules: &SeaLevelClimate, dirs: &[DVec3], noise: [&[f64]; 2], maps: &[MapClimate], lanes: &mut Lanes) = weather_body);

@@ -5,8 +5,10 @@
 //! distance propagation, Danielsson 1980). The signed distance is a [`Raster`] of angles in radians: below zero in the
 //! sea, zero on the coast.
 
+use super::carved::Carved;
 use super::cells::Cells;
 use super::map::{Ground, Inputs, KeepGoing, WorldMap};
+use super::{Slot, World};
 use crate::planet::Key;
 use crate::sphere::raster::Raster;
 use glam::DVec3;
@@ -27,10 +29,16 @@ impl WorldMap for Coast {
 
     fn key(inputs: &Inputs) -> Option<Key> {
         let sea_level_m = inputs.sea_level_m.filter(|_| inputs.reads_coast)?;
-        Some(Key::of(&(inputs.heights, sea_level_m)))
+        Some(Key::of(&(inputs.heights, sea_level_m, Slot::<Carved>::final_key(inputs))))
     }
 
-    fn solve(ground: &dyn Ground, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self> {
+    fn solve(
+        ground: &dyn Ground,
+        _world: &World,
+        _coarser: Option<&Self>,
+        side: usize,
+        keep_going: &KeepGoing<'_>,
+    ) -> Option<Self> {
         let (cells, sea_level_m) = (Cells::of(side), ground.inputs().sea_level_m?);
         let heights_m = ground.heights_m(&cells, keep_going)?;
         Some(Self::new(&cells, sea_level_m, &heights_m))

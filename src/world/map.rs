@@ -1,20 +1,39 @@
 //! What a world map declares, and the planet as it reads it.
 
+use super::World;
 use super::cells::Cells;
-use crate::planet::Key;
+use crate::planet::{Key, Structure};
+use std::sync::Arc;
 
 /// Asked again and again while a map is solved; no means that nobody wants the answer any more.
 pub(crate) type KeepGoing<'a> = dyn Fn() -> bool + Sync + 'a;
 
 /// What of a planet the world maps depend on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Inputs {
-    /// Key of the heights that [`Ground::heights_m`] gives.
+    /// Key of the heights that [`Ground::heights_m`] gives, the structure apart.
     pub(crate) heights: Key,
+    /// Key of the heights that [`Ground::under_m`] gives.
+    pub(crate) under: Key,
     /// Height of the sea's surface in metres, if there is a sea.
     pub(crate) sea_level_m: Option<f64>,
     /// Whether something reads the distance to the coast.
     pub(crate) reads_coast: bool,
+    /// The structure, if the planet has one.
+    pub(crate) structure: Option<Arc<StructureInputs>>,
+}
+
+/// What of a planet its structure depends on, layers and sea apart.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct StructureInputs {
+    pub(crate) params: Structure,
+    /// Seed of the planet.
+    pub(crate) seed: u32,
+    pub(crate) radius_km: f64,
+    /// Temperatures at sea level, and how much colder it gets with height.
+    pub(crate) equator_c: f64,
+    pub(crate) pole_c: f64,
+    pub(crate) lapse_c_per_km: f64,
 }
 
 /// The planet as world maps read it.
@@ -22,21 +41,39 @@ pub(crate) trait Ground: Sync {
     /// What the maps depend on.
     fn inputs(&self) -> &Inputs;
 
-    /// Heights of the layers at the centres of cells, in metres, without detail that is finer than the cells. None if
-    /// `keep_going` said no.
+    /// Heights of the ground at the centres of cells, in metres, without detail that is finer than the cells and without
+    /// biome relief. None if `keep_going` said no.
     fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>>;
+
+    /// The same of the layers that lie under the structure; None too if there is no such layer.
+    fn under_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>>;
 }
 
 /// A world map.
 pub(crate) trait WorldMap: Sized + Send + Sync {
-    /// Cells along the side of a cube face, coarse to fine. The last level is the answer; those before it serve only
-    /// while no map of an earlier revision does.
+    /// Cells along the side of a cube face, coarse to fine. The last level that [`WorldMap::levels`] counts is the answer.
     const SIDES: &'static [usize];
+
+    /// Whether the coarse levels of a map serve even while a map of an earlier revision could: when a coarse answer at
+    /// once is worth more than an old one.
+    const COARSE_FIRST: bool = false;
+
+    /// How many of the levels are solved.
+    fn levels(_inputs: &Inputs) -> usize {
+        Self::SIDES.len()
+    }
 
     /// Key of everything that the map reads; None if nothing reads the map. This is the only place where the
     /// dependencies of a map are declared.
     fn key(inputs: &Inputs) -> Option<Key>;
 
-    /// Solves the map with cubes of `side` cells. None if `keep_going` said no.
-    fn solve(ground: &dyn Ground, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self>;
+    /// Solves the map with cubes of `side` cells. `world`: the maps before this one in the list are final. `coarser`: the
+    /// level before, if it was solved. None if `keep_going` said no.
+    fn solve(
+        ground: &dyn Ground,
+        world: &World,
+        coarser: Option<&Self>,
+        side: usize,
+        keep_going: &KeepGoing<'_>,
+    ) -> Option<Self>;
 }

@@ -8,11 +8,14 @@
 //!   terrain implements
 //! - [`World`]: the maps that serve. A new map is one file and one line of `world_maps!` below
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
+//! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that rivers carve
+//!   (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
 //! - `coast`: signed distance to the coast
 //!
 //! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
 //! the terrain's climate. The finest answer depends on the planet alone, never on the maps that served before.
 
+pub(crate) mod carved;
 pub(crate) mod cells;
 pub(crate) mod coast;
 pub(crate) mod drainage;
@@ -20,11 +23,15 @@ pub(crate) mod grid;
 mod map;
 pub(crate) mod noise;
 pub(crate) mod plates;
+pub(crate) mod rivers;
 pub(crate) mod weather;
 mod slot;
 
+use carved::Carved;
 use coast::Coast;
-pub(crate) use map::{Ground, Inputs, KeepGoing};
+use plates::Plates;
+use weather::Weather;
+pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 pub use slot::MapWork;
 pub(crate) use slot::Slot;
 use std::fmt;
@@ -56,7 +63,7 @@ macro_rules! world_maps {
             ) -> Option<Self> {
                 $( if !self.$name.is_final(ground.inputs()) {
                     let mut world = self.clone();
-                    world.$name = self.$name.step(ground, keep_going, work)?;
+                    world.$name = self.$name.step(ground, self, keep_going, work)?;
                     return Some(world);
                 } )+
                 Some(self.clone())
@@ -66,6 +73,12 @@ macro_rules! world_maps {
 }
 
 world_maps! {
+    /// Plates of the crust.
+    plates: Plates;
+    /// Weather of a mean year.
+    weather: Weather;
+    /// The ground that rivers carve.
+    carved: Carved;
     /// Signed distance to the coast.
     coast: Coast;
 }
@@ -73,6 +86,9 @@ world_maps! {
 /// The maps are rasters: only which ones serve is printed.
 impl fmt::Debug for World {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("World").field("coast", &self.coast.key()).finish_non_exhaustive()
+        f.debug_struct("World")
+            .field("carved", &self.carved.key())
+            .field("coast", &self.coast.key())
+            .finish_non_exhaustive()
     }
 }

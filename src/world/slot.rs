@@ -1,5 +1,6 @@
 //! One world map that serves, the key of what it was solved from, and its next level.
 
+use super::World;
 use super::map::{Ground, Inputs, KeepGoing, WorldMap};
 use crate::planet::Key;
 use std::sync::Arc;
@@ -36,11 +37,13 @@ impl<M> Default for Slot<M> {
 }
 
 impl<M: WorldMap> Slot<M> {
-    const FINEST: usize = M::SIDES.len() - 1;
+    fn finest(inputs: &Inputs) -> usize {
+        M::levels(inputs).clamp(1, M::SIDES.len()) - 1
+    }
 
     /// The map that serves.
-    pub(crate) fn map(&self) -> Option<&M> {
-        self.0.as_ref().map(|served| &*served.map)
+    pub(crate) fn map(&self) -> Option<&Arc<M>> {
+        self.0.as_ref().map(|served| &served.map)
     }
 
     /// Key of the map that serves: of what it was solved from, and of its level.
@@ -50,7 +53,7 @@ impl<M: WorldMap> Slot<M> {
 
     /// The [`Slot::key`] of a planet's own finest map.
     pub(crate) fn final_key(inputs: &Inputs) -> Option<Key> {
-        M::key(inputs).map(|key| key_at(key, Self::FINEST))
+        M::key(inputs).map(|key| key_at(key, Self::finest(inputs)))
     }
 
     pub(super) fn serving(&self, inputs: &Inputs) -> Self {
@@ -61,17 +64,25 @@ impl<M: WorldMap> Slot<M> {
         self.key() == Self::final_key(inputs)
     }
 
-    pub(super) fn step(&self, ground: &dyn Ground, keep_going: &KeepGoing<'_>, work: &mut MapWork) -> Option<Self> {
+    pub(super) fn step(
+        &self,
+        ground: &dyn Ground,
+        world: &World,
+        keep_going: &KeepGoing<'_>,
+        work: &mut MapWork,
+    ) -> Option<Self> {
         let Some(key) = M::key(ground.inputs()) else { return Some(Self::default()) };
-        let level = match &self.0 {
-            None => 0,
-            Some(served) if served.key == key => (served.level + 1).min(Self::FINEST),
+        let finest = Self::finest(ground.inputs());
+        let coarser = self.0.as_ref().filter(|served| served.key == key && served.level < finest);
+        let level = match (coarser, &self.0) {
+            (Some(coarser), _) => coarser.level + 1,
             // A whole map of an earlier revision shows more than a coarse one of this planet would.
-            Some(_) => Self::FINEST,
+            (None, Some(_)) if !M::COARSE_FIRST => finest,
+            _ => 0,
         };
         profiling::scope!("world map");
         let begun = Instant::now();
-        let map = M::solve(ground, M::SIDES[level], keep_going);
+        let map = M::solve(ground, world, coarser.map(|coarser| &*coarser.map), M::SIDES[level], keep_going);
         work.busy_secs += begun.elapsed().as_secs_f64();
         let map = Arc::new(map?);
         work.runs += 1;
@@ -94,7 +105,8 @@ mod tests {
 
     impl Number {
         fn new(number: Option<f64>) -> Self {
-            Self(Inputs { heights: Key::default(), sea_level_m: number, reads_coast: true })
+            let (heights, under) = (Key::default(), Key::default());
+            Self(Inputs { heights, under, sea_level_m: number, reads_coast: true, structure: None })
         }
     }
 
@@ -104,6 +116,9 @@ mod tests {
         }
         fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
             keep_going().then(|| vec![self.0.sea_level_m.unwrap_or(0.0); cells.dirs.len()])
+        }
+        fn under_m(&self, _cells: &Cells, _keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+            None
         }
     }
 
@@ -115,7 +130,14 @@ mod tests {
         fn key(inputs: &Inputs) -> Option<Key> {
             inputs.sea_level_m.map(|number| Key::of(&number))
         }
-        fn solve(ground: &dyn Ground, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self> {
+        fn solve(
+            ground: &dyn Ground,
+            _world: &World,
+            coarser: Option<&Self>,
+            side: usize,
+            keep_going: &KeepGoing<'_>,
+        ) -> Option<Self> {
+            assert!(coarser.is_none_or(|coarser| coarser.1 * 2 == side));
             Some(Self(*ground.heights_m(&Cells::of(side), keep_going)?.first()?, side))
         }
     }
@@ -128,7 +150,9 @@ mod tests {
     fn a_first_map_comes_coarse_to_fine_and_an_old_one_serves_until_the_new_one_is_whole() {
         let (one, two, none) = (Number::new(Some(1.0)), Number::new(Some(2.0)), Number::new(None));
         let mut work = MapWork::default();
-        let step = |slot: &Slot<Echo>, ground: &Number, work: &mut MapWork| slot.step(ground, &|| true, work).unwrap();
+        let step = |slot: &Slot<Echo>, ground: &Number, work: &mut MapWork| {
+            slot.step(ground, &World::default(), &|| true, work).unwrap()
+        };
         let mut slot = Slot::<Echo>::default().serving(&one.0);
         for side in [4, 8, 16] {
             assert!(!slot.is_final(&one.0));
@@ -149,7 +173,7 @@ mod tests {
         let mut work = MapWork::default();
         let keep_going = || asked.fetch_add(1, Ordering::Relaxed) > 0;
         let slot = Slot::<Echo>::default();
-        assert!(slot.step(&Number::new(Some(1.0)), &keep_going, &mut work).is_none());
+        assert!(slot.step(&Number::new(Some(1.0)), &World::default(), &keep_going, &mut work).is_none());
         assert_eq!((work.runs, asked.into_inner()), (0, 1));
     }
 }

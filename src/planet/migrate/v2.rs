@@ -23,7 +23,7 @@ frozen! {
         atmosphere: Option<Atmosphere> = None,
         clouds: Option<Clouds> = None,
         editor: Option<EditorNotes> = None,
-    } adding { precision: Precision::Classic }
+    } adding { precision: Precision::Classic, structure: None }
 }
 
 frozen! {
@@ -191,6 +191,7 @@ frozen! {
         shape: Shape = Shape::Fbm(Fbm::default()),
         masks: Vec<Mask> = Vec::new(),
     }
+    adding { under: false }
 }
 
 frozen_choice! { Blend => planet::Blend { Add, Subtract, Multiply, Max, Min, Replace, SmoothMax, SmoothMin } }

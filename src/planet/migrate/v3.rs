@@ -2,7 +2,7 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Star, VERSION, Version, Water,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Star, Structure, VERSION, Version, Water,
 };
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,7 @@ file! {
     layers: Vec<Layer>,
     climate: Climate,
     biomes: Biomes,
+    structure: Option<Structure>,
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,

@@ -28,7 +28,9 @@ use std::sync::Arc;
 /// The layers of a planet, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LayerStack {
+    /// With a structure, the first one is its carved ground; the layers of the preset follow.
     pub(crate) layers: Vec<CompiledLayer>,
+    has_structure: bool,
     /// The spacings over which slope masks measure.
     slope_bands: Vec<Band>,
     height_curve: Option<CompiledCurve>,
@@ -114,13 +116,58 @@ const LEAST_M: f64 = 1e-3;
 impl LayerStack {
     /// Compiles the layers of a valid planet. Masks that name no layer are left out.
     pub(crate) fn new(planet: &Planet) -> Self {
-        let layers = planet.layers.iter().map(|layer| CompiledLayer::new(planet, layer)).collect();
-        let (height_curve, radius_m) = (CompiledCurve::new(&planet.height_curve), planet.radius_m());
-        let mut stack = Self { layers, slope_bands: Vec::new(), height_curve, looks_at_directions: false, radius_m };
+        let has_structure = planet.structure.is_some();
+        let mut layers: Vec<CompiledLayer> = Vec::new();
+        layers.extend(has_structure.then(CompiledLayer::structure));
+        layers.extend(planet.layers.iter().map(|layer| {
+            let compiled = CompiledLayer::new(planet, layer);
+            CompiledLayer { enabled: layer.enabled && !(has_structure && layer.under), ..compiled }
+        }));
+        Self::of(planet, layers, has_structure, CompiledCurve::new(&planet.height_curve))
+    }
+
+    /// Compiles the layers that lie under the structure of a planet. None if there are none.
+    pub(crate) fn under(planet: &Planet) -> Option<Self> {
+        let is_under = |layer: &Layer| layer.enabled && layer.under;
+        planet.structure.as_ref()?;
+        planet.layers.iter().find(|layer| is_under(layer))?;
+        let compiled = |layer| CompiledLayer { enabled: is_under(layer), ..CompiledLayer::new(planet, layer) };
+        Some(Self::of(planet, planet.layers.iter().map(compiled).collect(), false, None))
+    }
+
+    fn of(
+        planet: &Planet,
+        mut layers: Vec<CompiledLayer>,
+        has_structure: bool,
+        height_curve: Option<CompiledCurve>,
+    ) -> Self {
+        if has_structure {
+            // Masks know layers by their places in the preset.
+            for mask in layers.iter_mut().flat_map(|layer| &mut layer.masks) {
+                if let Source::Layer(layer) = &mut mask.source {
+                    *layer += 1;
+                }
+            }
+        }
+        let radius_m = planet.radius_m();
+        let mut stack =
+            Self { layers, has_structure, slope_bands: Vec::new(), height_curve, looks_at_directions: false, radius_m };
         stack.find_slope_bands();
         stack.find_needed();
         stack.looks_at_directions = stack.layers.iter().any(CompiledLayer::looks_at_directions);
         stack
+    }
+
+    /// Sets the carved ground of a planet that has a structure.
+    pub(crate) fn set_structure(&mut self, structure: Landform) {
+        if let Some(layer) = self.layers.first_mut().filter(|_| self.has_structure) {
+            layer.landform = Arc::new(structure);
+        }
+    }
+
+    /// How many layers stand before those of the preset.
+    pub(crate) fn layers_before(&self) -> usize {
+        usize::from(self.has_structure)
     }
 
     /// Content keys of the fields that are needed, with the spacings of their gradients.
@@ -205,6 +252,21 @@ impl CompiledLayer {
                 softness_m: layer.softness_m.max(LEAST_M),
             },
             masks: layer.masks.iter().filter_map(|mask| CompiledMask::new(planet, mask)).take(MAX_MASKS).collect(),
+        }
+    }
+
+    /// The carved ground of a structure, before its world map is solved.
+    fn structure() -> Self {
+        Self {
+            landform: Arc::new(Landform::structure(None)),
+            needed: false,
+            masks_others: false,
+            slope_spacings_rad: Vec::new(),
+            enabled: true,
+            steps: None,
+            curve: None,
+            blend: Blend { kind: planet::Blend::Add, bias: 0.0, amplitude_m: 1.0, softness_m: LEAST_M },
+            masks: Vec::new(),
         }
     }
 

@@ -17,6 +17,8 @@ pub(crate) struct Chunk<'a> {
     pub(crate) skewed: Points3<'a>,
     /// The same points as unit directions.
     pub(crate) dirs: &'a [DVec3],
+    /// The distance between neighbouring points, as an angle; 0 for points that stand alone.
+    pub(crate) point_spacing_rad: f64,
     /// One gradient is wanted for each of these point spacings (angles in radians), at most [`MAX_BANDS`]. A gradient
     /// holds only the octaves that points so far apart can show; spacing 0 keeps every octave.
     pub(crate) spacings_rad: &'a [f64],

@@ -70,6 +70,7 @@ impl Continents {
                 simd: Simd::detect(),
                 skewed: [&points.x[range.clone()], &points.y[range.clone()], &points.z[range.clone()]],
                 dirs: &points.dirs[range],
+                point_spacing_rad: 0.0,
                 spacings_rad: &[],
                 seen_only: false,
             };

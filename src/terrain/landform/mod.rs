@@ -13,6 +13,7 @@
 //! - `gullies`: mountains carved by running water
 //! - `cells`: plates, cracks and domes around scattered centres
 //! - `heightmap`: heights from a picture
+//! - `structure`: the ground that rivers carve, from world maps; it is no kind of layer
 //! - `chunk`, `scratch`: the points, sums and memory that all kinds share
 //! - `octaves`: series of octaves; `folded`: octaves folded at zero
 //! - `warp`: displaced points
@@ -44,6 +45,7 @@ mod places;
 mod precision;
 mod ridged;
 mod scratch;
+mod structure;
 mod terraces;
 #[cfg(test)]
 mod tests;
@@ -53,7 +55,8 @@ mod varying;
 mod warp;
 mod warped;
 
-use crate::planet::Shape;
+use crate::planet::{Key, Shape};
+use crate::world::carved::Carved;
 use chunk::Sums;
 pub(crate) use chunk::{Chunk, MAX_BANDS};
 use glam::DVec3;
@@ -67,7 +70,10 @@ macro_rules! landforms {
         /// A compiled landform: everything that its values depend on, and nothing else. Equal landforms have equal
         /// fields, so this is the key of a kept field.
         #[derive(Clone, Debug, PartialEq)]
-        pub(crate) enum Landform { $($kind($file::$kind),)+ }
+        pub(crate) enum Landform {
+            $($kind($file::$kind),)+
+            Structure(structure::Structure),
+        }
 
         impl Landform {
             /// Compiles a kind of layer for a planet of this radius. `seed` combines the seeds of planet and layer.
@@ -76,7 +82,7 @@ macro_rules! landforms {
             }
 
             fn evaluate(&self) -> &dyn Evaluate {
-                match self { $(Landform::$kind(kind) => kind,)+ }
+                match self { $(Landform::$kind(kind) => kind,)+ Landform::Structure(structure) => structure }
             }
         }
     };
@@ -102,6 +108,11 @@ impl Landform {
     /// Fractal noise with gain 0.5 and lacunarity 2.
     pub(crate) fn fbm(seed: u64, frequency: f64, octaves: u32) -> Self {
         Landform::Fbm(fbm::Fbm::plain(seed, frequency, octaves, Arithmetic::Classic))
+    }
+
+    /// The carved ground of a planet; none until its world map is solved.
+    pub(crate) fn structure(carved: Option<(Key, &Carved)>) -> Self {
+        Landform::Structure(structure::Structure::new(carved))
     }
 
     /// How many octaves of noise one point takes.

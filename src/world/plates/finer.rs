@@ -1,6 +1,6 @@
 //! The crust on finer grids than the one on which plates are solved.
 
-use super::{Layout, Plates};
+use super::Layout;
 use crate::world::cells::Cells;
 use crate::world::grid::refined;
 use crate::world::noise::{fbm, hash, ramp};
@@ -15,18 +15,6 @@ pub(crate) struct Rock {
     pub(crate) uplift_m: Vec<f64>,
     /// See [`Plates::softness`].
     pub(crate) softness: Vec<f64>,
-}
-
-impl Plates {
-    /// The crust at the cells of the plates' own grid.
-    pub(crate) fn rock(&self) -> Rock {
-        Rock {
-            side: self.side,
-            base_m: self.base_m.clone(),
-            uplift_m: self.uplift_m.clone(),
-            softness: self.softness.clone(),
-        }
-    }
 }
 
 impl Rock {

@@ -14,6 +14,8 @@ use super::grid::smoothed;
 use super::map::KeepGoing;
 use crate::planet::Weather as Params;
 use crate::sphere::geo::east_north;
+use crate::sphere::raster::Raster;
+use glam::DVec3;
 use rayon::prelude::*;
 use winds::Season;
 
@@ -42,7 +44,12 @@ pub(crate) struct Weather {
     pub(crate) evaporation_mm: Vec<f64>,
     /// Mean temperature of the ground in °C.
     pub(crate) temperature_c: Vec<f64>,
+    /// How much warmer currents of the sea make it in °C, and the humidity, as [`Weather::at`] gives them.
+    rasters: [Raster<f32>; 2],
 }
+
+/// The most that currents of the sea warm or cool.
+pub(crate) const WARMEST_C: f64 = 18.0;
 
 /// What both seasons have in common.
 struct Ground<'a> {
@@ -74,7 +81,20 @@ impl Weather {
         }
         let rain_mm = smoothed(&cells, &rain_mm, 1);
         let evaporation_mm = ground.temperature_c.iter().map(|c| potential_mm(*c)).collect();
-        Some(Self { side: inputs.side, wind_m_s, rain_mm, evaporation_mm, temperature_c: ground.temperature_c })
+        let rasters = {
+            let warmer = (0..cells.dirs.len()).map(|cell| ground.current_c(cell).clamp(-WARMEST_C, WARMEST_C) as f32);
+            let humid = |(rain, potential): (&f64, &f64)| humidity(*rain, *potential) as f32;
+            let humid = rain_mm.iter().zip(&evaporation_mm).map(humid);
+            [warmer.collect(), humid.collect()].map(|texels| Raster::cube(inputs.side, texels))
+        };
+        let temperature_c = ground.temperature_c;
+        Some(Self { side: inputs.side, wind_m_s, rain_mm, evaporation_mm, temperature_c, rasters })
+    }
+
+    /// How much warmer currents of the sea make it in °C, and the humidity (0 to 1), at a unit direction.
+    pub(crate) fn at(&self, dir: DVec3) -> [f64; 2] {
+        let place = self.rasters[0].place(dir);
+        self.rasters.each_ref().map(|raster| raster.value(&place, 0))
     }
 
     /// Water that runs off in mm a year: what is left of the rain after evaporation (Schreiber 1904).
@@ -87,6 +107,11 @@ impl Weather {
     pub(crate) fn dryness_mm(&self) -> Vec<f64> {
         self.evaporation_mm.iter().zip(&self.rain_mm).map(|(potential, rain)| potential - rain).collect()
     }
+}
+
+/// The share of the air's demand for water that rain meets: a desert has less than 0.2, rain forest more than 0.6.
+fn humidity(rain_mm: f64, potential_mm: f64) -> f64 {
+    rain_mm / (rain_mm + potential_mm).max(1.0)
 }
 
 /// Potential evaporation in mm a year by the mean temperature (after Holdridge 1967).
@@ -112,15 +137,21 @@ impl<'a> Ground<'a> {
     /// Mean temperature: by latitude and height, and by the current along the coast. Water that flows towards a pole
     /// along the east side of a continent is warm; what returns along a west side in the tropics is cold.
     fn temperature_c(&self, cell: usize) -> f64 {
+        let Inputs { equator_c, pole_c, lapse_c_per_km, .. } = *self.inputs;
+        let flat2 = 1.0 - self.cells.dirs[cell].z * self.cells.dirs[cell].z;
+        pole_c + (equator_c - pole_c) * flat2 - lapse_c_per_km * self.height_km[cell] + self.current_c(cell)
+    }
+
+    /// How much warmer the currents of the sea make a coast.
+    fn current_c(&self, cell: usize) -> f64 {
         let dir = self.cells.dirs[cell];
-        let Inputs { params, equator_c, pole_c, lapse_c_per_km, .. } = *self.inputs;
+        let params = self.inputs.params;
         let (east, _) = east_north(dir);
         let flat2 = 1.0 - dir.z * dir.z;
         let turn = winds::turn(params);
         // Land to the east: a west coast. The sign turns at 42 degrees.
         let west_coast = turn * self.slope(&self.land, cell).dot(east) * 0.12;
-        let current_c = -params.currents * 6.0 * west_coast.clamp(-1.0, 1.0) * (flat2 - 0.55) / 0.45;
-        pole_c + (equator_c - pole_c) * flat2 - lapse_c_per_km * self.height_km[cell] + current_c
+        -params.currents * 6.0 * west_coast.clamp(-1.0, 1.0) * (flat2 - 0.55) / 0.45
     }
 
     /// The gradient of values by the direction, from the neighbours of a cell.

@@ -1,0 +1,118 @@
+//! Bounds of the ground near a direction.
+//!
+//! The ground is a mean of the solver's raster, of banks and of ground of coarser levels, raised by relief and cut by
+//! channels. All of these come from cells a few steps away. So the range of the cells around, widened by the relief and
+//! the deepest channel among them, holds for every point of a cell. Ranges of squares of cells make a quadtree.
+
+use super::evaluate::MOST_RELIEF;
+use super::grid::{Cell, STEPS};
+use super::reach::depth_m;
+use super::trunk::Trunks;
+use crate::sphere::raster::cube_direction;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Steps between a point and the farthest cell that its ground depends on.
+const RINGS: usize = 4;
+
+/// Ranges of squares of cells, the finest first, each level half as fine.
+pub(super) struct Bounds {
+    levels: Vec<(usize, Vec<[f32; 2]>)>,
+}
+
+/// Bound of the discharge of a tributary by the runoff of its cell: all neighbours of neighbours flow into it.
+const MOST_TRIBUTARY: f64 = 4.0;
+
+const NOTHING: [f32; 2] = [f32::MAX, f32::MIN];
+
+fn both(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+impl Bounds {
+    pub(super) fn new(trunks: &Trunks) -> Self {
+        let grid = &trunks.grid;
+        let cells = trunks.height_m.len();
+        // The greatest relief and the deepest channel around count for the whole neighbourhood.
+        let mut parts: Vec<[f32; 4]> = (0..cells).into_par_iter().map(|cell| own(trunks, cell)).collect();
+        for _ in 0..RINGS {
+            let old = parts.clone();
+            parts.par_iter_mut().enumerate().for_each(|(cell, part)| {
+                let at = grid.cell(cell as u64);
+                for step in STEPS {
+                    let other = old[grid.index(grid.beside(at, step)) as usize];
+                    let [low, high, relief, depth] = *part;
+                    *part =
+                        [low.min(other[0]), high.max(other[1]), relief.max(other[2]), depth.max(other[3])];
+                }
+            });
+        }
+        let widened = |[low, high, relief, depth]: &[f32; 4]| [low - depth - 0.01, high + relief + 0.01];
+        let ranges: Vec<[f32; 2]> = parts.iter().map(widened).collect();
+        let mut levels = vec![(grid.side, ranges)];
+        while let Some((side, ranges)) = levels.last()
+            && *side > 1
+        {
+            let (side, half) = (*side, side.div_ceil(2));
+            let mut coarser = vec![NOTHING; 6 * half * half];
+            for (cell, range) in ranges.iter().enumerate() {
+                let (face, x, y) = (cell / (side * side), cell % side, cell / side % side);
+                let slot = &mut coarser[(face * half + y / 2) * half + x / 2];
+                *slot = both(*slot, *range);
+            }
+            levels.push((half, coarser));
+        }
+        Self { levels }
+    }
+
+    /// Lowest and greatest height within an angle of a unit direction.
+    pub(super) fn near(&self, dir: DVec3, angle_rad: f64) -> (f64, f64) {
+        let mut found = NOTHING;
+        if let Some(top) = self.levels.len().checked_sub(1) {
+            for face in 0..6 {
+                self.descend(top, Cell { face, x: 0, y: 0 }, dir, angle_rad, &mut found);
+            }
+        }
+        (f64::from(found[0]), f64::from(found[1]))
+    }
+
+    fn descend(&self, level: usize, at: Cell, dir: DVec3, angle_rad: f64, found: &mut [f32; 2]) {
+        let (side, ranges) = &self.levels[level];
+        let Some(range) = ranges.get((at.face * side + at.y) * side + at.x).filter(|_| at.x < *side && at.y < *side)
+        else {
+            return;
+        };
+        // Squares of an uneven side may end beyond the face.
+        let finest = self.levels[0].0 as f64;
+        let width = f64::from(1_u32 << level);
+        let point = |x: f64, y: f64| cube_direction(at.face, self.levels[0].0, x.min(finest), y.min(finest));
+        let (x, y) = (at.x as f64 * width, at.y as f64 * width);
+        let middle = point(x + 0.5 * width, y + 0.5 * width);
+        let corners = [point(x, y), point(x + width, y), point(x, y + width), point(x + width, y + width)];
+        let chord = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
+        let radius_rad = 2.0 * libm::asin((0.5 * chord).min(1.0)) * 1.05 + 1e-9;
+        let distance_rad = 2.0 * libm::asin((0.5 * dir.distance(middle)).min(1.0));
+        if distance_rad > angle_rad + radius_rad || (range[0] >= found[0] && range[1] <= found[1]) {
+            return;
+        }
+        if level == 0 || distance_rad + radius_rad <= angle_rad || radius_rad < 0.25 * angle_rad {
+            *found = both(*found, *range);
+            return;
+        }
+        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            self.descend(level - 1, Cell { face: at.face, x: 2 * at.x + dx, y: 2 * at.y + dy }, dir, angle_rad, found);
+        }
+    }
+}
+
+/// What a cell adds to the ground around it: its lowest and highest bank or ground, relief and depth of channels.
+fn own(trunks: &Trunks, cell: usize) -> [f32; 4] {
+    let height_m = f64::from(trunks.height_m[cell]);
+    let reach = trunks.reach(trunks.grid.cell(cell as u64));
+    let [start_m, end_m] = reach.as_ref().map_or([height_m; 2], |reach| reach.bank_m);
+    let trunk = reach.map_or(0.0, |reach| reach.discharge_m3_s[0].max(reach.discharge_m3_s[1]));
+    let most = trunk.max(MOST_TRIBUTARY * f64::from(trunks.runoff_m3_s[cell]));
+    let relief_m = MOST_RELIEF * f64::from(trunks.relief_m[cell]);
+    let all = [height_m.min(end_m), height_m.max(start_m), relief_m, depth_m(most)];
+    all.map(|value| value as f32)
+}

@@ -1,0 +1,181 @@
+//! The ground, the water and the river at a point, level by level.
+
+use super::blend::{Jet, Level, Nearest, laid_over, level};
+use super::block::{Block, block_of};
+use super::cache::Cache;
+use super::grid::Grid;
+use super::reach::FREEBOARD;
+use super::{River, RiverPoint, Rivers};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// The relief of a level by that of the level before: slopes double as cells shrink to a quarter (slope-area law with
+/// concavity near 1/2, Flint 1974).
+const RELIEF_RATIO: f64 = 0.5;
+/// The relief between the reaches of the coarsest level, by the mean difference in height of neighbouring cells.
+pub(super) const RELIEF: f64 = 0.6;
+/// The steepest hillslope: a tangent of about 35 degrees.
+const STEEPEST: f64 = 0.7;
+/// The relief of a level on the reaches of the level before, by that on its ridges.
+const LEAST_SHARE: f64 = 0.2;
+
+/// The ground at a point, and the reaches of its finest level.
+pub(super) struct Ground {
+    pub(super) ground: Jet,
+    /// Mean of the rise over all levels: 0 in valleys, 1 on ridges.
+    ridge: f64,
+    pub(super) nearest: Option<Nearest>,
+    river: Option<Nearest>,
+    carved: Jet,
+    banks_m: f64,
+    /// The relief of the level after the finest one.
+    pub(super) next_relief_m: f64,
+}
+
+impl Rivers {
+    /// The block of a level, built if it is not there.
+    pub(super) fn block(&self, level: usize, number: u64, cache: &mut Cache) -> Arc<Block> {
+        if let Some(block) = cache.get(level, number) {
+            return block;
+        }
+        let block = Arc::new(match level {
+            0 => self.trunk_block(number),
+            _ => self.tributary_block(&self.grids[level], number, cache),
+        });
+        cache.keep(level, number, &block);
+        block
+    }
+
+    /// Makes the blocks of the first levels at a direction current.
+    #[inline(always)]
+    fn find_blocks(&self, dir: DVec3, levels: usize, cache: &mut Cache) {
+        // Building a block moves the current blocks of coarser levels, so that the search starts again.
+        loop {
+            let mut moved = false;
+            for (level, grid) in self.grids[..levels].iter().enumerate() {
+                let number = block_of(grid, grid.cell_of(dir));
+                if cache.current[level].as_ref().is_none_or(|(current, _)| *current != number) {
+                    let block = self.block(level, number, cache);
+                    cache.current[level] = Some((number, block));
+                    moved = true;
+                }
+            }
+            if !moved {
+                return;
+            }
+        }
+    }
+
+    /// The ground of the first `levels` levels.
+    #[inline(always)]
+    pub(super) fn ground(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> Ground {
+        self.find_blocks(dir, levels, cache);
+        let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
+        let [heights, reliefs] = &self.rasters;
+        let place = heights.place(dir);
+        let mut ground = tangential(heights.sample(&place, 0));
+        let relief = tangential(reliefs.sample(&place, 0)).scaled(RELIEF);
+        let mut share = Jet { value: 1.0, gradient: DVec3::ZERO };
+        let mut found = Ground {
+            ground,
+            ridge: 0.0,
+            nearest: None,
+            river: None,
+            carved: Jet::default(),
+            banks_m: 0.0,
+            next_relief_m: 0.0,
+        };
+        let (mut scale, mut ridges) = (1.0, 0.0);
+        for k in 0..levels {
+            let Some((_, block)) = &cache.current[k] else { continue };
+            let here: Level = level(dir, block.near(dir), k + 1 == levels);
+            let amplitude = capped(relief.scaled(scale), self.steepest_m[k]).times(share);
+            ground = laid_over(ground, amplitude, &here);
+            let x = here.x;
+            share = share.times(x.mapped(LEAST_SHARE + (1.0 - LEAST_SHARE) * x.value, 1.0 - LEAST_SHARE));
+            ridges += scale;
+            found.ridge += scale * x.value;
+            scale *= RELIEF_RATIO;
+            (found.nearest, found.river, found.carved) = (here.nearest, here.river, here.carved);
+            found.banks_m = here.banks.value;
+        }
+        found.ridge = if ridges > 0.0 { found.ridge / ridges } else { 0.0 };
+        let cap_m = self.steepest_m.get(levels).copied().unwrap_or(0.0);
+        found.next_relief_m = capped(relief.scaled(scale), cap_m.max(1e-3)).value * share.value;
+        // Sums of tangential parts keep a little of the radial one.
+        ground.gradient -= dir * ground.gradient.dot(dir);
+        found.ground = ground;
+        found
+    }
+
+    /// The levels whose cells are no finer than this many points.
+    pub(crate) fn levels_for(&self, spacing_rad: f64, points: f64) -> usize {
+        let width_rad = |grid: &Grid| 2.0 / grid.side as f64;
+        self.grids.iter().take_while(|grid| grid.level == 0 || width_rad(grid) > points * spacing_rad).count()
+    }
+
+    /// Evaluates points near each other, in order: one answer for each direction.
+    pub(crate) fn evaluate(&self, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>) {
+        cache.belongs_to(self.number);
+        out.clear();
+        out.reserve(dirs.len());
+        for &dir in dirs {
+            out.push(self.point(dir, levels, cache));
+        }
+    }
+
+    #[inline(always)]
+    fn point(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
+        let at = self.ground(dir, levels, cache);
+        let trunk = self.trunks.grid.index(self.trunks.grid.cell_of(dir)) as usize;
+        let (standing_m, lake) = self.trunks.standing(trunk);
+        let height_m = at.ground.value - at.carved.value;
+        let standing_m = standing_m.filter(|level_m| height_m < *level_m);
+        let mut point = RiverPoint {
+            height_m,
+            gradient: at.ground.gradient - at.carved.gradient + dir * at.carved.gradient.dot(dir),
+            water_level_m: standing_m,
+            lake: if standing_m.is_some() { lake } else { 0 },
+            ridge: 2.0 * at.ridge - 1.0,
+            river: None,
+        };
+        // The channel that the point is in, or the nearest reach.
+        if let Some(near) = at.river.or(at.nearest) {
+            let channel = &near.piece.channel;
+            let depth_m = channel.depth_m + channel.depth_change_m * near.share;
+            if at.river.is_some() {
+                let level_m = at.banks_m - FREEBOARD * depth_m;
+                let is_wet = height_m < level_m && standing_m.is_none_or(|standing_m| standing_m < level_m);
+                if is_wet {
+                    point.water_level_m = Some(level_m);
+                }
+            }
+            let along = near.piece.along - dir * near.piece.along.dot(dir);
+            point.river = Some(River {
+                id: near.piece.river,
+                distance_m: near.distance_rad * self.trunks.radius_m,
+                width_m: 2.0 * channel.half_width_rad(near.share) * self.trunks.radius_m,
+                depth_m: depth_m * (1.0 - FREEBOARD),
+                discharge_m3_s: channel.discharge_m3_s + channel.discharge_change_m3_s * near.share,
+                flow: along / along.dot(along).sqrt().max(1e-30),
+            });
+        }
+        point
+    }
+}
+
+/// A relief that approaches the steepest possible one, never above it.
+#[inline(always)]
+fn capped(relief: Jet, cap_m: f64) -> Jet {
+    let per = 1.0 / (relief.value * relief.value + cap_m * cap_m).sqrt();
+    relief.mapped(relief.value * cap_m * per, cap_m * cap_m * cap_m * per * per * per)
+}
+
+/// The greatest relief of a level: the steepest hillslope over the distance between its reaches, metres.
+pub(super) fn steepest_m(grid: &Grid, radius_m: f64) -> f64 {
+    STEEPEST * 0.4 * (2.0 / grid.side as f64) * radius_m
+}
+
+/// Bound of the rise of all levels above the reaches, by the relief of the cells: springs, drawn-out banks and ridges
+/// together stay below 1.45 times the relief of their level.
+pub(super) const MOST_RELIEF: f64 = 1.45 * RELIEF / (1.0 - RELIEF_RATIO);

@@ -1,0 +1,107 @@
+//! Rivers at a point: a solved drainage map of the globe, refined to any scale.
+//!
+//! - `trunk`: the solved drainage, prepared: one reach for each land cell, from its node to the receiver's node
+//! - `grid`: cells of a level of refinement, their neighbours and nodes; each level is four times as fine
+//! - `tributaries`: reaches of finer levels, which drain into those before
+//! - `reach`: the curve, bed and channel of a reach, cut into straight pieces
+//! - `block`: pieces near a square of cells, listed by bucket; `cache`: the blocks that a thread keeps
+//! - `blend`: the ground of one level at a point, laid over the level before
+//! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
+//!
+//! The solved ground is a smooth raster. Each level of reaches is laid over it: on a reach the ground is the reach's
+//! bed, which never rises downstream; away from reaches it returns to the level before, raised by the relief between
+//! reaches. So the solver's heights hold at large scale, rivers are exact at every scale, and a coarse river stays where
+//! it is when finer levels join. Channels are cut last, from discharge.
+//!
+//! Answers are pure functions of the drainage, the direction and the number of levels: f64 with correctly rounded
+//! operations and `libm`, sums in the order of levels, cells and pieces.
+
+mod blend;
+mod block;
+mod bounds;
+mod cache;
+mod evaluate;
+mod grid;
+mod reach;
+#[cfg(test)]
+mod tests;
+mod tributaries;
+mod trunk;
+
+use super::drainage::Drainage;
+use crate::sphere::raster::Raster;
+use bounds::Bounds;
+pub(crate) use cache::{Cache, LEVELS};
+use glam::DVec3;
+use grid::Grid;
+use std::sync::atomic::{AtomicU64, Ordering};
+use trunk::Trunks;
+
+/// The rivers of a planet.
+pub(crate) struct Rivers {
+    trunks: Trunks,
+    /// Ground and relief of the cells.
+    rasters: [Raster<f32>; 2],
+    grids: [Grid; LEVELS],
+    /// The greatest relief of each level.
+    steepest_m: [f64; LEVELS],
+    bounds: Bounds,
+    /// Tells these rivers from all others of the process.
+    number: u64,
+}
+
+/// The answer at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RiverPoint {
+    /// Height of the ground, the beds of rivers, lakes and the sea included.
+    pub(crate) height_m: f64,
+    /// Tangential gradient of the height by the direction.
+    pub(crate) gradient: DVec3,
+    /// Surface of the water that stands or flows here, if any.
+    pub(crate) water_level_m: Option<f64>,
+    /// The lake whose water it is, counted from 1; else 0.
+    pub(crate) lake: u32,
+    /// From -1 in valleys to 1 on ridges.
+    pub(crate) ridge: f64,
+    /// The nearest reach, if one is near.
+    pub(crate) river: Option<River>,
+}
+
+/// A river or a dry valley near a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct River {
+    /// The same from spring to mouth for a river of the solved drainage, and for each reach of a tributary.
+    pub(crate) id: u64,
+    /// Distance to the centre line.
+    pub(crate) distance_m: f64,
+    /// Width of the water; 0 in a dry valley, as are depth and discharge.
+    pub(crate) width_m: f64,
+    /// Depth of the water in the middle.
+    pub(crate) depth_m: f64,
+    pub(crate) discharge_m3_s: f64,
+    /// Direction of flow, a unit tangent.
+    pub(crate) flow: DVec3,
+}
+
+impl Rivers {
+    /// Prepares a solved drainage. Reaches of finer levels are made where points ask for them.
+    pub(crate) fn new(drainage: &Drainage, sea_level_m: Option<f64>, radius_km: f64) -> Self {
+        static NUMBER: AtomicU64 = AtomicU64::new(1);
+        let trunks = Trunks::new(drainage, sea_level_m, radius_km);
+        let grids = std::array::from_fn(|level| Grid::new(drainage.side, level, drainage.seed));
+        let bounds = Bounds::new(&trunks);
+        Self {
+            rasters: trunks.rasters(),
+            steepest_m: grids.map(|grid| evaluate::steepest_m(&grid, trunks.radius_m)),
+            grids,
+            bounds,
+            trunks,
+            number: NUMBER.fetch_add(1, Ordering::Relaxed),
+        }
+    }
+
+    /// Lowest and greatest height of the ground within an angle of a unit direction. Conservative, at every level.
+    pub(crate) fn bounds_near(&self, dir: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.bounds.near(dir, angle_rad)
+    }
+}

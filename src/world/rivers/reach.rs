@@ -1,0 +1,218 @@
+//! A reach: the curve from one node to the next, its bed and its channel, cut into straight pieces.
+
+use glam::DVec3;
+
+/// Discharge from which a reach carries a river that is drawn, in cubic metres a second. Weaker ones are valleys.
+pub(super) const LEAST_RIVER_M3_S: f64 = 1.0;
+/// The channel reaches from bank to bank this much wider than the water.
+const BANK: f64 = 1.25;
+/// Share of the depth by which the water stands below the banks: the depth of the channel where the water ends.
+pub(super) const FREEBOARD: f64 = (1.0 - 1.0 / (BANK * BANK)) * (1.0 - 1.0 / (BANK * BANK));
+
+/// A share beyond every influence.
+const FAR: f64 = 100.0;
+
+/// A reach before it is cut.
+#[derive(Clone, Debug)]
+pub(super) struct Reach {
+    pub(super) river: u64,
+    pub(super) from: DVec3,
+    pub(super) to: DVec3,
+    /// Directions of flow at both ends, of any length; none where nothing flows on, or nothing flows in.
+    pub(super) tangents: [Option<DVec3>; 2],
+    /// Whether it goes on as the river below it, or joins that.
+    pub(super) is_main: bool,
+    /// Heights of the banks at both ends, metres. The second is not above the first.
+    pub(super) bank_m: [f64; 2],
+    /// Height that the line of the banks reaches at most above its spring, where it is drawn out uphill, metres.
+    pub(super) rise_m: f64,
+    pub(super) discharge_m3_s: [f64; 2],
+    /// Half the width of the floodplain at both ends, radians.
+    pub(super) flat_rad: [f64; 2],
+    /// Distance within which the ground depends on it, radians.
+    pub(super) influence_rad: f64,
+}
+
+/// A straight piece of a reach. Heights and channel vary linearly along it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) start: DVec3,
+    pub(super) along: DVec3,
+    pub(super) per_length2: f64,
+    /// Height of the banks at the start, and the change to the end: never above 0.
+    pub(super) bank_m: f64,
+    pub(super) bank_change_m: f64,
+    /// The shares between which the line of the banks is drawn out: uphill as far as allowed, downhill into the next
+    /// piece of the same reach.
+    pub(super) shares: [f64; 2],
+    /// The square of the influence, inverted.
+    pub(super) per_influence2: f64,
+    /// The square of half the floodplain's width, by that of the influence.
+    pub(super) flat2: f64,
+    pub(super) channel: Channel,
+    pub(super) river: u64,
+    /// Derivatives of the curve at both ends, by the share of the piece.
+    pub(super) tangents: [DVec3; 2],
+}
+
+/// The channel of a piece. Widths are angles. All are 0 where there is no river.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Channel {
+    /// Half the width from bank to bank.
+    pub(super) bank_rad: f64,
+    pub(super) bank_change_rad: f64,
+    pub(super) depth_m: f64,
+    pub(super) depth_change_m: f64,
+    pub(super) discharge_m3_s: f64,
+    pub(super) discharge_change_m3_s: f64,
+}
+
+/// Width of a river at its discharge, in metres (exponent: Pelletier 2021; factor: Andreadis et al. 2013).
+pub(super) fn width_m(discharge_m3_s: f64) -> f64 {
+    7.2 * discharge_m3_s.max(0.0).sqrt()
+}
+
+/// Depth of a river at its discharge, in metres (Pelletier 2021).
+pub(super) fn depth_m(discharge_m3_s: f64) -> f64 {
+    0.27 * libm::pow(discharge_m3_s.max(0.0), 0.4)
+}
+
+impl Channel {
+    /// Half the width of the water, radians.
+    pub(super) fn half_width_rad(&self, share: f64) -> f64 {
+        (self.bank_rad + self.bank_change_rad * share) * (1.0 / BANK)
+    }
+}
+
+impl Reach {
+    /// Cuts the reach into `count` straight pieces.
+    pub(super) fn cut(&self, count: usize, radius_m: f64, pieces: &mut Vec<Piece>) {
+        let has_river = self.discharge_m3_s[0] >= LEAST_RIVER_M3_S;
+        let ends = |k: usize, [a, b]: [f64; 2]| a + (b - a) * (k as f64 / count as f64);
+        let channel = |k: usize| {
+            let discharge = ends(k, self.discharge_m3_s);
+            [0.5 * BANK * width_m(discharge) / radius_m, depth_m(discharge), discharge]
+        };
+        let curve = Curve { ends: [self.from, self.to], tangents: self.end_tangents() };
+        for k in 0..count {
+            let (start, end) = (curve.at(k, count), curve.at(k + 1, count));
+            let flat_rad = 0.5 * (ends(k, self.flat_rad) + ends(k + 1, self.flat_rad)) / self.influence_rad;
+            let (bank_m, next_m) = (ends(k, self.bank_m), ends(k + 1, self.bank_m));
+            let channel = has_river.then(|| {
+                let ([bank_rad, depth_m, discharge], [next_rad, next_depth_m, next]) = (channel(k), channel(k + 1));
+                Channel {
+                    bank_rad,
+                    bank_change_rad: next_rad - bank_rad,
+                    depth_m,
+                    depth_change_m: next_depth_m - depth_m,
+                    discharge_m3_s: discharge,
+                    discharge_change_m3_s: next - discharge,
+                }
+            });
+            let along = end.0 - start.0;
+            let drawn_out = (self.bank_m[0] + self.rise_m - bank_m) / (bank_m - next_m).max(1e-9);
+            pieces.push(Piece {
+                start: start.0,
+                along,
+                per_length2: 1.0 / along.dot(along).max(1e-30),
+                bank_m,
+                bank_change_m: next_m - bank_m,
+                shares: [-drawn_out.clamp(0.0, FAR), if k + 1 == count { 1.0 } else { FAR }],
+                per_influence2: 1.0 / (self.influence_rad * self.influence_rad),
+                flat2: flat_rad * flat_rad,
+                channel: channel.unwrap_or_default(),
+                river: self.river,
+                tangents: [start.1, end.1],
+            });
+        }
+    }
+
+    /// Derivatives of the curve at both ends: a river goes on smoothly, a tributary bends into the flow it joins.
+    fn end_tangents(&self) -> [DVec3; 2] {
+        let chord = self.to - self.from;
+        let length = chord.dot(chord).sqrt();
+        let straight = chord / length.max(1e-30);
+        let [first, last] = self.tangents;
+        let first = first.map_or(straight, unit);
+        let last = match last.map(unit) {
+            Some(last) if self.is_main => last,
+            Some(last) => unit(straight + last * 0.7),
+            None => straight,
+        };
+        [first * length, last * length]
+    }
+}
+
+impl Piece {
+    /// Cuts the piece into `count` pieces of a curve through its ends, bent to one side by `bend` of its length. Their
+    /// influence is `finer` times less.
+    pub(super) fn refined(&self, count: usize, finer: f64, bend: f64, pieces: &mut Vec<Piece>) {
+        let end = self.start + self.along;
+        let curve = Curve { ends: [self.start, end], tangents: self.tangents };
+        let aside = self.start.cross(self.along) * (16.0 * bend);
+        let step = 1.0 / count as f64;
+        let point = |k: usize| {
+            let (p, tangent) = curve.at(k, count);
+            let t = k as f64 * step;
+            let u = 1.0 - t;
+            // Ends stay where they are to the bit.
+            let p = if k == 0 || k == count { p } else { unit(p + aside * (t * t * u * u)) };
+            (p, (tangent * count as f64 + aside * (2.0 * t * u * (u - t))) * step)
+        };
+        for k in 0..count {
+            let ((a, first), (b, last)) = (point(k), point(k + 1));
+            let (share, along) = (k as f64 * step, b - a);
+            let Channel { bank_change_rad, depth_change_m, discharge_change_m3_s, .. } = self.channel;
+            let channel = Channel {
+                bank_rad: self.channel.bank_rad + bank_change_rad * share,
+                bank_change_rad: bank_change_rad * step,
+                depth_m: self.channel.depth_m + depth_change_m * share,
+                depth_change_m: depth_change_m * step,
+                discharge_m3_s: self.channel.discharge_m3_s + discharge_change_m3_s * share,
+                discharge_change_m3_s: discharge_change_m3_s * step,
+            };
+            pieces.push(Piece {
+                start: a,
+                along,
+                per_length2: 1.0 / along.dot(along).max(1e-30),
+                bank_m: self.bank_m + self.bank_change_m * share,
+                bank_change_m: self.bank_change_m * step,
+                shares: [(self.shares[0] - share) * count as f64, (self.shares[1] - share) * count as f64],
+                per_influence2: self.per_influence2 * (finer * finer),
+                flat2: self.flat2 * (finer * finer),
+                channel,
+                river: self.river,
+                tangents: [first, last],
+            });
+        }
+    }
+}
+
+/// A cubic curve between two unit directions (Hermite form).
+struct Curve {
+    ends: [DVec3; 2],
+    tangents: [DVec3; 2],
+}
+
+impl Curve {
+    /// The direction at share `k / count`, and the derivative there by one piece. The ends are given back to the bit,
+    /// so that reaches meet.
+    fn at(&self, k: usize, count: usize) -> (DVec3, DVec3) {
+        let (t, [a, b], [first, last]) = (k as f64 / count as f64, self.ends, self.tangents);
+        let u = 1.0 - t;
+        let slope = (b - a) * (6.0 * t * u) + first * (u * (1.0 - 3.0 * t)) + last * (t * (3.0 * t - 2.0));
+        let slope = slope / count as f64;
+        if k == 0 {
+            return (a, slope);
+        }
+        if k == count {
+            return (b, slope);
+        }
+        let p = a * (u * u * (1.0 + 2.0 * t)) + b * (t * t * (3.0 - 2.0 * t)) + first * (t * u * u) - last * (t * t * u);
+        (unit(p), slope)
+    }
+}
+
+fn unit(v: DVec3) -> DVec3 {
+    v / v.dot(v).sqrt().max(1e-30)
+}

@@ -1,0 +1,200 @@
+//! The coarsest level: the reaches of the solved drainage, one for each land cell.
+
+use super::grid::{Cell, Grid, STEPS};
+use super::evaluate::RELIEF;
+use super::reach::{Reach, width_m};
+use super::tributaries::RISE;
+use crate::sphere::raster::Raster;
+use crate::world::drainage::Drainage;
+use glam::DVec3;
+
+/// A cell that nothing flows into, or that lies in no lake.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Depth of a mouth below the water it flows into.
+const MOUTH_M: f64 = 3.0;
+
+/// The solved drainage, prepared for look-ups.
+pub(super) struct Trunks {
+    pub(super) grid: Grid,
+    pub(super) radius_m: f64,
+    pub(super) sea_level_m: Option<f64>,
+    pub(super) height_m: Vec<f32>,
+    receiver: Vec<u32>,
+    discharge_m3_s: Vec<f32>,
+    /// The cell upstream that carries most water, if any.
+    main: Vec<u32>,
+    /// The last cell of the river that each cell belongs to.
+    river: Vec<u32>,
+    lake: Vec<u32>,
+    /// The lake of each cell or of a neighbour, for cells whose ground could stand in its water.
+    pub(super) lake_near: Vec<u32>,
+    pub(super) lake_level_m: Vec<f64>,
+    /// Water that each cell adds to its river.
+    pub(super) runoff_m3_s: Vec<f32>,
+    /// How far the ground rises between the reaches of a cell.
+    pub(super) relief_m: Vec<f32>,
+}
+
+impl Trunks {
+    pub(super) fn new(drainage: &Drainage, sea_level_m: Option<f64>, radius_km: f64) -> Self {
+        let Drainage { side, height_m, receiver, discharge_m3_s, lake, lakes, seed, .. } = drainage;
+        let grid = Grid::new(*side, 0, *seed);
+        let count = height_m.len();
+        let flows = |cell: usize| receiver[cell] as usize != cell;
+        // Main branches: the greatest discharge, then the least number.
+        let mut main = vec![NONE; count];
+        let mut runoff_m3_s = discharge_m3_s.clone();
+        for cell in (0..count).filter(|&cell| flows(cell)) {
+            let to = receiver[cell] as usize;
+            runoff_m3_s[to] -= discharge_m3_s[cell];
+            if main[to] == NONE || discharge_m3_s[main[to] as usize] < discharge_m3_s[cell] {
+                main[to] = cell as u32;
+            }
+        }
+        runoff_m3_s.iter_mut().for_each(|runoff| *runoff = runoff.max(0.0));
+        let lake_level_m: Vec<f64> = lakes.iter().map(|lake| lake.level_m).collect();
+        let mut trunks = Self {
+            grid,
+            radius_m: radius_km * 1e3,
+            sea_level_m,
+            height_m: height_m.clone(),
+            receiver: receiver.clone(),
+            discharge_m3_s: discharge_m3_s.clone(),
+            main,
+            river: Vec::new(),
+            lake: lake.clone(),
+            lake_near: Vec::new(),
+            lake_level_m,
+            runoff_m3_s,
+            relief_m: Vec::new(),
+        };
+        trunks.river = trunks.rivers();
+        trunks.lake_near = (0..count).map(|cell| trunks.lake_near(cell)).collect();
+        trunks.relief_m = (0..count).map(|cell| trunks.relief(cell)).collect();
+        trunks
+    }
+
+    /// The ground as the cells give it, and the relief between reaches, as rasters.
+    pub(super) fn rasters(&self) -> [Raster<f32>; 2] {
+        [&self.height_m, &self.relief_m].map(|texels| Raster::cube(self.grid.side, texels.clone()))
+    }
+
+    fn around(&self, cell: usize) -> [usize; 8] {
+        let at = self.grid.cell(cell as u64);
+        STEPS.map(|step| self.grid.index(self.grid.beside(at, step)) as usize)
+    }
+
+    /// Follows each river to its last cell. Nothing is followed twice.
+    fn rivers(&self) -> Vec<u32> {
+        let mut river = vec![NONE; self.receiver.len()];
+        let mut path = Vec::new();
+        for start in 0..river.len() {
+            let mut cell = start;
+            while river[cell] == NONE {
+                path.push(cell);
+                let to = self.receiver[cell] as usize;
+                if to == cell || !self.flows(to) || self.main[to] as usize != cell {
+                    river[cell] = cell as u32;
+                    break;
+                }
+                cell = to;
+                // A circle of receivers would be an error of the solver; it must not hang the evaluator.
+                if path.len() > river.len() {
+                    break;
+                }
+            }
+            let last = if river[cell] == NONE { cell as u32 } else { river[cell] };
+            path.drain(..).for_each(|cell| river[cell] = last);
+        }
+        river
+    }
+
+    fn flows(&self, cell: usize) -> bool {
+        self.receiver[cell] as usize != cell
+    }
+
+    fn level_of(&self, lake: u32) -> Option<f64> {
+        self.lake_level_m.get((lake as usize).checked_sub(1)?).copied()
+    }
+
+    fn lake_near(&self, cell: usize) -> u32 {
+        if self.lake[cell] != 0 {
+            return self.lake[cell];
+        }
+        // A cell below the level lies beyond a sill: water does not stand there.
+        let stands = |lake: u32| self.level_of(lake).is_some_and(|level_m| f64::from(self.height_m[cell]) >= level_m);
+        let lakes = self.around(cell).map(|other| self.lake[other]);
+        lakes.into_iter().filter(|&lake| lake != 0 && stands(lake)).min().unwrap_or(0)
+    }
+
+    /// Mean difference in height to the land around a cell; 0 in water.
+    fn relief(&self, cell: usize) -> f32 {
+        let land = |cell: usize| self.flows(cell) && self.lake[cell] == 0;
+        if !land(cell) {
+            return 0.0;
+        }
+        let rise = |other: usize| if land(other) { (self.height_m[other] - self.height_m[cell]).abs() } else { 0.0 };
+        self.around(cell).iter().map(|&other| rise(other)).sum::<f32>() / 8.0
+    }
+
+    fn node(&self, cell: usize) -> DVec3 {
+        self.grid.node(self.grid.cell(cell as u64))
+    }
+
+    /// The direction of flow through a node, from its main branch to its receiver; none at a spring.
+    fn tangent(&self, cell: usize) -> Option<DVec3> {
+        let main = self.main[cell];
+        (main != NONE && self.flows(cell)).then(|| self.node(self.receiver[cell] as usize) - self.node(main as usize))
+    }
+
+    /// Half the width of the floodplain at a cell, radians: many times the river's width where the land is flat.
+    fn flat_rad(&self, cell: usize, discharge_m3_s: f64) -> f64 {
+        let relief_m = f64::from(self.relief_m[cell]);
+        6.0 * width_m(discharge_m3_s) / (1.0 + relief_m * (1.0 / 60.0)) / self.radius_m
+    }
+
+    /// The reach that leaves a cell; none in the sea and within a lake.
+    pub(super) fn reach(&self, at: Cell) -> Option<Reach> {
+        let cell = self.grid.index(at) as usize;
+        let to = self.receiver[cell] as usize;
+        let (lake, lake_to) = (self.lake[cell], self.lake[to]);
+        if to == cell || (lake != 0 && lake == lake_to) {
+            return None;
+        }
+        let from_m = self.level_of(lake).unwrap_or(f64::from(self.height_m[cell]));
+        // A mouth lies a little below the water it flows into: a node of the sea may have higher ground around.
+        let water_m = if lake_to != 0 { self.level_of(lake_to) } else { self.sea_level_m.filter(|_| !self.flows(to)) };
+        let to_m = match water_m {
+            Some(level_m) => (level_m - MOUTH_M).min(from_m),
+            None => f64::from(self.height_m[to]).min(from_m),
+        };
+        let discharge = f64::from(self.discharge_m3_s[cell]);
+        let goes_on = self.flows(to) && lake_to == 0;
+        let is_main = !goes_on || self.main[to] as usize == cell;
+        let last = if goes_on && is_main { f64::from(self.discharge_m3_s[to]).max(discharge) } else { discharge };
+        let (from, to_node) = (self.node(cell), self.node(to));
+        Some(Reach {
+            river: u64::from(self.river[cell]),
+            from,
+            to: to_node,
+            tangents: [if lake == 0 { self.tangent(cell) } else { None }, if goes_on { self.tangent(to) } else { None }],
+            is_main,
+            bank_m: [from_m, to_m],
+            rise_m: RISE * RELIEF * f64::from(self.relief_m[cell]),
+            discharge_m3_s: [discharge, last],
+            flat_rad: [self.flat_rad(cell, discharge), self.flat_rad(if goes_on { to } else { cell }, last)],
+            influence_rad: 0.5 * self.grid.width_rad(from),
+        })
+    }
+
+    /// The highest level of standing water at a cell: of the sea and of a lake.
+    pub(super) fn standing(&self, cell: usize) -> (Option<f64>, u32) {
+        let lake = self.lake_near[cell];
+        match (self.level_of(lake), self.sea_level_m) {
+            (Some(lake_m), Some(sea_m)) if sea_m >= lake_m => (Some(sea_m), 0),
+            (Some(lake_m), _) => (Some(lake_m), lake),
+            (None, sea_m) => (sea_m, 0),
+        }
+    }
+}
