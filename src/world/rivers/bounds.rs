@@ -33,8 +33,9 @@ impl Bounds {
     pub(super) fn new(trunks: &Trunks) -> Self {
         let grid = &trunks.grid;
         let cells = trunks.height_m.len();
+        let ground_m = trunks.ground_m();
         // The greatest relief and the deepest channel around count for the whole neighbourhood.
-        let mut parts: Vec<[f32; 4]> = (0..cells).into_par_iter().map(|cell| own(trunks, cell)).collect();
+        let mut parts: Vec<[f32; 4]> = (0..cells).into_par_iter().map(|cell| own(trunks, &ground_m, cell)).collect();
         for _ in 0..RINGS {
             let old = parts.clone();
             parts.par_iter_mut().enumerate().for_each(|(cell, part)| {
@@ -106,13 +107,13 @@ impl Bounds {
 }
 
 /// What a cell adds to the ground around it: its lowest and highest bank or ground, relief and depth of channels.
-fn own(trunks: &Trunks, cell: usize) -> [f32; 4] {
+fn own(trunks: &Trunks, ground_m: &[f32], cell: usize) -> [f32; 4] {
     let height_m = f64::from(trunks.height_m[cell]);
     let reach = trunks.reach(trunks.grid.cell(cell as u64));
     let [start_m, end_m] = reach.as_ref().map_or([height_m; 2], |reach| reach.bank_m);
     let trunk = reach.map_or(0.0, |reach| reach.discharge_m3_s[0].max(reach.discharge_m3_s[1]));
     let most = trunk.max(MOST_TRIBUTARY * f64::from(trunks.runoff_m3_s[cell]));
     let relief_m = MOST_RELIEF * f64::from(trunks.relief_m[cell]);
-    let all = [height_m.min(end_m), height_m.max(start_m), relief_m, depth_m(most)];
+    let all = [height_m.min(end_m).min(f64::from(ground_m[cell])), height_m.max(start_m), relief_m, depth_m(most)];
     all.map(|value| value as f32)
 }
