@@ -9,6 +9,9 @@ const BANK: f64 = 1.25;
 /// Share of the depth by which the water stands below the banks: the depth of the channel where the water ends.
 pub(super) const FREEBOARD: f64 = (1.0 - 1.0 / (BANK * BANK)) * (1.0 - 1.0 / (BANK * BANK));
 
+/// Distance within which the ground depends on a reach, by the width of a cell. Together with the jitter of nodes it
+/// keeps the reaches that matter to a cell within two rings of cells.
+pub(super) const INFLUENCE: f64 = 0.45;
 /// A share beyond every influence.
 const FAR: f64 = 100.0;
 

@@ -7,7 +7,7 @@
 use super::block::{Block, Touch, block_of, cells_of};
 use super::cache::Cache;
 use super::grid::{BESIDE, Cell, FacePlace, Grid, RATIO, STEPS, mixed};
-use super::reach::{Line, Piece, Reach, width_m};
+use super::reach::{INFLUENCE, Line, Piece, Reach, width_m};
 use super::Rivers;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -19,8 +19,8 @@ const DRAINED: usize = REACHES + 2;
 const NODES: usize = DRAINED + 1;
 /// Nodes nearer to a coarser reach than this share of a cell move onto it.
 const ANCHOR: f64 = 0.55;
-/// Straight pieces of a reach.
-const PIECES: usize = 4;
+/// Straight pieces of a reach: few, because each costs time at every point near it.
+const PIECES: usize = 3;
 /// Pieces of a piece of the level before.
 const REFINED: usize = 4;
 /// How far a piece bends to one side when it is refined, by its length, and the length in widths of the river from
@@ -181,7 +181,7 @@ impl Rivers {
             rise_m: RISE * node.relief_m,
             discharge_m3_s: [discharge; 2],
             flat_rad: [flat_rad; 2],
-            influence_rad: 0.5 * grid.width_rad(node.dir),
+            influence_rad: INFLUENCE * grid.width_rad(node.dir),
         })
     }
 }

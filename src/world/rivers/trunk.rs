@@ -2,7 +2,7 @@
 
 use super::grid::{Cell, Grid, STEPS};
 use super::evaluate::RELIEF;
-use super::reach::{Reach, width_m};
+use super::reach::{INFLUENCE, Reach, width_m};
 use super::tributaries::RISE;
 use crate::sphere::raster::Raster;
 use crate::world::drainage::Drainage;
@@ -186,7 +186,7 @@ impl Trunks {
             rise_m: RISE * RELIEF * f64::from(self.relief_m[cell]),
             discharge_m3_s: [discharge, last],
             flat_rad: [self.flat_rad(cell, discharge), self.flat_rad(if goes_on { to } else { cell }, last)],
-            influence_rad: 0.5 * self.grid.width_rad(from),
+            influence_rad: INFLUENCE * self.grid.width_rad(from),
         })
     }
 
