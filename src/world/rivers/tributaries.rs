@@ -91,10 +91,7 @@ impl Rivers {
         let mut pieces = Vec::with_capacity(block.pieces.len() * REFINED);
         let near = Touch::new(grid, number);
         for piece in block.pieces.iter().filter(|piece| near.bounds(piece, RATIO as f64).is_some()) {
-            let length = 1.0 / piece.line.per_length2.sqrt();
-            let widths = length / (2.0 * piece.channel.bank_rad + 1e-30);
-            let bend = BEND * bend_of(piece) * ((widths - BENDS_FROM) / BENDS_FROM).clamp(0.0, 1.0);
-            piece.refined(REFINED, RATIO as f64, bend, &mut pieces);
+            refine(piece, &mut pieces);
         }
         pieces
     }
@@ -132,10 +129,19 @@ impl Rivers {
         match nearest {
             Some(near) => {
                 let Some((_, block)) = &cache.current[grid.level - 1] else { return node };
-                let line = &block.lines[usize::from(near.piece)];
-                let foot = line.start + line.along * near.share;
-                node.height_m = line.bank_m + line.bank_change_m * near.share;
-                node.dir = foot / foot.dot(foot).sqrt();
+                // The foot on the reach as this level has it.
+                let mut pieces = Vec::with_capacity(REFINED);
+                refine(&block.pieces[usize::from(near.piece)], &mut pieces);
+                let mut least = f64::MAX;
+                for line in pieces.iter().map(|piece| &piece.line) {
+                    let share = ((dir - line.start).dot(line.along) * line.per_length2).clamp(0.0, 1.0);
+                    let foot = line.start + line.along * share;
+                    if foot.distance_squared(dir) < least {
+                        least = foot.distance_squared(dir);
+                        node.height_m = line.bank_m + line.bank_change_m * share;
+                        node.dir = foot / foot.dot(foot).sqrt();
+                    }
+                }
             }
             None => {
                 node.is_free = self.trunks.standing(at.lake).0.is_none_or(|level_m| node.height_m > level_m);
@@ -147,12 +153,22 @@ impl Rivers {
         node
     }
 
-    /// The lines of a level that may lie within two cells of the next level.
+    /// Pieces of coarser reaches, as the next level has them, that a way from a node to a neighbour may cross.
     fn lines_near(&self, level: usize, dir: DVec3, cache: &mut Cache) -> Vec<Line> {
         let grid = &self.grids[level];
         let place = FacePlace::new(dir);
         let block = self.block(level, block_of(grid, grid.cell_at(&place)), cache);
-        block.near(&place).iter().map(|&number| block.lines[usize::from(number)]).collect()
+        let far = 2.0 / RATIO as f64 * grid.width_rad(dir);
+        let mut pieces = Vec::new();
+        for &number in block.near(&place) {
+            let piece = &block.pieces[usize::from(number)];
+            let line = &piece.line;
+            let share = ((dir - line.start).dot(line.along) * line.per_length2).clamp(0.0, 1.0);
+            if (line.start + line.along * share).distance_squared(dir) < far * far {
+                refine(piece, &mut pieces);
+            }
+        }
+        pieces.into_iter().map(|piece| piece.line).collect()
     }
 
     fn tributary(&self, grid: &Grid, net: &Net, at: usize) -> Option<Reach> {
@@ -245,6 +261,14 @@ fn receiver(nodes: &[Node], at: usize, around: &[usize; 8]) -> Option<usize> {
         }
     }
     best.map(|(_, other)| other)
+}
+
+/// Cuts a piece of the level before into those of the next level, bent to one side as rivers wind.
+fn refine(piece: &Piece, pieces: &mut Vec<Piece>) {
+    let length = 1.0 / piece.line.per_length2.sqrt();
+    let widths = length / (2.0 * piece.channel.bank_rad + 1e-30);
+    let bend = BEND * bend_of(piece) * ((widths - BENDS_FROM) / BENDS_FROM).clamp(0.0, 1.0);
+    piece.refined(REFINED, RATIO as f64, bend, pieces);
 }
 
 /// How far a piece bends, from -1 to 1: a pure function of its start.
