@@ -169,8 +169,7 @@ fn channel(piece: &Piece, foot: &Foot) -> (Jet, bool) {
     let u_gradient = foot.offset * (2.0 / (bank_rad * bank_rad))
         - foot.share_gradient * (2.0 * u / bank_rad * channel.bank_change_rad);
     let shape = (1.0 - u) * (1.0 - u);
-    let gradient =
-        u_gradient * (-2.0 * (1.0 - u) * depth_m) + foot.share_gradient * (channel.depth_change_m * shape);
+    let gradient = u_gradient * (-2.0 * (1.0 - u) * depth_m) + foot.share_gradient * (channel.depth_change_m * shape);
     (Jet { value: depth_m * shape, gradient }, true)
 }
 

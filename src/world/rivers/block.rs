@@ -54,7 +54,8 @@ impl Block {
         for piece in all {
             let Some([x0, y0, x1, y1]) = touch.bounds(&piece, 1.0) else { continue };
             // Half the diagonal of a bucket: its sides are at most as wide as those in the middle of the face.
-            let depth = piece.line.start.abs().max_element() + 4.0 / side as f64 + 1.0 / piece.line.per_influence2.sqrt();
+            let depth =
+                piece.line.start.abs().max_element() + 4.0 / side as f64 + 1.0 / piece.line.per_influence2.sqrt();
             let reach = 1.0 / piece.line.per_influence2.sqrt() + 1.5 / side as f64 * depth.min(1.0);
             let (number, before) = (pieces.len() as u16, found.len());
             for bucket in (y0..y1).flat_map(|y| (x0..x1).map(move |x| y * BUCKETS + x)) {

@@ -43,8 +43,7 @@ impl Bounds {
                 for step in STEPS {
                     let other = old[grid.index(grid.beside(at, step)) as usize];
                     let [low, high, relief, depth] = *part;
-                    *part =
-                        [low.min(other[0]), high.max(other[1]), relief.max(other[2]), depth.max(other[3])];
+                    *part = [low.min(other[0]), high.max(other[1]), relief.max(other[2]), depth.max(other[3])];
                 }
             });
         }

@@ -87,7 +87,7 @@ impl Rivers {
             river: None,
             carved: Jet::default(),
             banks_m: 0.0,
-            lake: self.trunks.lake(trunk),
+            lake: self.trunks.lake_near(trunk),
             next_relief_m: 0.0,
         };
         let (mut scale, mut ridges) = (1.0, 0.0);
@@ -101,9 +101,8 @@ impl Rivers {
             ridges += scale;
             found.ridge += scale * x.value;
             scale *= RELIEF_RATIO;
-            // A lake reaches as far as the reaches that flow into it and out of it: beyond its sill they do not.
-            if k == 0 && let Some(near) = &here.nearest {
-                found.lake = block.pieces[usize::from(near.piece)].lake;
+            if k == 0 && found.lake != 0 {
+                found.lake = self.lake_at(found.lake, &here, block);
             }
             (found.nearest, found.river, found.carved) = (here.nearest, here.river, here.carved);
             found.banks_m = here.banks.value;
@@ -115,6 +114,18 @@ impl Rivers {
         ground.gradient -= dir * ground.gradient.dot(dir);
         found.ground = ground;
         found
+    }
+
+    /// The lake near a point if its water may stand there: not where the nearest reach lies below it, beyond its sill.
+    fn lake_at(&self, lake: u32, here: &Level, block: &Block) -> u32 {
+        let Some(near) = &here.nearest else { return lake };
+        let piece = &block.pieces[usize::from(near.piece)];
+        let bank_m = piece.line.bank_m + piece.line.bank_change_m * near.share;
+        match piece.lake {
+            0 if self.trunks.standing(lake).0.is_some_and(|level_m| bank_m < level_m) => 0,
+            0 => lake,
+            own => own,
+        }
     }
 
     /// The levels whose cells are no finer than four points.

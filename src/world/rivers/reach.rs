@@ -12,6 +12,8 @@ pub(super) const FREEBOARD: f64 = (1.0 - 1.0 / (BANK * BANK)) * (1.0 - 1.0 / (BA
 /// Distance within which the ground depends on a reach, by the width of a cell. Together with the jitter of nodes it
 /// keeps the reaches that matter to a cell within two rings of cells.
 pub(super) const INFLUENCE: f64 = 0.45;
+/// Length of the end tangents of a reach, by its chord: the less, the nearer the curve stays to the chord.
+const STRETCH: f64 = 0.8;
 /// A share beyond every influence.
 const FAR: f64 = 100.0;
 
@@ -145,13 +147,7 @@ impl Reach {
                 flat2: flat_rad * flat_rad,
                 channel2: channel.reach2(),
             };
-            pieces.push(Piece {
-                line,
-                lake: self.lake,
-                channel,
-                river: self.river,
-                tangents: [start.1, end.1],
-            });
+            pieces.push(Piece { line, lake: self.lake, channel, river: self.river, tangents: [start.1, end.1] });
         }
     }
 
@@ -167,7 +163,7 @@ impl Reach {
             Some(last) => unit(straight + last * 0.7),
             None => straight,
         };
-        [first * length, last * length]
+        [first * (length * STRETCH), last * (length * STRETCH)]
     }
 }
 
@@ -212,13 +208,7 @@ impl Piece {
                 flat2: whole.flat2 * (finer * finer),
                 channel2: channel.reach2(),
             };
-            pieces.push(Piece {
-                line,
-                lake: self.lake,
-                channel,
-                river: self.river,
-                tangents: [first, last],
-            });
+            pieces.push(Piece { line, lake: self.lake, channel, river: self.river, tangents: [first, last] });
         }
     }
 }
@@ -243,7 +233,8 @@ impl Curve {
         if k == count {
             return (b, slope);
         }
-        let p = a * (u * u * (1.0 + 2.0 * t)) + b * (t * t * (3.0 - 2.0 * t)) + first * (t * u * u) - last * (t * t * u);
+        let p =
+            a * (u * u * (1.0 + 2.0 * t)) + b * (t * t * (3.0 - 2.0 * t)) + first * (t * u * u) - last * (t * t * u);
         (unit(p), slope)
     }
 }

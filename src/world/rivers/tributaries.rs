@@ -4,11 +4,11 @@
 //! around it (as in Dendry, Gaillard et al. 2019). Nodes near a coarser reach move onto it: there tributaries end.
 //! Everything is a pure function of the cells around, so that blocks agree about every reach they share.
 
+use super::Rivers;
 use super::block::{Block, Touch, block_of, cells_of};
 use super::cache::Cache;
 use super::grid::{BESIDE, Cell, FacePlace, Grid, RATIO, STEPS, mixed};
 use super::reach::{INFLUENCE, Line, Piece, Reach, width_m};
-use super::Rivers;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -308,4 +308,3 @@ fn rings(grid: &Grid, block: u64, count: usize) -> (Vec<Cell>, [usize; NODES + 1
     }
     (cells, ends)
 }
-

@@ -1,7 +1,7 @@
 //! The coarsest level: the reaches of the solved drainage, one for each land cell.
 
-use super::grid::{Cell, Grid, STEPS};
 use super::evaluate::RELIEF;
+use super::grid::{Cell, Grid, STEPS};
 use super::reach::{INFLUENCE, Reach, width_m};
 use super::tributaries::RISE;
 use crate::sphere::raster::Raster;
@@ -27,7 +27,8 @@ pub(super) struct Trunks {
     /// The last cell of the river that each cell belongs to.
     river: Vec<u32>,
     lake: Vec<u32>,
-    pub(super) lake_level_m: Vec<f64>,
+    lake_near: Vec<u32>,
+    lake_level_m: Vec<f64>,
     /// Water that each cell adds to its river.
     pub(super) runoff_m3_s: Vec<f32>,
     /// How far the ground rises between the reaches of a cell.
@@ -62,11 +63,18 @@ impl Trunks {
             main,
             river: Vec::new(),
             lake: lake.clone(),
+            lake_near: Vec::new(),
             lake_level_m,
             runoff_m3_s,
             relief_m: Vec::new(),
         };
         trunks.river = trunks.rivers();
+        let lake_near = |cell: usize| match trunks.lake[cell] {
+            0 => trunks.around(cell).map(|other| trunks.lake[other]).into_iter().filter(|&lake| lake != 0).min(),
+            lake => Some(lake),
+        };
+        let lakes = (0..count).map(|cell| lake_near(cell).unwrap_or(0)).collect();
+        trunks.lake_near = lakes;
         trunks.relief_m = (0..count).map(|cell| trunks.relief(cell)).collect();
         trunks
     }
@@ -85,7 +93,8 @@ impl Trunks {
             }
             let around = self.around(cell).map(|other| f64::from(self.height_m[other]));
             // The weights of a cubic B-spline at a knot: 4/9, 1/9 and 1/36.
-            let sum: f64 = around.iter().zip(STEPS).map(|(m, (x, y))| if x * y == 0 { m / 9.0 } else { m / 36.0 }).sum();
+            let sum: f64 =
+                around.iter().zip(STEPS).map(|(m, (x, y))| if x * y == 0 { m / 9.0 } else { m / 36.0 }).sum();
             height_m.min((2.25 * (f64::from(height_m) - sum)) as f32)
         };
         self.height_m.iter().enumerate().map(texel).collect()
@@ -179,7 +188,10 @@ impl Trunks {
             river: u64::from(self.river[cell]),
             from,
             to: to_node,
-            tangents: [if lake == 0 { self.tangent(cell) } else { None }, if goes_on { self.tangent(to) } else { None }],
+            tangents: [
+                if lake == 0 { self.tangent(cell) } else { None },
+                if goes_on { self.tangent(to) } else { None },
+            ],
             is_main,
             bank_m: [from_m, to_m],
             lake: if lake != 0 { lake } else { lake_to },
@@ -190,9 +202,9 @@ impl Trunks {
         })
     }
 
-    /// The lake that covers a cell, counted from 1.
-    pub(super) fn lake(&self, cell: usize) -> u32 {
-        self.lake[cell]
+    /// The lake of a cell or else of a neighbour, counted from 1; 0 for none. Its shore may lie in either.
+    pub(super) fn lake_near(&self, cell: usize) -> u32 {
+        self.lake_near[cell]
     }
 
     /// The highest level of standing water, of the sea or of a lake.
