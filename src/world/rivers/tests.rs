@@ -191,7 +191,7 @@ fn a_river_is_in_the_same_place_at_every_spacing() {
     let mut found = 0;
     for cell in 0..drainage().height_m.len() {
         let Some(reach) = trunks.reach(trunks.grid.cell(cell as u64)) else { continue };
-        if reach.discharge_m3_s[0] < 1500.0 {
+        if reach.discharge_m3_s[0] < 8000.0 {
             continue;
         }
         for levels in 1..=3 {
@@ -203,14 +203,14 @@ fn a_river_is_in_the_same_place_at_every_spacing() {
             let block = block(reach.from, levels - 1, &mut cache);
             let all = block.pieces.iter().filter(|piece| piece.river == reach.river);
             let middles: Vec<DVec3> = all.map(|piece| piece.line.start + piece.line.along * 0.5).collect();
-            for middle in middles.iter().step_by(5) {
+            for middle in middles.iter().step_by(11) {
                 let finer = at(middle.normalize(), levels + 1, &mut cache).river.expect("a river where it was");
                 assert!(finer.distance_m <= finer.width_m.max(spacing_rad(levels) * 6.371e6), "{levels} {finer:?}");
                 found += 1;
             }
         }
     }
-    assert!(found > 100, "{found}");
+    assert!(found > 30, "{found}");
 }
 
 #[test]

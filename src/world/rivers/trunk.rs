@@ -7,6 +7,7 @@ use super::tributaries::RISE;
 use crate::sphere::raster::Raster;
 use crate::world::drainage::Drainage;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// A cell that nothing flows into, or that lies in no lake.
 pub(super) const NONE: u32 = u32::MAX;
@@ -73,9 +74,9 @@ impl Trunks {
             0 => trunks.around(cell).map(|other| trunks.lake[other]).into_iter().filter(|&lake| lake != 0).min(),
             lake => Some(lake),
         };
-        let lakes = (0..count).map(|cell| lake_near(cell).unwrap_or(0)).collect();
+        let lakes = (0..count).into_par_iter().map(|cell| lake_near(cell).unwrap_or(0)).collect();
         trunks.lake_near = lakes;
-        trunks.relief_m = (0..count).map(|cell| trunks.relief(cell)).collect();
+        trunks.relief_m = (0..count).into_par_iter().map(|cell| trunks.relief(cell)).collect();
         trunks
     }
 
