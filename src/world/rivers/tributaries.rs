@@ -9,6 +9,7 @@ use super::block::{Block, Touch, block_of, cells_of};
 use super::cache::Cache;
 use super::grid::{BESIDE, Cell, FacePlace, Grid, RATIO, STEPS, mixed};
 use super::reach::{INFLUENCE, Line, Piece, Reach, width_m};
+use super::winding::{REFINED, refine};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -21,12 +22,6 @@ const NODES: usize = DRAINED + 1;
 const ANCHOR: f64 = 0.55;
 /// Straight pieces of a reach: few, because each costs time at every point near it.
 const PIECES: usize = 3;
-/// Pieces of a piece of the level before.
-const REFINED: usize = 4;
-/// How far a piece bends to one side when it is refined, by its length, and the length in widths of the river from
-/// which it does: rivers wind at about eleven widths (Leopold and Wolman 1960).
-const BEND: f64 = 0.09;
-const BENDS_FROM: f64 = 4.0;
 /// Height of springs above the ground of the level before, by the relief between reaches: valleys begin on ridges.
 const SPRING: f64 = 0.8;
 /// How far the line of the banks goes on uphill from a spring, by the relief between reaches.
@@ -261,21 +256,6 @@ fn receiver(nodes: &[Node], at: usize, around: &[usize; 8]) -> Option<usize> {
         }
     }
     best.map(|(_, other)| other)
-}
-
-/// Cuts a piece of the level before into those of the next level, bent to one side as rivers wind.
-fn refine(piece: &Piece, pieces: &mut Vec<Piece>) {
-    let length = 1.0 / piece.line.per_length2.sqrt();
-    let widths = length / (2.0 * piece.channel.bank_rad + 1e-30);
-    let bend = BEND * bend_of(piece) * ((widths - BENDS_FROM) / BENDS_FROM).clamp(0.0, 1.0);
-    piece.refined(REFINED, RATIO as f64, bend, pieces);
-}
-
-/// How far a piece bends, from -1 to 1: a pure function of its start.
-fn bend_of(piece: &Piece) -> f64 {
-    let [x, y, z] = piece.line.start.to_array().map(f64::to_bits);
-    let bits = mixed(mixed(mixed(x) ^ y) ^ z);
-    (bits >> 11) as f64 * (2.0 / (1_u64 << 53) as f64) - 1.0
 }
 
 /// Whether the straight way between two nodes crosses a piece before its end.
