@@ -11,7 +11,8 @@
 //! reaches are equally far. Nothing has a border: cells, blocks and faces do not show. Sums run in the order of the
 //! pieces, which does not depend on who asks.
 
-use super::reach::Piece;
+use super::block::Block;
+use super::reach::{Line, Piece};
 use glam::DVec3;
 
 /// Keeps weights finite on a reach.
@@ -46,11 +47,12 @@ impl Jet {
 /// The piece nearest to a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
-    pub(super) piece: Piece,
+    /// Its number in its block.
+    pub(super) piece: u16,
     /// Share of the piece before the foot.
     pub(super) share: f64,
-    /// Straight distance, radians.
-    pub(super) distance_rad: f64,
+    /// Square of the straight distance, radians.
+    pub(super) distance2: f64,
 }
 
 /// The reaches of one level at a point.
@@ -72,90 +74,86 @@ struct Foot {
     share: f64,
     /// Gradient of the share.
     share_gradient: DVec3,
-    /// The share up to which the line of the banks is drawn out, and whether it varies here.
-    drawn_out: f64,
-    is_drawn_out: bool,
+    /// Height of the banks above the start of the piece, their line drawn out beyond its ends, and how that varies with
+    /// the share.
+    bank_m: f64,
+    bank_slope_m: f64,
     offset: DVec3,
     distance2: f64,
 }
 
 #[inline(always)]
-fn foot(piece: &Piece, dir: DVec3) -> Foot {
-    let v = dir - piece.start;
-    let along = v.dot(piece.along) * piece.per_length2;
+fn foot(line: &Line, dir: DVec3) -> Foot {
+    let v = dir - line.start;
+    let along = v.dot(line.along) * line.per_length2;
     let share = along.clamp(0.0, 1.0);
-    let straight = v - piece.along * share;
+    let straight = v - line.along * share;
     // The part along the ground alone: the piece lies a little below it.
     let offset = straight - dir * straight.dot(dir);
-    let share_gradient = if share == along { piece.along * piece.per_length2 } else { DVec3::ZERO };
-    let drawn_out = along.clamp(piece.shares[0], piece.shares[1]);
-    Foot { share, share_gradient, drawn_out, is_drawn_out: drawn_out == along, offset, distance2: offset.dot(offset) }
+    let share_gradient = if share == along { line.along * line.per_length2 } else { DVec3::ZERO };
+    // Uphill of the start the line of the banks bends, so that it stays below its greatest rise.
+    let line_m = line.bank_change_m * along.min(line.last_share);
+    let bent = line.rise_m / (line.rise_m + line_m.max(0.0));
+    let bank_slope_m = if along <= line.last_share { line.bank_change_m * bent * bent } else { 0.0 };
+    Foot { share, share_gradient, bank_m: line_m * bent, bank_slope_m, offset, distance2: offset.dot(offset) }
 }
 
-/// The reaches near a direction. `is_last` asks for channels too.
+/// The reaches of a block near a direction. `is_last` asks for channels too.
 #[inline(always)]
-pub(super) fn level<'a>(dir: DVec3, pieces: impl Iterator<Item = &'a Piece>, is_last: bool) -> Level {
+pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> Level {
     let (mut weights, mut sum) = (Jet::default(), Jet::default());
-    let (mut least_q, mut least_2) = ((1.0, DVec3::ZERO), f64::MAX);
-    let mut nearest: Option<(&Piece, f64)> = None;
+    let (mut least_q, mut least_slope) = (1.0, DVec3::ZERO);
+    let mut nearest = Nearest { piece: 0, share: 0.0, distance2: f64::MAX };
     let mut carved = Jet::default();
     let mut river = None;
-    let mut reference = None;
-    for piece in pieces {
-        let foot = foot(piece, dir);
-        let d2 = foot.distance2 * piece.per_influence2;
+    // Heights are summed from one of them, so that no digits are lost.
+    let reference = list.first().map_or(0.0, |&first| block.lines[usize::from(first)].bank_m);
+    for &number in list {
+        let line = &block.lines[usize::from(number)];
+        let foot = foot(line, dir);
+        let d2 = foot.distance2 * line.per_influence2;
         if d2 >= 1.0 {
             continue;
         }
         // The plain distance decides which is nearest.
-        if foot.distance2 < least_2 {
-            least_2 = foot.distance2;
-            nearest = Some((piece, foot.share));
+        if foot.distance2 < nearest.distance2 {
+            nearest = Nearest { piece: number, share: foot.share, distance2: foot.distance2 };
         }
-        let by_direction = foot.offset * (2.0 * piece.per_influence2);
-        let spread = 1.0 / (d2 + piece.flat2 + 1e-30);
-        let q = d2 * d2 * (1.0 + piece.flat2) * spread;
-        let q_slope = d2 * (d2 + 2.0 * piece.flat2) * (1.0 + piece.flat2) * spread * spread;
-        if q < least_q.0 {
-            least_q = (q, by_direction * q_slope);
+        let by_direction = foot.offset * (2.0 * line.per_influence2);
+        let spread = 1.0 / (d2 + line.flat2 + 1e-30);
+        let q = d2 * d2 * (1.0 + line.flat2) * spread;
+        let q_slope = d2 * (d2 + 2.0 * line.flat2) * (1.0 + line.flat2) * spread * spread;
+        if q < least_q {
+            (least_q, least_slope) = (q, by_direction * q_slope);
         }
         let (within, per_q2) = (1.0 - d2, 1.0 / (q * q + TINY));
         let weight = within * within * per_q2;
         let weight_slope = -2.0 * per_q2 * (within + weight * q * q_slope);
         let weight_gradient = by_direction * weight_slope;
-        // Heights are summed from the first one, so that no digits are lost.
-        let reference = *reference.get_or_insert(piece.bank_m);
-        let bank_m = piece.bank_m - reference + piece.bank_change_m * foot.drawn_out;
-        let climb = if foot.is_drawn_out { weight * piece.bank_change_m * piece.per_length2 } else { 0.0 };
+        let bank_m = line.bank_m - reference + foot.bank_m;
+        let climb = weight * foot.bank_slope_m * line.per_length2;
         weights.value += weight;
         weights.gradient += weight_gradient;
         sum.value += weight * bank_m;
-        sum.gradient += weight_gradient * bank_m + piece.along * climb;
-        if is_last && piece.channel.bank_rad > 0.0 {
-            let (depth, is_inside) = channel(piece, &foot);
+        sum.gradient += weight_gradient * bank_m + line.along * climb;
+        if is_last && foot.distance2 < line.channel2 {
+            let (depth, is_inside) = channel(&block.pieces[usize::from(number)], &foot);
             if is_inside && depth.value > carved.value {
                 carved = depth;
-                river = Some((piece, foot.share, foot.distance2));
+                river = Some(Nearest { piece: number, share: foot.share, distance2: foot.distance2 });
             }
         }
     }
-    let banks = match (reference, weights.value > 0.0) {
-        (Some(reference), true) => {
-            let mean = sum.value / weights.value;
-            Jet { value: reference + mean, gradient: (sum.gradient - weights.gradient * mean) / weights.value }
-        }
-        _ => Jet::default(),
+    let banks = if weights.value > 0.0 {
+        let per = 1.0 / weights.value;
+        let mean = sum.value * per;
+        Jet { value: reference + mean, gradient: (sum.gradient - weights.gradient * mean) * per }
+    } else {
+        Jet::default()
     };
-    let x = least_q.0.sqrt();
-    let x = Jet { value: x, gradient: if x > 1e-12 { least_q.1 * (0.5 / x) } else { DVec3::ZERO } };
-    let of = |piece: &Piece, share, distance2: f64| Nearest { piece: *piece, share, distance_rad: distance2.sqrt() };
-    Level {
-        banks,
-        x,
-        carved,
-        nearest: nearest.map(|(piece, share)| of(piece, share, least_2)),
-        river: river.map(|(piece, share, distance2)| of(piece, share, distance2)),
-    }
+    let x = least_q.sqrt();
+    let x = Jet { value: x, gradient: if x > 1e-12 { least_slope * (0.5 / x) } else { DVec3::ZERO } };
+    Level { banks, x, carved, nearest: Some(nearest).filter(|nearest| nearest.distance2 < f64::MAX), river }
 }
 
 /// How deep a channel is cut below its banks: `depth (1 - u)²`, with u the square of the distance by half its width.
@@ -171,8 +169,7 @@ fn channel(piece: &Piece, foot: &Foot) -> (Jet, bool) {
     let u_gradient = foot.offset * (2.0 / (bank_rad * bank_rad))
         - foot.share_gradient * (2.0 * u / bank_rad * channel.bank_change_rad);
     let shape = (1.0 - u) * (1.0 - u);
-    let gradient =
-        u_gradient * (-2.0 * (1.0 - u) * depth_m) + foot.share_gradient * (channel.depth_change_m * shape);
+    let gradient = u_gradient * (-2.0 * (1.0 - u) * depth_m) + foot.share_gradient * (channel.depth_change_m * shape);
     (Jet { value: depth_m * shape, gradient }, true)
 }
 

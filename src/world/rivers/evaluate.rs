@@ -3,7 +3,7 @@
 use super::blend::{Jet, Level, Nearest, laid_over, level};
 use super::block::{Block, block_of};
 use super::cache::Cache;
-use super::grid::Grid;
+use super::grid::{FacePlace, Grid};
 use super::reach::FREEBOARD;
 use super::{River, RiverPoint, Rivers};
 use glam::DVec3;
@@ -28,6 +28,8 @@ pub(super) struct Ground {
     river: Option<Nearest>,
     carved: Jet,
     banks_m: f64,
+    /// The lake whose basin this is, counted from 1.
+    pub(super) lake: u32,
     /// The relief of the level after the finest one.
     pub(super) next_relief_m: f64,
 }
@@ -48,12 +50,12 @@ impl Rivers {
 
     /// Makes the blocks of the first levels at a direction current.
     #[inline(always)]
-    fn find_blocks(&self, dir: DVec3, levels: usize, cache: &mut Cache) {
+    fn find_blocks(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         // Building a block moves the current blocks of coarser levels, so that the search starts again.
         loop {
             let mut moved = false;
             for (level, grid) in self.grids[..levels].iter().enumerate() {
-                let number = block_of(grid, grid.cell_of(dir));
+                let number = block_of(grid, grid.cell_at(place));
                 if cache.current[level].as_ref().is_none_or(|(current, _)| *current != number) {
                     let block = self.block(level, number, cache);
                     cache.current[level] = Some((number, block));
@@ -69,13 +71,15 @@ impl Rivers {
     /// The ground of the first `levels` levels.
     #[inline(always)]
     pub(super) fn ground(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> Ground {
-        self.find_blocks(dir, levels, cache);
+        let face_place = FacePlace::new(dir);
+        self.find_blocks(&face_place, levels, cache);
         let tangential = |(value, gradient): (f64, DVec3)| Jet { value, gradient: gradient - dir * gradient.dot(dir) };
         let [heights, reliefs] = &self.rasters;
         let place = heights.place(dir);
         let mut ground = tangential(heights.sample(&place, 0));
         let relief = tangential(reliefs.sample(&place, 0)).scaled(RELIEF);
         let mut share = Jet { value: 1.0, gradient: DVec3::ZERO };
+        let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
         let mut found = Ground {
             ground,
             ridge: 0.0,
@@ -83,12 +87,13 @@ impl Rivers {
             river: None,
             carved: Jet::default(),
             banks_m: 0.0,
+            lake: self.trunks.lake_near(trunk),
             next_relief_m: 0.0,
         };
         let (mut scale, mut ridges) = (1.0, 0.0);
         for k in 0..levels {
             let Some((_, block)) = &cache.current[k] else { continue };
-            let here: Level = level(dir, block.near(dir), k + 1 == levels);
+            let here: Level = level(dir, block, block.near(&face_place), k + 1 == levels);
             let amplitude = capped(relief.scaled(scale), self.steepest_m[k]).times(share);
             ground = laid_over(ground, amplitude, &here);
             let x = here.x;
@@ -96,6 +101,9 @@ impl Rivers {
             ridges += scale;
             found.ridge += scale * x.value;
             scale *= RELIEF_RATIO;
+            if k == 0 && found.lake != 0 {
+                found.lake = self.lake_at(found.lake, &here, block);
+            }
             (found.nearest, found.river, found.carved) = (here.nearest, here.river, here.carved);
             found.banks_m = here.banks.value;
         }
@@ -106,6 +114,18 @@ impl Rivers {
         ground.gradient -= dir * ground.gradient.dot(dir);
         found.ground = ground;
         found
+    }
+
+    /// The lake near a point if its water may stand there: not where the nearest reach lies below it, beyond its sill.
+    fn lake_at(&self, lake: u32, here: &Level, block: &Block) -> u32 {
+        let Some(near) = &here.nearest else { return lake };
+        let piece = &block.pieces[usize::from(near.piece)];
+        let bank_m = piece.line.bank_m + piece.line.bank_change_m * near.share;
+        match piece.lake {
+            0 if self.trunks.standing(lake).0.is_some_and(|level_m| bank_m < level_m) => 0,
+            0 => lake,
+            own => own,
+        }
     }
 
     /// The levels whose cells are no finer than this many points.
@@ -127,8 +147,7 @@ impl Rivers {
     #[inline(always)]
     fn point(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
         let at = self.ground(dir, levels, cache);
-        let trunk = self.trunks.grid.index(self.trunks.grid.cell_of(dir)) as usize;
-        let (standing_m, lake) = self.trunks.standing(trunk);
+        let (standing_m, lake) = self.trunks.standing(at.lake);
         let height_m = at.ground.value - at.carved.value;
         let standing_m = standing_m.filter(|level_m| height_m < *level_m);
         let mut point = RiverPoint {
@@ -140,8 +159,10 @@ impl Rivers {
             river: None,
         };
         // The channel that the point is in, or the nearest reach.
-        if let Some(near) = at.river.or(at.nearest) {
-            let channel = &near.piece.channel;
+        let block = cache.current.get(levels.wrapping_sub(1)).and_then(Option::as_ref);
+        if let (Some(near), Some((_, block))) = (at.river.or(at.nearest), block) {
+            let piece = &block.pieces[usize::from(near.piece)];
+            let channel = &piece.channel;
             let depth_m = channel.depth_m + channel.depth_change_m * near.share;
             if at.river.is_some() {
                 let level_m = at.banks_m - FREEBOARD * depth_m;
@@ -150,10 +171,10 @@ impl Rivers {
                     point.water_level_m = Some(level_m);
                 }
             }
-            let along = near.piece.along - dir * near.piece.along.dot(dir);
+            let along = piece.line.along - dir * piece.line.along.dot(dir);
             point.river = Some(River {
-                id: near.piece.river,
-                distance_m: near.distance_rad * self.trunks.radius_m,
+                id: piece.river,
+                distance_m: near.distance2.sqrt() * self.trunks.radius_m,
                 width_m: 2.0 * channel.half_width_rad(near.share) * self.trunks.radius_m,
                 depth_m: depth_m * (1.0 - FREEBOARD),
                 discharge_m3_s: channel.discharge_m3_s + channel.discharge_change_m3_s * near.share,

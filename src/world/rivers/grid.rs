@@ -25,6 +25,22 @@ pub(super) struct Cell {
     pub(super) y: usize,
 }
 
+/// A direction on its face: 0 to 1 to the right and down.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FacePlace {
+    pub(super) face: usize,
+    pub(super) x: f64,
+    pub(super) y: f64,
+}
+
+impl FacePlace {
+    #[inline(always)]
+    pub(super) fn new(dir: DVec3) -> Self {
+        let (face, x, y) = cube_point(dir, 1);
+        Self { face, x, y }
+    }
+}
+
 /// Steps from a cell to the eight around it, in its own face.
 pub(super) const STEPS: [(i32, i32); 8] = [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
 /// For each step that is diagonal, the two steps beside it.
@@ -47,9 +63,14 @@ impl Grid {
 
     /// The cell that holds a direction.
     pub(super) fn cell_of(&self, dir: DVec3) -> Cell {
-        let (face, x, y) = cube_point(dir, self.side);
-        let index = |w: f64| (w as usize).min(self.side - 1);
-        Cell { face, x: index(x), y: index(y) }
+        self.cell_at(&FacePlace::new(dir))
+    }
+
+    /// The cell at a place.
+    #[inline(always)]
+    pub(super) fn cell_at(&self, place: &FacePlace) -> Cell {
+        let index = |w: f64| ((w * self.side as f64) as usize).min(self.side - 1);
+        Cell { face: place.face, x: index(place.x), y: index(place.y) }
     }
 
     /// The cell one step away, across the edges of faces too.

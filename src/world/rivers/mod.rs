@@ -3,7 +3,7 @@
 //! - `trunk`: the solved drainage, prepared: one reach for each land cell, from its node to the receiver's node
 //! - `grid`: cells of a level of refinement, their neighbours and nodes; each level is four times as fine
 //! - `tributaries`: reaches of finer levels, which drain into those before
-//! - `reach`: the curve, bed and channel of a reach, cut into straight pieces
+//! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
 //! - `block`: pieces near a square of cells, listed by bucket; `cache`: the blocks that a thread keeps
 //! - `blend`: the ground of one level at a point, laid over the level before
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
@@ -27,6 +27,7 @@ mod reach;
 mod tests;
 mod tributaries;
 mod trunk;
+mod winding;
 
 use super::drainage::Drainage;
 use crate::sphere::raster::Raster;

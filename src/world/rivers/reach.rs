@@ -9,6 +9,11 @@ const BANK: f64 = 1.25;
 /// Share of the depth by which the water stands below the banks: the depth of the channel where the water ends.
 pub(super) const FREEBOARD: f64 = (1.0 - 1.0 / (BANK * BANK)) * (1.0 - 1.0 / (BANK * BANK));
 
+/// Distance within which the ground depends on a reach, by the width of a cell. Together with the jitter of nodes it
+/// keeps the reaches that matter to a cell within two rings of cells.
+pub(super) const INFLUENCE: f64 = 0.45;
+/// Length of the end tangents of a reach, by its chord: the less, the nearer the curve stays to the chord.
+const STRETCH: f64 = 0.8;
 /// A share beyond every influence.
 const FAR: f64 = 100.0;
 
@@ -26,6 +31,8 @@ pub(super) struct Reach {
     pub(super) bank_m: [f64; 2],
     /// Height that the line of the banks reaches at most above its spring, where it is drawn out uphill, metres.
     pub(super) rise_m: f64,
+    /// The lake into which or out of which it flows, counted from 1.
+    pub(super) lake: u32,
     pub(super) discharge_m3_s: [f64; 2],
     /// Half the width of the floodplain at both ends, radians.
     pub(super) flat_rad: [f64; 2],
@@ -36,23 +43,34 @@ pub(super) struct Reach {
 /// A straight piece of a reach. Heights and channel vary linearly along it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
+    pub(super) line: Line,
+    /// The lake into which or out of which it flows, counted from 1.
+    pub(super) lake: u32,
+    pub(super) channel: Channel,
+    pub(super) river: u64,
+    /// Derivatives of the curve at both ends, by the share of the piece.
+    pub(super) tangents: [DVec3; 2],
+}
+
+/// What of a piece shapes the ground.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
     pub(super) start: DVec3,
     pub(super) along: DVec3,
     pub(super) per_length2: f64,
     /// Height of the banks at the start, and the change to the end: never above 0.
     pub(super) bank_m: f64,
     pub(super) bank_change_m: f64,
-    /// The shares between which the line of the banks is drawn out: uphill as far as allowed, downhill into the next
-    /// piece of the same reach.
-    pub(super) shares: [f64; 2],
+    /// Where the line of the banks is drawn out uphill, it stays below this height above the start.
+    pub(super) rise_m: f64,
+    /// The share up to which it is drawn out downhill: into the next piece of the same reach.
+    pub(super) last_share: f64,
     /// The square of the influence, inverted.
     pub(super) per_influence2: f64,
     /// The square of half the floodplain's width, by that of the influence.
     pub(super) flat2: f64,
-    pub(super) channel: Channel,
-    pub(super) river: u64,
-    /// Derivatives of the curve at both ends, by the share of the piece.
-    pub(super) tangents: [DVec3; 2],
+    /// Square of the distance from which there is no channel; 0 where there is no river.
+    pub(super) channel2: f64,
 }
 
 /// The channel of a piece. Widths are angles. All are 0 where there is no river.
@@ -78,6 +96,12 @@ pub(super) fn depth_m(discharge_m3_s: f64) -> f64 {
 }
 
 impl Channel {
+    /// Square of the distance from which there is no channel.
+    fn reach2(&self) -> f64 {
+        let widest = self.bank_rad.max(self.bank_rad + self.bank_change_rad);
+        widest * widest
+    }
+
     /// Half the width of the water, radians.
     pub(super) fn half_width_rad(&self, share: f64) -> f64 {
         (self.bank_rad + self.bank_change_rad * share) * (1.0 / BANK)
@@ -110,20 +134,20 @@ impl Reach {
                 }
             });
             let along = end.0 - start.0;
-            let drawn_out = (self.bank_m[0] + self.rise_m - bank_m) / (bank_m - next_m).max(1e-9);
-            pieces.push(Piece {
+            let channel = channel.unwrap_or_default();
+            let line = Line {
                 start: start.0,
                 along,
                 per_length2: 1.0 / along.dot(along).max(1e-30),
                 bank_m,
                 bank_change_m: next_m - bank_m,
-                shares: [-drawn_out.clamp(0.0, FAR), if k + 1 == count { 1.0 } else { FAR }],
+                rise_m: self.bank_m[0] - bank_m + self.rise_m + 1e-3,
+                last_share: if k + 1 == count { 1.0 } else { FAR },
                 per_influence2: 1.0 / (self.influence_rad * self.influence_rad),
                 flat2: flat_rad * flat_rad,
-                channel: channel.unwrap_or_default(),
-                river: self.river,
-                tangents: [start.1, end.1],
-            });
+                channel2: channel.reach2(),
+            };
+            pieces.push(Piece { line, lake: self.lake, channel, river: self.river, tangents: [start.1, end.1] });
         }
     }
 
@@ -139,7 +163,7 @@ impl Reach {
             Some(last) => unit(straight + last * 0.7),
             None => straight,
         };
-        [first * length, last * length]
+        [first * (length * STRETCH), last * (length * STRETCH)]
     }
 }
 
@@ -147,9 +171,10 @@ impl Piece {
     /// Cuts the piece into `count` pieces of a curve through its ends, bent to one side by `bend` of its length. Their
     /// influence is `finer` times less.
     pub(super) fn refined(&self, count: usize, finer: f64, bend: f64, pieces: &mut Vec<Piece>) {
-        let end = self.start + self.along;
-        let curve = Curve { ends: [self.start, end], tangents: self.tangents };
-        let aside = self.start.cross(self.along) * (16.0 * bend);
+        let whole = &self.line;
+        let end = whole.start + whole.along;
+        let curve = Curve { ends: [whole.start, end], tangents: self.tangents };
+        let aside = whole.start.cross(whole.along) * (16.0 * bend);
         let step = 1.0 / count as f64;
         let point = |k: usize| {
             let (p, tangent) = curve.at(k, count);
@@ -171,19 +196,19 @@ impl Piece {
                 discharge_m3_s: self.channel.discharge_m3_s + discharge_change_m3_s * share,
                 discharge_change_m3_s: discharge_change_m3_s * step,
             };
-            pieces.push(Piece {
+            let line = Line {
                 start: a,
                 along,
                 per_length2: 1.0 / along.dot(along).max(1e-30),
-                bank_m: self.bank_m + self.bank_change_m * share,
-                bank_change_m: self.bank_change_m * step,
-                shares: [(self.shares[0] - share) * count as f64, (self.shares[1] - share) * count as f64],
-                per_influence2: self.per_influence2 * (finer * finer),
-                flat2: self.flat2 * (finer * finer),
-                channel,
-                river: self.river,
-                tangents: [first, last],
-            });
+                bank_m: whole.bank_m + whole.bank_change_m * share,
+                bank_change_m: whole.bank_change_m * step,
+                rise_m: whole.rise_m - whole.bank_change_m * share,
+                last_share: (whole.last_share - share) * count as f64,
+                per_influence2: whole.per_influence2 * (finer * finer),
+                flat2: whole.flat2 * (finer * finer),
+                channel2: channel.reach2(),
+            };
+            pieces.push(Piece { line, lake: self.lake, channel, river: self.river, tangents: [first, last] });
         }
     }
 }
@@ -208,7 +233,8 @@ impl Curve {
         if k == count {
             return (b, slope);
         }
-        let p = a * (u * u * (1.0 + 2.0 * t)) + b * (t * t * (3.0 - 2.0 * t)) + first * (t * u * u) - last * (t * t * u);
+        let p =
+            a * (u * u * (1.0 + 2.0 * t)) + b * (t * t * (3.0 - 2.0 * t)) + first * (t * u * u) - last * (t * t * u);
         (unit(p), slope)
     }
 }

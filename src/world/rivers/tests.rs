@@ -1,1 +1,253 @@
+//! What must hold for the ground and the rivers at every point.
+
+use super::block::{BLOCK, Block};
+use super::*;
+use crate::sphere::spread;
+use proptest::prelude::*;
+use std::sync::{Arc, OnceLock};
+
 mod synthetic;
+
+const SIDE: usize = 48;
+
+fn drainage() -> &'static Drainage {
+    static ONCE: OnceLock<Drainage> = OnceLock::new();
+    ONCE.get_or_init(|| {
+        let mut drainage = synthetic::drainage(SIDE, 3, 12);
+        synthetic::dam(&mut drainage, [300.0, 9000.0]);
+        drainage
+    })
+}
+
+fn rivers() -> &'static Rivers {
+    static ONCE: OnceLock<Rivers> = OnceLock::new();
+    ONCE.get_or_init(|| Rivers::new(drainage()))
+}
+
+/// A spacing at which a number of levels takes part.
+fn spacing_rad(levels: usize) -> f64 {
+    2.0 / (SIDE * 4_usize.pow(levels as u32 - 1)) as f64 / 4.5
+}
+
+fn at(dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
+    let mut out = Vec::new();
+    rivers().evaluate(&[dir], spacing_rad(levels), cache, &mut out);
+    out[0]
+}
+
+/// Directions on land, most of them high enough to have tributaries.
+fn land(count: usize) -> Vec<DVec3> {
+    let mut cache = Cache::default();
+    spread(count * 8).filter(|dir| at(*dir, 1, &mut cache).height_m > 20.0).take(count).collect()
+}
+
+/// The block of a level at a direction.
+fn block(dir: DVec3, level: usize, cache: &mut Cache) -> Arc<Block> {
+    at(dir, level + 1, cache);
+    cache.current[level].as_ref().map(|(_, block)| block.clone()).unwrap_or_default()
+}
+
+fn step(dir: DVec3, along: DVec3, by: f64) -> DVec3 {
+    (dir + along * by).normalize()
+}
+
+#[test]
+fn levels_follow_the_spacing() {
+    for levels in 1..=LEVELS {
+        assert_eq!(rivers().levels_for(spacing_rad(levels)), levels);
+    }
+    assert_eq!((rivers().levels_for(0.0), rivers().levels_for(1.0)), (LEVELS, 1));
+}
+
+#[test]
+fn beds_never_rise_and_water_stands_above_them() {
+    let mut cache = Cache::default();
+    let (mut traced, mut steps, mut rises) = (0, 0, 0);
+    for cell in (0..drainage().height_m.len()).step_by(7) {
+        let trunks = &rivers().trunks;
+        let Some(reach) = trunks.reach(trunks.grid.cell(cell as u64)) else { continue };
+        for levels in [1, 2, 3] {
+            // The pieces of this reach, in order, as the level has them.
+            let block = block(reach.from, levels - 1, &mut cache);
+            let mut last: Option<(DVec3, f64)> = None;
+            for piece in block.pieces.iter().filter(|piece| piece.river == reach.river) {
+                let line = &piece.line;
+                if last.is_some_and(|(end, _)| end.distance(line.start) > 1e-12) {
+                    last = None;
+                }
+                for k in 0..=4 {
+                    let dir = (line.start + line.along * (f64::from(k) * 0.25)).normalize();
+                    let point = at(dir, levels, &mut cache);
+                    if let Some((_, before)) = last {
+                        // A lake's bed may rise to its sill. Where the solver's reaches cross, neither bed can hold.
+                        steps += 1;
+                        rises += usize::from(point.height_m > before + 1e-3 && point.lake == 0);
+                    }
+                    if let Some(level_m) = point.water_level_m {
+                        assert!(level_m >= point.height_m);
+                        traced += 1;
+                    }
+                    last = Some((line.start + line.along, point.height_m));
+                }
+            }
+        }
+    }
+    assert!(traced > 1000, "{traced}");
+    assert!(rises * 2000 <= steps, "{rises} of {steps}");
+}
+
+#[test]
+fn the_ground_is_continuous_everywhere() {
+    let mut cache = Cache::default();
+    let fine = (BLOCK * 4) as f64;
+    for dir in land(400) {
+        for levels in 1..=LEVELS {
+            // To the nearest border of a face, and of cells, buckets and blocks of every level.
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let side = (SIDE * 4_usize.pow(levels as u32)) as f64 * fine;
+                let place = grid::FacePlace::new(dir);
+                let border = (place.x * side / fine).round() * fine / side;
+                let on = crate::sphere::raster::cube_direction(place.face, 1, border, place.y);
+                let edge = crate::sphere::raster::cube_direction(place.face, 1, border.round(), place.y);
+                for on in [dir, on, edge] {
+                    let [a, b] = [-5e-10, 5e-10].map(|by| at(step(on, axis, by), levels, &mut cache));
+                    let gap = (a.height_m - b.height_m).abs();
+                    assert!(gap < 1e-2, "{on} {levels}: {} {}", a.height_m, b.height_m);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn gradients_match_differences() {
+    let mut cache = Cache::default();
+    let (mut good, mut all) = (0, 0);
+    for dir in land(600) {
+        for levels in 1..=LEVELS {
+            let point = at(dir, levels, &mut cache);
+            assert!(point.gradient.dot(dir).abs() < 1e-6 * (1.0 + point.gradient.length()));
+            for along in <[DVec3; 2]>::from(dir.any_orthonormal_pair()) {
+                let [a, b] = [-1e-8, 1e-8].map(|by| at(step(dir, along, by), levels, &mut cache).height_m);
+                let difference = (b - a) / 2e-8;
+                let error = (difference - point.gradient.dot(along)).abs();
+                all += 1;
+                good += usize::from(error < 2e-3 * (100.0 + point.gradient.length()));
+            }
+        }
+    }
+    // Points next to a crease may straddle it.
+    assert!(good * 100 > all * 98, "{good} of {all}");
+}
+
+#[test]
+fn a_batch_equals_its_points_in_any_order() {
+    let dirs: Vec<DVec3> = land(60).into_iter().flat_map(|dir| [dir, step(dir, DVec3::Z, 1e-5)]).collect();
+    let (mut together, mut backwards) = (Vec::new(), Vec::new());
+    rivers().evaluate(&dirs, 0.0, &mut Cache::default(), &mut together);
+    let reversed: Vec<DVec3> = dirs.iter().rev().copied().collect();
+    rivers().evaluate(&reversed, 0.0, &mut Cache::default(), &mut backwards);
+    backwards.reverse();
+    assert_eq!(together, backwards);
+    for (dir, point) in dirs.iter().zip(&together).step_by(9) {
+        assert_eq!(at(*dir, LEVELS, &mut Cache::default()), *point);
+    }
+}
+
+#[test]
+fn reaches_do_not_cross() {
+    let (mut crossings, mut pairs) = (0, 0);
+    let mut cache = Cache::default();
+    for dir in land(12) {
+        for level in 0..3 {
+            let block = block(dir, level, &mut cache);
+            for (k, a) in block.lines.iter().enumerate() {
+                for b in &block.lines[k + 1..] {
+                    let (a0, a1, b0, b1) = (a.start, a.start + a.along, b.start, b.start + b.along);
+                    // Pieces that meet at a node touch there.
+                    let near = |p: DVec3, q: DVec3| p.distance_squared(q) * a.per_length2 < 0.01;
+                    if near(a0, b0) || near(a0, b1) || near(a1, b0) || near(a1, b1) {
+                        continue;
+                    }
+                    let side = |p: DVec3, q: DVec3, r: DVec3| p.cross(q).dot(r);
+                    // A tributary ends on its river.
+                    let apart = |x: f64, y: f64, scale: f64| x * y < 0.0 && x.abs().min(y.abs()) > 0.02 * scale;
+                    let scale = 1.0 / (a.per_length2 * b.per_length2).sqrt();
+                    let first = apart(side(a0, a1, b0), side(a0, a1, b1), scale);
+                    let second = apart(side(b0, b1, a0), side(b0, b1, a1), scale);
+                    crossings += usize::from(first && second);
+                }
+                pairs += 1;
+            }
+        }
+    }
+    assert!(crossings * 300 <= pairs, "{crossings} crossings of {pairs} pieces");
+}
+
+#[test]
+fn a_river_is_in_the_same_place_at_every_spacing() {
+    let mut cache = Cache::default();
+    let trunks = &rivers().trunks;
+    let mut found = 0;
+    for cell in 0..drainage().height_m.len() {
+        let Some(reach) = trunks.reach(trunks.grid.cell(cell as u64)) else { continue };
+        if reach.discharge_m3_s[0] < 8000.0 {
+            continue;
+        }
+        for levels in 1..=3 {
+            // Across the node, where the coarsest level has the river.
+            let point = at(reach.from, levels, &mut cache);
+            let Some(river) = point.river else { unreachable!("no river near its node") };
+            assert!(river.distance_m <= river.width_m.max(spacing_rad(levels) * 6.371e6), "{levels} {river:?}");
+            // Between nodes it winds more and more, by less than the points of the coarser level are apart.
+            let block = block(reach.from, levels - 1, &mut cache);
+            let all = block.pieces.iter().filter(|piece| piece.river == reach.river);
+            let middles: Vec<DVec3> = all.map(|piece| piece.line.start + piece.line.along * 0.5).collect();
+            for middle in middles.iter().step_by(11) {
+                let finer = at(middle.normalize(), levels + 1, &mut cache).river;
+                let Some(finer) = finer else { unreachable!("no river where it was") };
+                assert!(finer.distance_m <= finer.width_m.max(spacing_rad(levels) * 6.371e6), "{levels} {finer:?}");
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 30, "{found}");
+}
+
+#[test]
+fn the_solved_heights_hold_at_large_scale() {
+    let mut cache = Cache::default();
+    let (mut sum, mut relief, mut count) = (0.0, 0.0, 0.0);
+    for dir in land(300) {
+        // The mean over a cell.
+        let (east, north) = dir.any_orthonormal_pair();
+        let width = rivers().trunks.grid.width_rad(dir);
+        let offset = |k: i32| f64::from(k) * 0.2 * width;
+        let points = (-2..=2).flat_map(|x| (-2..=2).map(move |y| (x, y)));
+        let mean = points.map(|(x, y)| at(step(dir + east * offset(x), north, offset(y)), 3, &mut cache).height_m);
+        let mean = mean.sum::<f64>() / 25.0;
+        let place = rivers().rasters[0].place(dir);
+        sum += mean - rivers().rasters[0].value(&place, 0);
+        relief += rivers().rasters[1].value(&place, 0);
+        count += 1.0;
+    }
+    assert!((sum / count).abs() < relief / count, "{} {}", sum / count, relief / count);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn bounds_hold_all_points(k in 0_usize..4000, size in 0.0_f64..4.0, turn in 0.0_f64..6.2, away in 0.0_f64..1.0) {
+        let mut cache = Cache::default();
+        let Some(dir) = spread(4000).nth(k) else { return Ok(()) };
+        let angle_rad = 0.3 * libm::pow(10.0, -size);
+        let (lo, hi) = rivers().bounds_near(dir, angle_rad);
+        let (east, north) = dir.any_orthonormal_pair();
+        for ring in 0..12 {
+            let (sin, cos) = libm::sincos(turn + f64::from(ring) * 2.4);
+            let by = libm::tan(angle_rad) * 0.999 * (away + f64::from(ring) / 12.0).min(1.0);
+            let point = at(step(dir, east * cos + north * sin, by), LEVELS - ring as usize % 2, &mut cache);
+            prop_assert!(lo <= point.height_m && point.height_m <= hi, "{} not in {lo}..{hi}", point.height_m);
+        }
+    }
+}

@@ -4,11 +4,12 @@
 //! around it (as in Dendry, Gaillard et al. 2019). Nodes near a coarser reach move onto it: there tributaries end.
 //! Everything is a pure function of the cells around, so that blocks agree about every reach they share.
 
-use super::block::{Block, block_of, cells_of};
-use super::cache::Cache;
-use super::grid::{BESIDE, Cell, Grid, RATIO, STEPS, mixed};
-use super::reach::{Piece, Reach, width_m};
 use super::Rivers;
+use super::block::{Block, Touch, block_of, cells_of};
+use super::cache::Cache;
+use super::grid::{BESIDE, Cell, FacePlace, Grid, RATIO, STEPS, mixed};
+use super::reach::{INFLUENCE, Line, Piece, Reach, width_m};
+use super::winding::{REFINED, refine};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -19,14 +20,8 @@ const DRAINED: usize = REACHES + 2;
 const NODES: usize = DRAINED + 1;
 /// Nodes nearer to a coarser reach than this share of a cell move onto it.
 const ANCHOR: f64 = 0.55;
-/// Straight pieces of a reach.
-const PIECES: usize = 4;
-/// Pieces of a piece of the level before.
-const REFINED: usize = 4;
-/// How far a piece bends to one side when it is refined, by its length, and the length in widths of the river from
-/// which it does: rivers wind at about eleven widths (Leopold and Wolman 1960).
-const BEND: f64 = 0.09;
-const BENDS_FROM: f64 = 4.0;
+/// Straight pieces of a reach: few, because each costs time at every point near it.
+const PIECES: usize = 3;
 /// Height of springs above the ground of the level before, by the relief between reaches: valleys begin on ridges.
 const SPRING: f64 = 0.8;
 /// How far the line of the banks goes on uphill from a spring, by the relief between reaches.
@@ -41,8 +36,8 @@ struct Node {
     is_free: bool,
     /// Relief between reaches here.
     relief_m: f64,
-    /// Coarser reaches around.
-    pieces: Vec<Piece>,
+    /// Pieces of coarser reaches around.
+    lines: Vec<Line>,
     receiver: Option<usize>,
 }
 
@@ -83,17 +78,15 @@ impl Rivers {
     }
 
     /// The pieces of the coarser block around, with the lesser influence that they have on this level.
-    fn coarser(&self, grid: &Grid, block: u64, cache: &mut Cache) -> Vec<Piece> {
+    fn coarser(&self, grid: &Grid, number: u64, cache: &mut Cache) -> Vec<Piece> {
         let parent = Grid::new(self.trunks.grid.side, grid.level - 1, grid.seed);
-        let Some(cell) = cells_of(grid, block).next() else { return Vec::new() };
+        let Some(cell) = cells_of(grid, number).next() else { return Vec::new() };
         let parent_cell = Cell { face: cell.face, x: cell.x / RATIO, y: cell.y / RATIO };
         let block = self.block(parent.level, block_of(&parent, parent_cell), cache);
         let mut pieces = Vec::with_capacity(block.pieces.len() * REFINED);
-        for piece in &block.pieces {
-            let length = 1.0 / piece.per_length2.sqrt();
-            let widths = length / (2.0 * piece.channel.bank_rad + 1e-30);
-            let bend = BEND * bend_of(piece) * ((widths - BENDS_FROM) / BENDS_FROM).clamp(0.0, 1.0);
-            piece.refined(REFINED, RATIO as f64, bend, &mut pieces);
+        let near = Touch::new(grid, number);
+        for piece in block.pieces.iter().filter(|piece| near.bounds(piece, RATIO as f64).is_some()) {
+            refine(piece, &mut pieces);
         }
         pieces
     }
@@ -116,7 +109,8 @@ impl Rivers {
     fn child_node(&self, grid: &Grid, cell: Cell, cache: &mut Cache) -> Node {
         let (index, dir) = (grid.index(cell), grid.node(cell));
         let at = self.ground(dir, grid.level, cache);
-        let nearest = at.nearest.filter(|near| near.distance_rad < ANCHOR * grid.width_rad(dir));
+        let anchor_rad = ANCHOR * grid.width_rad(dir);
+        let nearest = at.nearest.filter(|near| near.distance2 < anchor_rad * anchor_rad);
         let mut node = Node {
             cell,
             index,
@@ -124,30 +118,52 @@ impl Rivers {
             height_m: at.ground.value,
             is_free: false,
             relief_m: at.next_relief_m,
-            pieces: Vec::new(),
+            lines: Vec::new(),
             receiver: None,
         };
         match nearest {
             Some(near) => {
-                let foot = near.piece.start + near.piece.along * near.share;
-                node.height_m = near.piece.bank_m + near.piece.bank_change_m * near.share;
-                node.dir = foot / foot.dot(foot).sqrt();
+                let Some((_, block)) = &cache.current[grid.level - 1] else { return node };
+                // The foot on the reach as this level has it.
+                let mut pieces = Vec::with_capacity(REFINED);
+                refine(&block.pieces[usize::from(near.piece)], &mut pieces);
+                let mut least = f64::MAX;
+                for line in pieces.iter().map(|piece| &piece.line) {
+                    let share = ((dir - line.start).dot(line.along) * line.per_length2).clamp(0.0, 1.0);
+                    let foot = line.start + line.along * share;
+                    if foot.distance_squared(dir) < least {
+                        least = foot.distance_squared(dir);
+                        node.height_m = line.bank_m + line.bank_change_m * share;
+                        node.dir = foot / foot.dot(foot).sqrt();
+                    }
+                }
             }
             None => {
-                let trunk = self.trunks.grid.index(self.trunks.grid.cell_of(dir)) as usize;
-                node.is_free = self.trunks.standing(trunk).0.is_none_or(|level_m| node.height_m > level_m);
+                node.is_free = self.trunks.standing(at.lake).0.is_none_or(|level_m| node.height_m > level_m);
                 if node.is_free && at.nearest.is_some() {
-                    node.pieces = self.pieces_near(grid.level - 1, dir, cache);
+                    node.lines = self.lines_near(grid.level - 1, dir, cache);
                 }
             }
         }
         node
     }
 
-    /// The pieces of a level that may lie within two cells of the next level.
-    fn pieces_near(&self, level: usize, dir: DVec3, cache: &mut Cache) -> Vec<Piece> {
+    /// Pieces of coarser reaches, as the next level has them, that a way from a node to a neighbour may cross.
+    fn lines_near(&self, level: usize, dir: DVec3, cache: &mut Cache) -> Vec<Line> {
         let grid = &self.grids[level];
-        self.block(level, block_of(grid, grid.cell_of(dir)), cache).near(dir).copied().collect()
+        let place = FacePlace::new(dir);
+        let block = self.block(level, block_of(grid, grid.cell_at(&place)), cache);
+        let far = 2.0 / RATIO as f64 * grid.width_rad(dir);
+        let mut pieces = Vec::new();
+        for &number in block.near(&place) {
+            let piece = &block.pieces[usize::from(number)];
+            let line = &piece.line;
+            let share = ((dir - line.start).dot(line.along) * line.per_length2).clamp(0.0, 1.0);
+            if (line.start + line.along * share).distance_squared(dir) < far * far {
+                refine(piece, &mut pieces);
+            }
+        }
+        pieces.into_iter().map(|piece| piece.line).collect()
     }
 
     fn tributary(&self, grid: &Grid, net: &Net, at: usize) -> Option<Reach> {
@@ -172,10 +188,11 @@ impl Rivers {
             tangents: [tangent(at), tangent(to)],
             is_main: end.is_free && net.main(to) == Some(at),
             bank_m: [node.height_m + if net.main(at).is_none() { SPRING * node.relief_m } else { 0.0 }, end.height_m],
+            lake: 0,
             rise_m: RISE * node.relief_m,
             discharge_m3_s: [discharge; 2],
             flat_rad: [flat_rad; 2],
-            influence_rad: 0.5 * grid.width_rad(node.dir),
+            influence_rad: INFLUENCE * grid.width_rad(node.dir),
         })
     }
 }
@@ -226,11 +243,13 @@ fn receiver(nodes: &[Node], at: usize, around: &[usize; 8]) -> Option<usize> {
         {
             continue;
         }
-        if node.pieces.iter().any(|piece| crosses(node.dir, end.dir, piece)) {
+        if node.lines.iter().any(|line| crosses(node.dir, end.dir, line)) {
             continue;
         }
         let step = node.dir - end.dir;
-        let slope = fall_m / step.dot(step).sqrt().max(1e-30);
+        // Uneven ground below the scale of the level: without it, all around a hollow would flow straight into it.
+        let uneven = 0.5 + (mixed(node.index ^ mixed(end.index)) >> 40) as f64 * (1.0 / (1_u64 << 24) as f64);
+        let slope = uneven * fall_m / step.dot(step).sqrt().max(1e-30);
         let is_better = |(least, old): (f64, usize)| slope > least || (slope == least && end.index < nodes[old].index);
         if best.is_none_or(is_better) {
             best = Some((slope, other));
@@ -239,16 +258,9 @@ fn receiver(nodes: &[Node], at: usize, around: &[usize; 8]) -> Option<usize> {
     best.map(|(_, other)| other)
 }
 
-/// How far a piece bends, from -1 to 1: a pure function of its start.
-fn bend_of(piece: &Piece) -> f64 {
-    let [x, y, z] = piece.start.to_array().map(f64::to_bits);
-    let bits = mixed(mixed(mixed(x) ^ y) ^ z);
-    (bits >> 11) as f64 * (2.0 / (1_u64 << 53) as f64) - 1.0
-}
-
 /// Whether the straight way between two nodes crosses a piece before its end.
-fn crosses(from: DVec3, to: DVec3, piece: &Piece) -> bool {
-    let (a, b) = (piece.start, piece.start + piece.along);
+fn crosses(from: DVec3, to: DVec3, line: &Line) -> bool {
+    let (a, b) = (line.start, line.start + line.along);
     let side = |p: DVec3, q: DVec3, r: DVec3| p.cross(q).dot(r);
     // A way that ends on a reach does not cross it there.
     let end = from + (to - from) * 0.97;
@@ -276,4 +288,3 @@ fn rings(grid: &Grid, block: u64, count: usize) -> (Vec<Cell>, [usize; NODES + 1
     }
     (cells, ends)
 }
-

@@ -1,12 +1,13 @@
 //! The coarsest level: the reaches of the solved drainage, one for each land cell.
 
-use super::grid::{Cell, Grid, STEPS};
 use super::evaluate::RELIEF;
-use super::reach::{Reach, width_m};
+use super::grid::{Cell, Grid, STEPS};
+use super::reach::{INFLUENCE, Reach, width_m};
 use super::tributaries::RISE;
 use crate::sphere::raster::Raster;
 use crate::world::drainage::Drainage;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// A cell that nothing flows into, or that lies in no lake.
 pub(super) const NONE: u32 = u32::MAX;
@@ -27,9 +28,8 @@ pub(super) struct Trunks {
     /// The last cell of the river that each cell belongs to.
     river: Vec<u32>,
     lake: Vec<u32>,
-    /// The lake of each cell or of a neighbour, for cells whose ground could stand in its water.
-    pub(super) lake_near: Vec<u32>,
-    pub(super) lake_level_m: Vec<f64>,
+    lake_near: Vec<u32>,
+    lake_level_m: Vec<f64>,
     /// Water that each cell adds to its river.
     pub(super) runoff_m3_s: Vec<f32>,
     /// How far the ground rises between the reaches of a cell.
@@ -70,14 +70,35 @@ impl Trunks {
             relief_m: Vec::new(),
         };
         trunks.river = trunks.rivers();
-        trunks.lake_near = (0..count).map(|cell| trunks.lake_near(cell)).collect();
-        trunks.relief_m = (0..count).map(|cell| trunks.relief(cell)).collect();
+        let lake_near = |cell: usize| match trunks.lake[cell] {
+            0 => trunks.around(cell).map(|other| trunks.lake[other]).into_iter().filter(|&lake| lake != 0).min(),
+            lake => Some(lake),
+        };
+        let lakes = (0..count).into_par_iter().map(|cell| lake_near(cell).unwrap_or(0)).collect();
+        trunks.lake_near = lakes;
+        trunks.relief_m = (0..count).into_par_iter().map(|cell| trunks.relief(cell)).collect();
         trunks
     }
 
     /// The ground as the cells give it, and the relief between reaches, as rasters.
     pub(super) fn rasters(&self) -> [Raster<f32>; 2] {
-        [&self.height_m, &self.relief_m].map(|texels| Raster::cube(self.grid.side, texels.clone()))
+        [self.ground_m(), self.relief_m.clone()].map(|texels| Raster::cube(self.grid.side, texels))
+    }
+
+    /// The texels of the ground. In lakes they are lowered so that the spline, which is softer than its texels, meets
+    /// the bed in the middle of the cell.
+    pub(super) fn ground_m(&self) -> Vec<f32> {
+        let texel = |(cell, &height_m): (usize, &f32)| {
+            if self.lake[cell] == 0 {
+                return height_m;
+            }
+            let around = self.around(cell).map(|other| f64::from(self.height_m[other]));
+            // The weights of a cubic B-spline at a knot: 4/9, 1/9 and 1/36.
+            let sum: f64 =
+                around.iter().zip(STEPS).map(|(m, (x, y))| if x * y == 0 { m / 9.0 } else { m / 36.0 }).sum();
+            height_m.min((2.25 * (f64::from(height_m) - sum)) as f32)
+        };
+        self.height_m.iter().enumerate().map(texel).collect()
     }
 
     fn around(&self, cell: usize) -> [usize; 8] {
@@ -116,16 +137,6 @@ impl Trunks {
 
     fn level_of(&self, lake: u32) -> Option<f64> {
         self.lake_level_m.get((lake as usize).checked_sub(1)?).copied()
-    }
-
-    fn lake_near(&self, cell: usize) -> u32 {
-        if self.lake[cell] != 0 {
-            return self.lake[cell];
-        }
-        // A cell below the level lies beyond a sill: water does not stand there.
-        let stands = |lake: u32| self.level_of(lake).is_some_and(|level_m| f64::from(self.height_m[cell]) >= level_m);
-        let lakes = self.around(cell).map(|other| self.lake[other]);
-        lakes.into_iter().filter(|&lake| lake != 0 && stands(lake)).min().unwrap_or(0)
     }
 
     /// Mean difference in height to the land around a cell; 0 in water.
@@ -178,19 +189,27 @@ impl Trunks {
             river: u64::from(self.river[cell]),
             from,
             to: to_node,
-            tangents: [if lake == 0 { self.tangent(cell) } else { None }, if goes_on { self.tangent(to) } else { None }],
+            tangents: [
+                if lake == 0 { self.tangent(cell) } else { None },
+                if goes_on { self.tangent(to) } else { None },
+            ],
             is_main,
             bank_m: [from_m, to_m],
+            lake: if lake != 0 { lake } else { lake_to },
             rise_m: RISE * RELIEF * f64::from(self.relief_m[cell]),
             discharge_m3_s: [discharge, last],
             flat_rad: [self.flat_rad(cell, discharge), self.flat_rad(if goes_on { to } else { cell }, last)],
-            influence_rad: 0.5 * self.grid.width_rad(from),
+            influence_rad: INFLUENCE * self.grid.width_rad(from),
         })
     }
 
-    /// The highest level of standing water at a cell: of the sea and of a lake.
-    pub(super) fn standing(&self, cell: usize) -> (Option<f64>, u32) {
-        let lake = self.lake_near[cell];
+    /// The lake of a cell or else of a neighbour, counted from 1; 0 for none. Its shore may lie in either.
+    pub(super) fn lake_near(&self, cell: usize) -> u32 {
+        self.lake_near[cell]
+    }
+
+    /// The highest level of standing water, of the sea or of a lake.
+    pub(super) fn standing(&self, lake: u32) -> (Option<f64>, u32) {
         match (self.level_of(lake), self.sea_level_m) {
             (Some(lake_m), Some(sea_m)) if sea_m >= lake_m => (Some(sea_m), 0),
             (Some(lake_m), _) => (Some(lake_m), lake),

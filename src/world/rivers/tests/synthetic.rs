@@ -127,9 +127,10 @@ pub(crate) fn dam(drainage: &mut Drainage, discharge_m3_s: [f32; 2]) -> Option<u
         (discharge_m3_s[0]..discharge_m3_s[1]).contains(&drainage.discharge_m3_s[*cell])
             && drainage.height_m[*cell] > 50.0
     };
-    let outlet = (0..drainage.height_m.len()).filter(flows).filter(fits).max_by(|a, b| {
-        drainage.discharge_m3_s[*a].total_cmp(&drainage.discharge_m3_s[*b])
-    })?;
+    let outlet = (0..drainage.height_m.len())
+        .filter(flows)
+        .filter(fits)
+        .max_by(|a, b| drainage.discharge_m3_s[*a].total_cmp(&drainage.discharge_m3_s[*b]))?;
     let level_m = drainage.height_m[outlet];
     let mut waiting = vec![outlet as u32];
     while let Some(cell) = waiting.pop() {

@@ -1,0 +1,92 @@
+//! The ground that rivers carve (see [`crate::world::carved`]), as a field.
+//!
+//! Coarse tiles show fewer levels of rivers than fine ones: a valley narrower than the distance between two points
+//! cannot be seen, and finding it would take as long as all others together.
+
+use super::{Chunk, Evaluate, Scratch};
+use crate::planet::Key;
+use crate::world::carved::Carved;
+use crate::world::rivers::{Cache, RiverPoint, Rivers};
+use glam::DVec3;
+use std::cell::RefCell;
+use std::f64::consts::PI;
+use std::sync::{Arc, Weak};
+
+/// Cells of the finest level of rivers in a value are at least as wide as this many points.
+const VALUE_POINTS: f64 = 1.0;
+/// The same for gradients: slopes of narrower valleys would look like noise.
+const GRADIENT_POINTS: f64 = 3.0;
+
+/// The carved ground. Fields of earlier revisions must not keep its maps alive, so it refers to them weakly.
+#[derive(Clone)]
+pub(crate) struct Structure {
+    key: Option<Key>,
+    rivers: Weak<Rivers>,
+    bounds: (f64, f64),
+}
+
+impl Structure {
+    pub(super) fn new(carved: Option<(Key, &Carved)>) -> Self {
+        match carved {
+            Some((key, carved)) => Self {
+                key: Some(key),
+                rivers: Arc::downgrade(&carved.rivers),
+                bounds: carved.rivers.bounds_near(DVec3::Z, PI),
+            },
+            None => Self { key: None, rivers: Weak::new(), bounds: (0.0, 0.0) },
+        }
+    }
+}
+
+impl PartialEq for Structure {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl std::fmt::Debug for Structure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Structure").field(&self.key).finish()
+    }
+}
+
+impl Evaluate for Structure {
+    fn octave_count(&self) -> usize {
+        0
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        self.bounds
+    }
+
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.rivers.upgrade().map_or(self.bounds, |rivers| rivers.bounds_near(dir_planet, angle_rad))
+    }
+
+    fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        thread_local! {
+            static MEMORY: RefCell<(Cache, Vec<RiverPoint>)> = RefCell::default();
+        }
+        let Some(rivers) = self.rivers.upgrade() else { return };
+        MEMORY.with_borrow_mut(|(cache, points)| {
+            let levels = rivers.levels_for(chunk.point_spacing_rad, VALUE_POINTS);
+            rivers.evaluate(chunk.dirs, levels, cache, points);
+            for (value, point) in scratch.sums.value.iter_mut().zip(&*points) {
+                *value += point.height_m;
+            }
+            let mut evaluated = levels;
+            for (gradient, &spacing_rad) in scratch.sums.gradients_mut().iter_mut().zip(chunk.spacings_rad) {
+                let wanted = rivers.levels_for(spacing_rad, GRADIENT_POINTS).min(levels);
+                if wanted != evaluated {
+                    rivers.evaluate(chunk.dirs, wanted, cache, points);
+                    evaluated = wanted;
+                }
+                for (i, point) in points.iter().enumerate() {
+                    for (lane, slope) in gradient.iter_mut().zip(point.gradient.to_array()) {
+                        lane[i] += slope as f32;
+                    }
+                }
+            }
+        });
+    }
+}
