@@ -51,7 +51,7 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
     for &cell in &routes.order {
         let (cell, to) = (cell as usize, receiver[cell as usize] as usize);
         if to == cell {
-            outlet_m[cell] = level.surface_m(cell);
+            outlet_m[cell] = level.sink_m(cell);
             start_m[cell] = outlet_m[cell];
             continue;
         }

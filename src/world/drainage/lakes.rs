@@ -14,7 +14,7 @@ pub(super) struct Lakes {
 }
 
 /// Depth in metres that a basin needs to hold a lake, if the parameter `lakes` is 1.
-const LEAST_DEPTH_M: f64 = 30.0;
+const LEAST_DEPTH_M: f64 = 130.0;
 
 /// Depth in metres beyond which the floor of a lake is taken for filled with sediment.
 const MOST_DEPTH_M: f64 = 900.0;
@@ -30,6 +30,9 @@ impl Lakes {
         lakes.ground_m = beds_m.to_vec();
         if level.params.lakes > 0.0 {
             lakes.add_open(level, routes, beds_m);
+            for _ in 0..2 {
+                lakes.close_gaps(level, cells);
+            }
         }
         lakes
     }
@@ -45,7 +48,7 @@ impl Lakes {
             let (below, rock_m) = (self.lake[to], level.surface_m(cell));
             let joined = below.checked_sub(1).map(|k| self.lakes[k as usize]).filter(|lake| lake.outlet.is_some());
             if let Some(lake) = joined {
-                if rock_m < lake.level_m - 0.3 * least_m {
+                if rock_m < lake.level_m - 0.5 * least_m {
                     self.flood(level, cell, below, beds_m);
                     continue;
                 }
@@ -57,6 +60,27 @@ impl Lakes {
             }
             beds_m[cell] = beds_m[cell].max(beds_m[to] + 0.01);
             self.ground_m[cell] = beds_m[cell];
+        }
+    }
+
+    /// Floods low ground that a lake surrounds: small rivers have laid it down.
+    fn close_gaps(&mut self, level: &Level<'_>, cells: &Cells) {
+        const MOST_M: f64 = 60.0;
+        let before = self.lake.clone();
+        for (cell, around) in cells.neighbours.iter().enumerate() {
+            if before[cell] != 0 || level.is_sea[cell] {
+                continue;
+            }
+            let Some(number) = around.iter().map(|&other| before[other as usize]).find(|number| *number != 0) else {
+                continue;
+            };
+            let wet = around.iter().filter(|&&other| before[other as usize] == number).count();
+            let lake = &mut self.lakes[number as usize - 1];
+            if wet >= 5 && self.ground_m[cell] < lake.level_m + MOST_M {
+                self.lake[cell] = number;
+                self.ground_m[cell] = self.ground_m[cell].min(lake.level_m - 1.0);
+                lake.area_sr += level.areas_sr[cell];
+            }
         }
     }
 
@@ -91,7 +115,8 @@ impl Lakes {
                 if self.lake[cell as usize] != 0 {
                     continue;
                 }
-                let dry_m = level.dryness_mm[cell as usize].max(100.0) * 1e-3;
+                // Marshes and plains around the lake lose water too.
+                let dry_m = 1.8 * level.dryness_mm[cell as usize].max(300.0) * 1e-3;
                 if !wet.is_empty() && lost + dry_m * level.areas_sr[cell as usize] > inflow {
                     break;
                 }

@@ -20,7 +20,7 @@ const RECYCLED: f64 = 0.5;
 const CLIMB: f64 = 0.75;
 
 /// Rain in mm a year where saturated air of 27 °C loses a thousandth of its moisture a km at the mean wind.
-const RAIN_MM: f64 = 4600.0;
+const RAIN_MM: f64 = 8200.0;
 
 /// What a cell does with the air that comes to it.
 struct Step {
