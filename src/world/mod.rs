@@ -15,13 +15,18 @@
 
 pub(crate) mod cells;
 pub(crate) mod coast;
+#[expect(dead_code)]
 pub(crate) mod drainage;
+#[expect(dead_code)]
 pub(crate) mod grid;
 mod map;
+#[expect(dead_code)]
 pub(crate) mod noise;
+#[expect(dead_code)]
 pub(crate) mod plates;
-pub(crate) mod weather;
 mod slot;
+#[expect(dead_code)]
+pub(crate) mod weather;
 
 use coast::Coast;
 pub(crate) use map::{Ground, Inputs, KeepGoing};

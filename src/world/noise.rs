@@ -108,7 +108,10 @@ mod tests {
             most = most.max(value.abs());
         }
         let deviation = (square / count as f64).sqrt();
-        assert!((sum / count as f64).abs() < 0.02 && (0.2..0.5).contains(&deviation) && most <= 1.3, "{deviation} {most}");
+        assert!(
+            (sum / count as f64).abs() < 0.02 && (0.2..0.5).contains(&deviation) && most <= 1.3,
+            "{deviation} {most}"
+        );
     }
 
     #[test]

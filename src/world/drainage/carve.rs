@@ -19,6 +19,9 @@ const ERODIBILITY: f64 = 7.5e-7;
 /// The mean runoff of the Earth's land in metres a year.
 const MEAN_RUNOFF_M: f64 = 0.35;
 
+/// Area that wears a cell besides its discharge, as a share of the cell.
+const HILLSLOPE: f64 = 0.2;
+
 /// Slope of the bed that a river of 1 m³/s lays down.
 const ALLUVIAL_SLOPE: f64 = 5e-4;
 
@@ -39,10 +42,12 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
     // Years in which erosion runs over the step below each cell.
     let years = |cell: usize| {
         let rock = libm::exp(params.rock_variation * level.softness[cell]);
-        let area = discharge[cell].max(1) as f64 * (DISCHARGE_UNIT / MEAN_RUNOFF_M);
+        // Slopes wear where it is dry too: the term for hillslopes of the paper.
+        let area = discharge[cell] as f64 * (DISCHARGE_UNIT / MEAN_RUNOFF_M) + HILLSLOPE * level.areas_sr[cell];
         routes.step_rad[cell] / (ERODIBILITY * params.erodibility * rock * area.sqrt())
     };
-    let years: Vec<f64> = (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { 0.0 } else { years(c) }).collect();
+    let years: Vec<f64> =
+        (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { 0.0 } else { years(c) }).collect();
     let mut response = vec![0.0; receiver.len()];
     let mut raised = vec![0.0; receiver.len()];
     // The ground at the start without pits, and the outlet of each cell.

@@ -19,10 +19,22 @@ const LEAST_DEPTH_M: f64 = 130.0;
 /// Depth in metres beyond which the floor of a lake is taken for filled with sediment.
 const MOST_DEPTH_M: f64 = 900.0;
 
+/// Height of the rock under a bed, and of what a river has laid down on it.
+fn floor_m(level: &Level<'_>, cell: usize, bed_m: f64) -> f64 {
+    let rock_m = level.surface_m(cell);
+    rock_m + (bed_m - rock_m).max(0.0) * (0.4 * level.params.deposition).min(0.9)
+}
+
 impl Lakes {
     /// Finds the lakes. `beds_m` is raised to the surface of each lake, and beyond it so far that it still falls along
     /// all routes.
-    pub(super) fn find(level: &Level<'_>, cells: &Cells, routes: &Routes, discharge: &[u64], beds_m: &mut [f64]) -> Self {
+    pub(super) fn find(
+        level: &Level<'_>,
+        cells: &Cells,
+        routes: &Routes,
+        discharge: &[u64],
+        beds_m: &mut [f64],
+    ) -> Self {
         let mut lakes = Self { ground_m: Vec::new(), lake: vec![0; beds_m.len()], lakes: Vec::new() };
         if level.params.lakes > 0.0 {
             lakes.add_closed(level, cells, routes, discharge, beds_m);
@@ -45,7 +57,7 @@ impl Lakes {
             if to == cell || self.lake[cell] != 0 {
                 continue;
             }
-            let (below, rock_m) = (self.lake[to], level.surface_m(cell));
+            let (below, rock_m) = (self.lake[to], floor_m(level, cell, beds_m[cell]));
             let joined = below.checked_sub(1).map(|k| self.lakes[k as usize]).filter(|lake| lake.outlet.is_some());
             if let Some(lake) = joined {
                 if rock_m < lake.level_m - 0.5 * least_m {
@@ -88,19 +100,12 @@ impl Lakes {
         let lake = &mut self.lakes[number as usize - 1];
         lake.area_sr += level.areas_sr[cell];
         self.lake[cell] = number;
+        self.ground_m[cell] = floor_m(level, cell, beds_m[cell]).clamp(lake.level_m - MOST_DEPTH_M, lake.level_m - 1.0);
         beds_m[cell] = lake.level_m;
-        self.ground_m[cell] = level.surface_m(cell).clamp(lake.level_m - MOST_DEPTH_M, lake.level_m - 1.0);
     }
 
     /// Basins without an outlet: the lake around each sink grows until as much evaporates as flows in.
-    fn add_closed(
-        &mut self,
-        level: &Level<'_>,
-        cells: &Cells,
-        routes: &Routes,
-        discharge: &[u64],
-        beds_m: &mut [f64],
-    ) {
+    fn add_closed(&mut self, level: &Level<'_>, cells: &Cells, routes: &Routes, discharge: &[u64], beds_m: &mut [f64]) {
         for &sink in &routes.order {
             if routes.receiver[sink as usize] != sink {
                 continue;
@@ -110,7 +115,8 @@ impl Lakes {
             let (mut lost, mut level_m, mut area_sr) = (0.0, beds_m[sink as usize], 0.0);
             let mut wet = Vec::new();
             let number = self.lakes.len() as u32 + 1;
-            let above = |cell: u32, beds_m: &[f64]| ((beds_m[cell as usize] - beds_m[sink as usize]).max(0.0) * 1024.0) as u64;
+            let above =
+                |cell: u32, beds_m: &[f64]| ((beds_m[cell as usize] - beds_m[sink as usize]).max(0.0) * 1024.0) as u64;
             while let Some(Reverse((_, cell))) = waiting.pop() {
                 if self.lake[cell as usize] != 0 {
                     continue;

@@ -75,7 +75,8 @@ fn end(found: &Drainage, mut cell: usize) -> usize {
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
-    let (xy, xx) = points.iter().fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - mx) * (p.1 - my), xx + (p.0 - mx) * (p.0 - mx)));
+    let (xy, xx) =
+        points.iter().fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - mx) * (p.1 - my), xx + (p.0 - mx) * (p.0 - mx)));
     xy / xx
 }
 
@@ -143,8 +144,11 @@ fn place_rad(found: &Drainage, a: usize, b: usize) -> f64 {
 #[test]
 fn networks_branch_as_natural_ones_do() {
     let found = Island::new(96).solved(None);
-    // Strahler's orders, and the longest way above each cell.
+    // Strahler's orders of channels, and the longest way above each cell. A channel begins where a few cells meet: each
+    // cell alone would count as a source, whatever the land.
     let count = found.receiver.len();
+    let cell_units = 400.0 * 1e-3 * 4.0 * std::f64::consts::PI / count as f64 / DISCHARGE_UNIT;
+    let is_channel = |cell: usize| found.discharge[cell] as f64 > 3.5 * cell_units;
     let (mut order, mut twins, mut length) = (vec![1_u32; count], vec![0_u32; count], vec![0.0_f64; count]);
     let mut streams: BTreeMap<u32, u32> = BTreeMap::new();
     for &cell in found.order.iter().rev() {
@@ -156,6 +160,9 @@ fn networks_branch_as_natural_ones_do() {
             continue;
         }
         length[to] = length[to].max(length[cell] + place_rad(&found, cell, to));
+        if !is_channel(cell) {
+            continue;
+        }
         match order[to].cmp(&order[cell]) {
             std::cmp::Ordering::Less => (order[to], twins[to]) = (order[cell], 1),
             std::cmp::Ordering::Equal => twins[to] += 1,
@@ -164,7 +171,7 @@ fn networks_branch_as_natural_ones_do() {
     }
     for &cell in &found.order {
         let (cell, to) = (cell as usize, found.receiver[cell as usize] as usize);
-        if found.is_sea[to] || order[to] != order[cell] {
+        if is_channel(cell) && (found.is_sea[to] || order[to] != order[cell]) {
             *streams.entry(order[cell]).or_default() += 1;
         }
     }
@@ -174,7 +181,6 @@ fn networks_branch_as_natural_ones_do() {
         assert!((2.8..=5.2).contains(&ratio), "orders {low} and {high}: {ratio} of {streams:?}");
     }
     // Hack's law: the length of a river by its area.
-    let cell_units = 400.0 * 1e-3 * 4.0 * std::f64::consts::PI / count as f64 / DISCHARGE_UNIT;
     let points: Vec<(f64, f64)> = found
         .order
         .iter()
@@ -196,10 +202,10 @@ fn a_finer_grid_keeps_the_great_rivers() {
     for &cell in coarse.order.iter().filter(|&&cell| coarse.discharge[cell as usize] > least) {
         let dir = node(32, cell as usize, coarse.seed);
         all += 1;
-        let is_near = |&&cell: &&u32| {
+        let is_near = |&cell: &u32| {
             fine.discharge[cell as usize] > least / 2 && node(64, cell as usize, fine.seed).distance(dir) < 2.0 / 32.0
         };
-        near += usize::from(fine.order.iter().find(is_near).is_some());
+        near += usize::from(fine.order.iter().any(|cell| is_near(cell)));
     }
     assert!(all > 20 && near * 10 >= all * 9, "{near} of {all}");
 }

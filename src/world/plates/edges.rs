@@ -126,7 +126,8 @@ impl Layout {
         // An ocean floor sinks under a continent: a belt behind the coast, a trench before it.
         let coast = meets * mine * (1.0 - theirs);
         let belt = params.belt_km * (0.8 + 0.3 * along).clamp(0.5, 1.3);
-        let belt_at = ramp(90.0, 230.0, km) * (1.0 - 0.45 * ramp(260.0, 0.7 * belt + 120.0, km))
+        let belt_at = ramp(90.0, 230.0, km)
+            * (1.0 - 0.45 * ramp(260.0, 0.7 * belt + 120.0, km))
             * (1.0 - ramp(0.6 * belt + 100.0, belt + 200.0, km));
         let sinks = meets * (theirs * (1.0 - mine) + (1.0 - theirs) * (1.0 - mine) * (1.0 - above));
         // Two continents collide: a range along the boundary, a plateau behind it, a low foreland before it.
