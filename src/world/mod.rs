@@ -20,7 +20,6 @@ pub(crate) mod drainage;
 #[expect(dead_code)]
 pub(crate) mod grid;
 mod map;
-#[expect(dead_code)]
 pub(crate) mod noise;
 #[expect(dead_code)]
 pub(crate) mod plates;

@@ -16,6 +16,7 @@ use super::map::KeepGoing;
 use super::noise::{fbm, hash, noise, ramp};
 use crate::planet::Plates as Params;
 use edges::NO_EDGE_KM;
+#[expect(unused_imports)]
 pub(crate) use finer::Rock;
 use glam::DVec3;
 pub(crate) use layout::{EARTH_KM, Layout};
