@@ -87,10 +87,12 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
         }
         let step = routes.step_rad[cell];
         // The power -3/8 of the discharge, by square roots.
-        let root = earthly_m3_s(discharge[cell]).max(0.02).sqrt().sqrt();
+        let root = earthly_m3_s(discharge[cell]).max(0.5).sqrt().sqrt();
         let laid = params.deposition * ALLUVIAL_SLOPE / (root * root.sqrt()) * EARTH_M;
         let steepest_m = beds_m[to] + step * talus;
-        beds_m[cell] = f64::max(beds_m[cell], beds_m[to] + step * laid).min(steepest_m).max(beds_m[to] + 0.01);
+        // No river lays down more than a little above the rock as it was.
+        let laid_m = f64::min(beds_m[to] + step * laid, level.surface_m(cell) + 20.0);
+        beds_m[cell] = f64::max(beds_m[cell], laid_m).min(steepest_m).max(beds_m[to] + 0.01);
     }
     beds_m
 }
