@@ -50,18 +50,22 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
         (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { 0.0 } else { years(c) }).collect();
     let mut response = vec![0.0; receiver.len()];
     let mut raised = vec![0.0; receiver.len()];
-    // The ground at the start without pits, and the outlet of each cell.
+    // The ground at the start without pits; the outlet of each cell, and how far it rises itself, as the bottom of a
+    // closed basin does.
     let mut start_m = level.start_m.clone();
     let mut outlet_m = vec![level.base_m; receiver.len()];
+    let mut rise_m = vec![0.0; receiver.len()];
     for &cell in &routes.order {
         let (cell, to) = (cell as usize, receiver[cell as usize] as usize);
         if to == cell {
             outlet_m[cell] = level.sink_m(cell);
-            start_m[cell] = outlet_m[cell];
+            rise_m[cell] = level.uplift_m[cell];
+            start_m[cell] = outlet_m[cell] - rise_m[cell];
             continue;
         }
         response[cell] = response[to] + years[cell];
-        raised[cell] = raised[to] + level.uplift_m[cell] * (years[cell] / age_yr);
+        rise_m[cell] = rise_m[to];
+        raised[cell] = raised[to] + (level.uplift_m[cell] - rise_m[cell]) * (years[cell] / age_yr);
         start_m[cell] = f64::max(start_m[cell], start_m[to]);
         outlet_m[cell] = outlet_m[to];
     }
@@ -75,7 +79,7 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
         let (above, below) = (above as usize, below as usize);
         let share = (limit - response[below]) / (response[above] - response[below]).max(1e-9);
         let between = |values: &[f64]| values[below] + (values[above] - values[below]) * share;
-        between(&start_m) + raised[cell] - between(&raised)
+        between(&start_m) + rise_m[cell] + raised[cell] - between(&raised)
     };
     let mut beds_m: Vec<f64> =
         (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { level.base_m } else { free(c) }).collect();
