@@ -3,16 +3,16 @@
 //! Widths and speeds are those of a planet of the Earth's size. On another planet each width is the same share of the
 //! radius, so that every planet has the same layout, large or small. Heights and depths are true metres everywhere.
 
+use super::param::{Domain, Stage, Unit, choice, count, linear, log, params};
+
 /// Most grids of a structure.
 pub const MAX_GRIDS: u32 = 5;
-
-use super::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 
 params! {
     /// Large-scale structure of a planet.
     pub struct Structure {
-        /// Number of grids on which rivers are solved, coarse to fine. The first has 64 cells along the side of each of six
-        /// squares; each further one has twice as many. All grids have the same great rivers.
+        /// Number of grids on which rivers are solved, coarse to fine. The first has 64 cells along the side of each of
+        /// six squares; each further one has twice as many. All grids have the same great rivers.
         grids: u32 = 4, "Grids", Unit::None, count(1, MAX_GRIDS), Stage::Field;
     } with {
         /// Plates of the crust: continents, mountain belts, island arcs, ridges of the ocean floor.
@@ -83,7 +83,8 @@ choice! {
 params! {
     /// Winds, rain and temperature over the relief.
     pub struct Weather {
-        /// Share of the solved weather in the climate of the biome table; the rest is the climate's own belts and coasts.
+        /// Share of the solved weather in the climate of the biome table; the rest is the climate's own belts and
+        /// coasts.
         share: f64 = 1.0, "Share in the climate", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// Direction of the rotation. It decides to which side winds turn.
         rotation: Rotation = Rotation::Eastward, "Rotation", Unit::None, Domain::Choice, Stage::Field;
@@ -93,7 +94,8 @@ params! {
         wind_m_s: f64 = 7.0, "Wind", Unit::MetresPerSecond, log(0.1, 100.0), Stage::Field;
         /// Rain of the whole planet; 1 is the Earth.
         wetness: f64 = 1.0, "Wetness", Unit::None, log(0.02, 5.0), Stage::Field;
-        /// Distance over flat land after which a third of the moisture in the air is left, on a planet of the Earth's size.
+        /// Distance over flat land after which a third of the moisture in the air is left, on a planet of the Earth's
+        /// size.
         reach_km: f64 = 2200.0, "Reach of moisture", Unit::Kilometres, log(50.0, 20_000.0), Stage::Field;
         /// Strength of rain on windward slopes and of the dry side behind them; 1 is the Earth.
         rain_shadow: f64 = 1.0, "Rain shadow", Unit::None, linear(0.0, 3.0), Stage::Field;
@@ -125,7 +127,5 @@ params! {
         deposition: f64 = 1.0, "Deposition", Unit::None, linear(0.0, 4.0), Stage::Field;
         /// How deep a basin must be to hold a lake: 0 is no lakes, 1 is the Earth.
         lakes: f64 = 1.0, "Lakes", Unit::None, linear(0.0, 4.0), Stage::Field;
-        /// How far rivers wind between the cells of the maps.
-        winding: f64 = 1.0, "Winding", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }

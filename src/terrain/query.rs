@@ -214,7 +214,10 @@ impl Terrain {
         };
         with_scratch(|scratch| {
             for dirs in dirs_planet.chunks(CHUNK) {
-                scratch.0.points.refill(dirs.iter().map(|&dir| unit(dir)), spacings_rad.first().copied().unwrap_or(0.0));
+                scratch
+                    .0
+                    .points
+                    .refill(dirs.iter().map(|&dir| unit(dir)), spacings_rad.first().copied().unwrap_or(0.0));
                 self.evaluate(spacings_rad, &mut scratch.0, |_, _| {});
                 let heights = &scratch.0.heights;
                 ground.height_m.extend_from_slice(&heights.height_m);

@@ -56,7 +56,8 @@ impl WorldMap for Weather {
     ) -> Option<Self> {
         let rock = rock(world, None, side, keep_going)?;
         // Rivers need rain, and rain needs the relief that rivers leave.
-        let risen_m: Vec<f64> = rock.base_m.iter().zip(&rock.uplift_m).map(|(base_m, uplift_m)| base_m + 0.5 * uplift_m).collect();
+        let risen_m: Vec<f64> =
+            rock.base_m.iter().zip(&rock.uplift_m).map(|(base_m, uplift_m)| base_m + 0.5 * uplift_m).collect();
         let first = weather_over(ground, &risen_m, side, keep_going)?;
         let drainage = drainage_of(ground, &rock, &first, None, keep_going)?;
         let carved_m: Vec<f64> = drainage.height_m.iter().map(|height_m| f64::from(*height_m)).collect();

@@ -68,7 +68,7 @@ pub(crate) fn refined(cells: &Cells, values: &[f64]) -> Vec<f64> {
         .into_par_iter()
         .map(|child| {
             let cell = parent(side, child);
-            let quarter = (child % side & 1) + 2 * (child / side % side & 1);
+            let quarter = (child % side) % 2 + 2 * ((child / side % side) % 2);
             let [row, column, corner] = TOWARDS[quarter].map(|k| values[cells.neighbours[cell][k] as usize]);
             (9.0 * values[cell] + 3.0 * (row + column) + corner) * (1.0 / 16.0)
         })

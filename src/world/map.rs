@@ -41,8 +41,8 @@ pub(crate) trait Ground: Sync {
     /// What the maps depend on.
     fn inputs(&self) -> &Inputs;
 
-    /// Heights of the ground at the centres of cells, in metres, without detail that is finer than the cells and without
-    /// biome relief. None if `keep_going` said no.
+    /// Heights of the ground at the centres of cells, in metres, without detail that is finer than the cells and
+    /// without biome relief. None if `keep_going` said no.
     fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>>;
 
     /// The same of the layers that lie under the structure; None too if there is no such layer.
@@ -51,7 +51,8 @@ pub(crate) trait Ground: Sync {
 
 /// A world map.
 pub(crate) trait WorldMap: Sized + Send + Sync {
-    /// Cells along the side of a cube face, coarse to fine. The last level that [`WorldMap::levels`] counts is the answer.
+    /// Cells along the side of a cube face, coarse to fine. The last level that [`WorldMap::levels`] counts is the
+    /// answer.
     const SIDES: &'static [usize];
 
     /// Whether the coarse levels of a map serve even while a map of an earlier revision could: when a coarse answer at
@@ -67,8 +68,8 @@ pub(crate) trait WorldMap: Sized + Send + Sync {
     /// dependencies of a map are declared.
     fn key(inputs: &Inputs) -> Option<Key>;
 
-    /// Solves the map with cubes of `side` cells. `world`: the maps before this one in the list are final. `coarser`: the
-    /// level before, if it was solved. None if `keep_going` said no.
+    /// Solves the map with cubes of `side` cells. `world`: the maps before this one in the list are final. `coarser`:
+    /// the level before, if it was solved. None if `keep_going` said no.
     fn solve(
         ground: &dyn Ground,
         world: &World,

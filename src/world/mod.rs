@@ -8,8 +8,8 @@
 //!   terrain implements
 //! - [`World`]: the maps that serve. A new map is one file and one line of `world_maps!` below
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
-//! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that rivers carve
-//!   (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
+//! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
+//!   rivers carve (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
 //! - `coast`: signed distance to the coast
 //!
 //! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
@@ -24,17 +24,17 @@ mod map;
 pub(crate) mod noise;
 pub(crate) mod plates;
 pub(crate) mod rivers;
-pub(crate) mod weather;
 mod slot;
+pub(crate) mod weather;
 
 use carved::Carved;
 use coast::Coast;
-use plates::Plates;
-use weather::Weather;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
+use plates::Plates;
 pub use slot::MapWork;
 pub(crate) use slot::Slot;
 use std::fmt;
+use weather::Weather;
 
 /// Lists the maps, each after those that it reads.
 macro_rules! world_maps {

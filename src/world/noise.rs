@@ -34,10 +34,12 @@ fn fade(t: f64) -> f64 {
 
 /// One octave, -1 to 1 with a standard deviation of about 0.33.
 pub(crate) fn noise(p: DVec3, seed: u32) -> f64 {
-    let floor = p.floor();
-    let f = p - floor;
-    let whole = |w: f64| w as i64 as u32;
-    let [x, y, z] = [whole(floor.x), whole(floor.y), whole(floor.z)];
+    // Points are near the lattice's origin, and the shift makes them positive, so that a cast rounds down.
+    const SHIFT: f64 = 16_777_216.0;
+    let whole = |w: f64| (w + SHIFT) as i64;
+    let cell = [whole(p.x), whole(p.y), whole(p.z)];
+    let f = DVec3::new(p.x, p.y, p.z) - DVec3::from_array(cell.map(|w| w as f64 - SHIFT));
+    let [x, y, z] = cell.map(|w| w as u32);
     let plane = |dx: u32, dy: u32, dz: u32| {
         let h = x.wrapping_add(dx).wrapping_mul(0x8DA6_B343)
             ^ y.wrapping_add(dy).wrapping_mul(0xD816_3841)
@@ -106,7 +108,10 @@ mod tests {
             most = most.max(value.abs());
         }
         let deviation = (square / count as f64).sqrt();
-        assert!((sum / count as f64).abs() < 0.02 && (0.2..0.5).contains(&deviation) && most <= 1.3, "{deviation} {most}");
+        assert!(
+            (sum / count as f64).abs() < 0.02 && (0.2..0.5).contains(&deviation) && most <= 1.3,
+            "{deviation} {most}"
+        );
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Star, Structure, VERSION, Version, Water,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Star, Structure, VERSION, Version,
+    Water,
 };
 use serde::{Deserialize, Serialize};
 

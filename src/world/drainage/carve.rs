@@ -19,6 +19,9 @@ const ERODIBILITY: f64 = 7.5e-7;
 /// The mean runoff of the Earth's land in metres a year.
 const MEAN_RUNOFF_M: f64 = 0.35;
 
+/// Area that wears a cell besides its discharge, as a share of the cell.
+const HILLSLOPE: f64 = 0.2;
+
 /// Slope of the bed that a river of 1 m³/s lays down.
 const ALLUVIAL_SLOPE: f64 = 5e-4;
 
@@ -39,24 +42,30 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
     // Years in which erosion runs over the step below each cell.
     let years = |cell: usize| {
         let rock = libm::exp(params.rock_variation * level.softness[cell]);
-        let area = discharge[cell].max(1) as f64 * (DISCHARGE_UNIT / MEAN_RUNOFF_M);
+        // Slopes wear where it is dry too: the term for hillslopes of the paper.
+        let area = discharge[cell] as f64 * (DISCHARGE_UNIT / MEAN_RUNOFF_M) + HILLSLOPE * level.areas_sr[cell];
         routes.step_rad[cell] / (ERODIBILITY * params.erodibility * rock * area.sqrt())
     };
-    let years: Vec<f64> = (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { 0.0 } else { years(c) }).collect();
+    let years: Vec<f64> =
+        (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { 0.0 } else { years(c) }).collect();
     let mut response = vec![0.0; receiver.len()];
     let mut raised = vec![0.0; receiver.len()];
-    // The ground at the start without pits, and the outlet of each cell.
+    // The ground at the start without pits; the outlet of each cell, and how far it rises itself, as the bottom of a
+    // closed basin does.
     let mut start_m = level.start_m.clone();
     let mut outlet_m = vec![level.base_m; receiver.len()];
+    let mut rise_m = vec![0.0; receiver.len()];
     for &cell in &routes.order {
         let (cell, to) = (cell as usize, receiver[cell as usize] as usize);
         if to == cell {
-            outlet_m[cell] = level.surface_m(cell);
-            start_m[cell] = outlet_m[cell];
+            outlet_m[cell] = level.sink_m(cell);
+            rise_m[cell] = level.uplift_m[cell];
+            start_m[cell] = outlet_m[cell] - rise_m[cell];
             continue;
         }
         response[cell] = response[to] + years[cell];
-        raised[cell] = raised[to] + level.uplift_m[cell] * (years[cell] / age_yr);
+        rise_m[cell] = rise_m[to];
+        raised[cell] = raised[to] + (level.uplift_m[cell] - rise_m[cell]) * (years[cell] / age_yr);
         start_m[cell] = f64::max(start_m[cell], start_m[to]);
         outlet_m[cell] = outlet_m[to];
     }
@@ -70,7 +79,7 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
         let (above, below) = (above as usize, below as usize);
         let share = (limit - response[below]) / (response[above] - response[below]).max(1e-9);
         let between = |values: &[f64]| values[below] + (values[above] - values[below]) * share;
-        between(&start_m) + raised[cell] - between(&raised)
+        between(&start_m) + rise_m[cell] + raised[cell] - between(&raised)
     };
     let mut beds_m: Vec<f64> =
         (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { level.base_m } else { free(c) }).collect();
@@ -82,10 +91,12 @@ pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> V
         }
         let step = routes.step_rad[cell];
         // The power -3/8 of the discharge, by square roots.
-        let root = earthly_m3_s(discharge[cell]).max(0.02).sqrt().sqrt();
+        let root = earthly_m3_s(discharge[cell]).max(0.5).sqrt().sqrt();
         let laid = params.deposition * ALLUVIAL_SLOPE / (root * root.sqrt()) * EARTH_M;
         let steepest_m = beds_m[to] + step * talus;
-        beds_m[cell] = f64::max(beds_m[cell], beds_m[to] + step * laid).min(steepest_m).max(beds_m[to] + 0.01);
+        // No river lays down more than a little above the rock as it was.
+        let laid_m = f64::min(beds_m[to] + step * laid, level.surface_m(cell) + 20.0);
+        beds_m[cell] = f64::max(beds_m[cell], laid_m).min(steepest_m).max(beds_m[to] + 0.01);
     }
     beds_m
 }

@@ -14,15 +14,27 @@ pub(super) struct Lakes {
 }
 
 /// Depth in metres that a basin needs to hold a lake, if the parameter `lakes` is 1.
-const LEAST_DEPTH_M: f64 = 30.0;
+const LEAST_DEPTH_M: f64 = 130.0;
 
 /// Depth in metres beyond which the floor of a lake is taken for filled with sediment.
 const MOST_DEPTH_M: f64 = 900.0;
 
+/// Height of the rock under a bed, and of what a river has laid down on it.
+fn floor_m(level: &Level<'_>, cell: usize, bed_m: f64) -> f64 {
+    let rock_m = level.surface_m(cell);
+    rock_m + (bed_m - rock_m).max(0.0) * (0.4 * level.params.deposition).min(0.9)
+}
+
 impl Lakes {
     /// Finds the lakes. `beds_m` is raised to the surface of each lake, and beyond it so far that it still falls along
     /// all routes.
-    pub(super) fn find(level: &Level<'_>, cells: &Cells, routes: &Routes, discharge: &[u64], beds_m: &mut [f64]) -> Self {
+    pub(super) fn find(
+        level: &Level<'_>,
+        cells: &Cells,
+        routes: &Routes,
+        discharge: &[u64],
+        beds_m: &mut [f64],
+    ) -> Self {
         let mut lakes = Self { ground_m: Vec::new(), lake: vec![0; beds_m.len()], lakes: Vec::new() };
         if level.params.lakes > 0.0 {
             lakes.add_closed(level, cells, routes, discharge, beds_m);
@@ -30,6 +42,9 @@ impl Lakes {
         lakes.ground_m = beds_m.to_vec();
         if level.params.lakes > 0.0 {
             lakes.add_open(level, routes, beds_m);
+            for _ in 0..2 {
+                lakes.close_gaps(level, cells);
+            }
         }
         lakes
     }
@@ -42,10 +57,10 @@ impl Lakes {
             if to == cell || self.lake[cell] != 0 {
                 continue;
             }
-            let (below, rock_m) = (self.lake[to], level.surface_m(cell));
+            let (below, rock_m) = (self.lake[to], floor_m(level, cell, beds_m[cell]));
             let joined = below.checked_sub(1).map(|k| self.lakes[k as usize]).filter(|lake| lake.outlet.is_some());
             if let Some(lake) = joined {
-                if rock_m < lake.level_m - 0.3 * least_m {
+                if rock_m < lake.level_m - 0.5 * least_m {
                     self.flood(level, cell, below, beds_m);
                     continue;
                 }
@@ -60,23 +75,37 @@ impl Lakes {
         }
     }
 
+    /// Floods low ground that a lake surrounds: small rivers have laid it down.
+    fn close_gaps(&mut self, level: &Level<'_>, cells: &Cells) {
+        const MOST_M: f64 = 60.0;
+        let before = self.lake.clone();
+        for (cell, around) in cells.neighbours.iter().enumerate() {
+            if before[cell] != 0 || level.is_sea[cell] {
+                continue;
+            }
+            let Some(number) = around.iter().map(|&other| before[other as usize]).find(|number| *number != 0) else {
+                continue;
+            };
+            let wet = around.iter().filter(|&&other| before[other as usize] == number).count();
+            let lake = &mut self.lakes[number as usize - 1];
+            if wet >= 5 && self.ground_m[cell] < lake.level_m + MOST_M {
+                self.lake[cell] = number;
+                self.ground_m[cell] = self.ground_m[cell].min(lake.level_m - 1.0);
+                lake.area_sr += level.areas_sr[cell];
+            }
+        }
+    }
+
     fn flood(&mut self, level: &Level<'_>, cell: usize, number: u32, beds_m: &mut [f64]) {
         let lake = &mut self.lakes[number as usize - 1];
         lake.area_sr += level.areas_sr[cell];
         self.lake[cell] = number;
+        self.ground_m[cell] = floor_m(level, cell, beds_m[cell]).clamp(lake.level_m - MOST_DEPTH_M, lake.level_m - 1.0);
         beds_m[cell] = lake.level_m;
-        self.ground_m[cell] = level.surface_m(cell).clamp(lake.level_m - MOST_DEPTH_M, lake.level_m - 1.0);
     }
 
     /// Basins without an outlet: the lake around each sink grows until as much evaporates as flows in.
-    fn add_closed(
-        &mut self,
-        level: &Level<'_>,
-        cells: &Cells,
-        routes: &Routes,
-        discharge: &[u64],
-        beds_m: &mut [f64],
-    ) {
+    fn add_closed(&mut self, level: &Level<'_>, cells: &Cells, routes: &Routes, discharge: &[u64], beds_m: &mut [f64]) {
         for &sink in &routes.order {
             if routes.receiver[sink as usize] != sink {
                 continue;
@@ -86,12 +115,14 @@ impl Lakes {
             let (mut lost, mut level_m, mut area_sr) = (0.0, beds_m[sink as usize], 0.0);
             let mut wet = Vec::new();
             let number = self.lakes.len() as u32 + 1;
-            let above = |cell: u32, beds_m: &[f64]| ((beds_m[cell as usize] - beds_m[sink as usize]).max(0.0) * 1024.0) as u64;
+            let above =
+                |cell: u32, beds_m: &[f64]| ((beds_m[cell as usize] - beds_m[sink as usize]).max(0.0) * 1024.0) as u64;
             while let Some(Reverse((_, cell))) = waiting.pop() {
                 if self.lake[cell as usize] != 0 {
                     continue;
                 }
-                let dry_m = level.dryness_mm[cell as usize].max(100.0) * 1e-3;
+                // Marshes and plains around the lake lose water too.
+                let dry_m = 1.8 * level.dryness_mm[cell as usize].max(300.0) * 1e-3;
                 if !wet.is_empty() && lost + dry_m * level.areas_sr[cell as usize] > inflow {
                     break;
                 }

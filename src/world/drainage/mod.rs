@@ -117,6 +117,11 @@ impl Level<'_> {
     pub(super) fn surface_m(&self, cell: usize) -> f64 {
         self.start_m[cell] + self.uplift_m[cell]
     }
+
+    /// Height of the bottom of a basin without an outlet: what rivers lay down keeps it near the base level or above.
+    pub(super) fn sink_m(&self, cell: usize) -> f64 {
+        self.surface_m(cell).max(self.base_m - 40.0)
+    }
 }
 
 /// How often routes and heights are found in turn on a grid.

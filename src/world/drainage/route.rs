@@ -60,16 +60,18 @@ impl Routes {
                 // Of two ways that cross, the one from the higher cell turns to the lower end of the other.
                 let key = |cell: u32| (units[cell as usize], cell);
                 if key(cell as u32) > key(from) {
-                    return if key(into) < key(to) || is_sea[into as usize] { into } else { lower(&units, to, into, cell) };
+                    return if key(into) < key(to) || is_sea[into as usize] {
+                        into
+                    } else {
+                        lower(&units, to, into, cell)
+                    };
                 }
             }
             to
         };
         let receiver: Vec<u32> = (0..units.len()).into_par_iter().map(uncrossed).collect();
-        let step_rad = (0..units.len())
-            .into_par_iter()
-            .map(|cell| arc_rad(nodes[cell], nodes[receiver[cell] as usize]))
-            .collect();
+        let step_rad =
+            (0..units.len()).into_par_iter().map(|cell| arc_rad(nodes[cell], nodes[receiver[cell] as usize])).collect();
         Self { receiver, step_rad, order }
     }
 

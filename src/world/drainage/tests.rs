@@ -1,1 +1,293 @@
+use super::*;
+use crate::world::grid::{node, refined};
+use crate::world::noise::fbm;
+use std::collections::BTreeMap;
 
+/// A continent, or a few: height before rise, and rise.
+struct Island {
+    side: usize,
+    initial_m: Vec<f64>,
+    uplift_m: Vec<f64>,
+    even: Vec<f64>,
+    params: Params,
+}
+
+impl Island {
+    /// A round continent with rough heights.
+    fn new(side: usize) -> Self {
+        let cells = Cells::of(side);
+        let middle = DVec3::new(0.5, 0.6, 0.62).normalize();
+        let inside = |d: &DVec3| 0.75 - d.distance(middle) + 0.12 * fbm(*d, 3.0, 4, 0.55, 5);
+        let initial_m = cells.dirs.iter().map(|d| (1500.0 * inside(d)).clamp(-4000.0, 60.0)).collect();
+        let rise = |d: &DVec3| 3000.0 * (0.4 + 0.6 * fbm(*d, 4.0, 3, 0.5, 6)).clamp(0.15, 1.0);
+        let uplift_m = cells.dirs.iter().map(|d| if inside(d) > 0.0 { rise(d) } else { 0.0 }).collect();
+        let params = Params { age_myr: 40.0, rock_variation: 0.0, deposition: 0.0, ..Params::default() };
+        Self { side, initial_m, uplift_m, even: vec![0.0; cells.dirs.len()], params }
+    }
+
+    fn finer(&self) -> Self {
+        let cells = Cells::of(self.side);
+        let double = |values: &[f64]| refined(&cells, values);
+        let (initial_m, uplift_m, even) = (double(&self.initial_m), double(&self.uplift_m), double(&self.even));
+        Self { side: 2 * self.side, initial_m, uplift_m, even, params: self.params.clone() }
+    }
+
+    fn solved(&self, coarser: Option<&Drainage>) -> Drainage {
+        self.solved_with(&vec![400.0; self.even.len()], &vec![-500.0; self.even.len()], coarser, &|| true).unwrap()
+    }
+
+    fn solved_with(
+        &self,
+        runoff_mm: &[f64],
+        dryness_mm: &[f64],
+        coarser: Option<&Drainage>,
+        keep_going: &KeepGoing<'_>,
+    ) -> Option<Drainage> {
+        let inputs = Inputs {
+            params: &self.params,
+            seed: 3,
+            side: self.side,
+            radius_km: 6371.0,
+            sea_level_m: Some(0.0),
+            initial_m: &self.initial_m,
+            uplift_m: &self.uplift_m,
+            softness: &self.even,
+            runoff_mm,
+            dryness_mm,
+        };
+        Drainage::solve(&inputs, coarser, keep_going)
+    }
+}
+
+/// The end of the way down from a cell.
+fn end(found: &Drainage, mut cell: usize) -> usize {
+    for _ in 0..found.receiver.len() {
+        let to = found.receiver[cell] as usize;
+        if to == cell {
+            return cell;
+        }
+        cell = to;
+    }
+    panic!("the way down from {cell} is a ring");
+}
+
+/// Least-squares slope of y by x.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
+    let (xy, xx) =
+        points.iter().fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - mx) * (p.1 - my), xx + (p.0 - mx) * (p.0 - mx)));
+    xy / xx
+}
+
+#[test]
+fn all_water_reaches_the_sea_or_a_closed_basin_and_no_ground_rises_along_it() {
+    let mut island = Island::new(48);
+    island.params = Params::default();
+    let found = island.solved(None);
+    assert!(found.order.len() > 500);
+    for &cell in &found.order {
+        let (cell, last) = (cell as usize, end(&found, cell as usize));
+        assert!(found.is_sea[last] || found.sinks.contains(&(last as u32)), "{cell} ends on land");
+        let to = found.receiver[cell] as usize;
+        assert!(found.bed_m[cell] >= found.bed_m[to], "{cell}: {} {}", found.bed_m[cell], found.bed_m[to]);
+        if found.lake[cell] == 0 && found.lake[to] == 0 && !found.is_sea[to] {
+            assert!(found.height_m[cell] >= found.height_m[to]);
+        }
+    }
+}
+
+#[test]
+fn no_two_ways_cross() {
+    let found = Island::new(48).solved(None);
+    let cells = Cells::of(48);
+    let place = |cell: u32| node(found.side, cell as usize, found.seed);
+    let mut crossings = 0;
+    for &cell in &found.order {
+        let (a, b) = (place(cell), place(found.receiver[cell as usize]));
+        for &near in &cells.neighbours[cell as usize] {
+            let to = found.receiver[near as usize];
+            if found.is_sea[near as usize] || [to, near].contains(&found.receiver[cell as usize]) || to == cell {
+                continue;
+            }
+            let (c, d) = (place(near), place(to));
+            let side = |p: DVec3, q: DVec3, r: DVec3| p.cross(q).dot(r);
+            let apart = side(a, b, c) * side(a, b, d) > 0.0 || side(c, d, a) * side(c, d, b) > 0.0;
+            crossings += usize::from(!apart);
+        }
+    }
+    assert_eq!(crossings, 0);
+}
+
+#[test]
+fn beds_are_concave_as_stream_power_has_it() {
+    let mut island = Island::new(64);
+    island.uplift_m.iter_mut().for_each(|m| *m = if *m > 0.0 { 800.0 } else { 0.0 });
+    let found = island.solved(None);
+    let mut points = Vec::new();
+    for &cell in &found.order {
+        let (cell, to) = (cell as usize, found.receiver[cell as usize] as usize);
+        let step = place_rad(&found, cell, to);
+        let drop = found.bed_m[cell] - found.bed_m[to];
+        if drop > 0.1 && found.lake[cell] == 0 && !found.is_sea[to] {
+            points.push((libm::log(found.discharge[cell] as f64), libm::log(drop / step)));
+        }
+    }
+    let concavity = -slope(&points);
+    assert!((0.4..=0.52).contains(&concavity), "{concavity}");
+}
+
+fn place_rad(found: &Drainage, a: usize, b: usize) -> f64 {
+    node(found.side, a, found.seed).distance(node(found.side, b, found.seed))
+}
+
+#[test]
+fn networks_branch_as_natural_ones_do() {
+    let found = Island::new(96).solved(None);
+    // Strahler's orders of channels, and the longest way above each cell. A channel begins where a few cells meet: each
+    // cell alone would count as a source, whatever the land.
+    let count = found.receiver.len();
+    let cell_units = 400.0 * 1e-3 * 4.0 * std::f64::consts::PI / count as f64 / DISCHARGE_UNIT;
+    let is_channel = |cell: usize| found.discharge[cell] as f64 > 3.5 * cell_units;
+    let (mut order, mut twins, mut length) = (vec![1_u32; count], vec![0_u32; count], vec![0.0_f64; count]);
+    let mut streams: BTreeMap<u32, u32> = BTreeMap::new();
+    for &cell in found.order.iter().rev() {
+        let (cell, to) = (cell as usize, found.receiver[cell as usize] as usize);
+        if twins[cell] >= 2 {
+            order[cell] += 1;
+        }
+        if to == cell {
+            continue;
+        }
+        length[to] = length[to].max(length[cell] + place_rad(&found, cell, to));
+        if !is_channel(cell) {
+            continue;
+        }
+        match order[to].cmp(&order[cell]) {
+            std::cmp::Ordering::Less => (order[to], twins[to]) = (order[cell], 1),
+            std::cmp::Ordering::Equal => twins[to] += 1,
+            std::cmp::Ordering::Greater => {}
+        }
+    }
+    for &cell in &found.order {
+        let (cell, to) = (cell as usize, found.receiver[cell as usize] as usize);
+        if is_channel(cell) && (found.is_sea[to] || order[to] != order[cell]) {
+            *streams.entry(order[cell]).or_default() += 1;
+        }
+    }
+    let number = |order: u32| f64::from(streams.get(&order).copied().unwrap_or(0));
+    for (low, high) in [(1, 2), (2, 3)] {
+        let ratio = number(low) / number(high);
+        assert!((2.8..=5.2).contains(&ratio), "orders {low} and {high}: {ratio} of {streams:?}");
+    }
+    // Hack's law: the length of a river by its area.
+    let points: Vec<(f64, f64)> = found
+        .order
+        .iter()
+        .map(|&cell| cell as usize)
+        .filter(|&cell| found.discharge[cell] as f64 > 12.0 * cell_units)
+        .map(|cell| (libm::log(found.discharge[cell] as f64), libm::log(length[cell])))
+        .collect();
+    let exponent = slope(&points);
+    assert!((0.48..=0.64).contains(&exponent), "{exponent}");
+}
+
+#[test]
+fn a_finer_grid_keeps_the_great_rivers() {
+    let island = Island::new(32);
+    let coarse = island.solved(None);
+    let fine = island.finer().solved(Some(&coarse));
+    let least = coarse.discharge.iter().max().unwrap() / 12;
+    let (mut near, mut all) = (0, 0);
+    for &cell in coarse.order.iter().filter(|&&cell| coarse.discharge[cell as usize] > least) {
+        let dir = node(32, cell as usize, coarse.seed);
+        all += 1;
+        let is_near = |&cell: &u32| {
+            fine.discharge[cell as usize] > least / 2 && node(64, cell as usize, fine.seed).distance(dir) < 2.0 / 32.0
+        };
+        near += usize::from(fine.order.iter().any(|cell| is_near(cell)));
+    }
+    assert!(all > 20 && near * 10 >= all * 9, "{near} of {all}");
+}
+
+#[test]
+fn older_rivers_have_worn_more_and_young_ones_leave_the_plateau() {
+    let mean = |age_myr: f64| {
+        let mut island = Island::new(32);
+        island.params.age_myr = age_myr;
+        let found = island.solved(None);
+        found.order.iter().map(|&cell| f64::from(found.height_m[cell as usize])).sum::<f64>() / found.order.len() as f64
+    };
+    let (young, middle, old) = (mean(0.5), mean(10.0), mean(100.0));
+    assert!(young > 1.3 * middle && middle > 2.0 * old, "{young} {middle} {old}");
+}
+
+/// A continent with a deep basin in its middle.
+fn basin() -> Island {
+    let mut island = Island::new(48);
+    let middle = DVec3::new(0.5, 0.6, 0.62).normalize();
+    for (cell, dir) in Cells::of(48).dirs.iter().enumerate() {
+        let away = dir.distance(middle);
+        if away < 0.3 {
+            island.uplift_m[cell] = 300.0;
+            island.initial_m[cell] = 20.0;
+        } else if island.uplift_m[cell] > 0.0 {
+            island.uplift_m[cell] = island.uplift_m[cell].max(2200.0);
+        }
+    }
+    island.params.age_myr = 3.0;
+    island
+}
+
+#[test]
+fn a_dry_basin_keeps_its_water_and_a_wet_one_overflows() {
+    let island = basin();
+    let count = island.even.len();
+    let dry = island.solved_with(&vec![60.0; count], &vec![1500.0; count], None, &|| true).unwrap();
+    assert!(!dry.sinks.is_empty());
+    let closed: Vec<&Lake> = dry.lakes.iter().filter(|lake| lake.outlet.is_none()).collect();
+    assert!(!closed.is_empty() && closed.iter().all(|lake| lake.area_sr < 0.2), "{closed:?}");
+    let wet = island.solved_with(&vec![900.0; count], &vec![-300.0; count], None, &|| true).unwrap();
+    assert!(wet.sinks.is_empty());
+    let open: Vec<&Lake> = wet.lakes.iter().filter(|lake| lake.outlet.is_some()).collect();
+    assert!(open.iter().any(|lake| lake.area_sr > 0.02), "{open:?}");
+    for (cell, &number) in wet.lake.iter().enumerate().filter(|(_, number)| **number != 0) {
+        assert!(f64::from(wet.height_m[cell]) < wet.lakes[number as usize - 1].level_m);
+    }
+}
+
+#[test]
+fn equal_bits_on_any_number_of_threads_and_an_end_when_told() {
+    let island = Island::new(32);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| island.solved(None))
+    };
+    let (one, three) = (on(1), on(3));
+    assert!(one.bed_m.iter().zip(&three.bed_m).all(|(a, b)| a.to_bits() == b.to_bits()));
+    assert_eq!((one.receiver, one.discharge, one.lake), (three.receiver, three.discharge, three.lake));
+    let even = vec![300.0; island.even.len()];
+    assert!(island.solved_with(&even, &even, None, &|| false).is_none());
+}
+
+#[test]
+fn a_planet_without_a_sea_has_rivers_that_run_dry_in_its_plains() {
+    let island = Island::new(24);
+    let even = vec![300.0; island.even.len()];
+    let inputs = Inputs {
+        params: &island.params,
+        seed: 3,
+        side: 24,
+        radius_km: 40.0,
+        sea_level_m: None,
+        initial_m: &island.initial_m,
+        uplift_m: &island.uplift_m,
+        softness: &island.even,
+        runoff_mm: &even,
+        dryness_mm: &even,
+    };
+    let found = Drainage::solve(&inputs, None, &|| true).unwrap();
+    let plains = found.is_sea.iter().filter(|sea| **sea).count() as f64 / found.is_sea.len() as f64;
+    assert!((0.05..0.2).contains(&plains), "{plains}");
+    assert!(found.height_m.iter().all(|m| m.is_finite()));
+}

@@ -111,7 +111,8 @@ impl Layout {
     fn effect(&self, params: &Params, plate: usize, bent: DVec3, border: &Border, along: f64) -> Edges {
         let Border { other, km, inward, opening, shear } = *border;
         let at = (bent - inward * (km / EARTH_KM)).normalize();
-        let is_land = |plate: usize| ramp(-0.03, 0.05, self.crust_rad(plate, at, 2));
+        let coast_rad = self.coast_rad(at, 2);
+        let is_land = |plate: usize| ramp(-0.03, 0.05, self.even_crust_rad(plate, at) + coast_rad);
         let (mine, theirs) = (is_land(plate), is_land(other));
         let drift = params.drift_mm_yr;
         let (meets, parts) = (ramp(0.06, 0.7, -opening / drift), ramp(0.06, 0.7, opening / drift));
@@ -125,7 +126,8 @@ impl Layout {
         // An ocean floor sinks under a continent: a belt behind the coast, a trench before it.
         let coast = meets * mine * (1.0 - theirs);
         let belt = params.belt_km * (0.8 + 0.3 * along).clamp(0.5, 1.3);
-        let belt_at = ramp(90.0, 230.0, km) * (1.0 - 0.45 * ramp(260.0, 0.7 * belt + 120.0, km))
+        let belt_at = ramp(90.0, 230.0, km)
+            * (1.0 - 0.45 * ramp(260.0, 0.7 * belt + 120.0, km))
             * (1.0 - ramp(0.6 * belt + 100.0, belt + 200.0, km));
         let sinks = meets * (theirs * (1.0 - mine) + (1.0 - theirs) * (1.0 - mine) * (1.0 - above));
         // Two continents collide: a range along the boundary, a plateau behind it, a low foreland before it.
@@ -138,8 +140,10 @@ impl Layout {
         let foreland = collision * (1.0 - above) * bump(330.0, 260.0, km) + coast * bump(belt + 330.0, 260.0, km);
         // An ocean floor sinks under another: an arc of islands.
         let arc = meets * (1.0 - mine) * (1.0 - theirs) * above;
-        let beads = ramp(-0.25, 0.45, noise(bent * 21.0, hash(self.seed, 23)) + 0.4 * along);
-        let arc_at = bump(185.0, 130.0, km) * (0.42 + 0.58 * beads);
+        let mut arc_at = bump(185.0, 130.0, km);
+        if arc * arc_at > 0.0 {
+            arc_at *= 0.42 + 0.58 * ramp(-0.25, 0.45, noise(bent * 21.0, hash(self.seed, 23)) + 0.4 * along);
+        }
         // Two plates part: a rift in a continent, and an ocean once it has opened.
         let rift = parts * mine * theirs;
         let open_km = 520.0 * ramp(0.35, 1.4, opening / drift) * (1.0 + 0.4 * along);

@@ -23,11 +23,8 @@ impl Rock {
         let (coarse, side) = (Cells::of(self.side), 2 * self.side);
         let fine = Cells::of(side);
         let frequency = 0.22 * side as f64;
-        let detail: Vec<f64> = fine
-            .dirs
-            .par_iter()
-            .map(|dir| fbm(*dir, frequency, 2, 0.6, hash(layout.seed, 41 + side as u32)))
-            .collect();
+        let detail: Vec<f64> =
+            fine.dirs.par_iter().map(|dir| fbm(*dir, frequency, 2, 0.6, hash(layout.seed, 41 + side as u32))).collect();
         let amplitude = 128.0 / side as f64;
         let mut base_m = refined(&coarse, &self.base_m);
         let mut uplift_m = refined(&coarse, &self.uplift_m);

@@ -106,8 +106,8 @@ impl Layout {
             plates,
             volcanoes: Vec::new(),
             seed,
-            bend_rad: 0.17 * params.raggedness,
-            coast_rad: 0.12 + 0.16 * params.fragments,
+            bend_rad: 0.25 * params.raggedness,
+            coast_rad: 0.16 + 0.34 * params.fragments,
             crust_rad: 0.0,
         };
         layout.add_continents(params, &mut dice);
@@ -141,6 +141,16 @@ impl Layout {
     /// How far inside the continents of a plate a bent direction lies, in radians; below zero outside. `octaves` says
     /// how fine the coast is.
     pub(super) fn crust_rad(&self, plate: usize, bent: DVec3, octaves: u32) -> f64 {
+        self.even_crust_rad(plate, bent) + self.coast_rad(bent, octaves)
+    }
+
+    /// How far noise moves the coast outwards.
+    pub(super) fn coast_rad(&self, bent: DVec3, octaves: u32) -> f64 {
+        self.coast_rad * fbm(bent, 2.1, octaves, 0.58, hash(self.seed, 11))
+    }
+
+    /// The crust without the noise of the coast.
+    pub(super) fn even_crust_rad(&self, plate: usize, bent: DVec3) -> f64 {
         const SOFT: f64 = 0.16;
         let mut most = -0.6;
         for craton in &self.plates[plate].cratons {
@@ -149,7 +159,7 @@ impl Layout {
             let near = (1.0 - (most - inside).abs() / SOFT).max(0.0);
             most = f64::max(most, inside) + near * near * (0.25 * SOFT);
         }
-        most + self.crust_rad + self.coast_rad * fbm(bent, 2.3, octaves, 0.56, hash(self.seed, 11))
+        most + self.crust_rad
     }
 
     /// The velocity of a plate at a direction, in radians per million years.
@@ -213,7 +223,7 @@ impl Layout {
         let apart = 0.2 + 0.1 * fragments;
         for (_, dir) in left {
             if cratons.len() < want.min(12) && cratons.iter().all(|other| other.center.distance(dir) > apart) {
-                let radius_rad = width * (0.16 + 0.2 * dice.roll()) * (1.15 - 0.4 * fragments);
+                let radius_rad = width * (0.12 + 0.2 * dice.roll()) * (1.15 - 0.5 * fragments);
                 cratons.push(Craton { center: dir, radius_rad });
             }
         }

@@ -16,8 +16,8 @@ use super::map::KeepGoing;
 use super::noise::{fbm, hash, noise, ramp};
 use crate::planet::Plates as Params;
 use edges::NO_EDGE_KM;
-use glam::DVec3;
 pub(crate) use finer::Rock;
+use glam::DVec3;
 pub(crate) use layout::{EARTH_KM, Layout};
 use rayon::prelude::*;
 
@@ -91,7 +91,8 @@ impl Layout {
         let edges = self.edges(params, plate, bent);
         let inside_km = self.crust_rad(plate, bent, 6) * EARTH_KM;
         // A boundary that cuts a continent off makes its coast.
-        let coast_km = smooth_min(inside_km, edges.coast_km, 120.0);
+        // The crust reaches under the sea as far as the shelf.
+        let coast_km = smooth_min(inside_km - params.shelf_km - 60.0, edges.coast_km, 120.0);
         let cut = ramp(0.0, 300.0, inside_km - edges.coast_km) * f64::from(u8::from(edges.coast_km < NO_EDGE_KM));
         let seed = |k: u32| hash(self.seed, k);
         let broad = fbm(dir, 3.1, 3, 0.55, seed(31));
@@ -101,7 +102,7 @@ impl Layout {
         let shelf_km = params.shelf_km * (1.0 + 0.9 * broad).clamp(0.25, 2.0) * (1.0 - 0.85 * cut);
         let on_slope = ramp(-shelf_km - 230.0 + 90.0 * cut, -shelf_km, coast_km);
         let shelf_m = -150.0 * ramp(0.0, -shelf_km - 20.0, coast_km);
-        let low_m = 45.0 * ramp(0.0, 250.0, coast_km) + (45.0 * hills + 130.0 * broad) * ramp(-100.0, 300.0, coast_km);
+        let low_m = 45.0 * ramp(0.0, 250.0, coast_km) + (100.0 * hills + 170.0 * broad) * ramp(-150.0, 200.0, coast_km);
         let mut base_m = floor_m + (shelf_m + low_m - floor_m) * on_slope + edges.ground_m;
 
         // Inside continents: gentle rises and basins, old belts between old cores, what boundaries push up.
@@ -171,9 +172,9 @@ impl Layout {
     }
 }
 
-/// Depth of an ocean floor of an age in million years: it grows with the square root of the age, and ends at 90.
+/// Depth of an ocean floor of an age in million years: it grows with the square root of the age, and ends at 120.
 fn floor_depth(params: &Params, age_myr: f64) -> f64 {
-    let old = (age_myr / 90.0).min(1.0).sqrt();
+    let old = (age_myr / 120.0).min(1.0).sqrt();
     params.ridge_m + (params.ocean_m - params.ridge_m) * old
 }
 

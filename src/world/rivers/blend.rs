@@ -2,8 +2,8 @@
 //!
 //! Let each piece within its influence `R` lie at distance `d` from the point, and let `q = d⁴ (1 + F) / (d² + F)` in
 //! units of `R`, with `F` the square of half the floodplain's width. So `q` is d² beyond a floodplain and much less on
-//! it. Heights of the banks at the feet are interpolated with weights `(1 - d²)² / q²` (Shepard 1968), which is exact on
-//! every reach, whatever flows beside it. With `x² = min q`, the ground is
+//! it. Heights of the banks at the feet are interpolated with weights `(1 - d²)² / q²` (Shepard 1968), which is exact
+//! on every reach, whatever flows beside it. With `x² = min q`, the ground is
 //!
 //! `ground of the level before · f(x) + banks · (1 - f(x)) + amplitude · rise(x)`
 //!

@@ -10,8 +10,8 @@
 //!
 //! The solved ground is a smooth raster. Each level of reaches is laid over it: on a reach the ground is the reach's
 //! bed, which never rises downstream; away from reaches it returns to the level before, raised by the relief between
-//! reaches. So the solver's heights hold at large scale, rivers are exact at every scale, and a coarse river stays where
-//! it is when finer levels join. Channels are cut last, from discharge.
+//! reaches. So the solver's heights hold at large scale, rivers are exact at every scale, and a coarse river stays
+//! where it is when finer levels join. Channels are cut last, from discharge.
 //!
 //! Answers are pure functions of the drainage, the direction and the number of levels: f64 with correctly rounded
 //! operations and `libm`, sums in the order of levels, cells and pieces.

@@ -79,7 +79,7 @@ impl Weather {
                 wind_m_s[cell][1] += 0.5 * season.wind_m_s[cell].dot(north);
             }
         }
-        let rain_mm = smoothed(&cells, &rain_mm, 1);
+        let rain_mm = smoothed(&cells, &rain_mm, (inputs.side / 32).max(1));
         let evaporation_mm = ground.temperature_c.iter().map(|c| potential_mm(*c)).collect();
         let rasters = {
             let warmer = (0..cells.dirs.len()).map(|cell| ground.current_c(cell).clamp(-WARMEST_C, WARMEST_C) as f32);

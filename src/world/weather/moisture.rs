@@ -13,14 +13,15 @@ use rayon::prelude::*;
 /// Distance in km over which the air takes up moisture from the sea.
 const UPTAKE_KM: f64 = 900.0;
 
-/// Share of the rain on land that evaporates again and goes on with the wind.
-const RECYCLED: f64 = 0.5;
+/// Share of the rain on land that evaporates again and goes on with the wind: where air sinks, and what is added where
+/// it rises most. Forests near the equator give back most of their rain.
+const RECYCLED: [f64; 2] = [0.4, 0.42];
 
 /// Share of the moisture that is lost for each km of climb, as an exponent.
 const CLIMB: f64 = 0.75;
 
 /// Rain in mm a year where saturated air of 27 °C loses a thousandth of its moisture a km at the mean wind.
-const RAIN_MM: f64 = 4600.0;
+const RAIN_MM: f64 = 8200.0;
 
 /// What a cell does with the air that comes to it.
 struct Step {
@@ -29,6 +30,8 @@ struct Step {
     km: f64,
     /// Share of the moisture that rains out.
     lost: f64,
+    /// Share of that rain that evaporates again.
+    recycled: f64,
     /// Moisture of saturated air here; 1 at 27 °C.
     most: f64,
     speed: f64,
@@ -59,7 +62,7 @@ pub(super) fn rain_mm(ground: &Ground<'_>, season: &Season, keep_going: &KeepGoi
                 let taken = 1.0 - libm::exp(-step.km / UPTAKE_KM);
                 from * (1.0 - 0.4 * step.lost) + (0.85 * step.most - from).max(0.0) * taken
             } else {
-                (from * (1.0 - step.lost * (1.0 - RECYCLED))).min(1.15 * step.most)
+                (from * (1.0 - step.lost * (1.0 - step.recycled))).min(1.15 * step.most)
             }
         };
         carried = (0..count).into_par_iter().map(after).collect();
@@ -96,10 +99,18 @@ impl Step {
             climb_km += *share * (ground.height_km[cell] - ground.height_km[other as usize]);
         }
         // Rising air rains; sinking air, and air that flows downhill, keeps its moisture.
-        let rising = 0.12 + 1.25 * ramp(-1.05, 1.1, season.rising[cell]);
+        let lift = ramp(-1.05, 1.1, season.rising[cell]);
+        let rising = 0.12 + 1.25 * lift;
         let downhill = libm::exp((1.8 * params.rain_shadow * climb_km).min(0.0));
         let uphill = CLIMB * params.rain_shadow * climb_km.max(0.0) * (0.45 + 0.55 * rising);
         let lost = 1.0 - libm::exp(-(km / params.reach_km * rising * downhill + uphill));
-        Self { from, km: km.max(1.0), lost, most: saturated(ground.temperature_c[cell]), speed: speed.min(2.0) }
+        Self {
+            from,
+            km: km.max(1.0),
+            lost,
+            recycled: RECYCLED[0] + RECYCLED[1] * lift,
+            most: saturated(ground.temperature_c[cell]),
+            speed: speed.min(2.0),
+        }
     }
 }

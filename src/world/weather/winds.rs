@@ -64,7 +64,8 @@ impl Season {
 /// The thermal equator follows the sun, further over land than over the sea.
 fn belt(params: &Params, dir: DVec3, land: f64, sign: f64) -> (f64, f64) {
     let latitude = libm::asin(dir.z.clamp(-1.0, 1.0)) * (2.0 / PI);
-    let shift = sign * params.seasons * (0.055 + 0.10 * land);
+    // A season is half a year: the sun stands at 0.64 of its greatest latitude in the mean.
+    let shift = sign * params.seasons * (0.036 + 0.064 * land);
     let from = latitude - shift * (1.0 - latitude * latitude);
     let x = from.abs() * params.belts;
     (x, if from < 0.0 { -1.0 } else { 1.0 })
