@@ -1,8 +1,8 @@
 //! Builds surfaces in the background: one thread takes the newest request, works on all cores in slices, and hands over
 //! complete sets of tiles.
 //!
-//! A request is a planet and the views of it. All views share the terrain and the cache. A slice works for one view: for
-//! the view that has waited longest, until each has a surface of the request; then tiles come before detail.
+//! A request is a planet and the views of it. All views share the terrain and the cache. A slice works for one view:
+//! for the view that has waited longest, until each has a surface of the request; then tiles come before detail.
 //!
 //! A slice ends when its time is up or a newer request arrives. It always ends with a complete surface, perhaps a
 //! coarser one. Only the first slice of a request has a grace period, so that a slider that is held shows every edit,

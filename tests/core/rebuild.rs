@@ -210,10 +210,10 @@ fn memory_keeps_to_its_budget_whatever_it_is() {
     let planet = full_planet();
     for budget in [0, 4 << 20, 16 << 20] {
         let builder = Builder::with_budget(budget, || {});
-        for step in 0..12 {
+        for step in 0..6 {
             let mut edited = planet.clone();
             edited.layers[0].seed = step / 2;
-            let view = view(f64::from(step) * 30.0, 1.1);
+            let view = view(f64::from(step) * 60.0, 1.1);
             ask(&builder, &edited, &view);
             let memory = builder.memory();
             let needed =
@@ -317,7 +317,7 @@ fn event() -> impl Strategy<Value = Event> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
     fn any_sequence_of_events_ends_in_what_a_build_from_nothing_gives(
         events in prop::collection::vec(event(), 1..24),
