@@ -70,7 +70,7 @@ impl CompiledClimate {
     }
 
     /// What world maps say at each point; empty if the climate reads none, or if none serves yet.
-    pub(crate) fn from_maps<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = MapClimate> + 'a {
+    pub(crate) fn climates_of_maps<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = MapClimate> + 'a {
         let (coast, weather) = (self.world.coast.map(), self.world.weather.map());
         let at = move |&dir: &DVec3| {
             let inland_rad = coast.map_or(MapClimate::NONE.inland_rad, |coast| coast.inland_rad(dir));
@@ -81,7 +81,7 @@ impl CompiledClimate {
         dirs.iter().map(at)
     }
 
-    /// Keys of the maps that [`CompiledClimate::from_maps`] reads.
+    /// Keys of the maps that [`CompiledClimate::climates_of_maps`] reads.
     pub(crate) fn map_keys(&self) -> MapKeys {
         [self.world.coast.key(), self.world.weather.key()]
     }

@@ -151,7 +151,7 @@ impl NoiseScratch {
                 }
             }
             from_maps.clear();
-            from_maps.extend(terrain.climate.from_maps(&points.dirs));
+            from_maps.extend(terrain.climate.climates_of_maps(&points.dirs));
         }
         let [temperature, moisture] = &self.climate;
         ClimateInputs { noise: [&temperature.field.value, &moisture.field.value], from_maps: &self.from_maps }

@@ -18,6 +18,7 @@ mod preset;
 mod rebuild;
 mod relief;
 mod sphere;
+mod structure;
 mod terrain;
 
 #[path = "../support"]

@@ -46,9 +46,10 @@ impl Panel {
 }
 
 /// The tabs, in the order shown.
-pub static PANELS: [Panel; 8] = [
+pub static PANELS: [Panel; 9] = [
     Panel::new("Planet", |ui, _, draft| parts::planet(ui, draft)),
     Panel::new("Terrain", |ui, state, draft| layers::show(ui, &mut state.layers, draft)),
+    Panel::new("Structure", |ui, state, draft| parts::structure(ui, &mut state.turned_off, draft)),
     Panel::new("Climate", |ui, _, draft| parts::climate(ui, draft)),
     Panel::new("Biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft)).painting(),
     Panel::new("Water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),

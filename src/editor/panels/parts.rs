@@ -7,13 +7,14 @@ use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, Star, Water, star_color, star_kelvin,
+    Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, Star, Structure, Water, star_color, star_kelvin,
 };
 use eframe::egui;
 
 /// Optional parts that were turned off, with their last values.
 #[derive(Default)]
 pub struct TurnedOff {
+    structure: Option<Structure>,
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
@@ -93,6 +94,35 @@ pub fn climate(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     whole(ui, "climate", &mut draft.planet.climate, &mut Climate::default(), draft.problems);
 }
 
+/// The structure, if the planet has one.
+pub fn structure(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    ui.weak("Plates push up land, winds rain on it, rivers carve it. Layers lie over it, or under it.");
+    ui.add_space(4.0);
+    let label = switch(ui, "structure", &mut draft.planet.structure, &mut turned_off.structure);
+    draft.label = label.or(draft.label.take());
+    let Some(Structure { plates, weather, rivers, .. }) = &mut draft.planet.structure else { return };
+    let mut defaults = Structure::default();
+    let parts: [(&str, &str, &mut dyn Params, &mut dyn Params); 3] = [
+        ("Plates", "plates", plates, &mut defaults.plates),
+        ("Weather", "weather", weather, &mut defaults.weather),
+        ("Rivers", "rivers", rivers, &mut defaults.rivers),
+    ];
+    for (title, field, part, default) in parts {
+        egui::CollapsingHeader::new(title).default_open(field == "plates").show(ui, |ui| {
+            let base = ParamPath::from(vec![Segment::Field("structure"), Segment::Field(field)]);
+            let grid = Grid { base, owner: field, skip: &[], problems: draft.problems, biomes: &[] };
+            params_grid(ui, &grid, part, default);
+        });
+    }
+    ui.add_space(4.0);
+    let base = ParamPath::from(vec![Segment::Field("structure")]);
+    let skip = ["plates", "weather", "rivers"];
+    let grid = Grid { base, owner: "structure", skip: &skip, problems: draft.problems, biomes: &[] };
+    if let Some(structure) = &mut draft.planet.structure {
+        params_grid(ui, &grid, structure, &mut Structure::default());
+    }
+}
+
 /// The sea, if the planet has one.
 pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
     let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.problems);
@@ -146,10 +176,25 @@ fn optional<T: Params + Default + Clone>(
     kept: &mut Option<T>,
     problems: &[(ParamPath, String)],
 ) -> Option<String> {
+    let label = switch(ui, field, part, kept);
+    if let Some(part) = part {
+        whole(ui, field, part, &mut T::default(), problems);
+    }
+    label
+}
+
+/// The switch of such a part.
+fn switch<T: Default + Clone>(
+    ui: &mut egui::Ui,
+    field: &'static str,
+    part: &mut Option<T>,
+    kept: &mut Option<T>,
+) -> Option<String> {
     let mut label = None;
     let mut on = part.is_some();
     let text = match field {
         "atmosphere" => "This planet has an atmosphere".to_owned(),
+        "structure" => "This planet has a structure".to_owned(),
         _ => format!("This planet has {field}"),
     };
     if ui.checkbox(&mut on, text).changed() {
@@ -161,8 +206,5 @@ fn optional<T: Params + Default + Clone>(
         label = Some(format!("Turn {field} {}", if on { "on" } else { "off" }));
     }
     ui.add_space(4.0);
-    if let Some(part) = part {
-        whole(ui, field, part, &mut T::default(), problems);
-    }
     label
 }

@@ -69,6 +69,7 @@ pub(crate) struct Mouth {
 }
 
 /// Rivers and lakes at the cells of a grid.
+#[derive(Default)]
 pub(crate) struct Drainage {
     pub(crate) side: usize,
     /// Seed of the nodes: the river of a cell runs through [`super::grid::node`] of it.

@@ -21,7 +21,7 @@ fn drainage() -> &'static Drainage {
 
 fn rivers() -> &'static Rivers {
     static ONCE: OnceLock<Rivers> = OnceLock::new();
-    ONCE.get_or_init(|| Rivers::new(drainage()))
+    ONCE.get_or_init(|| Rivers::new(drainage(), Some(synthetic::SEA_M), synthetic::RADIUS_KM))
 }
 
 /// A spacing at which a number of levels takes part.
@@ -31,7 +31,7 @@ fn spacing_rad(levels: usize) -> f64 {
 
 fn at(dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
     let mut out = Vec::new();
-    rivers().evaluate(&[dir], spacing_rad(levels), cache, &mut out);
+    rivers().evaluate(&[dir], levels, cache, &mut out);
     out[0]
 }
 
@@ -54,9 +54,9 @@ fn step(dir: DVec3, along: DVec3, by: f64) -> DVec3 {
 #[test]
 fn levels_follow_the_spacing() {
     for levels in 1..=LEVELS {
-        assert_eq!(rivers().levels_for(spacing_rad(levels)), levels);
+        assert_eq!(rivers().levels_for(spacing_rad(levels), 4.0), levels);
     }
-    assert_eq!((rivers().levels_for(0.0), rivers().levels_for(1.0)), (LEVELS, 1));
+    assert_eq!((rivers().levels_for(0.0, 4.0), rivers().levels_for(1.0, 4.0)), (LEVELS, 1));
 }
 
 #[test]
@@ -144,9 +144,9 @@ fn gradients_match_differences() {
 fn a_batch_equals_its_points_in_any_order() {
     let dirs: Vec<DVec3> = land(60).into_iter().flat_map(|dir| [dir, step(dir, DVec3::Z, 1e-5)]).collect();
     let (mut together, mut backwards) = (Vec::new(), Vec::new());
-    rivers().evaluate(&dirs, 0.0, &mut Cache::default(), &mut together);
+    rivers().evaluate(&dirs, LEVELS, &mut Cache::default(), &mut together);
     let reversed: Vec<DVec3> = dirs.iter().rev().copied().collect();
-    rivers().evaluate(&reversed, 0.0, &mut Cache::default(), &mut backwards);
+    rivers().evaluate(&reversed, LEVELS, &mut Cache::default(), &mut backwards);
     backwards.reverse();
     assert_eq!(together, backwards);
     for (dir, point) in dirs.iter().zip(&together).step_by(9) {

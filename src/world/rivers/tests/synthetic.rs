@@ -7,7 +7,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Where the sea stands.
-const SEA_M: f64 = 0.0;
+pub(crate) const SEA_M: f64 = 0.0;
+pub(crate) const RADIUS_KM: f64 = 6371.0;
 
 /// Sums of a few waves in scattered directions.
 fn bumps(dir: DVec3, seed: u32) -> f64 {
@@ -73,7 +74,7 @@ fn flood(cells: &Cells, ground_m: &[f64]) -> (Vec<f64>, Vec<u32>, Vec<u32>) {
 
 /// A drainage of `6 * side * side` cells of a planet as large as the Earth.
 pub(crate) fn drainage(side: usize, seed: u32, steps: usize) -> Drainage {
-    let (cells, radius_m) = (Cells::of(side), 6.371e6);
+    let (cells, radius_m) = (Cells::of(side), RADIUS_KM * 1e3);
     let count = cells.dirs.len();
     let mut ground_m: Vec<f64> = cells.dirs.iter().map(|dir| bumps(*dir, seed) * 700.0 + 100.0).collect();
     let uplift: Vec<f64> = cells.dirs.iter().map(|dir| 0.25 + bumps(*dir, seed + 1).max(0.0) * 1.5).collect();
@@ -114,9 +115,9 @@ pub(crate) fn drainage(side: usize, seed: u32, steps: usize) -> Drainage {
         discharge_m3_s: discharge.iter().map(|discharge| *discharge as f32).collect(),
         lake: vec![0; count],
         lakes: Vec::new(),
-        sea_level_m: Some(SEA_M),
-        radius_km: radius_m * 1e-3,
         seed,
+        base_m: SEA_M,
+        ..Drainage::default()
     }
 }
 
@@ -142,6 +143,6 @@ pub(crate) fn dam(drainage: &mut Drainage, discharge_m3_s: [f32; 2]) -> Option<u
             }
         }
     }
-    drainage.lakes = vec![Lake { level_m: f64::from(level_m), outlet: Some(outlet as u32) }];
+    drainage.lakes = vec![Lake { level_m: f64::from(level_m), outlet: Some(outlet as u32), area_sr: 0.0 }];
     Some(outlet as u32)
 }

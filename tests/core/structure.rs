@@ -1,0 +1,120 @@
+//! Planets with a structure: the same bits everywhere, layers over and under it, what an edit solves again.
+
+use glam::DVec3;
+use std::sync::Arc;
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::param::{Stage, Stages};
+use tellus::planet::{Fbm, Layer, Planet, Shape, Structure, Water};
+use tellus::sphere::{LatLon, spread};
+use tellus::terrain::simd::Simd;
+use tellus::terrain::{Revision, Terrain, Wanted};
+use tellus::tiles::{Builder, build_now};
+
+/// A planet of the coarsest grid: quick to solve.
+fn planet() -> Planet {
+    let structure = Some(Structure { grids: 1, ..Structure::default() });
+    Planet { structure, water: Some(Water::default()), atmosphere: None, ..Planet::default() }
+}
+
+fn terrain(planet: &Planet) -> Terrain {
+    Terrain::try_new(Arc::new(planet.clone())).unwrap()
+}
+
+fn hills() -> Layer {
+    let shape = Shape::Fbm(Fbm { wavelength_km: 900.0, octaves: 2, ..Fbm::default() });
+    Layer { name: "Hills".to_owned(), amplitude_m: 700.0, shape, ..Layer::default() }
+}
+
+fn heights_m(terrain: &Terrain) -> Vec<f64> {
+    terrain.heights_m(&spread(3000).collect::<Vec<DVec3>>())
+}
+
+#[test]
+fn it_has_land_and_sea_of_the_same_bits_for_any_number_of_threads_and_instruction_set() {
+    let planet = planet();
+    let alone = heights_m(&terrain(&planet));
+    let land = alone.iter().filter(|height_m| **height_m > 0.0).count();
+    assert!((500..1500).contains(&land), "{land} of 3000 points are land");
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| heights_m(&terrain(&planet))), alone, "{threads} threads");
+    }
+    for simd in Simd::available() {
+        assert_eq!(heights_m(&terrain(&planet).with_simd(simd)), alone, "{simd:?}");
+    }
+}
+
+#[test]
+fn a_layer_over_it_is_added_and_one_under_it_is_carved() {
+    let bare = planet();
+    let mut over = planet();
+    over.layers.push(hills());
+    let mut under = over.clone();
+    under.layers[0].under = true;
+    let no_structure = Planet { structure: None, ..over.clone() };
+    let [bare_m, over_m, under_m, hills_m] = [bare, over, under, no_structure].map(|planet| heights_m(&terrain(&planet)));
+    let added = |all: &[f64], i: usize| all[i] - bare_m[i];
+    assert!((0..3000).all(|i| (added(&over_m, i) - hills_m[i]).abs() < 1e-6));
+    // Land and sea floor rise where the hills do, but on land not by all of it.
+    let sum: f64 = (0..3000).map(|i| added(&under_m, i) * hills_m[i]).sum();
+    let most: f64 = hills_m.iter().map(|m| m * m).sum();
+    assert!(sum > 0.3 * most && sum < 0.99 * most, "{} of the layer under the structure shows", sum / most);
+}
+
+#[test]
+fn an_edit_reaches_heights_and_climate_and_no_texture() {
+    let before = Revision::try_new(Arc::new(planet())).unwrap();
+    let mut edited = planet();
+    if let Some(structure) = &mut edited.structure {
+        structure.rivers.age_myr *= 2.0;
+    }
+    let changes = Revision::try_new(Arc::new(edited)).unwrap().changes_since(&before);
+    assert_eq!(changes, Stages::of(&[Stage::Field, Stage::Height, Stage::Climate]));
+    let mut edited = planet();
+    if let Some(structure) = &mut edited.structure {
+        structure.weather.share = 0.5;
+    }
+    let changes = Revision::try_new(Arc::new(edited)).unwrap().changes_since(&before);
+    assert!(changes.contains(Stage::Climate), "{changes:?}");
+}
+
+#[test]
+fn the_builder_ends_with_the_surface_that_a_build_from_nothing_gives() {
+    let camera = Camera::over(LatLon::from_degrees(10.0, 20.0), 2.2 * 6.371e6, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
+    let view = View { camera, size_px: [240, 160], quality: Quality::Low };
+    let builder = Builder::new(|| {});
+    let mut planet = planet();
+    for step in 0..2 {
+        planet.layers.resize(step, hills());
+        if let Some(structure) = &mut planet.structure {
+            structure.grids = 2;
+            structure.rivers.seed = step as u32;
+        }
+        let planet = Arc::new(planet.clone());
+        builder.request(&planet, &view);
+        while !builder.has_all_tiles() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        let (built, alone) = (builder.surface().unwrap(), build_now(&planet, &view).unwrap());
+        assert!(built.complete && built.leaves.len() == alone.leaves.len());
+        for (a, b) in built.leaves.iter().zip(&alone.leaves) {
+            assert!(a.tile.id == b.tile.id && a.tile.vertices == b.tile.vertices, "{:?}", a.tile.id);
+        }
+    }
+}
+
+#[test]
+fn the_weather_decides_the_climate_as_much_as_its_share_says() {
+    let mut planet = planet();
+    let dirs: Vec<DVec3> = spread(2000).collect();
+    let mut moisture = |share: f64| -> Vec<f64> {
+        if let Some(structure) = &mut planet.structure {
+            structure.weather.share = share;
+        }
+        terrain(&planet).samples(&dirs, Wanted::HEIGHT.and_climate()).iter().map(|sample| sample.moisture).collect()
+    };
+    let [zonal, half, solved] = [0.0, 0.5, 1.0].map(&mut moisture);
+    let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>() / 2000.0;
+    assert!(differs(&zonal, &solved) > 0.05, "{}", differs(&zonal, &solved));
+    assert!(differs(&zonal, &half) < differs(&zonal, &solved));
+}
