@@ -261,6 +261,7 @@ fn any_layer(number: usize, names: usize) -> impl Strategy<Value = Layer> {
                 curve,
                 masks,
                 enabled: seed % 7 > 0,
+                under: false,
             }
         },
     )
