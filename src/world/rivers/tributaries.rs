@@ -21,7 +21,7 @@ const NODES: usize = DRAINED + 1;
 /// Nodes nearer to a coarser reach than this share of a cell move onto it.
 const ANCHOR: f64 = 0.55;
 /// Straight pieces of a reach: few, because each costs time at every point near it.
-const PIECES: usize = 3;
+pub(super) const PIECES: usize = 3;
 /// Height of springs above the ground of the level before, by the relief between reaches: valleys begin on ridges.
 const SPRING: f64 = 0.8;
 /// How far the line of the banks goes on uphill from a spring, by the relief between reaches.
