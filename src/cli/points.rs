@@ -9,6 +9,7 @@ use crate::sphere::LatLon;
 use crate::terrain::{Terrain, Wanted};
 use rayon::prelude::*;
 use serde_json::json;
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read};
 use std::path::Path;
@@ -27,9 +28,14 @@ pub(super) struct Points {
     number: usize,
 }
 
-/// A line that says something.
+/// A line of the input.
 enum Line {
-    Place { lat: f64, lon: f64 },
+    Place {
+        lat: f64,
+        lon: f64,
+    },
+    /// An empty line or a comment.
+    Other,
     End,
 }
 
@@ -53,7 +59,7 @@ impl Points {
             if let Ok(Line::Place { lat, lon }) = line {
                 batch.push((lat, lon));
             }
-            let goes_on = matches!(line, Ok(Line::Place { .. }));
+            let goes_on = matches!(line, Ok(Line::Place { .. } | Line::Other));
             let has_line = goes_on && batch.len() < BATCH && self.lines.buffer().contains(&b'\n');
             if !has_line && !batch.is_empty() {
                 if !print_on(&answers(terrain, &batch).join("\n"))? {
@@ -67,24 +73,24 @@ impl Points {
         }
     }
 
-    /// The next location.
     fn next(&mut self) -> Result<Line, Failure> {
+        self.number += 1;
+        let wrong = |error: &dyn Display| format!("{}:{}: {error}", self.name, self.number);
         let mut bytes = Vec::new();
-        loop {
-            bytes.clear();
-            self.number += 1;
-            let read = (&mut self.lines).take(LONGEST).read_until(b'\n', &mut bytes);
-            if read.map_err(|error| format!("{}: {error}", self.name))? == 0 {
-                return Ok(Line::End);
-            }
-            let text = String::from_utf8_lossy(&bytes);
-            let text = text.trim_start_matches('\u{feff}').trim();
-            if !text.is_empty() && !text.starts_with('#') {
-                let place = args::location(text);
-                let (lat, lon) = place.map_err(|error| format!("{}:{}: {error}", self.name, self.number))?;
-                return Ok(Line::Place { lat, lon });
-            }
+        let read = (&mut self.lines).take(LONGEST).read_until(b'\n', &mut bytes);
+        if read.map_err(|error| format!("{}: {error}", self.name))? == 0 {
+            return Ok(Line::End);
         }
+        if bytes.len() as u64 == LONGEST && !bytes.ends_with(b"\n") {
+            return Err(wrong(&"this line is too long; write LAT,LON such as 20,-45").into());
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.trim_start_matches('\u{feff}').trim();
+        if text.is_empty() || text.starts_with('#') {
+            return Ok(Line::Other);
+        }
+        let (lat, lon) = args::location(text).map_err(|error| wrong(&error))?;
+        Ok(Line::Place { lat, lon })
     }
 }
 

@@ -182,7 +182,8 @@ impl Rivers {
         let relief_m = f64::from(self.trunks.relief_m[trunk]);
         let flat_rad = 6.0 * width_m(discharge) / (1.0 + relief_m * (1.0 / 60.0)) / self.trunks.radius_m;
         Some(Reach {
-            river: node.index | ((grid.level as u64) << 56),
+            // Below 2^53: a number of JSON that every reader keeps whole.
+            river: node.index | ((grid.level as u64) << 48),
             from: node.dir,
             to: end.dir,
             tangents: [tangent(at), tangent(to)],

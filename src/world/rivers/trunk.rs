@@ -176,7 +176,9 @@ impl Trunks {
         }
         let from_m = self.level_of(lake).unwrap_or(f64::from(self.height_m[cell]));
         // A mouth lies a little below the water it flows into: a node of the sea may have higher ground around.
-        let water_m = if lake_to != 0 { self.level_of(lake_to) } else { self.sea_level_m.filter(|_| !self.flows(to)) };
+        // The bottom of a dry basin is land: what flows there ends on it, however high it lies.
+        let is_over = |level_m: &f64| !self.flows(to) && f64::from(self.height_m[to]) < *level_m;
+        let water_m = if lake_to != 0 { self.level_of(lake_to) } else { self.sea_level_m.filter(is_over) };
         let to_m = match water_m {
             Some(level_m) => (level_m - MOUTH_M).min(from_m),
             None => f64::from(self.height_m[to]).min(from_m),
