@@ -6,7 +6,7 @@
 use super::sample::as_json;
 use super::{Failure, args, print_on};
 use crate::sphere::LatLon;
-use crate::terrain::{Terrain, Wanted};
+use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use rayon::prelude::*;
 use serde_json::json;
 use std::fmt::Display;
@@ -16,6 +16,8 @@ use std::path::Path;
 
 /// Most points of a batch.
 const BATCH: usize = 4096;
+/// Points of a task. A thread keeps the rivers around so many: what it has found it needs no second time.
+const TASK: usize = 32;
 /// Longest line in bytes: no location is longer.
 const LONGEST: u64 = 4096;
 
@@ -95,13 +97,17 @@ impl Points {
 }
 
 fn answers(terrain: &Terrain, places: &[(f64, f64)]) -> Vec<String> {
-    let dirs: Vec<_> = places.iter().map(|&(lat, lon)| LatLon::from_degrees(lat, lon).direction()).collect();
-    let samples = terrain.samples(&dirs, Wanted::ALL);
-    let all = (places, &dirs, &samples).into_par_iter().map(|(&(lat, lon), &dir, sample)| {
-        let mut answer = as_json(terrain, dir, sample, &terrain.layers_m(dir));
-        answer["lat"] = json!(lat);
-        answer["lon"] = json!(lon);
-        answer.to_string()
+    let tasks = places.par_chunks(TASK).map_init(Scratch::default, |scratch, places| {
+        let dirs: Vec<_> = places.iter().map(|&(lat, lon)| LatLon::from_degrees(lat, lon).direction()).collect();
+        let mut samples = vec![Sample::default(); dirs.len()];
+        terrain.samples_into(&dirs, Wanted::ALL, &mut samples, scratch);
+        let answer = |((&(lat, lon), &dir), sample)| {
+            let mut answer = as_json(terrain, dir, sample, &terrain.layers_m(dir));
+            answer["lat"] = json!(lat);
+            answer["lon"] = json!(lon);
+            answer.to_string()
+        };
+        places.iter().zip(&dirs).zip(&samples).map(answer).collect::<Vec<_>>()
     });
-    all.collect()
+    tasks.collect::<Vec<_>>().concat()
 }

@@ -160,7 +160,7 @@ fn a_sample_on_a_planet_with_rivers_says_what_water_there_is() {
     let lines =
         all["features"].as_array().unwrap().iter().filter(|feature| feature["geometry"]["type"] == "LineString");
     let mut input = String::new();
-    for line in lines.take(20) {
+    for line in lines.take(10) {
         let coordinates = line["geometry"]["coordinates"].as_array().unwrap();
         let middle = &coordinates[coordinates.len() / 2];
         input.extend([middle[1].to_string(), ",".to_owned(), middle[0].to_string(), "\n".to_owned()]);

@@ -89,7 +89,7 @@ fn queries_of_rivers_allocate_nothing_where_they_have_been() {
     let terrain = Terrain::try_new(crate::water::planet().into()).unwrap();
     let rivers = terrain.rivers(50.0);
     let middle = rivers.courses[0].points[rivers.courses[0].points.len() / 2].place.direction();
-    let dirs: Vec<DVec3> = spread(300).map(|dir| (middle + dir * 1e-3).normalize()).collect();
+    let dirs: Vec<DVec3> = spread(100).map(|dir| (middle + dir * 1e-3).normalize()).collect();
     let mut samples = vec![Sample::default(); dirs.len()];
     let mut scratch = Scratch::default();
     let mut ask = || {

@@ -83,9 +83,9 @@ fn every_river_ends_in_the_sea_in_a_lake_or_in_a_river() {
 #[test]
 fn a_query_on_a_river_finds_it() {
     let (mut found, mut asked) = (0, 0);
-    for course in &rivers().courses[..40] {
+    for course in &rivers().courses[..12] {
         let inner = &course.points[1..course.points.len() - 1];
-        for point in inner.iter().step_by(7).filter(|point| point.height_m > 5.0) {
+        for point in inner.iter().step_by(23).filter(|point| point.height_m > 5.0) {
             let sample = terrain().sample(point.place.direction());
             asked += 1;
             let is_here = |river: &tellus::terrain::River| {
@@ -100,12 +100,12 @@ fn a_query_on_a_river_finds_it() {
         }
     }
     // Where two reaches of the solver cross, the lower one has the ground.
-    assert!(asked > 200 && 100 * found >= 95 * asked, "{found} of {asked}");
+    assert!(asked > 50 && 100 * found >= 95 * asked, "{found} of {asked}");
 }
 
 #[test]
 fn water_stands_above_the_ground_and_weather_is_sane() {
-    let dirs: Vec<DVec3> = spread(4000).collect();
+    let dirs: Vec<DVec3> = spread(300).collect();
     let samples = terrain().samples(&dirs, Wanted::ALL);
     for (sample, &dir) in samples.iter().zip(&dirs) {
         assert!(sample.water_level_m.is_none_or(|level_m| level_m > sample.height_m), "{sample:?}");
@@ -117,9 +117,9 @@ fn water_stands_above_the_ground_and_weather_is_sane() {
     }
     let basins: BTreeSet<u32> = samples.iter().filter_map(|sample| sample.basin).collect();
     let plates: BTreeSet<u16> = samples.iter().filter_map(|sample| sample.plate).collect();
-    assert!(basins.len() > 20 && plates.len() > 5, "{} basins, {} plates", basins.len(), plates.len());
+    assert!(basins.len() > 10 && plates.len() > 5, "{} basins, {} plates", basins.len(), plates.len());
     // Alone and in a batch, with other wishes: the same.
-    let some = terrain().samples(&dirs[..50], Wanted::HEIGHT.and_water());
+    let some = terrain().samples(&dirs[..20], Wanted::HEIGHT.and_water());
     for ((some, all), dir) in some.iter().zip(&samples).zip(&dirs) {
         assert_eq!(terrain().sample(*dir), *all);
         assert_eq!((some.water_level_m, some.river, some.rain_mm), (all.water_level_m, all.river, all.rain_mm));
@@ -149,13 +149,13 @@ fn a_layer_over_the_structure_may_lift_the_ground_out_of_the_water() {
     let hills = Layer { name: "Hills".to_owned(), amplitude_m: 3000.0, shape, ..Layer::default() };
     let raised = Terrain::try_new(Planet { layers: vec![hills], ..planet() }.into()).unwrap();
     let (mut lifted, mut sunk) = (0, 0);
-    for dir in spread(2000) {
+    for dir in spread(150) {
         let (before, after) = (terrain().sample(dir), raised.sample(dir));
         assert!(after.water_level_m.is_none_or(|level_m| level_m > after.height_m), "{after:?}");
         lifted += usize::from(before.water_level_m.is_some() && after.water_level_m.is_none());
         sunk += usize::from(before.water_level_m.is_none() && after.water_level_m == Some(0.0));
     }
-    assert!(lifted > 10 && sunk > 10, "{lifted} lifted, {sunk} sunk");
+    assert!(lifted > 3 && sunk > 3, "{lifted} lifted, {sunk} sunk");
 }
 
 #[test]
