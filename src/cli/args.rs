@@ -59,6 +59,11 @@ pub(super) fn exposure(text: &str) -> Result<f64, String> {
     number(text, -20.0, 20.0)
 }
 
+/// Discharge in cubic metres a second.
+pub(super) fn discharge(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1e12)
+}
+
 /// `LAT,LON` in degrees.
 pub(super) fn location(text: &str) -> Result<(f64, f64), String> {
     let (lat, lon) = text.split_once(',').ok_or("this is not a location; write LAT,LON such as 20,-45")?;

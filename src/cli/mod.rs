@@ -1,7 +1,7 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `check`, `sample`, `sky`, `new`, `bench`: the subcommands
+//! - `render`, `check`, `sample`, `rivers`, `sky`, `new`, `bench`: the subcommands; `points`: many points for `sample`
 //! - `headless`: a GPU without a window
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
@@ -11,7 +11,9 @@ mod bench;
 mod check;
 mod headless;
 mod new;
+mod points;
 mod render;
+mod rivers;
 mod sample;
 mod sky;
 
@@ -39,6 +41,7 @@ enum Command {
     Render(Box<render::Args>),
     Check(check::Args),
     Sample(sample::Args),
+    Rivers(rivers::Args),
     Sky(sky::Args),
     New(new::Args),
     Bench(bench::Args),
@@ -83,6 +86,7 @@ pub fn run() -> ExitCode {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
+        Some(Command::Rivers(args)) => rivers::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),
         Some(Command::New(args)) => new::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
@@ -124,12 +128,17 @@ fn tell(line: &str) {
 
 /// Prints a line on standard output. It is no failure if the reader has stopped reading (`tellus ... | head -1`).
 fn print(text: &str) -> Result<(), Failure> {
+    print_on(text).map(|_| ())
+}
+
+/// As [`print`]. Whether the reader is still there.
+fn print_on(text: &str) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(format!("cannot write to standard output: {error}").into())
         }
-        _ => Ok(()),
+        result => Ok(result.is_ok()),
     }
 }
 

@@ -1,38 +1,67 @@
-//! `tellus sample`: height, normal, climate and biome at a location, from the evaluator that the editor and games use.
+//! `tellus sample`: height, normal, climate, biome and water at a location, from the evaluator that the editor and
+//! games use.
 
+use super::points::Points;
 use super::{Failure, args, load, print};
 use crate::sphere::LatLon;
-use crate::terrain::{Sample, Terrain};
+use crate::sphere::geo::east_north;
+use crate::terrain::{River, Sample, Terrain};
+use glam::DVec3;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Print height, slope, climate and biome at a location
+/// Print height, slope, climate, biome and water at a location, or at many
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The preset
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
-    /// Latitude in degrees, north positive
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::latitude)]
-    lat: f64,
-    /// Longitude in degrees, east positive
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::longitude)]
-    lon: f64,
+    #[arg(
+        long,
+        help = "Latitude in degrees, north positive",
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::latitude,
+        required_unless_present = "points"
+    )]
+    lat: Option<f64>,
+    #[arg(
+        long,
+        help = "Longitude in degrees, east positive",
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::longitude,
+        required_unless_present = "points"
+    )]
+    lon: Option<f64>,
+    /// Many locations, LAT,LON on each line, from a file or from standard input (-). Empty lines and lines that begin
+    /// with # are skipped. The answer is a JSON object on a line for each, in order, as --json prints it, with lat and
+    /// lon
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["lat", "lon"])]
+    points: Option<PathBuf>,
     /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
-    /// moisture (0 to 1, the axes of the biome table), biome, layers
+    /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, river, lake, basin, wind_m_s (to
+    /// the east and to the north), rain_mm (a year), plate
     #[arg(long)]
     json: bool,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let terrain = Terrain::try_new(Arc::new(load(&args.file)?)).map_err(|error| error.to_string())?;
-    let dir = LatLon::from_degrees(args.lat, args.lon).direction();
+    let planet = Arc::new(load(&args.file)?);
+    let terrain = || Terrain::try_new(planet).map_err(|error| error.to_string());
+    if let Some(points) = &args.points {
+        // A file that is not there is told before anything is solved.
+        let points = Points::open(points)?;
+        return points.answer(&terrain()?);
+    }
+    let terrain = terrain()?;
+    let dir = LatLon::from_degrees(args.lat.unwrap_or_default(), args.lon.unwrap_or_default()).direction();
     let (sample, layers_m) = (terrain.sample(dir), terrain.layers_m(dir));
     let answer = if args.json {
-        format!("{:#}", as_json(&terrain, &sample, &layers_m))
+        format!("{:#}", as_json(&terrain, dir, &sample, &layers_m))
     } else {
-        as_text(&terrain, &sample, &layers_m)
+        as_text(&terrain, dir, &sample, &layers_m)
     };
     print(&answer)
 }
@@ -41,7 +70,19 @@ fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
     terrain.planet().biomes.palette.get(sample.biome).map_or("", |biome| biome.name.as_str())
 }
 
-fn as_json(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> Value {
+/// All that is known of a point.
+pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64]) -> Value {
+    let river = sample.river.map(|river| {
+        json!({
+            "id": river.id,
+            "distance_m": river.distance_m,
+            "width_m": river.width_m,
+            "depth_m": river.depth_m,
+            "discharge_m3_s": river.discharge_m3_s,
+            "flow": river.flow_planet.to_array(),
+            "flow_heading_deg": heading_deg(dir, river.flow_planet),
+        })
+    });
     let layers = terrain.planet().layers.iter().zip(layers_m);
     json!({
         "height_m": sample.height_m,
@@ -53,10 +94,29 @@ fn as_json(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> Value {
         "moisture": sample.moisture,
         "biome": biome_name(terrain, sample),
         "layers": layers.map(|(layer, m)| json!({ "name": layer.name, "height_m": m })).collect::<Vec<_>>(),
+        "water_level_m": sample.water_level_m,
+        "river": river,
+        "lake": sample.lake,
+        "basin": sample.basin,
+        "wind_m_s": to_east_and_north(dir, sample.wind_planet_m_s),
+        "rain_mm": sample.rain_mm,
+        "plate": sample.plate,
     })
 }
 
-fn as_text(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> String {
+/// A tangent at a direction, along east and north.
+fn to_east_and_north(dir: DVec3, tangent: DVec3) -> [f64; 2] {
+    let (east, north) = east_north(dir);
+    [tangent.dot(east), tangent.dot(north)]
+}
+
+/// The heading of a tangent: 0 north, 90 east.
+fn heading_deg(dir: DVec3, tangent: DVec3) -> f64 {
+    let [east, north] = to_east_and_north(dir, tangent);
+    east.atan2(north).to_degrees().rem_euclid(360.0)
+}
+
+fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64]) -> String {
     let [x, y, z] = sample.normal_planet.to_array();
     let mut lines = vec![
         format!("height       {:.3} m", sample.height_m),
@@ -66,6 +126,25 @@ fn as_text(terrain: &Terrain, sample: &Sample, layers_m: &[f64]) -> String {
         format!("moisture     {:.3} ({:.0} mm a year)", sample.moisture, sample.precipitation_mm),
         format!("biome        {}", biome_name(terrain, sample)),
     ];
+    lines.extend(sample.water_level_m.map(|level_m| {
+        let lake = sample.lake.map_or(String::new(), |lake| format!(", lake {lake}"));
+        format!("water        {level_m:.3} m ({:.3} m deep{lake})", level_m - sample.height_m)
+    }));
+    lines.extend(sample.river.map(|river| {
+        let River { id, distance_m, width_m, depth_m, discharge_m3_s, flow_planet } = river;
+        format!(
+            "river        {id}: {distance_m:.1} m away, {width_m:.1} m wide, {depth_m:.2} m deep, \
+             {discharge_m3_s:.1} m³/s, flows to {:.0}°",
+            heading_deg(dir, flow_planet)
+        )
+    }));
+    lines.extend(sample.basin.map(|basin| format!("basin        {basin}")));
+    if terrain.planet().structure.is_some() {
+        let wind_m_s = sample.wind_planet_m_s;
+        lines.push(format!("wind         {:.1} m/s to {:.0}°", wind_m_s.length(), heading_deg(dir, wind_m_s)));
+        lines.push(format!("rain         {:.0} mm a year", sample.rain_mm));
+    }
+    lines.extend(sample.plate.map(|plate| format!("plate        {plate}")));
     let layers = terrain.planet().layers.iter().zip(layers_m);
     lines.extend(layers.map(|(layer, m)| format!("layer        {:.3} m  {}", m, layer.name)));
     lines.join("\n")

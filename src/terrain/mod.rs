@@ -11,7 +11,8 @@
 //! - `relief`: biome relief
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
-//! - `query`, `raycast`: the queries of [`Terrain`]
+//! - `query`, `raycast`: the queries of [`Terrain`]; `water`: water, wind and rain at points
+//! - `network`: rivers from source to mouth, lakes, basins
 //! - `kept`: the fields that a tile keeps from one edit to the next
 //! - `coarse`: the heights that world maps read
 //! - [`revision`]: what changed between two revisions of a planet
@@ -33,6 +34,7 @@ mod jet;
 pub(crate) mod kept;
 pub(crate) mod landform;
 pub(crate) mod lane;
+mod network;
 pub(crate) mod noise;
 pub(crate) mod points;
 mod query;
@@ -41,6 +43,7 @@ pub(crate) mod relief;
 pub mod revision;
 mod scalar;
 pub mod simd;
+mod water;
 
 use crate::planet::{InvalidPlanet, Planet};
 use crate::world::{Inputs, KeepGoing, MapWork, World};
@@ -52,6 +55,7 @@ use coarse::{CellFields, LayerGround};
 use glam::DVec3;
 use height::LayerStack;
 use landform::Landform;
+pub use network::{Basin, Course, CoursePoint, Lake, Mouth, Rivers};
 use points::unit;
 pub use query::{Sample, Scratch, Wanted};
 use relief::Relief;
@@ -60,6 +64,7 @@ use revision::{Compiled, Keys, TileContent, TileKeys};
 use simd::Simd;
 use std::f64::consts::PI;
 use std::sync::Arc;
+pub use water::River;
 
 /// The compiled evaluator of one planet.
 ///

@@ -10,6 +10,7 @@ use super::evaluate::BatchScratch;
 use super::field::{ALL_OCTAVES, Components};
 use super::lane::CHUNK;
 use super::points::unit;
+use super::water::River;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::cell::RefCell;
@@ -39,10 +40,24 @@ pub struct Sample {
     pub cell: [usize; 2],
     /// Index of the biome in the palette: the cell's, or that of a surface rule for steep ground, beaches or snow.
     pub biome: usize,
+    /// Surface of the sea, lake or river that stands or flows over the ground here.
+    pub water_level_m: Option<f64>,
+    /// The nearest river, if one is near.
+    pub river: Option<River>,
+    /// The lake whose water it is.
+    pub lake: Option<u32>,
+    /// The basin that the cell of the point drains to, on the finest grid of rivers; none in the sea.
+    pub basin: Option<u32>,
+    /// Mean wind of a year: a tangent in the planet frame, to where the air moves. 0 without a structure.
+    pub wind_planet_m_s: DVec3,
+    /// Rain and snow in a year: the structure's weather, or without one the climate's `precipitation_mm`.
+    pub rain_mm: f64,
+    /// The plate of the crust, by its index.
+    pub plate: Option<u16>,
 }
 
 /// What [`Terrain::samples`] finds besides the height. What is not asked for costs nothing and keeps its default value
-/// (0) in each [`Sample`].
+/// (0 or none) in each [`Sample`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Wanted {
@@ -52,13 +67,16 @@ pub struct Wanted {
     pub climate: bool,
     /// Cell and biome. They take the slope and the climate, which are then filled in too.
     pub biome: bool,
+    /// Water level, river, lake, basin, wind, rain and plate. Without a structure rain takes the climate, which is then
+    /// filled in too.
+    pub water: bool,
 }
 
 impl Wanted {
     /// The height alone.
-    pub const HEIGHT: Self = Self { normal: false, climate: false, biome: false };
+    pub const HEIGHT: Self = Self { normal: false, climate: false, biome: false, water: false };
     /// Everything.
-    pub const ALL: Self = Self { normal: true, climate: true, biome: true };
+    pub const ALL: Self = Self { normal: true, climate: true, biome: true, water: true };
 
     /// And the normal.
     #[must_use]
@@ -76,6 +94,12 @@ impl Wanted {
     #[must_use]
     pub fn and_biome(self) -> Self {
         Self { biome: true, ..self }
+    }
+
+    /// And water, wind, rain and plate.
+    #[must_use]
+    pub fn and_water(self) -> Self {
+        Self { water: true, ..self }
     }
 
     fn slope(self) -> bool {
@@ -167,8 +191,12 @@ impl Terrain {
                     sample.slope_rad = libm::atan(slope.length());
                 }
             }
-            if wanted.climate || wanted.biome {
+            let rain = wanted.water && self.world().weather.map().is_none();
+            if wanted.climate || wanted.biome || rain {
                 self.find_climate(wanted, samples, scratch);
+            }
+            if wanted.water {
+                self.find_water(&scratch.0.points.dirs, samples);
             }
         }
     }

@@ -4,7 +4,7 @@
 //! - [`Carved`]: the drainage on grids from 64 cells a side on, each solved from the one before
 
 use super::cells::Cells;
-use super::drainage::{self, Drainage};
+use super::drainage::{self, Basins, Drainage};
 use super::grid::{coarsened, refined};
 use super::map::{Ground, Inputs, KeepGoing, StructureInputs, WorldMap};
 use super::plates::{Plates, Rock};
@@ -12,7 +12,7 @@ use super::rivers::Rivers;
 use super::weather::{self, Weather};
 use super::{Slot, World};
 use crate::planet::Key;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Cells along the side of the grid of the weather, and of the coarsest grid of rivers.
 const COARSEST: usize = 64;
@@ -70,6 +70,14 @@ pub(crate) struct Carved {
     pub(crate) drainage: Arc<Drainage>,
     pub(crate) rivers: Arc<Rivers>,
     rock: Rock,
+    basins: OnceLock<Basins>,
+}
+
+impl Carved {
+    /// The basins, found when they are first asked for.
+    pub(crate) fn basins(&self) -> &Basins {
+        self.basins.get_or_init(|| Basins::new(&self.drainage))
+    }
 }
 
 impl WorldMap for Carved {
@@ -97,7 +105,7 @@ impl WorldMap for Carved {
         let before = coarser.map(|coarser| &*coarser.drainage);
         let drainage = Arc::new(drainage_of(ground, &rock, weather, before, keep_going)?);
         let rivers = Rivers::new(&drainage, ground.inputs().sea_level_m, structure.radius_km);
-        Some(Self { drainage, rivers: Arc::new(rivers), rock })
+        Some(Self { drainage, rivers: Arc::new(rivers), rock, basins: OnceLock::new() })
     }
 }
 

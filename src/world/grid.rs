@@ -2,7 +2,7 @@
 
 use super::cells::Cells;
 use super::noise::{hash, unit};
-use crate::sphere::raster::cube_direction;
+use crate::sphere::raster::{cube_direction, cube_point};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -31,6 +31,13 @@ pub(crate) fn node(side: usize, cell: usize, seed: u32) -> DVec3 {
     let (column, row) = (cell % side, cell / side % side);
     let (x, y) = (column as f64 + 0.5 + shift(h), row as f64 + 0.5 + shift(hash(h, 1)));
     cube_direction(cell / (side * side), side, x, y)
+}
+
+/// The cell that holds a unit direction.
+pub(crate) fn cell_at(side: usize, dir: DVec3) -> usize {
+    let (face, x, y) = cube_point(dir, side);
+    let index = |w: f64| (w as usize).min(side - 1);
+    (face * side + index(y)) * side + index(x)
 }
 
 /// The nodes of all cells.

@@ -1,6 +1,7 @@
 //! Tests of the command line, run as a process, of the README's promises, and of the repository's own rules.
 //!
 //! - `commands`: answers, messages, exit status
+//! - `rivers`: rivers as GeoJSON, many points
 //! - `house`: the length of files and comments
 //! - `hostile`: broken and oversized files
 //! - `readme`: the README's examples, presets and pictures
@@ -11,3 +12,4 @@ mod commands;
 mod hostile;
 mod house;
 mod readme;
+mod rivers;

@@ -82,3 +82,23 @@ fn queries_allocate_nothing_after_the_first() {
         assert_eq!(allocations(|| ask(&dirs[..100])), 0, "{}", shipped.file);
     }
 }
+
+/// Rivers keep the blocks of cells around the last points. Points in the same blocks need no memory.
+#[test]
+fn queries_of_rivers_allocate_nothing_where_they_have_been() {
+    let terrain = Terrain::try_new(crate::water::planet().into()).unwrap();
+    let rivers = terrain.rivers(50.0);
+    let middle = rivers.courses[0].points[rivers.courses[0].points.len() / 2].place.direction();
+    let dirs: Vec<DVec3> = spread(100).map(|dir| (middle + dir * 1e-3).normalize()).collect();
+    let mut samples = vec![Sample::default(); dirs.len()];
+    let mut scratch = Scratch::default();
+    let mut ask = || {
+        terrain.samples_into(&dirs, Wanted::ALL, &mut samples, &mut scratch);
+        for dir in &dirs[..20] {
+            terrain.sample(*dir);
+        }
+    };
+    ask();
+    assert_eq!(allocations(&mut ask), 0);
+    assert!(samples.iter().any(|sample| sample.river.is_some()));
+}

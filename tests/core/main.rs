@@ -4,6 +4,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
+//! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
@@ -20,6 +21,7 @@ mod relief;
 mod sphere;
 mod structure;
 mod terrain;
+mod water;
 
 #[path = "../support"]
 mod support {

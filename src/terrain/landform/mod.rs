@@ -63,6 +63,7 @@ use glam::DVec3;
 pub(crate) use octaves::Arithmetic;
 pub(crate) use scratch::Scratch;
 use scratch::{JETS, Scratch64};
+pub(crate) use structure::river_points;
 
 /// Lists the kinds: `Kind in file`.
 macro_rules! landforms {

@@ -6,7 +6,7 @@
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet::Key;
 use crate::world::carved::Carved;
-use crate::world::rivers::{Cache, RiverPoint, Rivers};
+use crate::world::rivers::{Cache, LEVELS, RiverPoint, Rivers};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -38,6 +38,19 @@ impl Structure {
     }
 }
 
+thread_local! {
+    /// The blocks of rivers that the thread keeps, and its last answers.
+    static MEMORY: RefCell<(Cache, Vec<RiverPoint>)> = RefCell::default();
+}
+
+/// Evaluates rivers at unit directions, on all their levels. Allocates nothing once the blocks around have been built.
+pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], answer: impl FnOnce(&[RiverPoint])) {
+    MEMORY.with_borrow_mut(|(cache, points)| {
+        rivers.evaluate(dirs, LEVELS, cache, points);
+        answer(points);
+    });
+}
+
 impl PartialEq for Structure {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key
@@ -64,9 +77,6 @@ impl Evaluate for Structure {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        thread_local! {
-            static MEMORY: RefCell<(Cache, Vec<RiverPoint>)> = RefCell::default();
-        }
         let Some(rivers) = self.rivers.upgrade() else { return };
         MEMORY.with_borrow_mut(|(cache, points)| {
             let levels = rivers.levels_for(chunk.point_spacing_rad, VALUE_POINTS);

@@ -5,9 +5,10 @@
 //! rock, rise, rain and age, never of a history. Great rivers of a coarser grid are cut into the start of the finer
 //! one, so that both have them in the same places.
 //!
-//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes
+//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes; `basins`: basins
 //! - `start`: sea, closed basins and the surface at which a grid starts; deltas
 
+mod basins;
 mod carve;
 mod flood;
 mod lakes;
@@ -19,6 +20,7 @@ use super::grid::{areas_sr, nodes};
 use super::map::KeepGoing;
 use super::noise::{hash, unit};
 use crate::planet::Rivers as Params;
+pub(crate) use basins::Basins;
 use glam::DVec3;
 use lakes::Lakes;
 use rayon::prelude::*;

@@ -6,6 +6,7 @@
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
 //! - `block`: pieces near a square of cells, listed by bucket; `cache`: the blocks that a thread keeps
 //! - `blend`: the ground of one level at a point, laid over the level before
+//! - `courses`: rivers from source to mouth
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
 //!
 //! The solved ground is a smooth raster. Each level of reaches is laid over it: on a reach the ground is the reach's
@@ -20,6 +21,7 @@ mod blend;
 mod block;
 mod bounds;
 mod cache;
+mod courses;
 mod evaluate;
 mod grid;
 mod reach;
@@ -33,6 +35,7 @@ use super::drainage::Drainage;
 use crate::sphere::raster::Raster;
 use bounds::Bounds;
 pub(crate) use cache::{Cache, LEVELS};
+pub(crate) use courses::CourseEnd;
 use glam::DVec3;
 use grid::Grid;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -21,7 +21,7 @@ const NODES: usize = DRAINED + 1;
 /// Nodes nearer to a coarser reach than this share of a cell move onto it.
 const ANCHOR: f64 = 0.55;
 /// Straight pieces of a reach: few, because each costs time at every point near it.
-const PIECES: usize = 3;
+pub(super) const PIECES: usize = 3;
 /// Height of springs above the ground of the level before, by the relief between reaches: valleys begin on ridges.
 const SPRING: f64 = 0.8;
 /// How far the line of the banks goes on uphill from a spring, by the relief between reaches.
@@ -182,7 +182,8 @@ impl Rivers {
         let relief_m = f64::from(self.trunks.relief_m[trunk]);
         let flat_rad = 6.0 * width_m(discharge) / (1.0 + relief_m * (1.0 / 60.0)) / self.trunks.radius_m;
         Some(Reach {
-            river: node.index | ((grid.level as u64) << 56),
+            // Below 2^53: a number of JSON that every reader keeps whole.
+            river: node.index | ((grid.level as u64) << 48),
             from: node.dir,
             to: end.dir,
             tangents: [tangent(at), tangent(to)],

@@ -21,13 +21,13 @@ pub(super) struct Trunks {
     pub(super) radius_m: f64,
     pub(super) sea_level_m: Option<f64>,
     pub(super) height_m: Vec<f32>,
-    receiver: Vec<u32>,
-    discharge_m3_s: Vec<f32>,
+    pub(super) receiver: Vec<u32>,
+    pub(super) discharge_m3_s: Vec<f32>,
     /// The cell upstream that carries most water, if any.
-    main: Vec<u32>,
+    pub(super) main: Vec<u32>,
     /// The last cell of the river that each cell belongs to.
-    river: Vec<u32>,
-    lake: Vec<u32>,
+    pub(super) river: Vec<u32>,
+    pub(super) lake: Vec<u32>,
     lake_near: Vec<u32>,
     lake_level_m: Vec<f64>,
     /// Water that each cell adds to its river.
@@ -135,7 +135,8 @@ impl Trunks {
         self.receiver[cell] as usize != cell
     }
 
-    fn level_of(&self, lake: u32) -> Option<f64> {
+    /// The level of a lake, counted from 1.
+    pub(super) fn level_of(&self, lake: u32) -> Option<f64> {
         self.lake_level_m.get((lake as usize).checked_sub(1)?).copied()
     }
 
@@ -175,7 +176,9 @@ impl Trunks {
         }
         let from_m = self.level_of(lake).unwrap_or(f64::from(self.height_m[cell]));
         // A mouth lies a little below the water it flows into: a node of the sea may have higher ground around.
-        let water_m = if lake_to != 0 { self.level_of(lake_to) } else { self.sea_level_m.filter(|_| !self.flows(to)) };
+        // The bottom of a dry basin is land: what flows there ends on it, however high it lies.
+        let is_over = |level_m: &f64| !self.flows(to) && f64::from(self.height_m[to]) < *level_m;
+        let water_m = if lake_to != 0 { self.level_of(lake_to) } else { self.sea_level_m.filter(is_over) };
         let to_m = match water_m {
             Some(level_m) => (level_m - MOUTH_M).min(from_m),
             None => f64::from(self.height_m[to]).min(from_m),

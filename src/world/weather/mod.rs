@@ -17,6 +17,7 @@ use crate::sphere::geo::east_north;
 use crate::sphere::raster::Raster;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 use winds::Season;
 
 /// What the weather depends on, at the cells of one grid.
@@ -46,6 +47,9 @@ pub(crate) struct Weather {
     pub(crate) temperature_c: Vec<f64>,
     /// How much warmer currents of the sea make it in °C, and the humidity, as [`Weather::at`] gives them.
     rasters: [Raster<f32>; 2],
+    /// Rain in mm a year and the wind in m/s along the axes of the planet frame, as [`Weather::rain_and_wind`] gives
+    /// them.
+    air: OnceLock<[Raster<f32>; 4]>,
 }
 
 /// The most that currents of the sea warm or cool.
@@ -88,13 +92,33 @@ impl Weather {
             [warmer.collect(), humid.collect()].map(|texels| Raster::cube(inputs.side, texels))
         };
         let temperature_c = ground.temperature_c;
-        Some(Self { side: inputs.side, wind_m_s, rain_mm, evaporation_mm, temperature_c, rasters })
+        let air = OnceLock::new();
+        Some(Self { side: inputs.side, wind_m_s, rain_mm, evaporation_mm, temperature_c, rasters, air })
     }
 
     /// How much warmer currents of the sea make it in °C, and the humidity (0 to 1), at a unit direction.
     pub(crate) fn at(&self, dir: DVec3) -> [f64; 2] {
         let place = self.rasters[0].place(dir);
         self.rasters.each_ref().map(|raster| raster.value(&place, 0))
+    }
+
+    /// Rain and snow in mm a year, and the mean wind in m/s, a tangent, at a unit direction.
+    pub(crate) fn rain_and_wind(&self, dir: DVec3) -> (f64, DVec3) {
+        let rasters = self.air.get_or_init(|| {
+            let cells = Cells::of(self.side);
+            let winds = cells.dirs.iter().zip(&self.wind_m_s).map(|(dir, [to_east, to_north])| {
+                let (east, north) = east_north(*dir);
+                east * *to_east + north * *to_north
+            });
+            let winds: Vec<DVec3> = winds.collect();
+            let along = |axis: usize| winds.iter().map(|wind| wind[axis] as f32).collect();
+            let rain = self.rain_mm.iter().map(|mm| *mm as f32).collect();
+            [rain, along(0), along(1), along(2)].map(|texels| Raster::cube(self.side, texels))
+        });
+        let place = rasters[0].place(dir);
+        let [rain_mm, x, y, z] = rasters.each_ref().map(|raster| raster.value(&place, 0));
+        let wind = DVec3::new(x, y, z);
+        (rain_mm.max(0.0), wind - dir * wind.dot(dir))
     }
 
     /// Water that runs off in mm a year: what is left of the rain after evaporation (Schreiber 1904).

@@ -1,0 +1,113 @@
+//! Many points for `tellus sample`: `LAT,LON` a line in, a JSON object a line out.
+//!
+//! Lines are answered in batches on all cores. A batch ends where the next line has not come yet, so that a program
+//! may write a line and wait for its answer.
+
+use super::sample::as_json;
+use super::{Failure, args, print_on};
+use crate::sphere::LatLon;
+use crate::terrain::{Sample, Scratch, Terrain, Wanted};
+use rayon::prelude::*;
+use serde_json::json;
+use std::fmt::Display;
+use std::fs::File;
+use std::io::{self, BufRead as _, BufReader, Read};
+use std::path::Path;
+
+/// Most points of a batch.
+const BATCH: usize = 4096;
+/// Points of a task. A thread keeps the rivers around so many: what it has found it needs no second time.
+const TASK: usize = 32;
+/// Longest line in bytes: no location is longer.
+const LONGEST: u64 = 4096;
+
+/// Lines of locations.
+pub(super) struct Points {
+    /// For messages.
+    name: String,
+    lines: BufReader<Box<dyn Read>>,
+    /// The number of the last line that was read, from 1.
+    number: usize,
+}
+
+/// A line of the input.
+enum Line {
+    Place {
+        lat: f64,
+        lon: f64,
+    },
+    /// An empty line or a comment.
+    Other,
+    End,
+}
+
+impl Points {
+    /// Opens a file, or standard input for `-`.
+    pub(super) fn open(path: &Path) -> Result<Self, Failure> {
+        let (name, lines): (String, Box<dyn Read>) = if path == Path::new("-") {
+            ("standard input".to_owned(), Box::new(io::stdin()))
+        } else {
+            let file = File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
+            (path.display().to_string(), Box::new(file))
+        };
+        Ok(Self { name, lines: BufReader::with_capacity(1 << 16, lines), number: 0 })
+    }
+
+    /// Prints the answers. What stands before a wrong line is answered.
+    pub(super) fn answer(mut self, terrain: &Terrain) -> Result<(), Failure> {
+        let mut batch = Vec::with_capacity(BATCH);
+        loop {
+            let line = self.next();
+            if let Ok(Line::Place { lat, lon }) = line {
+                batch.push((lat, lon));
+            }
+            let goes_on = matches!(line, Ok(Line::Place { .. } | Line::Other));
+            let has_line = goes_on && batch.len() < BATCH && self.lines.buffer().contains(&b'\n');
+            if !has_line && !batch.is_empty() {
+                if !print_on(&answers(terrain, &batch).join("\n"))? {
+                    return Ok(());
+                }
+                batch.clear();
+            }
+            if let Line::End = line? {
+                return Ok(());
+            }
+        }
+    }
+
+    fn next(&mut self) -> Result<Line, Failure> {
+        self.number += 1;
+        let wrong = |error: &dyn Display| format!("{}:{}: {error}", self.name, self.number);
+        let mut bytes = Vec::new();
+        let read = (&mut self.lines).take(LONGEST).read_until(b'\n', &mut bytes);
+        if read.map_err(|error| format!("{}: {error}", self.name))? == 0 {
+            return Ok(Line::End);
+        }
+        if bytes.len() as u64 == LONGEST && !bytes.ends_with(b"\n") {
+            return Err(wrong(&"this line is too long; write LAT,LON such as 20,-45").into());
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.trim_start_matches('\u{feff}').trim();
+        if text.is_empty() || text.starts_with('#') {
+            return Ok(Line::Other);
+        }
+        let (lat, lon) = args::location(text).map_err(|error| wrong(&error))?;
+        Ok(Line::Place { lat, lon })
+    }
+}
+
+fn answers(terrain: &Terrain, places: &[(f64, f64)]) -> Vec<String> {
+    let tasks = places.par_chunks(TASK).map_init(Scratch::default, |scratch, places| {
+        let dirs: Vec<_> = places.iter().map(|&(lat, lon)| LatLon::from_degrees(lat, lon).direction()).collect();
+        let mut samples = vec![Sample::default(); dirs.len()];
+        terrain.samples_into(&dirs, Wanted::ALL, &mut samples, scratch);
+        let answer = |((&(lat, lon), &dir), sample)| {
+            let mut answer = as_json(terrain, dir, sample, &terrain.layers_m(dir));
+            answer["lat"] = json!(lat);
+            answer["lon"] = json!(lon);
+            answer.to_string()
+        };
+        places.iter().zip(&dirs).zip(&samples).map(answer).collect::<Vec<_>>()
+    });
+    tasks.collect::<Vec<_>>().concat()
+}

@@ -1,0 +1,72 @@
+//! Water, wind and rain at points: the sea, and the lakes, rivers and weather of a planet's structure.
+//!
+//! Layers that lie over the structure may raise the ground above its water, or lower it below. The water keeps its
+//! level and counts where the ground is below it.
+
+use super::Terrain;
+use super::landform::river_points;
+use super::query::Sample;
+use crate::world::carved::Carved;
+use crate::world::grid::cell_at;
+use crate::world::rivers::RiverPoint;
+use glam::DVec3;
+
+/// A river near a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct River {
+    /// The same from source to mouth for a river that [`Terrain::rivers`] lists; one for each reach of small
+    /// tributaries. It holds for the world maps that serve: another number of grids has other ids.
+    pub id: u64,
+    /// Distance from the point to the centre line.
+    pub distance_m: f64,
+    /// Width of the water. The point is in the river if it is nearer to the centre line than half of that.
+    pub width_m: f64,
+    /// Depth of the water in the middle.
+    pub depth_m: f64,
+    /// Water that flows by in a second.
+    pub discharge_m3_s: f64,
+    /// Direction of the flow: a unit tangent in the planet frame.
+    pub flow_planet: DVec3,
+}
+
+impl Terrain {
+    /// Fills in water, wind and rain at unit directions whose heights are known, and where no map of the
+    /// weather serves, the climate.
+    pub(super) fn find_water(&self, dirs: &[DVec3], samples: &mut [Sample]) {
+        let world = self.world();
+        let sea_m = self.planet().sea_level_m();
+        for (sample, &dir) in samples.iter_mut().zip(dirs) {
+            sample.water_level_m = sea_m.filter(|sea_m| sample.height_m < *sea_m);
+            sample.rain_mm = sample.precipitation_mm;
+            if let Some(weather) = world.weather.map() {
+                (sample.rain_mm, sample.wind_planet_m_s) = weather.rain_and_wind(dir);
+            }
+            sample.plate = world.plates.map().and_then(|plates| u16::try_from(plates.layout.plate_under(dir)).ok());
+        }
+        if let Some(carved) = world.carved.map() {
+            river_points(&carved.rivers, dirs, |points| {
+                for ((sample, point), &dir) in samples.iter_mut().zip(points).zip(dirs) {
+                    add_rivers(carved, dir, point, sample);
+                }
+            });
+        }
+    }
+}
+
+/// Fills in what rivers and lakes say. The level of the sea is there already.
+fn add_rivers(carved: &Carved, dir: DVec3, point: &RiverPoint, sample: &mut Sample) {
+    let is_over = |level_m: &f64| sample.height_m < *level_m;
+    let lake = point.lake.checked_sub(1).and_then(|index| carved.drainage.lakes.get(index as usize));
+    sample.lake = lake.filter(|lake| is_over(&lake.level_m)).map(|_| point.lake);
+    sample.water_level_m = point.water_level_m.filter(is_over).or(sample.water_level_m);
+    sample.basin = carved.basins().of(cell_at(carved.drainage.side, dir));
+    // A dry valley carries no water.
+    sample.river = point.river.filter(|river| river.discharge_m3_s > 0.0).map(|river| River {
+        id: river.id,
+        distance_m: river.distance_m,
+        width_m: river.width_m,
+        depth_m: river.depth_m,
+        discharge_m3_s: river.discharge_m3_s,
+        flow_planet: river.flow,
+    });
+}
