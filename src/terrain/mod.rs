@@ -40,7 +40,7 @@ mod raycast;
 pub(crate) mod relief;
 pub mod revision;
 mod scalar;
-pub mod simd;
+pub use crate::simd;
 
 use crate::planet::{InvalidPlanet, Planet};
 use crate::world::{Inputs, KeepGoing, MapWork, World};

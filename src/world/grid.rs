@@ -33,11 +33,6 @@ pub(crate) fn node(side: usize, cell: usize, seed: u32) -> DVec3 {
     cube_direction(cell / (side * side), side, x, y)
 }
 
-/// The nodes of all cells.
-pub(crate) fn nodes(side: usize, seed: u32) -> Vec<DVec3> {
-    (0..6 * side * side).into_par_iter().map(|cell| node(side, cell, seed)).collect()
-}
-
 /// The length of the arc between two unit directions that are near to each other.
 pub(crate) fn arc_rad(a: DVec3, b: DVec3) -> f64 {
     let chord2 = a.distance_squared(b);
