@@ -45,6 +45,7 @@ pub use glam;
 pub mod atmosphere;
 pub mod lod;
 pub mod planet;
+pub mod simd;
 pub mod sphere;
 pub mod terrain;
 pub mod tiles;

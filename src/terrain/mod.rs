@@ -42,7 +42,7 @@ mod raycast;
 pub(crate) mod relief;
 pub mod revision;
 mod scalar;
-pub mod simd;
+pub use crate::simd;
 mod water;
 
 use crate::planet::{InvalidPlanet, Planet};

@@ -29,6 +29,19 @@ impl Cells {
         known().entry(side).or_insert(cells).clone()
     }
 
+    /// The eight cells around a cell, as [`Self::neighbours`] lists them. Away from the edges of faces they follow from
+    /// the cell alone, without a look into a large table.
+    #[inline(always)]
+    pub(crate) fn around(&self, cell: usize) -> [u32; 8] {
+        let side = self.side as u32;
+        let (column, row) = (cell as u32 % side, cell as u32 / side % side);
+        // Below zero wraps around.
+        if column.wrapping_sub(1) < side.wrapping_sub(2) && row.wrapping_sub(1) < side - 2 {
+            return beside(cell, self.side);
+        }
+        self.neighbours[cell]
+    }
+
     /// Half the angle that a cell in the middle of a face spans: detail finer than this is not seen by the cells.
     pub(crate) fn spacing_rad(&self) -> f64 {
         1.0 / self.side as f64
@@ -39,6 +52,10 @@ impl Cells {
         let dir = |face, x: f64, y: f64| cube_direction(face, side, x + 0.5, y + 0.5);
         let around = |cell: usize| {
             let (face, column, row) = place(cell);
+            let inner = 1..side - 1;
+            if inner.contains(&column) && inner.contains(&row) {
+                return beside(cell, side);
+            }
             let steps = [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
             steps.map(|(dx, dy)| {
                 let (x, y) = (column as f64 + f64::from(dx), row as f64 + f64::from(dy));
@@ -58,4 +75,12 @@ impl Cells {
             neighbours: cells.into_par_iter().map(around).collect(),
         }
     }
+}
+
+/// The eight cells around one that does not lie at an edge of its face.
+#[inline(always)]
+fn beside(cell: usize, side: usize) -> [u32; 8] {
+    let (cell, side) = (cell as u32, side as u32);
+    let (above, below) = (cell - side, cell + side);
+    [above - 1, above, above + 1, cell - 1, cell + 1, below - 1, below, below + 1]
 }

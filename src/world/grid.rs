@@ -40,11 +40,6 @@ pub(crate) fn cell_at(side: usize, dir: DVec3) -> usize {
     (face * side + index(y)) * side + index(x)
 }
 
-/// The nodes of all cells.
-pub(crate) fn nodes(side: usize, seed: u32) -> Vec<DVec3> {
-    (0..6 * side * side).into_par_iter().map(|cell| node(side, cell, seed)).collect()
-}
-
 /// The length of the arc between two unit directions that are near to each other.
 pub(crate) fn arc_rad(a: DVec3, b: DVec3) -> f64 {
     let chord2 = a.distance_squared(b);
@@ -80,12 +75,6 @@ pub(crate) fn refined(cells: &Cells, values: &[f64]) -> Vec<f64> {
             (9.0 * values[cell] + 3.0 * (row + column) + corner) * (1.0 / 16.0)
         })
         .collect()
-}
-
-/// Each cell's value in its four children.
-pub(crate) fn repeated<T: Copy + Send + Sync>(side: usize, values: &[T]) -> Vec<T> {
-    let side = 2 * side;
-    (0..6 * side * side).into_par_iter().map(|child| values[parent(side, child)]).collect()
 }
 
 /// Values on the grid of half the side: means of four cells.

@@ -3,9 +3,11 @@
 //! World maps evaluate it at a few hundred thousand points, so it is plain code. It uses basic operations alone: the
 //! same bits on every machine.
 
+use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
 
 /// Spreads the bits of a number.
+#[inline(always)]
 pub(crate) fn scramble(bits: u32) -> u32 {
     let h = (bits ^ (bits >> 16)).wrapping_mul(0x7FEB_352D);
     let h = (h ^ (h >> 15)).wrapping_mul(0x846C_A68B);
@@ -22,60 +24,88 @@ pub(crate) fn unit(bits: u32) -> f64 {
     f64::from(bits) * (1.0 / 4_294_967_296.0)
 }
 
-/// The gradient of a lattice point: one of 4,096 directions of similar length.
-fn gradient(bits: u32) -> DVec3 {
-    let part = |shift: u32| f64::from((bits >> shift) & 0xF) * (2.0 / 15.0) - 1.0;
-    DVec3::new(part(28), part(24), part(20))
-}
-
 fn fade(t: f64) -> f64 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
 }
 
-/// One octave, -1 to 1 with a standard deviation of about 0.33.
-pub(crate) fn noise(p: DVec3, seed: u32) -> f64 {
+/// The values of one octave at a point, for some seeds: the corners of the point's cell side by side, so that the
+/// compiler makes vectors of them.
+#[inline(always)]
+fn octave<const SEEDS: usize>(p: DVec3, seeds: [u32; SEEDS]) -> [f64; SEEDS] {
     // Points are near the lattice's origin, and the shift makes them positive, so that a cast rounds down.
     const SHIFT: f64 = 16_777_216.0;
     let whole = |w: f64| (w + SHIFT) as i64;
     let cell = [whole(p.x), whole(p.y), whole(p.z)];
-    let f = DVec3::new(p.x, p.y, p.z) - DVec3::from_array(cell.map(|w| w as f64 - SHIFT));
+    let f = p - DVec3::from_array(cell.map(|w| w as f64 - SHIFT));
     let [x, y, z] = cell.map(|w| w as u32);
-    let plane = |dx: u32, dy: u32, dz: u32| {
-        let h = x.wrapping_add(dx).wrapping_mul(0x8DA6_B343)
-            ^ y.wrapping_add(dy).wrapping_mul(0xD816_3841)
-            ^ z.wrapping_add(dz).wrapping_mul(0xCB1A_B31F);
-        let corner = DVec3::new(f64::from(dx), f64::from(dy), f64::from(dz));
-        gradient(scramble(h ^ seed)).dot(f - corner)
-    };
+    let along = |w: u32, by: u32| [w.wrapping_mul(by), w.wrapping_add(1).wrapping_mul(by)];
+    let (xs, ys, zs) = (along(x, 0x8DA6_B343), along(y, 0xD816_3841), along(z, 0xCB1A_B31F));
+    let corners: [u32; 8] = std::array::from_fn(|k| xs[k & 1] ^ ys[k >> 1 & 1] ^ zs[k >> 2]);
+    let offset = |axis: f64, bit: usize| -> [f64; 8] { std::array::from_fn(|k| axis - (k >> bit & 1) as f64) };
+    let (dx, dy, dz) = (offset(f.x, 0), offset(f.y, 1), offset(f.z, 2));
     let (u, v, w) = (fade(f.x), fade(f.y), fade(f.z));
-    let line = |dy: u32, dz: u32| {
-        let (a, b) = (plane(0, dy, dz), plane(1, dy, dz));
-        a + (b - a) * u
-    };
-    let face = |dz: u32| {
-        let (a, b) = (line(0, dz), line(1, dz));
-        a + (b - a) * v
-    };
-    let (a, b) = (face(0), face(1));
-    (a + (b - a) * w) * 1.2
+    seeds.map(|seed| {
+        // The gradient of a corner: one of 4,096 directions of similar length.
+        let part = |bits: u32, shift: u32| f64::from((bits >> shift & 0xF) as i32) * (2.0 / 15.0) - 1.0;
+        let planes: [f64; 8] = std::array::from_fn(|k| {
+            let bits = scramble(corners[k] ^ seed);
+            part(bits, 28) * dx[k] + part(bits, 24) * dy[k] + part(bits, 20) * dz[k]
+        });
+        let lines: [f64; 4] = std::array::from_fn(|k| planes[2 * k] + (planes[2 * k + 1] - planes[2 * k]) * u);
+        let [a, b] = [lines[0] + (lines[1] - lines[0]) * v, lines[2] + (lines[3] - lines[2]) * v];
+        (a + (b - a) * w) * 1.2
+    })
+}
+
+/// Sums of octaves for some seeds.
+#[inline(always)]
+fn octaves<const SEEDS: usize>(p: DVec3, shape: [f64; 2], count: u32, seeds: [u32; SEEDS], out: &mut [f64; SEEDS]) {
+    let (mut amplitude, [mut frequency, gain]) = (1.0, shape);
+    *out = [0.0; SEEDS];
+    for k in 0..count {
+        let shift = f64::from(k) * 17.17 + 5.3;
+        let values = octave(p * frequency + shift, seeds.map(|seed| seed.wrapping_add(k.wrapping_mul(0x9E37_79B1))));
+        for (sum, value) in out.iter_mut().zip(values) {
+            *sum += amplitude * value;
+        }
+        amplitude *= gain;
+        frequency *= 2.03;
+    }
+}
+
+#[inline(always)]
+fn one(p: DVec3, seed: u32, out: &mut f64) {
+    [*out] = octave(p, [seed]);
+}
+
+for_each_simd!(fn one_simd(p: DVec3, seed: u32, out: &mut f64) = one);
+for_each_simd!(fn fbm_simd(
+    p: DVec3, shape: [f64; 2], count: u32, seeds: [u32; 1], out: &mut [f64; 1]
+) = octaves::<1>);
+for_each_simd!(fn fbm3_simd(
+    p: DVec3, shape: [f64; 2], count: u32, seeds: [u32; 3], out: &mut [f64; 3]
+) = octaves::<3>);
+
+/// One octave, -1 to 1 with a standard deviation of about 0.33.
+pub(crate) fn noise(p: DVec3, seed: u32) -> f64 {
+    let mut out = 0.0;
+    one_simd(Simd::detect(), p, seed, &mut out);
+    out
 }
 
 /// A sum of octaves: wavelengths fall by 2.03 from `1 / frequency`, amplitudes by `gain` from 1.
 pub(crate) fn fbm(p: DVec3, frequency: f64, octaves: u32, gain: f64, seed: u32) -> f64 {
-    let (mut sum, mut amplitude, mut frequency) = (0.0, 1.0, frequency);
-    for octave in 0..octaves {
-        let shift = f64::from(octave) * 17.17 + 5.3;
-        sum += amplitude * noise(p * frequency + shift, seed.wrapping_add(octave.wrapping_mul(0x9E37_79B1)));
-        amplitude *= gain;
-        frequency *= 2.03;
-    }
-    sum
+    let mut out = [0.0];
+    fbm_simd(Simd::detect(), p, [frequency, gain], octaves, [seed], &mut out);
+    out[0]
 }
 
 /// A sum of octaves of a vector.
 pub(crate) fn fbm3(p: DVec3, frequency: f64, octaves: u32, gain: f64, seed: u32) -> DVec3 {
-    let part = |axis: u32| fbm(p, frequency, octaves, gain, hash(seed, axis));
-    DVec3::new(part(0), part(1), part(2))
+    let mut out = [0.0; 3];
+    let seeds = [0, 1, 2].map(|axis| hash(seed, axis));
+    fbm3_simd(Simd::detect(), p, [frequency, gain], octaves, seeds, &mut out);
+    DVec3::from_array(out)
 }
 
 /// 0 at `from` and below, 1 at `to` and above, smooth between. `from` may be the greater one.

@@ -52,7 +52,8 @@ fn a_layer_over_it_is_added_and_one_under_it_is_carved() {
     let mut under = over.clone();
     under.layers[0].under = true;
     let no_structure = Planet { structure: None, ..over.clone() };
-    let [bare_m, over_m, under_m, hills_m] = [bare, over, under, no_structure].map(|planet| heights_m(&terrain(&planet)));
+    let [bare_m, over_m, under_m, hills_m] =
+        [bare, over, under, no_structure].map(|planet| heights_m(&terrain(&planet)));
     let added = |all: &[f64], i: usize| all[i] - bare_m[i];
     assert!((0..3000).all(|i| (added(&over_m, i) - hills_m[i]).abs() < 1e-6));
     // Land and sea floor rise where the hills do, but on land not by all of it.

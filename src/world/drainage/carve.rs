@@ -11,7 +11,9 @@
 
 use super::route::{Jumps, Routes};
 use super::{DISCHARGE_UNIT, Level};
+use crate::planet::Rivers as Params;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Erodibility of the mean rock of the Earth, for the exponent 1/2 and a runoff of [`MEAN_RUNOFF_M`], a year.
 const ERODIBILITY: f64 = 7.5e-7;
@@ -34,69 +36,91 @@ pub(super) fn earthly_m3_s(units: u64) -> f64 {
     units as f64 * (DISCHARGE_UNIT * EARTH_M * EARTH_M / YEAR_S)
 }
 
-/// Heights of the beds along the routes.
+/// How slowly rock of a softness is carved.
+pub(super) fn slowness(params: &Params, softness: f64) -> f64 {
+    1.0 / (ERODIBILITY * params.erodibility * libm::exp(params.rock_variation * softness))
+}
+
+/// The way down from a cell.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Years in which erosion runs up from the outlet.
+    response: f64,
+    raised_m: f64,
+    /// The ground at the start without pits; the outlet, and how far it rises itself, as the bottom of a closed basin
+    /// does.
+    start_m: f64,
+    outlet_m: f64,
+    rise_m: f64,
+}
+
+/// Heights of the beds along the routes, by position.
 pub(super) fn beds_m(level: &Level<'_>, routes: &Routes, discharge: &[u64]) -> Vec<f64> {
+    routes.groups.par_iter().map(|group| group_m(level, routes, discharge, group)).collect::<Vec<_>>().concat()
+}
+
+/// Heights of the beds of a group of basins.
+fn group_m(level: &Level<'_>, routes: &Routes, discharge: &[u64], group: &Range<usize>) -> Vec<f64> {
     let params = level.params;
     let age_yr = params.age_myr * 1e6;
-    let receiver = &routes.receiver;
-    // Years in which erosion runs over the step below each cell.
-    let years = |cell: usize| {
-        let rock = libm::exp(params.rock_variation * level.softness[cell]);
+    let (order, discharge) = (&routes.order[group.clone()], &discharge[group.clone()]);
+    let step_rad = &routes.step_rad[group.clone()];
+    let below: Vec<u32> = routes.below[group.clone()].iter().map(|to| to - group.start as u32).collect();
+    // Where a way ends in the sea.
+    let mouth = |cell: usize| Way {
+        response: 0.0,
+        raised_m: 0.0,
+        start_m: level.start_m[routes.receiver[cell] as usize],
+        outlet_m: level.base_m,
+        rise_m: 0.0,
+    };
+    let is_sink = |cell: usize| routes.receiver[cell] as usize == cell;
+    let mut ways: Vec<Way> = Vec::with_capacity(order.len());
+    for (at, &cell) in order.iter().enumerate() {
+        let (cell, to) = (cell as usize, below[at] as usize);
+        if is_sink(cell) {
+            let (outlet_m, rise_m) = (level.sink_m(cell), level.uplift_m[cell]);
+            ways.push(Way { response: 0.0, raised_m: 0.0, start_m: outlet_m - rise_m, outlet_m, rise_m });
+            continue;
+        }
+        let way = if to == at { mouth(cell) } else { ways[to] };
         // Slopes wear where it is dry too: the term for hillslopes of the paper.
-        let area = discharge[cell] as f64 * (DISCHARGE_UNIT / MEAN_RUNOFF_M) + HILLSLOPE * level.areas_sr[cell];
-        routes.step_rad[cell] / (ERODIBILITY * params.erodibility * rock * area.sqrt())
-    };
-    let years: Vec<f64> =
-        (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { 0.0 } else { years(c) }).collect();
-    let mut response = vec![0.0; receiver.len()];
-    let mut raised = vec![0.0; receiver.len()];
-    // The ground at the start without pits; the outlet of each cell, and how far it rises itself, as the bottom of a
-    // closed basin does.
-    let mut start_m = level.start_m.clone();
-    let mut outlet_m = vec![level.base_m; receiver.len()];
-    let mut rise_m = vec![0.0; receiver.len()];
-    for &cell in &routes.order {
-        let (cell, to) = (cell as usize, receiver[cell as usize] as usize);
-        if to == cell {
-            outlet_m[cell] = level.sink_m(cell);
-            rise_m[cell] = level.uplift_m[cell];
-            start_m[cell] = outlet_m[cell] - rise_m[cell];
-            continue;
-        }
-        response[cell] = response[to] + years[cell];
-        rise_m[cell] = rise_m[to];
-        raised[cell] = raised[to] + (level.uplift_m[cell] - rise_m[cell]) * (years[cell] / age_yr);
-        start_m[cell] = f64::max(start_m[cell], start_m[to]);
-        outlet_m[cell] = outlet_m[to];
+        let area = discharge[at] as f64 * (DISCHARGE_UNIT / MEAN_RUNOFF_M) + HILLSLOPE * level.areas_sr[cell];
+        let years = step_rad[at] * level.slowness[cell] / area.sqrt();
+        ways.push(Way {
+            response: way.response + years,
+            raised_m: way.raised_m + (level.uplift_m[cell] - way.rise_m) * (years / age_yr),
+            start_m: f64::max(level.start_m[cell], way.start_m),
+            ..way
+        });
     }
-    let jumps = Jumps::new(routes);
-    let free = |cell: usize| {
-        if response[cell] <= age_yr {
-            return outlet_m[cell] + raised[cell];
-        }
-        let limit = response[cell] - age_yr;
-        let (above, below) = jumps.search(receiver, &response, limit, cell as u32);
-        let (above, below) = (above as usize, below as usize);
-        let share = (limit - response[below]) / (response[above] - response[below]).max(1e-9);
-        let between = |values: &[f64]| values[below] + (values[above] - values[below]) * share;
-        between(&start_m) + rise_m[cell] + raised[cell] - between(&raised)
-    };
-    let mut beds_m: Vec<f64> =
-        (0..receiver.len()).into_par_iter().map(|c| if level.is_sea[c] { level.base_m } else { free(c) }).collect();
+    let jumps = Jumps::new(&below);
     let talus = libm::tan(params.talus_deg.to_radians()) * level.radius_km * 1000.0;
-    for &cell in &routes.order {
-        let (cell, to) = (cell as usize, receiver[cell as usize] as usize);
-        if to == cell {
-            continue;
+    let mut beds_m: Vec<f64> = Vec::with_capacity(order.len());
+    for (at, &cell) in order.iter().enumerate() {
+        let (cell, to, way) = (cell as usize, below[at] as usize, ways[at]);
+        let mut bed_m = way.outlet_m + way.raised_m;
+        if way.response > age_yr {
+            let limit = way.response - age_yr;
+            let (last, next) = jumps.search(&below, |at| ways[at].response, limit, at);
+            let upper = ways[last];
+            let lower = if next == last { mouth(order[last] as usize) } else { ways[next] };
+            let share = (limit - lower.response) / (upper.response - lower.response).max(1e-9);
+            let start_m = lower.start_m + (upper.start_m - lower.start_m) * share;
+            let raised_m = lower.raised_m + (upper.raised_m - lower.raised_m) * share;
+            bed_m = start_m + way.rise_m + way.raised_m - raised_m;
         }
-        let step = routes.step_rad[cell];
-        // The power -3/8 of the discharge, by square roots.
-        let root = earthly_m3_s(discharge[cell]).max(0.5).sqrt().sqrt();
-        let laid = params.deposition * ALLUVIAL_SLOPE / (root * root.sqrt()) * EARTH_M;
-        let steepest_m = beds_m[to] + step * talus;
-        // No river lays down more than a little above the rock as it was.
-        let laid_m = f64::min(beds_m[to] + step * laid, level.surface_m(cell) + 20.0);
-        beds_m[cell] = f64::max(beds_m[cell], laid_m).min(steepest_m).max(beds_m[to] + 0.01);
+        if !is_sink(cell) {
+            let below_m = if to == at { level.base_m } else { beds_m[to] };
+            // The power -3/8 of the discharge, by square roots.
+            let root = earthly_m3_s(discharge[at]).max(0.5).sqrt().sqrt();
+            let laid = params.deposition * ALLUVIAL_SLOPE / (root * root.sqrt()) * EARTH_M;
+            let steepest_m = below_m + step_rad[at] * talus;
+            // No river lays down more than a little above the rock as it was.
+            let laid_m = f64::min(below_m + step_rad[at] * laid, level.surface_m(cell) + 20.0);
+            bed_m = f64::max(bed_m, laid_m).min(steepest_m).max(below_m + 0.01);
+        }
+        beds_m.push(bed_m);
     }
     beds_m
 }

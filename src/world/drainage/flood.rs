@@ -7,6 +7,7 @@
 use crate::world::cells::Cells;
 use crate::world::map::KeepGoing;
 use crate::world::noise::hash;
+use rayon::prelude::*;
 
 /// The unit of filled heights, in metres.
 pub(super) const UNIT_M: f64 = 1.0 / 16.0;
@@ -14,13 +15,8 @@ pub(super) const UNIT_M: f64 = 1.0 / 16.0;
 /// Most units of a filled height: 62 km.
 const MOST: u32 = 1_000_000;
 
-/// A surface without pits.
-pub(super) struct Filled {
-    /// Height in units above the base level; 0 in the sea.
-    pub(super) units: Vec<u32>,
-    /// Land cells, the lowest first; each comes after some neighbour that is lower. Sinks are among them.
-    pub(super) order: Vec<u32>,
-}
+/// Marks a cell that the flood has not reached.
+const DRY: u32 = 1 << 31;
 
 const NONE: u32 = u32::MAX;
 
@@ -40,36 +36,41 @@ impl Buckets {
     }
 }
 
-/// Floods `surface_m` from the sea and from sinks. None if `keep_going` said no.
+/// A height above the base level in units, of a cell on land that is to be flooded.
+pub(super) fn dry_units(above_m: f64) -> u32 {
+    (above_m * (1.0 / UNIT_M)).clamp(1.0, f64::from(MOST)) as u32 | DRY
+}
+
+/// Floods heights in units from the cells of the shore and from sinks: afterwards they have no pits. The sea has 0, and
+/// land [`dry_units`]. None if `keep_going` said no.
 pub(super) fn fill(
     cells: &Cells,
-    base_m: f64,
-    surface_m: &[f64],
-    is_sea: &[bool],
+    mut units: Vec<u32>,
+    shore: &[u32],
     sinks: &[u32],
     keep_going: &KeepGoing<'_>,
-) -> Option<Filled> {
-    let count = surface_m.len();
-    let raw = |cell: usize| ((surface_m[cell] - base_m) * (1.0 / UNIT_M)).clamp(1.0, f64::from(MOST)) as u32;
-    let mut units = vec![NONE; count];
-    let mut order = Vec::with_capacity(count);
-    let mut waiting = Buckets { first: vec![NONE; 1 << 16], next: vec![NONE; count] };
-    for (cell, sea) in is_sea.iter().enumerate() {
-        if *sea {
-            units[cell] = 0;
-            // Only cells on the coast lead anywhere.
-            if cells.neighbours[cell].iter().any(|&other| !is_sea[other as usize]) {
-                waiting.push(cell as u32, 0);
-            }
-        }
-    }
+) -> Option<Vec<u32>> {
+    let mut waiting = Buckets { first: vec![NONE; 1 << 16], next: vec![NONE; units.len()] };
     for &sink in sinks {
-        if units[sink as usize] == NONE {
-            units[sink as usize] = raw(sink as usize);
-            waiting.push(sink, units[sink as usize]);
+        let units = &mut units[sink as usize];
+        if *units & DRY != 0 {
+            *units &= !DRY;
+            waiting.push(sink, *units);
         }
     }
-    let mut level = 0;
+    let raised = |cell: u32, raw: u32, from: u32| {
+        let raw = raw & !DRY;
+        // The hash matters only where the cell is not high enough anyway.
+        if raw >= from + 4 { raw } else { raw.max(from + 1 + (hash(cell, 77) & 3)) }
+    };
+    for &cell in shore {
+        let units = &mut units[cell as usize];
+        if *units & DRY != 0 {
+            *units = raised(cell, *units, 0);
+            waiting.push(cell, *units);
+        }
+    }
+    let (mut level, mut done) = (0, 0_u32);
     while level < waiting.first.len() {
         let cell = waiting.first[level];
         if cell == NONE {
@@ -78,26 +79,19 @@ pub(super) fn fill(
         }
         waiting.first[level] = waiting.next[cell as usize];
         let here = units[cell as usize];
-        if !is_sea[cell as usize] {
-            order.push(cell);
-            if order.len() & 0xFFFF == 0 && !keep_going() {
-                return None;
-            }
+        done += 1;
+        if done & 0xFFFF == 0 && !keep_going() {
+            return None;
         }
-        for &other in &cells.neighbours[cell as usize] {
-            if units[other as usize] == NONE {
-                let step = 1 + (hash(other, 77) & 3);
-                let to = raw(other as usize).max(here + step);
-                units[other as usize] = to;
-                waiting.push(other, to);
+        for other in cells.around(cell as usize) {
+            let units = &mut units[other as usize];
+            if *units & DRY != 0 {
+                *units = raised(other, *units, here);
+                waiting.push(other, *units);
             }
         }
     }
     // Land without any outlet: a planet of land alone whose sinks are none.
-    for (cell, units) in units.iter_mut().enumerate() {
-        if *units == NONE {
-            *units = raw(cell);
-        }
-    }
-    Some(Filled { units, order })
+    units.par_iter_mut().with_min_len(4096).for_each(|units| *units &= !DRY);
+    Some(units)
 }

@@ -3,6 +3,7 @@
 use super::route::Routes;
 use super::{DISCHARGE_UNIT, Lake, Level};
 use crate::world::cells::Cells;
+use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -79,10 +80,13 @@ impl Lakes {
     fn close_gaps(&mut self, level: &Level<'_>, cells: &Cells) {
         const MOST_M: f64 = 60.0;
         let before = self.lake.clone();
-        for (cell, around) in cells.neighbours.iter().enumerate() {
-            if before[cell] != 0 || level.is_sea[cell] {
-                continue;
-            }
+        let is_beside = |&cell: &u32| {
+            let around = cells.around(cell as usize);
+            before[cell as usize] == 0 && around.iter().any(|&other| before[other as usize] != 0)
+        };
+        let beside: Vec<u32> = level.land.par_iter().copied().with_min_len(4096).filter(is_beside).collect();
+        for cell in beside.into_iter().map(|cell| cell as usize) {
+            let around = cells.around(cell);
             let Some(number) = around.iter().map(|&other| before[other as usize]).find(|number| *number != 0) else {
                 continue;
             };

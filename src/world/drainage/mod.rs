@@ -16,7 +16,7 @@ mod route;
 mod start;
 
 use super::cells::Cells;
-use super::grid::{areas_sr, nodes};
+use super::grid::{areas_sr, node};
 use super::map::KeepGoing;
 use super::noise::{hash, unit};
 use crate::planet::Rivers as Params;
@@ -76,8 +76,6 @@ pub(crate) struct Drainage {
     pub(crate) side: usize,
     /// Seed of the nodes: the river of a cell runs through [`super::grid::node`] of it.
     pub(crate) seed: u32,
-    /// Height of the sea in metres, or of the plains into which rivers run dry on a planet without a sea.
-    pub(crate) base_m: f64,
     /// Height of the ground in metres; under water that of the bed.
     pub(crate) height_m: Vec<f32>,
     /// Height of the river's bed in metres; in a lake with an outlet that of its surface. It falls along all receivers.
@@ -111,8 +109,12 @@ pub(super) struct Level<'a> {
     /// Height of the ground at the start; deltas are among it, and it is nowhere on land below the base.
     pub(super) start_m: Vec<f64>,
     pub(super) uplift_m: &'a [f64],
-    pub(super) softness: &'a [f64],
     pub(super) dryness_mm: &'a [f64],
+    /// Land cells, and those of them that touch the sea.
+    pub(super) land: Vec<u32>,
+    pub(super) shore: Vec<u32>,
+    /// How slowly rock is carved; see `carve`.
+    pub(super) slowness: Vec<f64>,
 }
 
 impl Level<'_> {
@@ -150,7 +152,7 @@ impl Drainage {
         let base_m = inputs.sea_level_m.unwrap_or_else(|| start::plains_m(inputs));
         let areas_sr = areas_sr(inputs.side);
         let (start_m, is_sea) = start::ground(inputs, &cells, &areas_sr, base_m, coarser, seed);
-        let level = Level {
+        let mut level = Level {
             params: inputs.params,
             radius_km: inputs.radius_km,
             base_m,
@@ -158,10 +160,12 @@ impl Drainage {
             is_sea,
             start_m,
             uplift_m: inputs.uplift_m,
-            softness: inputs.softness,
             dryness_mm: inputs.dryness_mm,
+            land: Vec::new(),
+            shore: Vec::new(),
+            slowness: Vec::new(),
         };
-        let nodes = nodes(inputs.side, seed);
+        let nodes = level.complete(inputs, &cells, seed);
         let source = level.source(inputs);
         let mut surface_m = start::surface(&level, &cells, coarser, seed);
         let mut sinks = match coarser {
@@ -175,23 +179,26 @@ impl Drainage {
             if !keep_going() {
                 return None;
             }
-            let rough: Vec<f64> =
-                surface_m.par_iter().enumerate().map(|(cell, m)| m + roughness_m(*m - base_m, seed, cell)).collect();
-            let filled = flood::fill(&cells, base_m, &rough, &level.is_sea, &sinks, keep_going)?;
-            let routes = Routes::new(&cells, &nodes, filled, &level.is_sea);
+            let units = level.dry_units(&surface_m, |cell, above_m| roughness_m(above_m, seed, cell));
+            let units = flood::fill(&cells, units, &level.shore, &sinks, keep_going)?;
+            let routes = Routes::new(&cells, &nodes, &units, &level.land, &level.is_sea);
             let discharge = routes.accumulated(&source);
             let beds_m = carve::beds_m(&level, &routes, &discharge);
             if round + 1 < rounds {
-                surface_m
-                    .par_iter_mut()
-                    .zip(&beds_m)
-                    .for_each(|(surface_m, bed_m)| *surface_m += (bed_m - *surface_m) * RELAXATION);
+                for (&cell, bed_m) in routes.order.iter().zip(&beds_m) {
+                    let surface_m = &mut surface_m[cell as usize];
+                    *surface_m += (bed_m - *surface_m) * RELAXATION;
+                }
             }
             found = Some((routes, discharge, beds_m));
         }
-        let (routes, discharge, mut bed_m) = found?;
+        let (routes, discharge, beds_m) = found?;
+        let discharge = routes.by_cell(&discharge);
+        let mut bed_m = vec![base_m; level.is_sea.len()];
+        routes.order.iter().zip(&beds_m).for_each(|(&cell, &at_m)| bed_m[cell as usize] = at_m);
         let Lakes { ground_m, lake, lakes } = Lakes::find(&level, &cells, &routes, &discharge, &mut bed_m);
         let height_m = (0..ground_m.len())
+            .into_par_iter()
             .map(|cell| (if level.is_sea[cell] { level.start_m[cell] } else { ground_m[cell] }) as f32)
             .collect();
         let radius_m = inputs.radius_km * 1000.0;
@@ -200,10 +207,9 @@ impl Drainage {
         Some(Self {
             side: inputs.side,
             seed,
-            base_m,
             height_m,
             bed_m,
-            discharge_m3_s: discharge.iter().map(true_m3_s).collect(),
+            discharge_m3_s: discharge.par_iter().map(true_m3_s).collect(),
             discharge,
             lake,
             lakes,
@@ -217,6 +223,31 @@ impl Drainage {
 }
 
 impl Level<'_> {
+    /// Sets what follows from the sea and the land. Answers the nodes of land and of the sea beside it.
+    fn complete(&mut self, inputs: &Inputs<'_>, cells: &Cells, seed: u32) -> Vec<DVec3> {
+        let (all, is_sea) = (0..self.is_sea.len(), &self.is_sea);
+        let meets = |cell: usize, sea: bool| cells.around(cell).iter().any(|&other| is_sea[other as usize] == sea);
+        self.land = all.clone().filter(|&cell| !is_sea[cell]).map(|cell| cell as u32).collect();
+        self.shore = self.land.par_iter().copied().filter(|&cell| meets(cell as usize, true)).collect();
+        let slowness = |cell: usize| {
+            if is_sea[cell] { 0.0 } else { carve::slowness(self.params, inputs.softness[cell]) }
+        };
+        self.slowness = all.clone().into_par_iter().with_min_len(1024).map(slowness).collect();
+        let place = |cell: usize| {
+            if is_sea[cell] && !meets(cell, false) { DVec3::ZERO } else { node(inputs.side, cell, seed) }
+        };
+        all.into_par_iter().with_min_len(1024).map(place).collect()
+    }
+
+    /// Heights for the flood, with `rough` of the cell and its height above the base added.
+    fn dry_units(&self, surface_m: &[f64], rough: impl Fn(usize, f64) -> f64 + Sync) -> Vec<u32> {
+        let units = |(cell, m): (usize, &f64)| {
+            let above_m = m - self.base_m;
+            if self.is_sea[cell] { 0 } else { flood::dry_units(above_m + rough(cell, above_m)) }
+        };
+        surface_m.par_iter().enumerate().with_min_len(4096).map(units).collect()
+    }
+
     /// Water that each cell adds to its river, in units of the discharge.
     fn source(&self, inputs: &Inputs<'_>) -> Vec<u64> {
         let even_mm = 350.0;

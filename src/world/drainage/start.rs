@@ -9,6 +9,7 @@ use crate::world::grid::{children, node, refined};
 use crate::world::map::KeepGoing;
 use crate::world::noise::{fbm, hash, unit};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// A sea is at least this share of the globe; smaller basins below its level are land.
@@ -38,8 +39,9 @@ pub(super) fn ground(
     seed: u32,
 ) -> (Vec<f64>, Vec<bool>) {
     let mut start_m = inputs.initial_m.to_vec();
-    for mouth in coarser.map_or(&[][..], |coarser| &coarser.mouths) {
-        add_delta(&mut start_m, cells, mouth, base_m, seed);
+    let mut reached = vec![0; start_m.len()];
+    for (number, mouth) in coarser.map_or(&[][..], |coarser| &coarser.mouths).iter().enumerate() {
+        add_delta(&mut start_m, cells, mouth, base_m, seed, (&mut reached, number as u32 + 1));
     }
     let low: Vec<bool> = start_m.iter().zip(inputs.uplift_m).map(|(m, up)| m + up < base_m).collect();
     let mut is_sea = vec![false; low.len()];
@@ -48,20 +50,20 @@ pub(super) fn ground(
         if !low[first] || seen[first] {
             continue;
         }
-        let (mut sea, mut next, mut area_sr) = (vec![first], 0, 0.0);
+        let (mut sea, mut next, mut area_sr) = (vec![first as u32], 0, 0.0);
         seen[first] = true;
         while let Some(&cell) = sea.get(next) {
             next += 1;
-            area_sr += areas_sr[cell];
-            for other in cells.neighbours[cell].iter().map(|&other| other as usize) {
-                if low[other] && !std::mem::replace(&mut seen[other], true) {
+            area_sr += areas_sr[cell as usize];
+            for other in cells.around(cell as usize) {
+                if low[other as usize] && !std::mem::replace(&mut seen[other as usize], true) {
                     sea.push(other);
                 }
             }
         }
         if area_sr >= LEAST_SEA * 4.0 * PI || inputs.sea_level_m.is_none() {
             for cell in sea {
-                is_sea[cell] = true;
+                is_sea[cell as usize] = true;
             }
         }
     }
@@ -73,26 +75,39 @@ pub(super) fn ground(
     (start_m, is_sea)
 }
 
-/// Raises the shelf before a mouth: a plain with lobes, a few metres above the sea.
-fn add_delta(start_m: &mut [f64], cells: &Cells, mouth: &Mouth, base_m: f64, seed: u32) {
+/// Raises the shelf before a mouth: a plain with lobes, a few metres above the sea. `reached` has the last number that
+/// reached each cell.
+fn add_delta(
+    start_m: &mut [f64],
+    cells: &Cells,
+    mouth: &Mouth,
+    base_m: f64,
+    seed: u32,
+    (reached, number): (&mut [u32], u32),
+) {
     let (mut near, mut next) = (Vec::new(), 0);
     let (face, x, y) = cube_point(mouth.dir, cells.side);
     let index = |w: f64| (w as usize).min(cells.side - 1);
     near.push((face * cells.side + index(y)) * cells.side + index(x));
+    reached[near[0]] = number;
     while let Some(&cell) = near.get(next) {
         next += 1;
         let dir = cells.dirs[cell];
-        let lobes = 1.0 + 0.9 * fbm(dir, 0.8 / mouth.reach_rad, 3, 0.6, hash(seed, 91));
-        let away = dir.distance(mouth.dir) / (mouth.reach_rad * lobes.clamp(0.3, 1.6));
+        let straight = dir.distance(mouth.dir);
         let depth_m = base_m - start_m[cell];
-        if away < 1.0 && depth_m < DELTA_FLOOR_M {
-            start_m[cell] = start_m[cell].max(base_m + 1.0 + 5.0 * (1.0 - away));
-        } else if away < 1.8 && depth_m < DELTA_FLOOR_M {
-            start_m[cell] = start_m[cell].max(base_m - 25.0 - 120.0 * (away - 1.0));
+        // Ground above the plain stays as it is.
+        if depth_m > -6.0 && depth_m < DELTA_FLOOR_M && straight < 1.8 * 1.6 * mouth.reach_rad {
+            let lobes = 1.0 + 0.9 * fbm(dir, 0.8 / mouth.reach_rad, 3, 0.6, hash(seed, 91));
+            let away = straight / (mouth.reach_rad * lobes.clamp(0.3, 1.6));
+            if away < 1.0 {
+                start_m[cell] = start_m[cell].max(base_m + 1.0 + 5.0 * (1.0 - away));
+            } else if away < 1.8 {
+                start_m[cell] = start_m[cell].max(base_m - 25.0 - 120.0 * (away - 1.0));
+            }
         }
-        if dir.distance(mouth.dir) < 2.0 * mouth.reach_rad {
-            for other in cells.neighbours[cell].iter().map(|&other| other as usize) {
-                if !near.contains(&other) {
+        if straight < 2.0 * mouth.reach_rad {
+            for other in cells.around(cell).map(|other| other as usize) {
+                if std::mem::replace(&mut reached[other], number) != number {
                     near.push(other);
                 }
             }
@@ -138,10 +153,9 @@ pub(super) fn surface(level: &Level<'_>, cells: &Cells, coarser: Option<&Drainag
     let mut surface_m = refined(&Cells::of(coarser.side), &coarser.bed_m);
     // The ground beside great rivers lies higher than their beds.
     let beds = beds(coarser, side, seed);
-    for (cell, surface_m) in surface_m.iter_mut().enumerate() {
-        let bed_m = beds[cell];
+    surface_m.par_iter_mut().zip(&beds).for_each(|(surface_m, &bed_m)| {
         *surface_m = if bed_m < f64::MAX { surface_m.min(bed_m) } else { surface_m.max(level.base_m + 2.0) + 12.0 };
-    }
+    });
     surface_m
 }
 
@@ -187,12 +201,11 @@ pub(super) fn sinks(
     const LEAST_M: f64 = 60.0;
     const LEAST_CELLS: usize = 2;
     let surface_m: Vec<f64> = (0..source.len()).map(|cell| level.surface_m(cell)).collect();
-    let filled = flood::fill(cells, level.base_m, &surface_m, &level.is_sea, &[], keep_going)?;
-    let depth_m: Vec<f64> = (0..source.len())
-        .map(|cell| f64::from(filled.units[cell]) * flood::UNIT_M + level.base_m - surface_m[cell])
-        .collect();
-    let routes = Routes::new(cells, nodes, filled, &level.is_sea);
-    let discharge = routes.accumulated(source);
+    let units = flood::fill(cells, level.dry_units(&surface_m, |_, _| 0.0), &level.shore, &[], keep_going)?;
+    let depth_m: Vec<f64> =
+        (0..source.len()).map(|cell| f64::from(units[cell]) * flood::UNIT_M + level.base_m - surface_m[cell]).collect();
+    let routes = Routes::new(cells, nodes, &units, &level.land, &level.is_sea);
+    let discharge = routes.by_cell(&routes.accumulated(source));
     let mut seen: Vec<bool> = depth_m.iter().enumerate().map(|(c, m)| level.is_sea[c] || *m < LEAST_M).collect();
     let mut sinks = Vec::new();
     for first in 0..seen.len() {

@@ -205,7 +205,7 @@ fn a_finer_grid_keeps_the_great_rivers() {
         let is_near = |&cell: &u32| {
             fine.discharge[cell as usize] > least / 2 && node(64, cell as usize, fine.seed).distance(dir) < 2.0 / 32.0
         };
-        near += usize::from(fine.order.iter().any(|cell| is_near(cell)));
+        near += usize::from(fine.order.iter().any(is_near));
     }
     assert!(all > 20 && near * 10 >= all * 9, "{near} of {all}");
 }

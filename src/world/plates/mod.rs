@@ -49,11 +49,17 @@ pub(crate) struct Plates {
     /// Height in metres by which rock rises while rivers carve.
     pub(crate) uplift_m: Vec<f64>,
     /// Index of the plate.
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "tests check it; landforms that follow folds and debug views will read it")
+    )]
     pub(crate) plate: Vec<u16>,
     /// Unit tangent along the folds, and the share of folded rock.
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "tests check it; landforms that follow folds and debug views will read it")
+    )]
     pub(crate) folds: Vec<(DVec3, f64)>,
-    /// Age of the crust in million years.
-    pub(crate) age_myr: Vec<f64>,
     /// See [`Crust::softness`].
     pub(crate) softness: Vec<f64>,
 }
@@ -76,7 +82,6 @@ impl Plates {
             uplift_m: each(|crust| crust.uplift_m),
             plate: all.iter().map(|crust| crust.plate).collect(),
             folds: all.iter().map(|crust| (crust.fold, crust.folded)).collect(),
-            age_myr: each(|crust| crust.age_myr),
             softness: each(|crust| crust.softness),
             layout,
         })

@@ -44,6 +44,7 @@ pub(crate) struct Weather {
     /// Water that the air would take up from a wet surface, in mm a year.
     pub(crate) evaporation_mm: Vec<f64>,
     /// Mean temperature of the ground in °C.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests check it; a debug view will read it"))]
     pub(crate) temperature_c: Vec<f64>,
     /// How much warmer currents of the sea make it in °C, and the humidity, as [`Weather::at`] gives them.
     rasters: [Raster<f32>; 2],

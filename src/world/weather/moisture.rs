@@ -28,6 +28,8 @@ struct Step {
     /// Share of the air that comes from each neighbour.
     from: [f64; 8],
     km: f64,
+    /// Share of what the air lacks that it takes up over the sea.
+    taken: f64,
     /// Share of the moisture that rains out.
     lost: f64,
     /// Share of that rain that evaporates again.
@@ -59,8 +61,7 @@ pub(super) fn rain_mm(ground: &Ground<'_>, season: &Season, keep_going: &KeepGoi
         let after = |cell: usize| {
             let (step, from) = (&steps[cell], before(&carried, cell));
             if ground.is_sea[cell] {
-                let taken = 1.0 - libm::exp(-step.km / UPTAKE_KM);
-                from * (1.0 - 0.4 * step.lost) + (0.85 * step.most - from).max(0.0) * taken
+                from * (1.0 - 0.4 * step.lost) + (0.85 * step.most - from).max(0.0) * step.taken
             } else {
                 (from * (1.0 - step.lost * (1.0 - step.recycled))).min(1.15 * step.most)
             }
@@ -107,6 +108,7 @@ impl Step {
         Self {
             from,
             km: km.max(1.0),
+            taken: 1.0 - libm::exp(-km.max(1.0) / UPTAKE_KM),
             lost,
             recycled: RECYCLED[0] + RECYCLED[1] * lift,
             most: saturated(ground.temperature_c[cell]),

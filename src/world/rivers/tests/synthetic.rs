@@ -116,7 +116,6 @@ pub(crate) fn drainage(side: usize, seed: u32, steps: usize) -> Drainage {
         lake: vec![0; count],
         lakes: Vec::new(),
         seed,
-        base_m: SEA_M,
         ..Drainage::default()
     }
 }

@@ -69,7 +69,7 @@ macro_rules! for_each_simd {
     };
     (@ [$($head:tt)*] $name:ident [$($generics:tt)*] [$($turbofish:tt)*] ($($arg:ident: $type:ty),*) [$($body:tt)*]) => {
         #[allow(clippy::too_many_arguments)]
-        $($head)* fn $name $($generics)* (simd: $crate::terrain::simd::Simd, $($arg: $type),*) {
+        $($head)* fn $name $($generics)* (simd: $crate::simd::Simd, $($arg: $type),*) {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "sse4.1")]
@@ -78,7 +78,7 @@ macro_rules! for_each_simd {
                 fn avx2 $($generics)* ($($arg: $type),*) { $($body)*($($arg),*) }
                 #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
                 fn avx512 $($generics)* ($($arg: $type),*) { $($body)*($($arg),*) }
-                use $crate::terrain::simd::Simd;
+                use $crate::simd::Simd;
                 if simd > Simd::Baseline && simd <= Simd::detect() {
                     // SAFETY: `simd` is at most the set that was detected on this machine, and each set
                     // includes the ones before.
