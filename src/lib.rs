@@ -25,6 +25,7 @@
 //!
 //! Data flows one way. A module uses only modules before it in this list:
 //!
+//! - [`simd`]: instruction sets, chosen at run time
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
 //! - [`planet`]: the preset's data, its parameters, loading and saving
 //! - `world`: world maps: values for the whole globe, such as the distance to the coast

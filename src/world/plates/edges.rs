@@ -3,7 +3,7 @@
 //! The boundary of two plates is a circle in bent directions, so the distance to it is a formula. Near a junction of
 //! three plates the effects of two boundaries are blended.
 
-use super::layout::{EARTH_KM, Layout};
+use super::layout::{EARTH_KM, Layout, Plate};
 use crate::planet::Plates as Params;
 use crate::world::noise::{bump, hash, noise, ramp};
 use glam::DVec3;
@@ -44,40 +44,65 @@ struct Border {
     shear: f64,
 }
 
-impl Layout {
-    fn border(&self, plate: usize, other: usize, bent: DVec3) -> Option<Border> {
-        let (mine, theirs) = (&self.plates[plate], &self.plates[other]);
-        let between = mine.center - theirs.center;
-        let length = between.length();
-        let axis = between * (1.0 / length);
-        let (along, shift) = (bent.dot(axis), (mine.weight - theirs.weight) / length);
-        let mean = 0.5 * (along - shift);
-        let km = (along + shift) / (1.0 - mean * mean).max(0.05).sqrt() * EARTH_KM;
-        // A plate that another covers whole has no boundary.
-        if shift.abs() >= 1.0 {
-            return None;
-        }
-        let tangent = axis - bent * along;
-        let inward = tangent * (1.0 / tangent.length().max(1e-9));
-        let relative = self.velocity(plate, bent) - self.velocity(other, bent);
-        let opening = relative.dot(inward) * EARTH_KM;
-        let shear = relative.dot(bent.cross(inward)).abs() * EARTH_KM;
-        Some(Border { other, km: km.max(0.0), inward, opening, shear })
+/// The boundary of a plate with another, as far as it is the same everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Side {
+    other: usize,
+    /// The unit direction from the middle of the other plate to that of this one, and how far the boundary is shifted.
+    axis: DVec3,
+    shift: f64,
+    /// The motion of this plate against the other, about a pole.
+    pole: DVec3,
+}
+
+impl Side {
+    /// The sides of a plate. A plate that another covers whole has no boundary with it.
+    pub(super) fn all(plates: &[Plate], plate: usize) -> Vec<Side> {
+        let mine = &plates[plate];
+        let side = |(other, theirs): (usize, &Plate)| {
+            let between = mine.center - theirs.center;
+            let length = between.length();
+            let shift = (mine.weight - theirs.weight) / length;
+            let is_side = other != plate && shift.abs() < 1.0;
+            is_side.then(|| Side { other, axis: between * (1.0 / length), shift, pole: mine.pole - theirs.pole })
+        };
+        plates.iter().enumerate().filter_map(side).collect()
     }
 
+    /// Distance from the boundary.
+    fn km(&self, bent: DVec3) -> f64 {
+        let along = bent.dot(self.axis);
+        let mean = 0.5 * (along - self.shift);
+        ((along + self.shift) / (1.0 - mean * mean).max(0.05).sqrt() * EARTH_KM).max(0.0)
+    }
+
+    fn border(&self, bent: DVec3, km: f64) -> Border {
+        let tangent = self.axis - bent * bent.dot(self.axis);
+        let inward = tangent * (1.0 / tangent.length().max(1e-9));
+        let relative = self.pole.cross(bent);
+        let opening = relative.dot(inward) * EARTH_KM;
+        let shear = relative.dot(bent.cross(inward)).abs() * EARTH_KM;
+        Border { other: self.other, km, inward, opening, shear }
+    }
+}
+
+impl Layout {
     /// The effects of all boundaries of a plate at a bent direction.
     pub(super) fn edges(&self, params: &Params, plate: usize, bent: DVec3) -> Edges {
         const BLEND_KM: f64 = 500.0;
-        let mut borders: Vec<Border> = (0..self.plates.len())
-            .filter(|other| *other != plate)
-            .filter_map(|other| self.border(plate, other, bent))
-            .collect();
-        borders.sort_by(|a, b| a.km.total_cmp(&b.km).then(a.other.cmp(&b.other)));
-        let nearest_km = borders.first().map_or(NO_EDGE_KM, |border| border.km);
+        let sides = &self.sides[plate];
+        let nearest_km = sides.iter().map(|side| side.km(bent)).fold(f64::MAX, f64::min);
+        let nearest_km = if sides.is_empty() { NO_EDGE_KM } else { nearest_km };
         let mut sum = Edges { fold: bent.any_orthonormal_vector(), edge_km: nearest_km, ..Edges::default() };
         let (mut total, mut youngest, mut strongest) = (0.0, 1.0 / (OLDEST_MYR * OLDEST_MYR * OLDEST_MYR), 0.0);
         let along = noise(bent * 6.3, hash(self.seed, 21)) + 0.5 * noise(bent * 15.0, hash(self.seed, 22));
-        for border in &borders {
+        for side in sides {
+            let km = side.km(bent);
+            // Too far for a new ocean floor, and for a blend.
+            if km >= 9000.0 && km >= nearest_km + BLEND_KM {
+                continue;
+            }
+            let border = side.border(bent, km);
             if border.opening > 0.0 && border.km < 9000.0 {
                 let myr = (border.km / (0.5 * border.opening)).max(0.3);
                 youngest += 1.0 / (myr * myr * myr);
@@ -87,7 +112,7 @@ impl Layout {
                 continue;
             }
             let weight = near * near;
-            let effect = self.effect(params, plate, bent, border, along);
+            let effect = self.effect(params, plate, bent, &border, along);
             total += weight;
             sum.uplift_m += weight * effect.uplift_m;
             sum.ground_m += weight * effect.ground_m;

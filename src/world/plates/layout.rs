@@ -2,6 +2,7 @@
 //!
 //! Nothing here depends on a grid: the plate at a direction is a function of the direction and the seed.
 
+use super::edges::Side;
 use crate::planet::Plates as Params;
 use crate::sphere::spread;
 use crate::world::noise::{fbm, fbm3, hash, unit};
@@ -48,6 +49,8 @@ pub(crate) struct Volcano {
 pub(crate) struct Layout {
     pub(crate) plates: Vec<Plate>,
     pub(crate) volcanoes: Vec<Volcano>,
+    /// The boundaries of each plate with the others.
+    pub(super) sides: Vec<Vec<Side>>,
     pub(crate) seed: u32,
     /// How far boundaries are bent, in radians.
     bend_rad: f64,
@@ -103,6 +106,7 @@ impl Layout {
             });
         }
         let mut layout = Self {
+            sides: (0..plates.len()).map(|plate| Side::all(&plates, plate)).collect(),
             plates,
             volcanoes: Vec::new(),
             seed,
@@ -154,7 +158,12 @@ impl Layout {
         const SOFT: f64 = 0.16;
         let mut most = -0.6;
         for craton in &self.plates[plate].cratons {
-            let inside = craton.radius_rad - bent.distance(craton.center);
+            let (reach, away2) = (craton.radius_rad - most + SOFT, bent.distance_squared(craton.center));
+            // Too far to raise the maximum.
+            if reach <= 0.0 || away2 >= reach * reach {
+                continue;
+            }
+            let inside = craton.radius_rad - away2.sqrt();
             // A smooth maximum (Quilez): continents of one plate join.
             let near = (1.0 - (most - inside).abs() / SOFT).max(0.0);
             most = f64::max(most, inside) + near * near * (0.25 * SOFT);

@@ -82,20 +82,25 @@ struct Foot {
     distance2: f64,
 }
 
+/// None beyond the influence of the piece.
 #[inline(always)]
-fn foot(line: &Line, dir: DVec3) -> Foot {
+fn foot(line: &Line, dir: DVec3) -> Option<Foot> {
     let v = dir - line.start;
     let along = v.dot(line.along) * line.per_length2;
     let share = along.clamp(0.0, 1.0);
     let straight = v - line.along * share;
     // The part along the ground alone: the piece lies a little below it.
     let offset = straight - dir * straight.dot(dir);
+    let distance2 = offset.dot(offset);
+    if distance2 * line.per_influence2 >= 1.0 {
+        return None;
+    }
     let share_gradient = if share == along { line.along * line.per_length2 } else { DVec3::ZERO };
     // Uphill of the start the line of the banks bends, so that it stays below its greatest rise.
     let line_m = line.bank_change_m * along.min(line.last_share);
-    let bent = line.rise_m / (line.rise_m + line_m.max(0.0));
+    let bent = if line_m > 0.0 { line.rise_m / (line.rise_m + line_m) } else { 1.0 };
     let bank_slope_m = if along <= line.last_share { line.bank_change_m * bent * bent } else { 0.0 };
-    Foot { share, share_gradient, bank_m: line_m * bent, bank_slope_m, offset, distance2: offset.dot(offset) }
+    Some(Foot { share, share_gradient, bank_m: line_m * bent, bank_slope_m, offset, distance2 })
 }
 
 /// The reaches of a block near a direction. `is_last` asks for channels too.
@@ -110,11 +115,8 @@ pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> L
     let reference = list.first().map_or(0.0, |&first| block.lines[usize::from(first)].bank_m);
     for &number in list {
         let line = &block.lines[usize::from(number)];
-        let foot = foot(line, dir);
+        let Some(foot) = foot(line, dir) else { continue };
         let d2 = foot.distance2 * line.per_influence2;
-        if d2 >= 1.0 {
-            continue;
-        }
         // The plain distance decides which is nearest.
         if foot.distance2 < nearest.distance2 {
             nearest = Nearest { piece: number, share: foot.share, distance2: foot.distance2 };

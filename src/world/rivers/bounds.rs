@@ -5,10 +5,11 @@
 //! the deepest channel among them, holds for every point of a cell. Ranges of squares of cells make a quadtree.
 
 use super::evaluate::MOST_RELIEF;
-use super::grid::{Cell, STEPS};
+use super::grid::Cell;
 use super::reach::depth_m;
 use super::trunk::Trunks;
 use crate::sphere::raster::cube_direction;
+use crate::world::cells::Cells;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -30,12 +31,11 @@ fn both(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
 }
 
 impl Bounds {
-    pub(super) fn new(trunks: &Trunks) -> Self {
+    pub(super) fn new(trunks: &Trunks, ground_m: &[f32]) -> Self {
         let mut grid = trunks.grid;
         let cells = trunks.height_m.len();
-        let ground_m = trunks.ground_m();
         // The greatest relief and the deepest channel around count for the whole neighbourhood.
-        let mut parts: Vec<[f32; 4]> = (0..cells).into_par_iter().map(|cell| own(trunks, &ground_m, cell)).collect();
+        let mut parts: Vec<[f32; 4]> = (0..cells).into_par_iter().map(|cell| own(trunks, ground_m, cell)).collect();
         // Two by two cells at once, where they are even: fewer and wider steps.
         let mut rings = RINGS;
         if grid.side.is_multiple_of(2) {
@@ -48,14 +48,13 @@ impl Bounds {
             parts = (0..6 * half * half).into_par_iter().map(four).collect();
             (grid.side, rings) = (half, RINGS.div_ceil(2));
         }
+        let cells = Cells::of(grid.side);
         for _ in 0..rings {
-            let old = parts.clone();
-            parts.par_iter_mut().enumerate().for_each(|(cell, part)| {
-                let at = grid.cell(cell as u64);
-                for step in STEPS {
-                    *part = joined(*part, old[grid.index(grid.beside(at, step)) as usize]);
-                }
-            });
+            let widest = |cell: usize| {
+                let around = cells.around(cell);
+                around.iter().fold(parts[cell], |part, &other| joined(part, parts[other as usize]))
+            };
+            parts = (0..parts.len()).into_par_iter().with_min_len(1024).map(widest).collect();
         }
         let widened = |[low, high, relief, depth]: &[f32; 4]| [low - depth - 0.01, high + relief + 0.01];
         let ranges: Vec<[f32; 2]> = parts.iter().map(widened).collect();
@@ -123,9 +122,8 @@ fn joined([low, high, relief, depth]: [f32; 4], other: [f32; 4]) -> [f32; 4] {
 /// What a cell adds to the ground around it: its lowest and highest bank or ground, relief and depth of channels.
 fn own(trunks: &Trunks, ground_m: &[f32], cell: usize) -> [f32; 4] {
     let height_m = f64::from(trunks.height_m[cell]);
-    let reach = trunks.reach(trunks.grid.cell(cell as u64));
-    let [start_m, end_m] = reach.as_ref().map_or([height_m; 2], |reach| reach.bank_m);
-    let trunk = reach.map_or(0.0, |reach| reach.discharge_m3_s[0].max(reach.discharge_m3_s[1]));
+    let ([start_m, end_m], [first, last], _) = trunks.ends(cell).unwrap_or(([height_m; 2], [0.0; 2], false));
+    let trunk = first.max(last);
     let most = trunk.max(MOST_TRIBUTARY * f64::from(trunks.runoff_m3_s[cell]));
     let relief_m = MOST_RELIEF * f64::from(trunks.relief_m[cell]);
     let all = [height_m.min(end_m).min(f64::from(ground_m[cell])), height_m.max(start_m), relief_m, depth_m(most)];

@@ -6,6 +6,7 @@ use super::cache::Cache;
 use super::grid::{FacePlace, Grid};
 use super::reach::FREEBOARD;
 use super::{River, RiverPoint, Rivers};
+use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -139,9 +140,7 @@ impl Rivers {
         cache.belongs_to(self.number);
         out.clear();
         out.reserve(dirs.len());
-        for &dir in dirs {
-            out.push(self.point(dir, levels, cache));
-        }
+        points_simd(Simd::detect(), self, dirs, levels, cache, out);
     }
 
     #[inline(always)]
@@ -184,6 +183,17 @@ impl Rivers {
         point
     }
 }
+
+#[inline(always)]
+fn points(rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>) {
+    for &dir in dirs {
+        out.push(rivers.point(dir, levels, cache));
+    }
+}
+
+for_each_simd!(fn points_simd(
+    rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>
+) = points);
 
 /// A relief that approaches the steepest possible one, never above it.
 #[inline(always)]

@@ -93,9 +93,10 @@ impl Rivers {
         static NUMBER: AtomicU64 = AtomicU64::new(1);
         let trunks = Trunks::new(drainage, sea_level_m, radius_km);
         let grids = std::array::from_fn(|level| Grid::new(drainage.side, level, drainage.seed));
-        let bounds = Bounds::new(&trunks);
+        let ground_m = trunks.ground_m();
+        let bounds = Bounds::new(&trunks, &ground_m);
         Self {
-            rasters: trunks.rasters(),
+            rasters: trunks.rasters(ground_m),
             steepest_m: grids.map(|grid| evaluate::steepest_m(&grid, trunks.radius_m)),
             grids,
             bounds,

@@ -5,9 +5,11 @@ use super::grid::{Cell, Grid, STEPS};
 use super::reach::{INFLUENCE, Reach, width_m};
 use super::tributaries::RISE;
 use crate::sphere::raster::Raster;
+use crate::world::cells::Cells;
 use crate::world::drainage::Drainage;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// A cell that nothing flows into, or that lies in no lake.
 pub(super) const NONE: u32 = u32::MAX;
@@ -18,6 +20,7 @@ const MOUTH_M: f64 = 3.0;
 /// The solved drainage, prepared for look-ups.
 pub(super) struct Trunks {
     pub(super) grid: Grid,
+    cells: Arc<Cells>,
     pub(super) radius_m: f64,
     pub(super) sea_level_m: Option<f64>,
     pub(super) height_m: Vec<f32>,
@@ -56,6 +59,7 @@ impl Trunks {
         let lake_level_m: Vec<f64> = lakes.iter().map(|lake| lake.level_m).collect();
         let mut trunks = Self {
             grid,
+            cells: Cells::of(*side),
             radius_m: radius_km * 1e3,
             sea_level_m,
             height_m: height_m.clone(),
@@ -81,8 +85,8 @@ impl Trunks {
     }
 
     /// The ground as the cells give it, and the relief between reaches, as rasters.
-    pub(super) fn rasters(&self) -> [Raster<f32>; 2] {
-        [self.ground_m(), self.relief_m.clone()].map(|texels| Raster::cube(self.grid.side, texels))
+    pub(super) fn rasters(&self, ground_m: Vec<f32>) -> [Raster<f32>; 2] {
+        [ground_m, self.relief_m.clone()].map(|texels| Raster::cube(self.grid.side, texels))
     }
 
     /// The texels of the ground. In lakes they are lowered so that the spline, which is softer than its texels, meets
@@ -98,12 +102,11 @@ impl Trunks {
                 around.iter().zip(STEPS).map(|(m, (x, y))| if x * y == 0 { m / 9.0 } else { m / 36.0 }).sum();
             height_m.min((2.25 * (f64::from(height_m) - sum)) as f32)
         };
-        self.height_m.iter().enumerate().map(texel).collect()
+        self.height_m.par_iter().enumerate().with_min_len(4096).map(texel).collect()
     }
 
     fn around(&self, cell: usize) -> [usize; 8] {
-        let at = self.grid.cell(cell as u64);
-        STEPS.map(|step| self.grid.index(self.grid.beside(at, step)) as usize)
+        self.cells.around(cell).map(|other| other as usize)
     }
 
     /// Follows each river to its last cell. Nothing is followed twice.
@@ -166,9 +169,9 @@ impl Trunks {
         6.0 * width_m(discharge_m3_s) / (1.0 + relief_m * (1.0 / 60.0)) / self.radius_m
     }
 
-    /// The reach that leaves a cell; none in the sea and within a lake.
-    pub(super) fn reach(&self, at: Cell) -> Option<Reach> {
-        let cell = self.grid.index(at) as usize;
+    /// Heights of the banks and discharge at both ends of the reach that leaves a cell, and whether the river goes on
+    /// there. None in the sea and within a lake.
+    pub(super) fn ends(&self, cell: usize) -> Option<([f64; 2], [f64; 2], bool)> {
         let to = self.receiver[cell] as usize;
         let (lake, lake_to) = (self.lake[cell], self.lake[to]);
         if to == cell || (lake != 0 && lake == lake_to) {
@@ -185,8 +188,18 @@ impl Trunks {
         };
         let discharge = f64::from(self.discharge_m3_s[cell]);
         let goes_on = self.flows(to) && lake_to == 0;
+        let is_same = goes_on && self.main[to] as usize == cell;
+        let last = if is_same { f64::from(self.discharge_m3_s[to]).max(discharge) } else { discharge };
+        Some(([from_m, to_m], [discharge, last], goes_on))
+    }
+
+    /// The reach that leaves a cell; none in the sea and within a lake.
+    pub(super) fn reach(&self, at: Cell) -> Option<Reach> {
+        let cell = self.grid.index(at) as usize;
+        let (bank_m, [discharge, last], goes_on) = self.ends(cell)?;
+        let to = self.receiver[cell] as usize;
+        let (lake, lake_to) = (self.lake[cell], self.lake[to]);
         let is_main = !goes_on || self.main[to] as usize == cell;
-        let last = if goes_on && is_main { f64::from(self.discharge_m3_s[to]).max(discharge) } else { discharge };
         let (from, to_node) = (self.node(cell), self.node(to));
         Some(Reach {
             river: u64::from(self.river[cell]),
@@ -197,7 +210,7 @@ impl Trunks {
                 if goes_on { self.tangent(to) } else { None },
             ],
             is_main,
-            bank_m: [from_m, to_m],
+            bank_m,
             lake: if lake != 0 { lake } else { lake_to },
             rise_m: RISE * RELIEF * f64::from(self.relief_m[cell]),
             discharge_m3_s: [discharge, last],
