@@ -5,7 +5,7 @@
 //! rock, rise, rain and age, never of a history. Great rivers of a coarser grid are cut into the start of the finer
 //! one, so that both have them in the same places.
 //!
-//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes; `basins`: basins
+//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`, `basins`: lakes and basins
 //! - `start`: sea, closed basins and the surface at which a grid starts; deltas
 
 mod basins;
