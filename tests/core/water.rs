@@ -146,7 +146,7 @@ fn basins_cover_the_land_and_lakes_their_cells() {
 #[test]
 fn a_layer_over_the_structure_may_lift_the_ground_out_of_the_water() {
     let shape = Shape::Fbm(Fbm { wavelength_km: 400.0, octaves: 1, ..Fbm::default() });
-    let hills = Layer { name: "Hills".to_owned(), amplitude_m: 3000.0, shape, ..Layer::default() };
+    let hills = Layer { name: "Hills".to_owned(), amplitude_m: 8000.0, shape, ..Layer::default() };
     let raised = Terrain::try_new(Planet { layers: vec![hills], ..planet() }.into()).unwrap();
     let (mut lifted, mut sunk) = (0, 0);
     for dir in spread(150) {

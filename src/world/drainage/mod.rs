@@ -5,8 +5,8 @@
 //! rock, rise, rain and age, never of a history. Great rivers of a coarser grid are cut into the start of the finer
 //! one, so that both have them in the same places.
 //!
-//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes; `basins`: basins
-//! - `start`: sea, closed basins and the surface at which a grid starts; deltas
+//! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes
+//! - `start`: sea, closed basins and the surface at which a grid starts; deltas; `basins`: land by mouths
 
 mod basins;
 mod carve;
