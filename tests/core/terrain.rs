@@ -109,7 +109,7 @@ fn all_queries_of_a_point_agree() {
     terrain.heights_into(&dirs, &mut heights_m, &mut scratch);
     let alone = |wanted| terrain.samples(&dirs, wanted);
     let (normals, climates) = (alone(Wanted::HEIGHT.and_normal()), alone(Wanted::HEIGHT.and_climate()));
-    let biomes = alone(Wanted::HEIGHT.and_biome());
+    let biomes = alone(Wanted::HEIGHT.and_biome().and_water());
     for (i, (dir, sample)) in dirs.iter().zip(&samples).enumerate() {
         assert_eq!(terrain.sample(*dir), *sample);
         assert_eq!(biomes[i], *sample);

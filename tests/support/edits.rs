@@ -71,7 +71,9 @@ pub struct Edit {
 /// Parameters that the full planet does not read: its first biome shows the shared rock where it is steep, and the rows
 /// of its table go by temperature.
 pub fn is_idle(path: &str) -> bool {
-    path.starts_with("biomes.palette[0].steep_") || ["biomes.lowest_m", "biomes.highest_m"].contains(&path)
+    path.starts_with("biomes.palette[0].steep_")
+        || path.ends_with(".under")
+        || ["biomes.lowest_m", "biomes.highest_m"].contains(&path)
 }
 
 /// One edit of each parameter that can take another value, and one of the biome table.

@@ -1,5 +1,6 @@
 //! Time from an edit to its first tiles and to its final ones, for one parameter of every kind, through the builder
-//! that the editor uses. They differ where an edit moves the coast: the first tiles have the coast of the revision before.
+//! that the editor uses. They differ where an edit moves the coast: the first tiles have the coast of the revision
+//! before.
 
 use super::{median, opening_view, p95};
 use crate::lod::View;
