@@ -132,10 +132,13 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     name_field(ui, state, draft);
     let problems = draft.problems;
     let names: Vec<String> = draft.planet.layers.iter().map(|layer| layer.name.clone()).collect();
+    let has_structure = draft.planet.structure.is_some();
     let Some(layer) = draft.planet.layers.get_mut(index) else { return };
     let name = layer.name.clone();
-    let grid =
-        Grid { base: layer_path(index), owner: &name, skip: &["name", "enabled", "masks"], problems, biomes: &[] };
+    // What needs a structure is not shown without one.
+    let skip = ["name", "enabled", "masks", "under"];
+    let skip = if has_structure { &skip[..3] } else { &skip[..] };
+    let grid = Grid { base: layer_path(index), owner: &name, skip, problems, biomes: &[] };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
     let mut default = Layer { shape, ..Layer::default() };
     let browse = params_grid(ui, &grid, layer, &mut default);

@@ -143,7 +143,7 @@ impl PanelState {
     }
 
     fn tabs(&mut self, ui: &mut egui::Ui) {
-        const COLUMNS: usize = 4;
+        const COLUMNS: usize = 5;
         ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
         let width = (ui.available_width() - 4.0 * (COLUMNS - 1) as f32) / COLUMNS as f32;
         for (row, panels) in PANELS.chunks(COLUMNS).enumerate() {
