@@ -234,7 +234,7 @@ fn moving_edges_do_not_crawl() {
         let (surface, chosen) = surface(&scene, MOVING_PX);
         let mut last: Option<[Picture; 5]> = None;
         let mut jumps = [(); 4].map(|()| Vec::new());
-        for step in 0..9 {
+        for step in 0..16 {
             // An eighth of a pixel to the right, and down.
             let turn = f64::from(step) * chosen.pixel_rad() / 8.0;
             let mut camera = scene.camera;
