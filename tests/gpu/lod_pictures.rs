@@ -162,7 +162,7 @@ fn is_gentle([with, without]: [f64; 2]) -> bool {
 #[test]
 fn a_way_down_shows_no_level_change() {
     // Among them the steps with the most popping when there is no morphing.
-    let steps = [34, 121, 301, 501];
+    let steps = [8, 34, 59, 121, 215, 301, 401, 501];
     for most in fly_down(planet("aurel"), steps.into_iter()) {
         assert!(is_gentle(most), "{most:?} with morphing and without");
     }
