@@ -16,7 +16,8 @@ use std::path::Path;
 
 /// Most points of a batch.
 const BATCH: usize = 4096;
-/// Points of a task. A thread keeps the rivers around so many: what it has found it needs no second time.
+/// Points of a task. Lines that follow each other are often close together on the ground: a thread then builds the
+/// river blocks around them once.
 const TASK: usize = 32;
 /// Longest line in bytes: no location is longer.
 const LONGEST: u64 = 4096;

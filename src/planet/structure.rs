@@ -14,6 +14,9 @@ params! {
         /// Number of grids on which rivers are solved, coarse to fine. The first has 64 cells along the side of each of
         /// six squares; each further one has twice as many. All grids have the same great rivers.
         grids: u32 = 4, "Grids", Unit::None, count(1, MAX_GRIDS), Stage::Field;
+        /// Share of the solved weather in the climate of the biome table; the rest is the climate's own belts and
+        /// coasts.
+        weather_share: f64 = 1.0, "Weather in the climate", Unit::None, linear(0.0, 1.0), Stage::Climate;
     } with {
         /// Plates of the crust: continents, mountain belts, island arcs, ridges of the ocean floor.
         plates: Plates = Plates::default();
@@ -83,9 +86,6 @@ choice! {
 params! {
     /// Winds, rain and temperature over the relief.
     pub struct Weather {
-        /// Share of the solved weather in the climate of the biome table; the rest is the climate's own belts and
-        /// coasts.
-        share: f64 = 1.0, "Share in the climate", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// Direction of the rotation. It decides to which side winds turn.
         rotation: Rotation = Rotation::Eastward, "Rotation", Unit::None, Domain::Choice, Stage::Field;
         /// Number of wind belts from the equator to a pole. Fast rotation gives more: the Earth has 3.

@@ -3,7 +3,7 @@
 use super::field::{ALL_OCTAVES, Field};
 use super::landform::Landform;
 use super::points::Points;
-use super::simd::Simd;
+use crate::simd::Simd;
 use glam::DVec3;
 
 /// Points and a noise to evaluate at them.

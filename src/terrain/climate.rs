@@ -3,10 +3,11 @@
 use super::field::Field;
 use super::landform::Landform;
 use super::points::Points;
-use super::simd::Simd;
 use crate::planet::{CLIMATE_BELTS, Key, Planet, TableRows};
-use crate::world::World;
-use crate::world::weather::WARMEST_C;
+use crate::simd::Simd;
+use crate::world::coast::Coast;
+use crate::world::weather::{WARMEST_C, Weather};
+use crate::world::{Inputs, Slot, World};
 use glam::DVec3;
 
 /// The climate of a planet, compiled.
@@ -43,7 +44,7 @@ impl CompiledClimate {
         let noise = |kind: u64| {
             // Layers take the planet's seed for the upper half of theirs; mixing it keeps the seeds of the climate
             // apart.
-            let seed = super::noise::mix(u64::from(planet.seed)) ^ (u64::from(climate.seed) << 1) ^ kind;
+            let seed = crate::world::noise::mix(u64::from(planet.seed)) ^ (u64::from(climate.seed) << 1) ^ kind;
             Landform::fbm(seed, planet.radius_km / climate.wavelength_km, climate.octaves)
         };
         Self { noises: varies.then(|| [noise(0), noise(1)]), world: World::default() }
@@ -108,6 +109,11 @@ impl ClimateInputs<'_> {
 /// Keys of the maps of coast and weather.
 pub(crate) type MapKeys = [Option<Key>; 2];
 
+/// The [`CompiledClimate::map_keys`] of a planet whose own maps serve.
+pub(crate) fn final_map_keys(inputs: &Inputs) -> MapKeys {
+    [Slot::<Coast>::final_key(inputs), Slot::<Weather>::final_key(inputs)]
+}
+
 /// What world maps say about the climate of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MapClimate {
@@ -159,7 +165,7 @@ impl SeaLevelClimate {
             moisture_variation: climate.moisture_variation,
             sea_moisture: climate.sea_moisture,
             sea_reach_rad: climate.sea_reach_km / planet.radius_km,
-            weather: planet.structure.as_ref().map_or(0.0, |structure| structure.weather.share),
+            weather: planet.structure.as_ref().map_or(0.0, |structure| structure.weather_share),
         }
     }
 

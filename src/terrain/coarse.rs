@@ -8,7 +8,7 @@ use super::field::Field;
 use super::height::{self, CompiledLayer, LayerStack};
 use super::kept::KeptFields;
 use super::points::Points;
-use super::simd::Simd;
+use crate::simd::Simd;
 use crate::world::cells::Cells;
 use crate::world::{Ground, Inputs, KeepGoing};
 use rayon::prelude::*;
@@ -69,7 +69,10 @@ impl Ground for LayerGround<'_> {
     }
 
     fn under_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
-        self.heights_of(self.under?, cells, keep_going)
+        match self.under {
+            Some(under) => self.heights_of(under, cells, keep_going),
+            None => Some(vec![0.0; cells.dirs.len()]),
+        }
     }
 }
 

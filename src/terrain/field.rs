@@ -7,7 +7,7 @@
 use super::landform::{Chunk, Landform, MAX_BANDS, Scratch};
 use super::lane::CHUNK;
 use super::points::Points;
-use super::simd::Simd;
+use crate::simd::Simd;
 use std::cell::RefCell;
 use std::ops::Deref;
 

@@ -1,6 +1,5 @@
 //! The evaluator: from a planet to the height, normal, climate and biome of any point of its surface.
 //!
-//! - [`simd`]: the instruction sets that the loops are compiled for
 //! - `scalar`, `lane`, `jet`: the numbers of the loops, chunks of them, and numbers with gradients
 //! - `approx`: sine, cosine and arctangent for the loops
 //! - `noise`: gradient noise of one octave
@@ -42,13 +41,13 @@ mod raycast;
 pub(crate) mod relief;
 pub mod revision;
 mod scalar;
-pub use crate::simd;
 mod water;
 
 use crate::planet::{InvalidPlanet, Planet};
 use crate::world::{Inputs, KeepGoing, MapWork, World};
 pub use height::curve_at;
 
+use crate::simd::Simd;
 use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
@@ -61,7 +60,6 @@ pub use query::{Sample, Scratch, Wanted};
 use relief::Relief;
 pub use revision::Revision;
 use revision::{Compiled, Keys, TileContent, TileKeys};
-use simd::Simd;
 use std::f64::consts::PI;
 use std::sync::Arc;
 pub use water::River;
@@ -185,7 +183,7 @@ impl Terrain {
 
     /// Content keys of the tiles that the terrain makes, with the world maps that serve.
     pub(crate) fn tile_keys(&self) -> TileKeys {
-        self.content.keys(self.world().carved.key(), self.world().coast.key())
+        self.content.keys(self.world().carved.key(), self.climate.map_keys())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.

@@ -114,7 +114,7 @@ impl Terrain {
 }
 
 fn courses(carved: &Carved, least_m3_s: f64, radius_km: f64) -> Vec<Course> {
-    let found = carved.rivers.courses(&carved.drainage, least_m3_s).into_iter().map(|course| {
+    let found = carved.rivers.courses(least_m3_s).into_iter().map(|course| {
         let arcs_rad = course.points.windows(2).map(|pair| arc_rad(pair[0].dir, pair[1].dir));
         let length_km = arcs_rad.sum::<f64>() * radius_km;
         let mouth = match course.end {

@@ -153,7 +153,7 @@ impl Terrain {
     /// number for each direction; where the lengths differ, the shorter counts.
     pub fn heights_into(&self, dirs_planet: &[DVec3], heights_m: &mut [f64], scratch: &mut Scratch) {
         for (dirs, heights_m) in dirs_planet.chunks(CHUNK).zip(heights_m.chunks_mut(CHUNK)) {
-            self.evaluate_at(dirs, &[], scratch);
+            self.evaluate_at(dirs, 0.0, &[], scratch);
             for (height_m, found) in heights_m.iter_mut().zip(&scratch.0.heights.height_m) {
                 *height_m = *found;
             }
@@ -181,7 +181,7 @@ impl Terrain {
     pub fn samples_into(&self, dirs_planet: &[DVec3], wanted: Wanted, samples: &mut [Sample], scratch: &mut Scratch) {
         let spacings_rad = if wanted.slope() { ALL_OCTAVES } else { &[] };
         for (dirs, samples) in dirs_planet.chunks(CHUNK).zip(samples.chunks_mut(CHUNK)) {
-            self.evaluate_at(dirs, spacings_rad, scratch);
+            self.evaluate_at(dirs, 0.0, spacings_rad, scratch);
             let BatchScratch { points, heights, .. } = &*scratch.0;
             for (i, (sample, &dir)) in samples.iter_mut().zip(&points.dirs).enumerate() {
                 *sample = Sample { height_m: heights.height_m[i], ..Sample::default() };
@@ -242,11 +242,7 @@ impl Terrain {
         };
         with_scratch(|scratch| {
             for dirs in dirs_planet.chunks(CHUNK) {
-                scratch
-                    .0
-                    .points
-                    .refill(dirs.iter().map(|&dir| unit(dir)), spacings_rad.first().copied().unwrap_or(0.0));
-                self.evaluate(spacings_rad, &mut scratch.0, |_, _| {});
+                self.evaluate_at(dirs, spacings_rad.first().copied().unwrap_or(0.0), spacings_rad, scratch);
                 let heights = &scratch.0.heights;
                 ground.height_m.extend_from_slice(&heights.height_m);
                 for (slopes, gradient) in ground.slopes.iter_mut().zip(&heights.gradients) {
@@ -258,9 +254,15 @@ impl Terrain {
         ground
     }
 
-    /// Evaluates at most one chunk of directions.
-    fn evaluate_at(&self, dirs_planet: &[DVec3], spacings_rad: &[f64], Scratch(scratch): &mut Scratch) {
-        scratch.points.refill(dirs_planet.iter().map(|&dir| unit(dir)), 0.0);
+    /// Evaluates at most one chunk of directions, `spacing_rad` apart (0: all detail).
+    fn evaluate_at(
+        &self,
+        dirs_planet: &[DVec3],
+        spacing_rad: f64,
+        spacings_rad: &[f64],
+        Scratch(scratch): &mut Scratch,
+    ) {
+        scratch.points.refill(dirs_planet.iter().map(|&dir| unit(dir)), spacing_rad);
         self.evaluate(spacings_rad, scratch, |_, _| {});
     }
 

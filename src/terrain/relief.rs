@@ -16,6 +16,7 @@ use super::landform::Landform;
 use super::noise;
 use super::points::Points;
 use crate::planet::Planet;
+use crate::world::noise::mix;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -78,7 +79,7 @@ impl Relief {
         }
         let noise = |size_m: &f64| {
             // The seed depends on the size alone: relief of other biomes stays as it is when one is added.
-            let seed = noise::mix(u64::from(planet.seed) ^ SEED) ^ size_m.to_bits();
+            let seed = mix(u64::from(planet.seed) ^ SEED) ^ size_m.to_bits();
             Arc::new(Landform::fbm(seed, planet.radius_m() / size_m, OCTAVES))
         };
         Some(Self {

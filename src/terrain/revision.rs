@@ -5,13 +5,13 @@
 //! world maps that they read. A renamed layer, a layer that is off or a parameter that nothing reads therefore changes
 //! no key. Textures of the renderer have keys of the parameters that declare their stage.
 
-use super::climate::{CompiledClimate, SeaLevelClimate};
+use super::climate::{CompiledClimate, MapKeys, SeaLevelClimate, final_map_keys};
 use super::height::LayerStack;
 use super::relief::Relief;
 use crate::planet::param::{ParamPath, Stage, Stages, Value};
-use crate::planet::{InvalidPlanet, Key, Planet};
-use crate::world::coast::Coast;
-use crate::world::{Inputs, Slot, StructureInputs, carved};
+use crate::planet::{InvalidPlanet, Key, Planet, Structure};
+use crate::world::carved::Carved;
+use crate::world::{Inputs, Slot, StructureInputs};
 use std::sync::Arc;
 
 /// One state of a planet, and the content keys of what is made from it.
@@ -111,20 +111,18 @@ pub(crate) struct TileKeys {
 pub(super) struct TileContent {
     /// The layer stack.
     stack: Key,
-    /// Biome relief, and whether it reads the distance to the coast.
-    relief: Option<(Key, bool)>,
+    /// Biome relief.
+    relief: Option<Key>,
     /// Climate at sea level, with its noise.
     climate: Key,
 }
 
 impl TileContent {
-    /// The keys of tiles that read these maps: the carved ground, and the coast.
-    pub(super) fn keys(&self, carved: Option<Key>, coast: Option<Key>) -> TileKeys {
-        let relief = self.relief.map(|(relief, reads_coast)| (relief, coast.filter(|_| reads_coast)));
-        // Without a structure, the keys are those of a planet that knows nothing of structures.
-        let stack = carved.map_or(self.stack, |carved| Key::of(&(self.stack, carved)));
-        let climate = carved.map_or(self.climate, |carved| Key::of(&(self.climate, carved)));
-        TileKeys { heights: Key::of(&(stack, relief)), climate: Key::of(&(climate, coast)) }
+    /// The keys of tiles that read the carved ground with this key, and these maps of the climate.
+    pub(super) fn keys(&self, carved: Option<Key>, maps: MapKeys) -> TileKeys {
+        // Biome relief follows the climate.
+        let relief = self.relief.map(|relief| (relief, maps));
+        TileKeys { heights: Key::of(&(self.stack, carved, relief)), climate: Key::of(&(self.climate, carved, maps)) }
     }
 }
 
@@ -150,24 +148,24 @@ impl Compiled {
         let mut fields: Vec<Key> = stack.field_keys().chain(relief_noises).collect();
 
         let heights = Key::of(&stack.joined());
-        let reads_coast = CompiledClimate::reads_coast(planet);
         let map_inputs = Inputs {
             heights,
-            under: Key::of(&under.as_ref().map(LayerStack::joined)),
+            under: under.as_ref().map(|under| Key::of(&under.joined())),
             sea_level_m: planet.sea_level_m(),
-            reads_coast,
+            reads_coast: CompiledClimate::reads_coast(planet),
             structure: structure_inputs(planet),
+            grids: planet.structure.as_ref().map_or(0, |structure| structure.grids as usize),
         };
-        let carved = carved::final_key(&map_inputs);
+        let carved = Slot::<Carved>::final_key(&map_inputs);
         fields.extend(carved);
         fields.sort_unstable();
         let climate_noise = Key::of(&climate.noises());
         let content = TileContent {
             stack: heights,
-            relief: relief.as_ref().map(|relief| (Key::of(relief), reads_coast)),
+            relief: relief.as_ref().map(Key::of),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
-        let tiles = content.keys(carved, Slot::<Coast>::final_key(&map_inputs));
+        let tiles = content.keys(carved, final_map_keys(&map_inputs));
         let [materials, cloud_map, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
@@ -184,9 +182,12 @@ impl Compiled {
 
 /// What of a planet its structure depends on.
 fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
+    let Structure { plates, weather, rivers, .. } = planet.structure.clone()?;
     let climate = &planet.climate;
     Some(Arc::new(StructureInputs {
-        params: planet.structure.clone()?,
+        plates,
+        weather,
+        rivers,
         seed: planet.seed,
         radius_km: planet.radius_km,
         equator_c: climate.equator_c,
@@ -214,6 +215,24 @@ fn texture_keys(planet: &Planet) -> [Key; 3] {
 mod tests {
     use super::*;
     use crate::planet::shipped;
+
+    #[test]
+    fn tiles_have_the_keys_of_the_maps_that_they_were_made_from() {
+        let structure = Some(Structure { grids: 1, ..Structure::default() });
+        let planet = Planet { structure, ..shipped::default_planet() };
+        let content = Compiled::new(&planet).content;
+        let map = |n: u32| Some(Key::of(&n));
+        let own = content.keys(map(1), [map(2), map(3)]);
+        assert!(content.relief.is_some());
+        for (carved, coast, weather) in [(9, 2, 3), (1, 9, 3), (1, 2, 9)] {
+            let other = content.keys(map(carved), [map(coast), map(weather)]);
+            assert!(other.climate != own.climate && other.heights != own.heights, "{carved} {coast} {weather}");
+        }
+        let smooth = TileContent { relief: None, ..content.clone() };
+        let own = smooth.keys(map(1), [map(2), map(3)]);
+        let other = smooth.keys(map(1), [map(2), map(9)]);
+        assert!(other.climate != own.climate && other.heights == own.heights, "heights read no weather");
+    }
 
     #[test]
     fn a_name_and_a_layer_that_is_off_change_nothing() {

@@ -3,12 +3,12 @@
 use super::deviation::find_deviations;
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
 use crate::planet::Planet;
+use crate::simd::{Simd, for_each_simd};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::climate::{ClimateField, MapClimate, SeaLevelClimate};
 use crate::terrain::height::Heights;
 use crate::terrain::lane::{CHUNK, Lane};
-use crate::terrain::simd::{Simd, for_each_simd};
 use glam::DVec3;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -6,36 +6,29 @@
 use super::cells::Cells;
 use super::drainage::{self, Basins, Drainage};
 use super::grid::{coarsened, refined};
-use super::map::{Ground, Inputs, KeepGoing, StructureInputs, WorldMap};
+use super::map::{Inputs, Job, WorldMap};
 use super::plates::{Plates, Rock};
 use super::rivers::Rivers;
 use super::weather::{self, Weather};
-use super::{Slot, World};
 use crate::planet::Key;
 use std::sync::{Arc, OnceLock};
 
 /// Cells along the side of the grid of the weather, and of the coarsest grid of rivers.
 const COARSEST: usize = 64;
-/// Cells along the side of the finest grid of the plates. Finer grids of rivers add detail to it.
+/// Cells along the side of the grid of the plates. Finer grids of rivers add detail to it.
 const CRUST: usize = 128;
 
 impl WorldMap for Plates {
-    const SIDES: &'static [usize] = &[COARSEST, CRUST];
+    const SIDES: &'static [usize] = &[CRUST];
     const COARSE_FIRST: bool = true;
 
     fn key(inputs: &Inputs) -> Option<Key> {
-        inputs.structure.as_ref().map(|structure| Key::of(&(&structure.params.plates, structure.seed)))
+        inputs.structure.as_ref().map(|structure| Key::of(&(&structure.plates, structure.seed)))
     }
 
-    fn solve(
-        ground: &dyn Ground,
-        _world: &World,
-        _coarser: Option<&Self>,
-        side: usize,
-        keep_going: &KeepGoing<'_>,
-    ) -> Option<Self> {
-        let structure = ground.inputs().structure.as_ref()?;
-        Plates::solve(&structure.params.plates, structure.seed, side, keep_going)
+    fn solve(job: &Job<'_>, side: usize, _coarser: Option<&Self>) -> Option<Self> {
+        let structure = job.inputs().structure.as_ref()?;
+        Plates::solve(&structure.plates, structure.seed, side, job.keep_going)
     }
 }
 
@@ -47,21 +40,15 @@ impl WorldMap for Weather {
         Some(Key::of(&(structure, inputs.under, inputs.sea_level_m)))
     }
 
-    fn solve(
-        ground: &dyn Ground,
-        world: &World,
-        _coarser: Option<&Self>,
-        side: usize,
-        keep_going: &KeepGoing<'_>,
-    ) -> Option<Self> {
-        let rock = rock(world, None, side, keep_going)?;
+    fn solve(job: &Job<'_>, side: usize, _coarser: Option<&Self>) -> Option<Self> {
+        let rock = rock(job, side, None)?;
         // Rivers need rain, and rain needs the relief that rivers leave.
         let risen_m: Vec<f64> =
             rock.base_m.iter().zip(&rock.uplift_m).map(|(base_m, uplift_m)| base_m + 0.5 * uplift_m).collect();
-        let first = weather_over(ground, &risen_m, side, keep_going)?;
-        let drainage = drainage_of(ground, &rock, &first, None, keep_going)?;
+        let first = weather_over(job, side, &risen_m)?;
+        let drainage = drainage_of(job, &rock, &first, None)?;
         let carved_m: Vec<f64> = drainage.height_m.iter().map(|height_m| f64::from(*height_m)).collect();
-        weather_over(ground, &carved_m, side, keep_going)
+        weather_over(job, side, &carved_m)
     }
 }
 
@@ -85,33 +72,26 @@ impl WorldMap for Carved {
     const COARSE_FIRST: bool = true;
 
     fn levels(inputs: &Inputs) -> usize {
-        inputs.structure.as_ref().map_or(1, |structure| structure.params.grids as usize)
+        inputs.grids
     }
 
     fn key(inputs: &Inputs) -> Option<Key> {
         Weather::key(inputs)
     }
 
-    fn solve(
-        ground: &dyn Ground,
-        world: &World,
-        coarser: Option<&Self>,
-        side: usize,
-        keep_going: &KeepGoing<'_>,
-    ) -> Option<Self> {
-        let structure = ground.inputs().structure.clone()?;
-        let weather = world.weather.map()?;
-        let rock = rock(world, coarser.map(|coarser| &coarser.rock), side, keep_going)?;
-        let before = coarser.map(|coarser| &*coarser.drainage);
-        let drainage = Arc::new(drainage_of(ground, &rock, weather, before, keep_going)?);
-        let rivers = Rivers::new(&drainage, ground.inputs().sea_level_m, structure.radius_km);
+    fn solve(job: &Job<'_>, side: usize, coarser: Option<&Self>) -> Option<Self> {
+        let structure = job.inputs().structure.as_ref()?;
+        let weather = job.world.weather.map()?;
+        let rock = rock(job, side, coarser.map(|coarser| &coarser.rock))?;
+        let drainage = Arc::new(drainage_of(job, &rock, weather, coarser.map(|coarser| &*coarser.drainage))?);
+        let rivers = Rivers::new(drainage.clone(), job.inputs().sea_level_m, structure.radius_km);
         Some(Self { drainage, rivers: Arc::new(rivers), rock, basins: OnceLock::new() })
     }
 }
 
 /// The crust at the cells of a grid.
-fn rock(world: &World, coarser: Option<&Rock>, side: usize, keep_going: &KeepGoing<'_>) -> Option<Rock> {
-    let plates = world.plates.map()?;
+fn rock(job: &Job<'_>, side: usize, coarser: Option<&Rock>) -> Option<Rock> {
+    let plates = job.world.plates.map()?;
     let rock = match coarser.filter(|coarser| side > CRUST && coarser.side * 2 == side) {
         Some(coarser) => coarser.finer(&plates.layout),
         None => {
@@ -119,41 +99,34 @@ fn rock(world: &World, coarser: Option<&Rock>, side: usize, keep_going: &KeepGoi
             Rock { side, base_m: at(&plates.base_m), uplift_m: at(&plates.uplift_m), softness: at(&plates.softness) }
         }
     };
-    keep_going().then_some(rock)
+    (job.keep_going)().then_some(rock)
 }
 
-fn weather_over(ground: &dyn Ground, heights_m: &[f64], side: usize, keep_going: &KeepGoing<'_>) -> Option<Weather> {
-    let Inputs { sea_level_m, structure, .. } = ground.inputs();
-    let StructureInputs { params, equator_c, pole_c, lapse_c_per_km, .. } = &**structure.as_ref()?;
+fn weather_over(job: &Job<'_>, side: usize, heights_m: &[f64]) -> Option<Weather> {
+    let Inputs { sea_level_m, structure, .. } = job.inputs();
+    let structure = structure.as_ref()?;
     let inputs = weather::Inputs {
-        params: &params.weather,
+        params: &structure.weather,
         side,
         heights_m,
         sea_level_m: *sea_level_m,
-        equator_c: *equator_c,
-        pole_c: *pole_c,
-        lapse_c_per_km: *lapse_c_per_km,
+        equator_c: structure.equator_c,
+        pole_c: structure.pole_c,
+        lapse_c_per_km: structure.lapse_c_per_km,
     };
-    Weather::solve(&inputs, keep_going)
+    Weather::solve(&inputs, job.keep_going)
 }
 
-fn drainage_of(
-    ground: &dyn Ground,
-    rock: &Rock,
-    weather: &Weather,
-    coarser: Option<&Drainage>,
-    keep_going: &KeepGoing<'_>,
-) -> Option<Drainage> {
-    let Inputs { sea_level_m, structure, .. } = ground.inputs();
+fn drainage_of(job: &Job<'_>, rock: &Rock, weather: &Weather, coarser: Option<&Drainage>) -> Option<Drainage> {
+    let Inputs { sea_level_m, structure, .. } = job.inputs();
     let structure = structure.as_ref()?;
     let [runoff_mm, dryness_mm] =
         [weather.runoff_mm(), weather.dryness_mm()].map(|values| resampled(values, weather.side, rock.side));
     let mut initial_m = rock.base_m.clone();
-    if let Some(under_m) = ground.under_m(&Cells::of(rock.side), keep_going) {
-        initial_m.iter_mut().zip(&under_m).for_each(|(initial_m, under_m)| *initial_m += under_m);
-    }
+    let under_m = job.ground.under_m(&Cells::of(rock.side), job.keep_going)?;
+    initial_m.iter_mut().zip(&under_m).for_each(|(initial_m, under_m)| *initial_m += under_m);
     let inputs = drainage::Inputs {
-        params: &structure.params.rivers,
+        params: &structure.rivers,
         seed: structure.seed,
         side: rock.side,
         radius_km: structure.radius_km,
@@ -164,7 +137,7 @@ fn drainage_of(
         runoff_mm: &runoff_mm,
         dryness_mm: &dryness_mm,
     };
-    Drainage::solve(&inputs, coarser, keep_going)
+    Drainage::solve(&inputs, coarser, job.keep_going)
 }
 
 /// Values of one grid at the cells of another, whose side is a power of two times as large or as small.
@@ -178,9 +151,4 @@ pub(super) fn resampled(mut values: Vec<f64>, mut side: usize, to: usize) -> Vec
         side /= 2;
     }
     values
-}
-
-/// The key of the carved ground that a planet ends with.
-pub(crate) fn final_key(inputs: &Inputs) -> Option<Key> {
-    Slot::<Carved>::final_key(inputs)
 }

@@ -5,10 +5,10 @@
 //! distance propagation, Danielsson 1980). The signed distance is a [`Raster`] of angles in radians: below zero in the
 //! sea, zero on the coast.
 
+use super::Slot;
 use super::carved::Carved;
 use super::cells::Cells;
-use super::map::{Ground, Inputs, KeepGoing, WorldMap};
-use super::{Slot, World};
+use super::map::{Inputs, Job, WorldMap};
 use crate::planet::Key;
 use crate::sphere::raster::Raster;
 use glam::DVec3;
@@ -32,15 +32,9 @@ impl WorldMap for Coast {
         Some(Key::of(&(inputs.heights, sea_level_m, Slot::<Carved>::final_key(inputs))))
     }
 
-    fn solve(
-        ground: &dyn Ground,
-        _world: &World,
-        _coarser: Option<&Self>,
-        side: usize,
-        keep_going: &KeepGoing<'_>,
-    ) -> Option<Self> {
-        let (cells, sea_level_m) = (Cells::of(side), ground.inputs().sea_level_m?);
-        let heights_m = ground.heights_m(&cells, keep_going)?;
+    fn solve(job: &Job<'_>, side: usize, _coarser: Option<&Self>) -> Option<Self> {
+        let (cells, sea_level_m) = (Cells::of(side), job.inputs().sea_level_m?);
+        let heights_m = job.ground.heights_m(&cells, job.keep_going)?;
         Some(Self::new(&cells, sea_level_m, &heights_m))
     }
 }

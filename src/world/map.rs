@@ -2,7 +2,7 @@
 
 use super::World;
 use super::cells::Cells;
-use crate::planet::{Key, Structure};
+use crate::planet::{Key, Plates, Rivers, Weather};
 use std::sync::Arc;
 
 /// Asked again and again while a map is solved; no means that nobody wants the answer any more.
@@ -13,20 +13,24 @@ pub(crate) type KeepGoing<'a> = dyn Fn() -> bool + Sync + 'a;
 pub(crate) struct Inputs {
     /// Key of the heights that [`Ground::heights_m`] gives, the structure apart.
     pub(crate) heights: Key,
-    /// Key of the heights that [`Ground::under_m`] gives.
-    pub(crate) under: Key,
+    /// Key of the heights that [`Ground::under_m`] gives, if there is a layer under the structure.
+    pub(crate) under: Option<Key>,
     /// Height of the sea's surface in metres, if there is a sea.
     pub(crate) sea_level_m: Option<f64>,
     /// Whether something reads the distance to the coast.
     pub(crate) reads_coast: bool,
     /// The structure, if the planet has one.
     pub(crate) structure: Option<Arc<StructureInputs>>,
+    /// Number of grids of its rivers.
+    pub(crate) grids: usize,
 }
 
 /// What of a planet its structure depends on, layers and sea apart.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StructureInputs {
-    pub(crate) params: Structure,
+    pub(crate) plates: Plates,
+    pub(crate) weather: Weather,
+    pub(crate) rivers: Rivers,
     /// Seed of the planet.
     pub(crate) seed: u32,
     pub(crate) radius_km: f64,
@@ -45,8 +49,23 @@ pub(crate) trait Ground: Sync {
     /// without biome relief. None if `keep_going` said no.
     fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>>;
 
-    /// The same of the layers that lie under the structure; None too if there is no such layer.
+    /// The same of the layers that lie under the structure; zeros if there are none.
     fn under_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>>;
+}
+
+/// What a map is solved from.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    pub(crate) ground: &'a dyn Ground,
+    /// The maps before this one in the list are final.
+    pub(crate) world: &'a World,
+    pub(crate) keep_going: &'a KeepGoing<'a>,
+}
+
+impl Job<'_> {
+    pub(crate) fn inputs(&self) -> &Inputs {
+        self.ground.inputs()
+    }
 }
 
 /// A world map.
@@ -68,13 +87,7 @@ pub(crate) trait WorldMap: Sized + Send + Sync {
     /// dependencies of a map are declared.
     fn key(inputs: &Inputs) -> Option<Key>;
 
-    /// Solves the map with cubes of `side` cells. `world`: the maps before this one in the list are final. `coarser`:
-    /// the level before, if it was solved. None if `keep_going` said no.
-    fn solve(
-        ground: &dyn Ground,
-        world: &World,
-        coarser: Option<&Self>,
-        side: usize,
-        keep_going: &KeepGoing<'_>,
-    ) -> Option<Self>;
+    /// Solves the map with cubes of `side` cells. `coarser`: the level before, if it was solved. None if nobody wants
+    /// the answer any more.
+    fn solve(job: &Job<'_>, side: usize, coarser: Option<&Self>) -> Option<Self>;
 }

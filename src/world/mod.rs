@@ -29,12 +29,16 @@ pub(crate) mod weather;
 
 use carved::Carved;
 use coast::Coast;
+use map::Job;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 use plates::Plates;
 pub use slot::MapWork;
 pub(crate) use slot::Slot;
 use std::fmt;
 use weather::Weather;
+
+/// The Earth's radius in km. Widths and speeds of the structure are those of a planet of this size.
+pub(crate) const EARTH_KM: f64 = 6371.0;
 
 /// Lists the maps, each after those that it reads.
 macro_rules! world_maps {
@@ -63,7 +67,7 @@ macro_rules! world_maps {
             ) -> Option<Self> {
                 $( if !self.$name.is_final(ground.inputs()) {
                     let mut world = self.clone();
-                    world.$name = self.$name.step(ground, self, keep_going, work)?;
+                    world.$name = self.$name.step(&Job { ground, world: self, keep_going }, work)?;
                     return Some(world);
                 } )+
                 Some(self.clone())

@@ -14,6 +14,14 @@ pub(crate) fn scramble(bits: u32) -> u32 {
     h ^ (h >> 16)
 }
 
+/// Mixes the bits of a number (the finaliser of SplitMix64, Steele et al. 2014).
+pub(crate) fn mix(state: u64) -> u64 {
+    let z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
 /// A hash of two numbers.
 pub(crate) fn hash(a: u32, b: u32) -> u32 {
     scramble(a ^ scramble(b.wrapping_add(0x9E37_79B9)))

@@ -1,7 +1,6 @@
 //! One world map that serves, the key of what it was solved from, and its next level.
 
-use super::World;
-use super::map::{Ground, Inputs, KeepGoing, WorldMap};
+use super::map::{Inputs, Job, WorldMap};
 use crate::planet::Key;
 use std::sync::Arc;
 use std::time::Instant;
@@ -64,15 +63,9 @@ impl<M: WorldMap> Slot<M> {
         self.key() == Self::final_key(inputs)
     }
 
-    pub(super) fn step(
-        &self,
-        ground: &dyn Ground,
-        world: &World,
-        keep_going: &KeepGoing<'_>,
-        work: &mut MapWork,
-    ) -> Option<Self> {
-        let Some(key) = M::key(ground.inputs()) else { return Some(Self::default()) };
-        let finest = Self::finest(ground.inputs());
+    pub(super) fn step(&self, job: &Job<'_>, work: &mut MapWork) -> Option<Self> {
+        let Some(key) = M::key(job.inputs()) else { return Some(Self::default()) };
+        let finest = Self::finest(job.inputs());
         let coarser = self.0.as_ref().filter(|served| served.key == key && served.level < finest);
         let level = match (coarser, &self.0) {
             (Some(coarser), _) => coarser.level + 1,
@@ -82,7 +75,7 @@ impl<M: WorldMap> Slot<M> {
         };
         profiling::scope!("world map");
         let begun = Instant::now();
-        let map = M::solve(ground, world, coarser.map(|coarser| &*coarser.map), M::SIDES[level], keep_going);
+        let map = M::solve(job, M::SIDES[level], coarser.map(|coarser| &*coarser.map));
         work.busy_secs += begun.elapsed().as_secs_f64();
         let map = Arc::new(map?);
         work.runs += 1;
@@ -96,7 +89,9 @@ fn key_at(key: Key, level: usize) -> Key {
 
 #[cfg(test)]
 mod tests {
+    use super::super::World;
     use super::super::cells::Cells;
+    use super::super::map::{Ground, KeepGoing};
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -105,8 +100,8 @@ mod tests {
 
     impl Number {
         fn new(number: Option<f64>) -> Self {
-            let (heights, under) = (Key::default(), Key::default());
-            Self(Inputs { heights, under, sea_level_m: number, reads_coast: true, structure: None })
+            let heights = Key::default();
+            Self(Inputs { heights, under: None, sea_level_m: number, reads_coast: true, structure: None, grids: 0 })
         }
     }
 
@@ -117,8 +112,8 @@ mod tests {
         fn heights_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
             keep_going().then(|| vec![self.0.sea_level_m.unwrap_or(0.0); cells.dirs.len()])
         }
-        fn under_m(&self, _cells: &Cells, _keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
-            None
+        fn under_m(&self, cells: &Cells, keep_going: &KeepGoing<'_>) -> Option<Vec<f64>> {
+            self.heights_m(cells, keep_going)
         }
     }
 
@@ -130,15 +125,9 @@ mod tests {
         fn key(inputs: &Inputs) -> Option<Key> {
             inputs.sea_level_m.map(|number| Key::of(&number))
         }
-        fn solve(
-            ground: &dyn Ground,
-            _world: &World,
-            coarser: Option<&Self>,
-            side: usize,
-            keep_going: &KeepGoing<'_>,
-        ) -> Option<Self> {
+        fn solve(job: &Job<'_>, side: usize, coarser: Option<&Self>) -> Option<Self> {
             assert!(coarser.is_none_or(|coarser| coarser.1 * 2 == side));
-            Some(Self(*ground.heights_m(&Cells::of(side), keep_going)?.first()?, side))
+            Some(Self(*job.ground.heights_m(&Cells::of(side), job.keep_going)?.first()?, side))
         }
     }
 
@@ -151,7 +140,8 @@ mod tests {
         let (one, two, none) = (Number::new(Some(1.0)), Number::new(Some(2.0)), Number::new(None));
         let mut work = MapWork::default();
         let step = |slot: &Slot<Echo>, ground: &Number, work: &mut MapWork| {
-            slot.step(ground, &World::default(), &|| true, work).unwrap()
+            let job = Job { ground, world: &World::default(), keep_going: &|| true };
+            slot.step(&job, work).unwrap()
         };
         let mut slot = Slot::<Echo>::default().serving(&one.0);
         for side in [4, 8, 16] {
@@ -172,8 +162,9 @@ mod tests {
         let asked = AtomicUsize::new(0);
         let mut work = MapWork::default();
         let keep_going = || asked.fetch_add(1, Ordering::Relaxed) > 0;
-        let slot = Slot::<Echo>::default();
-        assert!(slot.step(&Number::new(Some(1.0)), &World::default(), &keep_going, &mut work).is_none());
+        let (slot, ground) = (Slot::<Echo>::default(), Number::new(Some(1.0)));
+        let job = Job { ground: &ground, world: &World::default(), keep_going: &keep_going };
+        assert!(slot.step(&job, &mut work).is_none());
         assert_eq!((work.runs, asked.into_inner()), (0, 1));
     }
 }

@@ -8,10 +8,10 @@ use std::sync::Arc;
 use tellus::planet::param::Choice;
 use tellus::planet::picture::{Budget, PictureKey};
 use tellus::planet::{HeightMap, Layer, PictureLayout, Planet, Shape, VERSION};
+use tellus::simd::Simd;
 use tellus::sphere::LatLon;
 use tellus::sphere::raster::cube_direction;
 use tellus::terrain::Terrain;
-use tellus::terrain::simd::Simd;
 
 /// A landscape from 0 to 1, different everywhere.
 fn landscape(d: DVec3) -> f64 {

@@ -8,8 +8,8 @@ use tellus::planet::param::{Choice as _, Curve};
 use tellus::planet::{
     Blend, Fbm, HeightMask, LatitudeMask, Layer, LayerMask, Mask, Planet, Shape, SlopeMask, Terraces, validate,
 };
+use tellus::simd::Simd;
 use tellus::terrain::Terrain;
-use tellus::terrain::simd::Simd;
 
 /// Smooth ground with steep slopes.
 fn ground(name: &str, seed: u32, wavelength_km: f64, amplitude_m: f64) -> Layer {

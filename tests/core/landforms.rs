@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 use tellus::planet::param::{Choice, Domain, Params, ValueMut};
 use tellus::planet::{Layer, Planet, Precision, Shape};
+use tellus::simd::Simd;
 use tellus::sphere::NodeId;
 use tellus::terrain::Terrain;
-use tellus::terrain::simd::Simd;
 
 /// A planet of one layer, of usual height for its size.
 fn planet(shape: Shape) -> Arc<Planet> {

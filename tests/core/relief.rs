@@ -7,9 +7,9 @@ use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Biome, Biomes, Fbm, Layer, Planet, Shape, Table};
+use tellus::simd::Simd;
 use tellus::sphere::{LatLon, spread};
 use tellus::terrain::Terrain;
-use tellus::terrain::simd::Simd;
 use tellus::tiles::{Builder, build_now};
 
 /// Rolling ground, with hummocks in one half of the biome table.

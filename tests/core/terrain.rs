@@ -11,8 +11,8 @@ use tellus::planet::{
     Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, SlopeMask, Water,
     shipped,
 };
+use tellus::simd::Simd;
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
-use tellus::terrain::simd::Simd;
 use tellus::terrain::{Scratch, Terrain, Wanted};
 use tellus::tiles::{Builder, Surface, build_now};
 

@@ -13,7 +13,7 @@ mod queries;
 use super::{Failure, headless, print};
 use crate::lod::{Quality, View, opening};
 use crate::planet::{Planet, shipped};
-use crate::terrain::simd::Simd;
+use crate::simd::Simd;
 use crate::tiles::build_now;
 use serde_json::{Value, json};
 use std::sync::Arc;

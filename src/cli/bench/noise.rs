@@ -1,9 +1,9 @@
 //! Noise at any points of the unit sphere, on one core, against fastnoise-lite on the same points in the same run.
 
 use super::{median, repeat};
+use crate::simd::Simd;
 use crate::sphere::LatLon;
 use crate::terrain::bench::NoiseBench;
-use crate::terrain::simd::Simd;
 use fastnoise_lite::{FastNoiseLite, FractalType, NoiseType};
 use glam::DVec3;
 use serde_json::{Value, json};

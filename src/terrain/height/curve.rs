@@ -3,7 +3,7 @@
 //! Between two points the curve stays within the range of their values, so that it has no wiggles.
 
 use super::lanes::{CHUNK, Lane};
-use crate::terrain::simd::for_each_simd;
+use crate::simd::for_each_simd;
 
 /// The value of a curve at `x`. A curve without points is the identity.
 pub fn curve_at(points: &[[f64; 2]], x: f64) -> f64 {

@@ -6,7 +6,7 @@
 use super::{Blend, Edge};
 use crate::planet::MAX_MASKS;
 
-use crate::terrain::simd::{Simd, for_each_simd};
+use crate::simd::{Simd, for_each_simd};
 
 /// Points worked on at a time: a whole tile. The loops are bound by memory, and long runs are prefetched.
 pub(super) const CHUNK: usize = 1152;

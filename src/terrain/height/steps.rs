@@ -6,7 +6,7 @@
 
 use super::Steps;
 use super::lanes::{CHUNK, Lane, Output, Shaped, joining};
-use crate::terrain::simd::{Simd, for_each_simd};
+use crate::simd::{Simd, for_each_simd};
 
 /// Adding and subtracting this rounds an f64 below 2^51 to a whole number.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;

@@ -6,10 +6,10 @@ use super::octaves::{Weighted, series};
 use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
+use crate::simd::{Simd, for_each_simd};
 use crate::terrain::jet::{Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
-use crate::terrain::simd::{Simd, for_each_simd};
 use glam::DVec3;
 
 /// Noise value below which a crease is round.

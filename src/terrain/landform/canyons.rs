@@ -9,11 +9,11 @@ use super::varying::{Around, Point, Varying};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
+use crate::simd::for_each_simd;
 use crate::terrain::field::ALL_OCTAVES;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
-use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 
 /// Greatest total weight of the octaves that are evaluated in f32.

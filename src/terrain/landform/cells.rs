@@ -14,11 +14,11 @@ use super::octaves::{Weighted, series};
 use super::places::{Places, neighbour, unit};
 use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
 use crate::planet::{self, CellStyle};
+use crate::simd::for_each_simd;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Octave};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use near::Near;
 

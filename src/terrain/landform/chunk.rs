@@ -1,9 +1,9 @@
 //! A chunk of points at which a landform is evaluated, and the sums that it fills.
 
+use crate::simd::{Simd, for_each_simd};
 use crate::terrain::jet::Jets;
 use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::{Simd, for_each_simd};
 use glam::DVec3;
 
 /// Most gradient bands at once: a tile's own spacing, its parent's, and those of slope masks.

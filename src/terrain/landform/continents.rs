@@ -11,9 +11,9 @@ use super::varying::{Around, Point};
 use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
+use crate::simd::Simd;
 use crate::terrain::lane::CHUNK;
 use crate::terrain::points::Points;
-use crate::terrain::simd::Simd;
 use glam::DVec3;
 
 /// Points at which the noise is measured. Presets in use depend on it.

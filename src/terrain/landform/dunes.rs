@@ -15,12 +15,12 @@ use super::places::{CORNERS, Places, neighbour, unit};
 use super::varying::Around;
 use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
 use crate::planet;
+use crate::simd::for_each_simd;
 use crate::terrain::approx;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::for_each_simd;
 use glam::DVec3;
 use std::f32::consts::TAU;
 

@@ -2,9 +2,9 @@
 
 use super::octaves::Weighted;
 use super::{Arithmetic, Chunk, Scratch, Scratch64};
+use crate::simd::Simd;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::noise::Noise;
-use crate::terrain::simd::Simd;
 
 /// Points per lattice cell at which an octave shows in full: folded waves are half as long.
 const LEAST_POINTS: f64 = 2.2;

@@ -16,12 +16,13 @@ use super::scratch::Carving;
 use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
+use crate::simd::for_each_simd;
 use crate::terrain::approx;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::for_each_simd;
+use crate::world::noise::mix;
 use glam::DVec3;
 use std::f32::consts::TAU;
 
@@ -80,7 +81,7 @@ impl Gullies {
         let planet::Gullies { wavelength_km, octaves, gain, lacunarity, gully_km, gully_octaves, depth } = *params;
         let frequency = radius_km / wavelength_km;
         let octaves = series(seed, frequency, octaves, gain, lacunarity);
-        let waves = series(noise::mix(!seed), radius_km / gully_km, gully_octaves, gain, lacunarity);
+        let waves = series(mix(!seed), radius_km / gully_km, gully_octaves, gain, lacunarity);
         let coarsest = waves.first().map_or(1.0, |wave| f64::from(wave.weight));
         let gullies: Vec<Carved> = waves
             .iter()

@@ -2,6 +2,7 @@
 
 use crate::planet::Precision;
 use crate::terrain::noise::{self, Octave};
+use crate::world::noise::mix;
 
 /// Which octaves are evaluated in f64. The rounding of f32 is up to a millimetre in a few kilometres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +67,7 @@ pub(super) fn series(seed: u64, frequency: f64, count: u32, gain: f64, lacunarit
         .zip(&gains)
         .enumerate()
         .map(|(i, (&frequency, gain))| {
-            let random = |k: u64| noise::mix(noise::mix(seed).wrapping_add(i as u64 * 4 + k));
+            let random = |k: u64| mix(mix(seed).wrapping_add(i as u64 * 4 + k));
             let offset = |k: u64| (random(k) >> 40) as f64 / 4096.0;
             let octave = Octave { frequency, offset: [offset(1), offset(2), offset(3)], seed: random(0) as u32 };
             Weighted { octave, weight: (gain / total) as f32 }

@@ -1,9 +1,9 @@
 //! Positions of points in a lattice of cubic cells, for kinds that scatter features in jittered cells.
 
+use crate::simd::{Simd, for_each_simd};
 use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::noise::{self, Octave};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::{Simd, for_each_simd};
 
 /// Cell, position within the cell (0 to 1) and unit direction of each point of a chunk.
 pub(super) struct Places<S = f32> {

@@ -5,11 +5,11 @@
 use super::tests::shapes;
 use super::*;
 use crate::planet::{Planet, Precision, shipped};
+use crate::simd::Simd;
 use crate::terrain::Terrain;
 use crate::terrain::field::Field;
 use crate::terrain::lane::CHUNK;
 use crate::terrain::points::Points;
-use crate::terrain::simd::Simd;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use std::sync::{Arc, Weak};
 
 /// Cells of the finest level of rivers in a value are at least as wide as this many points.
-const VALUE_POINTS: f64 = 1.0;
+const VALUE_POINTS: f64 = 2.0;
 /// The same for gradients: slopes of narrower valleys would look like noise.
 const GRADIENT_POINTS: f64 = 3.0;
 
@@ -39,7 +39,7 @@ impl Structure {
 }
 
 thread_local! {
-    /// The blocks of rivers that the thread keeps, and its last answers.
+    /// The blocks of rivers that the thread uses, and its last answers.
     static MEMORY: RefCell<(Cache, Vec<RiverPoint>)> = RefCell::default();
 }
 
@@ -84,15 +84,10 @@ impl Evaluate for Structure {
             for (value, point) in scratch.sums.value.iter_mut().zip(&*points) {
                 *value += point.height_m;
             }
-            let mut evaluated = levels;
             for (gradient, &spacing_rad) in scratch.sums.gradients_mut().iter_mut().zip(chunk.spacings_rad) {
-                let wanted = rivers.levels_for(spacing_rad, GRADIENT_POINTS).min(levels);
-                if wanted != evaluated {
-                    rivers.evaluate(chunk.dirs, wanted, cache, points);
-                    evaluated = wanted;
-                }
+                let seen = rivers.levels_for(spacing_rad, GRADIENT_POINTS).clamp(1, levels);
                 for (i, point) in points.iter().enumerate() {
-                    for (lane, slope) in gradient.iter_mut().zip(point.gradient.to_array()) {
+                    for (lane, slope) in gradient.iter_mut().zip(point.gradients[seen - 1].to_array()) {
                         lane[i] += slope as f32;
                     }
                 }

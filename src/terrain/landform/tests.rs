@@ -3,9 +3,9 @@
 use super::*;
 use crate::planet;
 use crate::planet::param::{Domain, ParamPath, Params, Unit, ValueMut};
+use crate::simd::Simd;
 use crate::terrain::field::{ALL_OCTAVES, Field};
 use crate::terrain::points::Points;
-use crate::terrain::simd::Simd;
 use proptest::prelude::*;
 
 const RADIUS_KM: f64 = 6371.0;
@@ -193,7 +193,7 @@ fn every_valid_parameter_gives_finite_numbers_within_bounds() {
         for (radius_km, choice) in [1.0, 6371.0, 100_000.0].into_iter().flat_map(|r| (0..32_u64).map(move |c| (r, c))) {
             let (mut shape, mut random) = (shape.clone(), choice);
             shape.each_param(&mut ParamPath::default(), &mut |_, param, value| {
-                random = super::super::noise::mix(random);
+                random = crate::world::noise::mix(random);
                 let high = if choice < 2 { choice == 1 } else { random & 1 == 1 };
                 match (value, param.domain) {
                     (ValueMut::Number(v), Domain::Number { min, max, .. }) => *v = if high { max } else { min },

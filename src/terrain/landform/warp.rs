@@ -8,10 +8,11 @@ use super::fbm::{LEAST_POINTS, add_octaves};
 use super::octaves::{Weighted, series};
 use super::scratch::{Displaced, Jacobian64};
 use super::varying::{Around, Point, Varying};
+use crate::simd::for_each_simd;
 use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::noise::{self, Noise, lattice};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::for_each_simd;
+use crate::world::noise::mix;
 
 /// Least number of octaves of a warped noise in f64, so that it is smooth underfoot: in the coarsest, a step of f32
 /// is half a millimetre of 4 km.
@@ -37,7 +38,7 @@ impl Warp {
         // The lattice must stay within what f64 can split; a few radii away is as good as any distance.
         let reach = reach.min(MAX_REACH);
         // A seed apart from that of the warped noise.
-        Self { octaves: series(noise::mix(!seed), frequency, octaves, 0.5, 2.0), reach }
+        Self { octaves: series(mix(!seed), frequency, octaves, 0.5, 2.0), reach }
     }
 
     /// How many octaves of noise one point takes.

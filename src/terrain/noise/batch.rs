@@ -6,9 +6,9 @@
 
 use super::lattice::Lattice;
 use super::{Octave, split, value, value_gradient, value_gradient_curvature};
+use crate::simd::{Simd, for_each_simd};
 use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::{Simd, for_each_simd};
 
 /// The noise of one octave at a chunk of points. Derivatives are by the coordinates of the points, not of the
 /// lattice.

@@ -7,9 +7,9 @@
 //! lattice, which differ by their hashes.
 
 use super::{Octave, PRIME, SCALE, dot, falloff, gradient, scramble, split};
+use crate::simd::{Simd, for_each_simd};
 use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::scalar::Scalar;
-use crate::terrain::simd::{Simd, for_each_simd};
 
 /// The three components of a vector noise.
 pub(crate) fn components(octave: &Octave) -> [Octave; 3] {

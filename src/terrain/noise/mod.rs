@@ -181,14 +181,6 @@ pub(crate) fn value_gradient_curvature<S: Scalar>(cell: [u32; 3], fraction: [S; 
     (v, g, [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5)])
 }
 
-/// A well-mixed 64-bit number for each state (splitmix64, Steele et al. 2014), for seeds and offsets.
-pub(crate) fn mix(state: u64) -> u64 {
-    let mut z = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
-}
-
 #[cfg(test)]
 mod tests {
     use super::near::{CURVATURE_BOUND, TWIST_BOUND};

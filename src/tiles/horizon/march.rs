@@ -3,8 +3,8 @@
 
 use super::patch::Patch;
 use crate::lod::tile::{TILE_QUADS, TILE_SIDE, TILE_VERTICES};
+use crate::simd::{Simd, for_each_simd};
 use crate::sphere::NodeId;
-use crate::terrain::simd::{Simd, for_each_simd};
 
 /// One value for each vertex of a node.
 pub(super) type PerVertex = Vec<f32>;

@@ -12,6 +12,7 @@
 use super::route::{Jumps, Routes};
 use super::{DISCHARGE_UNIT, Level};
 use crate::planet::Rivers as Params;
+use crate::world::EARTH_KM;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -28,7 +29,7 @@ const HILLSLOPE: f64 = 0.2;
 const ALLUVIAL_SLOPE: f64 = 5e-4;
 
 /// The Earth's radius in metres, and seconds in a year.
-const EARTH_M: f64 = 6.371e6;
+const EARTH_M: f64 = 1000.0 * EARTH_KM;
 const YEAR_S: f64 = 3.156e7;
 
 /// Discharge in m³/s on a planet of the Earth's size.

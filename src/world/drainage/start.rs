@@ -3,9 +3,9 @@
 use super::carve::earthly_m3_s;
 use super::route::Routes;
 use super::{DISCHARGE_UNIT, Drainage, Inputs, Level, Mouth, flood};
-use crate::sphere::raster::cube_point;
+use crate::world::EARTH_KM;
 use crate::world::cells::Cells;
-use crate::world::grid::{children, node, refined};
+use crate::world::grid::{cell_at, children, node, refined};
 use crate::world::map::KeepGoing;
 use crate::world::noise::{fbm, hash, unit};
 use glam::DVec3;
@@ -86,9 +86,7 @@ fn add_delta(
     (reached, number): (&mut [u32], u32),
 ) {
     let (mut near, mut next) = (Vec::new(), 0);
-    let (face, x, y) = cube_point(mouth.dir, cells.side);
-    let index = |w: f64| (w as usize).min(cells.side - 1);
-    near.push((face * cells.side + index(y)) * cells.side + index(x));
+    near.push(cell_at(cells.side, mouth.dir));
     reached[near[0]] = number;
     while let Some(&cell) = near.get(next) {
         next += 1;
@@ -138,7 +136,7 @@ pub(super) fn mouths(
             let root = (m3_s / 1000.0).sqrt();
             // About the power 0.4 of the discharge: 55 km for the Nile, 300 km for the Amazon.
             let km = 42.0 * root.sqrt() * root.sqrt().sqrt() * (0.7 + 0.8 * varied) * level.params.deposition.sqrt();
-            mouths.push(Mouth { dir: nodes[to], reach_rad: km.min(400.0) / 6371.0 });
+            mouths.push(Mouth { dir: nodes[to], reach_rad: km.min(400.0) / EARTH_KM });
         }
     }
     mouths
@@ -180,9 +178,7 @@ fn beds(coarser: &Drainage, side: usize, seed: u32) -> Vec<f64> {
         for step in 0..=STEPS {
             let t = step as f64 / STEPS as f64;
             let dir = from + (end - from) * t + aside * (4.0 * t * (1.0 - t));
-            let (face, x, y) = cube_point(dir, side);
-            let index = |w: f64| (w as usize).min(side - 1);
-            let bed_m = &mut beds_m[(face * side + index(y)) * side + index(x)];
+            let bed_m = &mut beds_m[cell_at(side, dir)];
             *bed_m = bed_m.min(high_m + (low_m - high_m) * t);
         }
     }

@@ -3,8 +3,9 @@
 //! The boundary of two plates is a circle in bent directions, so the distance to it is a formula. Near a junction of
 //! three plates the effects of two boundaries are blended.
 
-use super::layout::{EARTH_KM, Layout, Plate};
+use super::layout::{Layout, Plate};
 use crate::planet::Plates as Params;
+use crate::world::EARTH_KM;
 use crate::world::noise::{bump, hash, noise, ramp};
 use glam::DVec3;
 

@@ -5,12 +5,10 @@
 use super::edges::Side;
 use crate::planet::Plates as Params;
 use crate::sphere::spread;
+use crate::world::EARTH_KM;
 use crate::world::noise::{fbm, fbm3, hash, unit};
 use glam::DVec3;
 use std::f64::consts::TAU;
-
-/// The Earth's radius in km. Widths and speeds of the parameters are those of a planet of this size.
-pub(crate) const EARTH_KM: f64 = 6371.0;
 
 /// A plate.
 #[derive(Clone, Debug, PartialEq)]

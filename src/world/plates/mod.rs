@@ -11,6 +11,7 @@ mod edges;
 mod finer;
 mod layout;
 
+use super::EARTH_KM;
 use super::cells::Cells;
 use super::map::KeepGoing;
 use super::noise::{fbm, hash, noise, ramp};
@@ -18,7 +19,7 @@ use crate::planet::Plates as Params;
 use edges::NO_EDGE_KM;
 pub(crate) use finer::Rock;
 use glam::DVec3;
-pub(crate) use layout::{EARTH_KM, Layout};
+pub(crate) use layout::Layout;
 use rayon::prelude::*;
 
 /// The crust at one point.

@@ -12,7 +12,7 @@
 //! pieces, which does not depend on who asks.
 
 use super::block::Block;
-use super::reach::{Line, Piece};
+use super::reach::{Channel, Line};
 use glam::DVec3;
 
 /// Keeps weights finite on a reach.
@@ -139,7 +139,7 @@ pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> L
         sum.value += weight * bank_m;
         sum.gradient += weight_gradient * bank_m + line.along * climb;
         if is_last && foot.distance2 < line.channel2 {
-            let (depth, is_inside) = channel(&block.pieces[usize::from(number)], &foot);
+            let (depth, is_inside) = channel(&block.stream(number).channel, &foot);
             if is_inside && depth.value > carved.value {
                 carved = depth;
                 river = Some(Nearest { piece: number, share: foot.share, distance2: foot.distance2 });
@@ -160,8 +160,7 @@ pub(super) fn level(dir: DVec3, block: &Block, list: &[u16], is_last: bool) -> L
 
 /// How deep a channel is cut below its banks: `depth (1 - u)²`, with u the square of the distance by half its width.
 #[inline(never)]
-fn channel(piece: &Piece, foot: &Foot) -> (Jet, bool) {
-    let channel = &piece.channel;
+fn channel(channel: &Channel, foot: &Foot) -> (Jet, bool) {
     let bank_rad = channel.bank_rad + channel.bank_change_rad * foot.share;
     let u = foot.distance2 / (bank_rad * bank_rad);
     if u >= 1.0 {

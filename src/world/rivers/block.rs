@@ -1,12 +1,12 @@
 //! A block: the pieces of all reaches near a square of cells, listed for each bucket of that square.
 
 use super::grid::{Cell, FacePlace, Grid, RATIO};
-use super::reach::{Line, Piece};
+use super::reach::{Line, Piece, Stream};
 use crate::sphere::raster::cube_direction;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// Cells along the side of a block.
-pub(super) const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 16;
 /// Buckets along the side of a block.
 const BUCKETS: usize = BLOCK * RATIO;
 
@@ -14,9 +14,9 @@ const BUCKETS: usize = BLOCK * RATIO;
 /// by cell, then along the reach.
 #[derive(Debug, Default)]
 pub(super) struct Block {
-    pub(super) pieces: Vec<Piece>,
-    /// The lines of the pieces, close together.
+    /// The lines of the pieces, and apart from them, because few points ask for it, what flows there.
     pub(super) lines: Vec<Line>,
+    streams: Vec<Stream>,
     /// For each bucket the start of its list; the last one ends all.
     starts: Vec<u32>,
     lists: Vec<u16>,
@@ -40,36 +40,23 @@ pub(super) fn cells_of(grid: &Grid, block: u64) -> impl Iterator<Item = Cell> {
 
 impl Block {
     /// Sorts pieces into buckets. Those that reach no bucket are left out.
-    pub(super) fn new(grid: &Grid, block: u64, all: impl Iterator<Item = Piece>) -> Self {
+    pub(super) fn new(grid: &Grid, block: u64, all: &[Piece]) -> Self {
         let touch = Touch::new(grid, block);
-        let Touch { face, side, corner, .. } = touch;
-        let middle = |bucket: usize| {
-            let (x, y) = (corner[0] + bucket % BUCKETS, corner[1] + bucket / BUCKETS);
-            cube_direction(face, side, x as f64 + 0.5, y as f64 + 0.5)
-        };
-        let middles: Vec<DVec3> = (0..BUCKETS * BUCKETS).map(middle).collect();
-        let mut pieces = Vec::new();
+        let (mut lines, mut streams) = (Vec::with_capacity(all.len()), Vec::with_capacity(all.len()));
         let mut starts = vec![0_u32; BUCKETS * BUCKETS + 1];
-        let mut found: Vec<(u32, u16)> = Vec::new();
+        let mut found: Vec<(u32, u16)> = Vec::with_capacity(16 * all.len());
         for piece in all {
-            let Some([x0, y0, x1, y1]) = touch.bounds(&piece, 1.0) else { continue };
-            // Half the diagonal of a bucket: its sides are at most as wide as those in the middle of the face.
-            let depth =
-                piece.line.start.abs().max_element() + 4.0 / side as f64 + 1.0 / piece.line.per_influence2.sqrt();
-            let reach = 1.0 / piece.line.per_influence2.sqrt() + 1.5 / side as f64 * depth.min(1.0);
-            let (number, before) = (pieces.len() as u16, found.len());
-            for bucket in (y0..y1).flat_map(|y| (x0..x1).map(move |x| y * BUCKETS + x)) {
-                let v = middles[bucket] - piece.line.start;
-                let foot = v - piece.line.along * (v.dot(piece.line.along) * piece.line.per_length2).clamp(0.0, 1.0);
-                if foot.dot(foot) <= reach * reach {
-                    starts[bucket + 1] += 1;
-                    found.push((bucket as u32, number));
-                }
-            }
+            let Some(strip) = touch.strip(piece, 1.0) else { continue };
+            let (number, before) = (lines.len() as u16, found.len());
+            strip.each_bucket(|bucket| {
+                starts[bucket + 1] += 1;
+                found.push((bucket as u32, number));
+            });
             if found.len() > before {
-                pieces.push(piece);
+                lines.push(piece.line);
+                streams.push(piece.stream);
             }
-            if pieces.len() > usize::from(u16::MAX) {
+            if lines.len() > usize::from(u16::MAX) {
                 break;
             }
         }
@@ -83,8 +70,31 @@ impl Block {
             lists[*slot as usize] = number;
             *slot += 1;
         }
-        let lines = pieces.iter().map(|piece| piece.line).collect();
-        Self { pieces, lines, starts, lists, side, corner }
+        lines.shrink_to_fit();
+        streams.shrink_to_fit();
+        Self { lines, streams, starts, lists, side: touch.side, corner: touch.corner }
+    }
+
+    /// A piece by its number.
+    #[inline(always)]
+    pub(super) fn piece(&self, number: u16) -> Piece {
+        Piece { line: self.lines[usize::from(number)], stream: self.streams[usize::from(number)] }
+    }
+
+    /// What flows along a piece.
+    #[inline(always)]
+    pub(super) fn stream(&self, number: u16) -> &Stream {
+        &self.streams[usize::from(number)]
+    }
+
+    /// All pieces.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
+        self.lines.iter().zip(&self.streams).map(|(line, stream)| Piece { line: *line, stream: *stream })
+    }
+
+    /// Resident size.
+    pub(super) fn bytes(&self) -> usize {
+        self.lines.len() * (size_of::<Line>() + size_of::<Stream>()) + 4 * self.starts.len() + 2 * self.lists.len()
     }
 
     /// Numbers of the pieces that the ground at a place of the block depends on, in their order.
@@ -101,12 +111,21 @@ impl Block {
 
 /// Tells which buckets of a block a piece touches.
 pub(super) struct Touch {
-    face: usize,
     /// Buckets along the side of a face, and the first of the block.
     side: usize,
     corner: [usize; 2],
     /// Outwards, to the right and down on the face.
     axes: [DVec3; 3],
+}
+
+/// A piece on the plane of a face, where great circles are straight, with all that it influences: in buckets from the
+/// corner of the block.
+struct Strip {
+    start: DVec2,
+    along: DVec2,
+    reach: f64,
+    /// The rectangle of buckets around it within the block: left, top, right, bottom.
+    bounds: [usize; 4],
 }
 
 impl Touch {
@@ -120,36 +139,54 @@ impl Touch {
             p / p.dot(out) - out
         };
         let corner = [number % blocks * BUCKETS, number / blocks % blocks * BUCKETS];
-        Self { face, side: grid.side * RATIO, corner, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
+        Self { side: grid.side * RATIO, corner, axes: [out, step(2.0, 1.0), step(1.0, 2.0)] }
     }
 
-    /// The rectangle of buckets, within the block, that a piece touches with its influence divided by `finer`.
-    pub(super) fn bounds(&self, piece: &Piece, finer: f64) -> Option<[usize; 4]> {
+    /// Whether a piece touches the block with its influence divided by `finer`.
+    pub(super) fn reaches(&self, piece: &Piece, finer: f64) -> bool {
+        self.strip(piece, finer).is_some()
+    }
+
+    /// None if the piece, with its influence divided by `finer`, lies beyond the block.
+    fn strip(&self, piece: &Piece, finer: f64) -> Option<Strip> {
         let influence = 1.0 / (piece.line.per_influence2.sqrt() * finer);
         // A bent piece keeps this close to the straight one.
         let aside = if finer > 1.0 { 0.25 / piece.line.per_length2.sqrt() } else { 0.0 };
-        let mut bounds = [f64::MAX, f64::MAX, f64::MIN, f64::MIN];
         let [out, right, down] = self.axes;
-        for end in [piece.line.start, piece.line.start + piece.line.along] {
-            let depth = end.dot(out);
-            if depth < 0.25 {
-                return None;
-            }
-            let (s, t) = (end.dot(right) / depth, end.dot(down) / depth);
-            // A step of an angle moves a point on the face by at most its distance from the eye, squared.
-            let reach = (influence + aside) * (1.0 + s * s + t * t) * 1.2;
-            bounds = [
-                bounds[0].min(s - reach),
-                bounds[1].min(t - reach),
-                bounds[2].max(s + reach),
-                bounds[3].max(t + reach),
-            ];
-        }
-        let bucket = |w: f64, corner: usize| ((w + 1.0) * 0.5 * self.side as f64).floor() - corner as f64;
+        let half = 0.5 * self.side as f64;
+        let [left, top] = self.corner.map(|corner| corner as f64);
+        let mut steepest = 1.0_f64;
+        let mut place = |dir: DVec3| {
+            let depth = dir.dot(out);
+            let (s, t) = (dir.dot(right) / depth, dir.dot(down) / depth);
+            steepest = steepest.max(1.0 + s * s + t * t);
+            (depth > 0.25).then(|| DVec2::new((s + 1.0) * half - left, (t + 1.0) * half - top))
+        };
+        let (start, end) = (place(piece.line.start)?, place(piece.line.start + piece.line.along)?);
+        // A step of an angle moves a point on the face by at most its distance from the eye, squared.
+        let reach = (influence + aside) * steepest * 1.2 * half;
         let clamped = |bucket: f64| bucket.clamp(0.0, BUCKETS as f64) as usize;
-        let [left, top] = self.corner;
-        let [x0, y0] = [clamped(bucket(bounds[0], left)), clamped(bucket(bounds[1], top))];
-        let [x1, y1] = [clamped(bucket(bounds[2], left) + 1.0), clamped(bucket(bounds[3], top) + 1.0)];
-        (x0 < x1 && y0 < y1).then_some([x0, y0, x1, y1])
+        let (least, most) = (start.min(end) - reach, start.max(end) + reach);
+        let bounds = [clamped(least.x), clamped(least.y), clamped(most.x + 1.0), clamped(most.y + 1.0)];
+        (bounds[0] < bounds[2] && bounds[1] < bounds[3]).then_some(Strip { start, along: end - start, reach, bounds })
+    }
+}
+
+impl Strip {
+    /// Calls with the number of each bucket that the strip touches.
+    fn each_bucket(&self, mut call: impl FnMut(usize)) {
+        // Half the diagonal of a bucket.
+        let reach = self.reach + 0.7072;
+        let per_length2 = 1.0 / self.along.length_squared().max(1e-30);
+        let [left, top, right, bottom] = self.bounds;
+        for y in top..bottom {
+            for x in left..right {
+                let v = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) - self.start;
+                let foot = v - self.along * (v.dot(self.along) * per_length2).clamp(0.0, 1.0);
+                if foot.length_squared() <= reach * reach {
+                    call(y * BUCKETS + x);
+                }
+            }
+        }
     }
 }

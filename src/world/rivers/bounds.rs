@@ -33,7 +33,7 @@ fn both(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
 impl Bounds {
     pub(super) fn new(trunks: &Trunks, ground_m: &[f32]) -> Self {
         let mut grid = trunks.grid;
-        let cells = trunks.height_m.len();
+        let cells = trunks.drainage.height_m.len();
         // The greatest relief and the deepest channel around count for the whole neighbourhood.
         let mut parts: Vec<[f32; 4]> = (0..cells).into_par_iter().map(|cell| own(trunks, ground_m, cell)).collect();
         // Two by two cells at once, where they are even: fewer and wider steps.
@@ -121,7 +121,7 @@ fn joined([low, high, relief, depth]: [f32; 4], other: [f32; 4]) -> [f32; 4] {
 
 /// What a cell adds to the ground around it: its lowest and highest bank or ground, relief and depth of channels.
 fn own(trunks: &Trunks, ground_m: &[f32], cell: usize) -> [f32; 4] {
-    let height_m = f64::from(trunks.height_m[cell]);
+    let height_m = f64::from(trunks.drainage.height_m[cell]);
     let ([start_m, end_m], [first, last], _) = trunks.ends(cell).unwrap_or(([height_m; 2], [0.0; 2], false));
     let trunk = first.max(last);
     let most = trunk.max(MOST_TRIBUTARY * f64::from(trunks.runoff_m3_s[cell]));

@@ -8,7 +8,6 @@ use super::reach::{Channel, LEAST_RIVER_M3_S, Piece, depth_m, width_m};
 use super::tributaries::PIECES;
 use super::trunk::{NONE, Trunks};
 use super::winding::refine;
-use crate::world::drainage::Drainage;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -46,18 +45,19 @@ pub(crate) enum CourseEnd {
 impl Rivers {
     /// The courses of all rivers that carry at least this much water at their mouths. Each begins where it carries so
     /// much. By the last cell of the river.
-    pub(crate) fn courses(&self, drainage: &Drainage, least_m3_s: f64) -> Vec<Course> {
+    pub(crate) fn courses(&self, least_m3_s: f64) -> Vec<Course> {
         let least = least_m3_s.max(LEAST_RIVER_M3_S) as f32;
         let trunks = &self.trunks;
         let last_cells = (0..trunks.river.len()).into_par_iter().filter(|&cell| trunks.river[cell] as usize == cell);
-        let courses = last_cells.filter_map(|cell| trunks.course(drainage, cell, least));
+        let courses = last_cells.filter_map(|cell| trunks.course(cell, least));
         courses.collect()
     }
 }
 
 impl Trunks {
     /// The course of the river with this last cell. None if it carries too little, or if it lies in a lake alone.
-    fn course(&self, drainage: &Drainage, last: usize, least_m3_s: f32) -> Option<Course> {
+    fn course(&self, last: usize, least_m3_s: f32) -> Option<Course> {
+        let drainage = &*self.drainage;
         let receiver = &drainage.receiver;
         let is_whole = |cell: usize| receiver[cell] as usize != cell && drainage.discharge_m3_s[cell] >= least_m3_s;
         let mut cells = Vec::new();
@@ -97,8 +97,8 @@ impl Trunks {
     fn add_points(&self, cell: usize, is_last: bool, points: &mut Vec<CoursePoint>) {
         let at = self.grid.cell(cell as u64);
         let Some(reach) = self.reach(at) else {
-            let discharge_m3_s = f64::from(self.discharge_m3_s[cell]);
-            let level_m = self.level_of(self.lake[cell]).unwrap_or_default();
+            let discharge_m3_s = f64::from(self.drainage.discharge_m3_s[cell]);
+            let level_m = self.level_of(self.drainage.lake[cell]).unwrap_or_default();
             points.pop_if(|last| last.dir == self.grid.node(at));
             points.push(CoursePoint {
                 dir: self.grid.node(at),
@@ -109,11 +109,12 @@ impl Trunks {
             return;
         };
         // Where it flows into a lake and out again, the bed goes on below the surface.
-        let into = if is_last { None } else { self.level_of(self.lake[self.receiver[cell] as usize]) };
+        let into =
+            if is_last { None } else { self.level_of(self.drainage.lake[self.drainage.receiver[cell] as usize]) };
         let floor_m = into.unwrap_or(f64::MIN);
         let (mut whole, mut pieces) = (Vec::with_capacity(PIECES), Vec::new());
         reach.cut(PIECES, self.radius_m, &mut whole);
-        whole.iter().for_each(|piece| refine(piece, &mut pieces));
+        whole.iter().for_each(|piece| refine(piece, &mut |piece| pieces.push(piece)));
         points.pop_if(|last| last.dir == reach.from);
         points.extend(pieces.iter().map(|piece| self.point(piece, 0.0, floor_m)));
         points.extend(pieces.last().map(|piece| self.point(piece, 1.0, floor_m)));

@@ -2,7 +2,7 @@
 
 use super::blend::{Jet, Level, Nearest, laid_over, level};
 use super::block::{Block, block_of};
-use super::cache::Cache;
+use super::cache::{Cache, LEVELS};
 use super::grid::{FacePlace, Grid};
 use super::reach::FREEBOARD;
 use super::{River, RiverPoint, Rivers};
@@ -23,6 +23,8 @@ const LEAST_SHARE: f64 = 0.2;
 /// The ground at a point, and the reaches of its finest level.
 pub(super) struct Ground {
     pub(super) ground: Jet,
+    /// The gradient after each level.
+    gradients: [DVec3; LEVELS],
     /// Mean of the rise over all levels: 0 in valleys, 1 on ridges.
     ridge: f64,
     pub(super) nearest: Option<Nearest>,
@@ -38,15 +40,10 @@ pub(super) struct Ground {
 impl Rivers {
     /// The block of a level, built if it is not there.
     pub(super) fn block(&self, level: usize, number: u64, cache: &mut Cache) -> Arc<Block> {
-        if let Some(block) = cache.get(level, number) {
-            return block;
-        }
-        let block = Arc::new(match level {
+        self.blocks.get(level, number, || match level {
             0 => self.trunk_block(number),
             _ => self.tributary_block(&self.grids[level], number, cache),
-        });
-        cache.keep(level, number, &block);
-        block
+        })
     }
 
     /// Makes the blocks of the first levels at a direction current.
@@ -83,6 +80,7 @@ impl Rivers {
         let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
         let mut found = Ground {
             ground,
+            gradients: [DVec3::ZERO; LEVELS],
             ridge: 0.0,
             nearest: None,
             river: None,
@@ -97,6 +95,8 @@ impl Rivers {
             let here: Level = level(dir, block, block.near(&face_place), k + 1 == levels);
             let amplitude = capped(relief.scaled(scale), self.steepest_m[k]).times(share);
             ground = laid_over(ground, amplitude, &here);
+            // Sums of tangential parts keep a little of the radial one.
+            found.gradients[k] = ground.gradient - dir * ground.gradient.dot(dir);
             let x = here.x;
             share = share.times(x.mapped(LEAST_SHARE + (1.0 - LEAST_SHARE) * x.value, 1.0 - LEAST_SHARE));
             ridges += scale;
@@ -111,8 +111,6 @@ impl Rivers {
         found.ridge = if ridges > 0.0 { found.ridge / ridges } else { 0.0 };
         let cap_m = self.steepest_m.get(levels).copied().unwrap_or(0.0);
         found.next_relief_m = capped(relief.scaled(scale), cap_m.max(1e-3)).value * share.value;
-        // Sums of tangential parts keep a little of the radial one.
-        ground.gradient -= dir * ground.gradient.dot(dir);
         found.ground = ground;
         found
     }
@@ -120,9 +118,9 @@ impl Rivers {
     /// The lake near a point if its water may stand there: not where the nearest reach lies below it, beyond its sill.
     fn lake_at(&self, lake: u32, here: &Level, block: &Block) -> u32 {
         let Some(near) = &here.nearest else { return lake };
-        let piece = &block.pieces[usize::from(near.piece)];
-        let bank_m = piece.line.bank_m + piece.line.bank_change_m * near.share;
-        match piece.lake {
+        let line = &block.lines[usize::from(near.piece)];
+        let bank_m = line.bank_m + line.bank_change_m * near.share;
+        match block.stream(near.piece).lake {
             0 if self.trunks.standing(lake).0.is_some_and(|level_m| bank_m < level_m) => 0,
             0 => lake,
             own => own,
@@ -149,9 +147,13 @@ impl Rivers {
         let (standing_m, lake) = self.trunks.standing(at.lake);
         let height_m = at.ground.value - at.carved.value;
         let standing_m = standing_m.filter(|level_m| height_m < *level_m);
+        let mut gradients = at.gradients;
+        if let Some(gradient) = gradients.get_mut(levels.wrapping_sub(1)) {
+            *gradient -= at.carved.gradient - dir * at.carved.gradient.dot(dir);
+        }
         let mut point = RiverPoint {
             height_m,
-            gradient: at.ground.gradient - at.carved.gradient + dir * at.carved.gradient.dot(dir),
+            gradients,
             water_level_m: standing_m,
             lake: if standing_m.is_some() { lake } else { 0 },
             ridge: 2.0 * at.ridge - 1.0,
@@ -160,8 +162,8 @@ impl Rivers {
         // The channel that the point is in, or the nearest reach.
         let block = cache.current.get(levels.wrapping_sub(1)).and_then(Option::as_ref);
         if let (Some(near), Some((_, block))) = (at.river.or(at.nearest), block) {
-            let piece = &block.pieces[usize::from(near.piece)];
-            let channel = &piece.channel;
+            let (line, stream) = (&block.lines[usize::from(near.piece)], block.stream(near.piece));
+            let channel = &stream.channel;
             let depth_m = channel.depth_m + channel.depth_change_m * near.share;
             if at.river.is_some() {
                 let level_m = at.banks_m - FREEBOARD * depth_m;
@@ -170,9 +172,9 @@ impl Rivers {
                     point.water_level_m = Some(level_m);
                 }
             }
-            let along = piece.line.along - dir * piece.line.along.dot(dir);
+            let along = line.along - dir * line.along.dot(dir);
             point.river = Some(River {
-                id: piece.river,
+                id: stream.river,
                 distance_m: near.distance2.sqrt() * self.trunks.radius_m,
                 width_m: 2.0 * channel.half_width_rad(near.share) * self.trunks.radius_m,
                 depth_m: depth_m * (1.0 - FREEBOARD),

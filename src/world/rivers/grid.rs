@@ -2,6 +2,7 @@
 
 use crate::sphere::raster::{cube_direction, cube_point};
 use crate::world::grid::node;
+use crate::world::noise::mix;
 use glam::DVec3;
 
 /// Cells are refined four by four from one level to the next.
@@ -89,7 +90,7 @@ impl Grid {
         if self.level == 0 {
             return node(self.side, self.index(cell) as usize, self.seed);
         }
-        let bits = mixed(mixed(self.index(cell) ^ (u64::from(self.seed) << 32)) ^ self.side as u64);
+        let bits = mix(mix(self.index(cell) ^ (u64::from(self.seed) << 32)) ^ self.side as u64);
         let share = |bits: u64| (bits & 0xffff_ffff) as f64 * (1.0 / 4_294_967_296.0) - 0.5;
         let (jx, jy) = (share(bits) * 2.0 * JITTER, share(bits >> 32) * 2.0 * JITTER);
         cube_direction(cell.face, self.side, cell.x as f64 + 0.5 + jx, cell.y as f64 + 0.5 + jy)
@@ -100,12 +101,4 @@ impl Grid {
         let depth = dir.abs().max_element();
         2.0 / self.side as f64 * (depth * depth)
     }
-}
-
-/// Mixes the bits of a number (the finaliser of SplitMix64, Steele et al. 2014).
-pub(super) fn mixed(state: u64) -> u64 {
-    let z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }

@@ -2,9 +2,10 @@
 //!
 //! - `trunk`: the solved drainage, prepared: one reach for each land cell, from its node to the receiver's node
 //! - `grid`: cells of a level of refinement, their neighbours and nodes; each level is four times as fine
-//! - `tributaries`: reaches of finer levels, which drain into those before
+//! - `net`: nodes of finer levels and where they drain; `coarser`: the reaches around that they must not cross
+//! - `tributaries`: the reaches between them, which drain into those before
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
-//! - `block`: pieces near a square of cells, listed by bucket; `cache`: the blocks that a thread keeps
+//! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built
 //! - `blend`: the ground of one level at a point, laid over the level before
 //! - `courses`: rivers from source to mouth
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
@@ -21,9 +22,11 @@ mod blend;
 mod block;
 mod bounds;
 mod cache;
+mod coarser;
 mod courses;
 mod evaluate;
 mod grid;
+mod net;
 mod reach;
 #[cfg(test)]
 mod tests;
@@ -34,10 +37,12 @@ mod winding;
 use super::drainage::Drainage;
 use crate::sphere::raster::Raster;
 use bounds::Bounds;
+use cache::Blocks;
 pub(crate) use cache::{Cache, LEVELS};
 pub(crate) use courses::CourseEnd;
 use glam::DVec3;
 use grid::Grid;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use trunk::Trunks;
 
@@ -50,6 +55,7 @@ pub(crate) struct Rivers {
     /// The greatest relief of each level.
     steepest_m: [f64; LEVELS],
     bounds: Bounds,
+    blocks: Blocks,
     /// Tells these rivers from all others of the process.
     number: u64,
 }
@@ -59,8 +65,9 @@ pub(crate) struct Rivers {
 pub(crate) struct RiverPoint {
     /// Height of the ground, the beds of rivers, lakes and the sea included.
     pub(crate) height_m: f64,
-    /// Tangential gradient of the height by the direction.
-    pub(crate) gradient: DVec3,
+    /// Tangential gradients of the height by the direction: of the ground of the first level, of the first two, and so
+    /// on. The one of all levels that were asked for has channels in it; later ones are 0.
+    pub(crate) gradients: [DVec3; LEVELS],
     /// Surface of the water that stands or flows here, if any.
     pub(crate) water_level_m: Option<f64>,
     /// The lake whose water it is, counted from 1; else 0.
@@ -89,10 +96,10 @@ pub(crate) struct River {
 
 impl Rivers {
     /// Prepares a solved drainage. Reaches of finer levels are made where points ask for them.
-    pub(crate) fn new(drainage: &Drainage, sea_level_m: Option<f64>, radius_km: f64) -> Self {
+    pub(crate) fn new(drainage: Arc<Drainage>, sea_level_m: Option<f64>, radius_km: f64) -> Self {
         static NUMBER: AtomicU64 = AtomicU64::new(1);
-        let trunks = Trunks::new(drainage, sea_level_m, radius_km);
         let grids = std::array::from_fn(|level| Grid::new(drainage.side, level, drainage.seed));
+        let trunks = Trunks::new(drainage, sea_level_m, radius_km);
         let ground_m = trunks.ground_m();
         let bounds = Bounds::new(&trunks, &ground_m);
         Self {
@@ -100,6 +107,7 @@ impl Rivers {
             steepest_m: grids.map(|grid| evaluate::steepest_m(&grid, trunks.radius_m)),
             grids,
             bounds,
+            blocks: Blocks::default(),
             trunks,
             number: NUMBER.fetch_add(1, Ordering::Relaxed),
         }

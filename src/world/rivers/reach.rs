@@ -44,6 +44,12 @@ pub(super) struct Reach {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) line: Line,
+    pub(super) stream: Stream,
+}
+
+/// What flows along a piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stream {
     /// The lake into which or out of which it flows, counted from 1.
     pub(super) lake: u32,
     pub(super) channel: Channel,
@@ -147,7 +153,8 @@ impl Reach {
                 flat2: flat_rad * flat_rad,
                 channel2: channel.reach2(),
             };
-            pieces.push(Piece { line, lake: self.lake, channel, river: self.river, tangents: [start.1, end.1] });
+            let stream = Stream { lake: self.lake, channel, river: self.river, tangents: [start.1, end.1] };
+            pieces.push(Piece { line, stream });
         }
     }
 
@@ -170,10 +177,10 @@ impl Reach {
 impl Piece {
     /// Cuts the piece into `count` pieces of a curve through its ends, bent to one side by `bend` of its length. Their
     /// influence is `finer` times less.
-    pub(super) fn refined(&self, count: usize, finer: f64, bend: f64, pieces: &mut Vec<Piece>) {
-        let whole = &self.line;
+    pub(super) fn refined(&self, count: usize, finer: f64, bend: f64, each: &mut impl FnMut(Piece)) {
+        let Piece { line: whole, stream } = self;
         let end = whole.start + whole.along;
-        let curve = Curve { ends: [whole.start, end], tangents: self.tangents };
+        let curve = Curve { ends: [whole.start, end], tangents: stream.tangents };
         let aside = whole.start.cross(whole.along) * (16.0 * bend);
         let step = 1.0 / count as f64;
         let point = |k: usize| {
@@ -187,13 +194,13 @@ impl Piece {
         for k in 0..count {
             let ((a, first), (b, last)) = (point(k), point(k + 1));
             let (share, along) = (k as f64 * step, b - a);
-            let Channel { bank_change_rad, depth_change_m, discharge_change_m3_s, .. } = self.channel;
+            let Channel { bank_change_rad, depth_change_m, discharge_change_m3_s, .. } = stream.channel;
             let channel = Channel {
-                bank_rad: self.channel.bank_rad + bank_change_rad * share,
+                bank_rad: stream.channel.bank_rad + bank_change_rad * share,
                 bank_change_rad: bank_change_rad * step,
-                depth_m: self.channel.depth_m + depth_change_m * share,
+                depth_m: stream.channel.depth_m + depth_change_m * share,
                 depth_change_m: depth_change_m * step,
-                discharge_m3_s: self.channel.discharge_m3_s + discharge_change_m3_s * share,
+                discharge_m3_s: stream.channel.discharge_m3_s + discharge_change_m3_s * share,
                 discharge_change_m3_s: discharge_change_m3_s * step,
             };
             let line = Line {
@@ -208,7 +215,7 @@ impl Piece {
                 flat2: whole.flat2 * (finer * finer),
                 channel2: channel.reach2(),
             };
-            pieces.push(Piece { line, lake: self.lake, channel, river: self.river, tangents: [first, last] });
+            each(Piece { line, stream: Stream { channel, tangents: [first, last], ..*stream } });
         }
     }
 }

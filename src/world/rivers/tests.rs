@@ -10,18 +10,18 @@ mod synthetic;
 
 const SIDE: usize = 48;
 
-fn drainage() -> &'static Drainage {
-    static ONCE: OnceLock<Drainage> = OnceLock::new();
+fn drainage() -> &'static Arc<Drainage> {
+    static ONCE: OnceLock<Arc<Drainage>> = OnceLock::new();
     ONCE.get_or_init(|| {
         let mut drainage = synthetic::drainage(SIDE, 3, 12);
         synthetic::dam(&mut drainage, [300.0, 9000.0]);
-        drainage
+        Arc::new(drainage)
     })
 }
 
 fn rivers() -> &'static Rivers {
     static ONCE: OnceLock<Rivers> = OnceLock::new();
-    ONCE.get_or_init(|| Rivers::new(drainage(), Some(synthetic::SEA_M), synthetic::RADIUS_KM))
+    ONCE.get_or_init(|| Rivers::new(drainage().clone(), Some(synthetic::SEA_M), synthetic::RADIUS_KM))
 }
 
 /// A spacing at which a number of levels takes part.
@@ -70,7 +70,7 @@ fn beds_never_rise_and_water_stands_above_them() {
             // The pieces of this reach, in order, as the level has them.
             let block = block(reach.from, levels - 1, &mut cache);
             let mut last: Option<(DVec3, f64)> = None;
-            for piece in block.pieces.iter().filter(|piece| piece.river == reach.river) {
+            for piece in block.pieces().filter(|piece| piece.stream.river == reach.river) {
                 let line = &piece.line;
                 if last.is_some_and(|(end, _)| end.distance(line.start) > 1e-12) {
                     last = None;
@@ -125,14 +125,14 @@ fn gradients_match_differences() {
     let (mut good, mut all) = (0, 0);
     for dir in land(600) {
         for levels in 1..=LEVELS {
-            let point = at(dir, levels, &mut cache);
-            assert!(point.gradient.dot(dir).abs() < 1e-6 * (1.0 + point.gradient.length()));
+            let gradient = at(dir, levels, &mut cache).gradients[levels - 1];
+            assert!(gradient.dot(dir).abs() < 1e-6 * (1.0 + gradient.length()));
             for along in <[DVec3; 2]>::from(dir.any_orthonormal_pair()) {
                 let [a, b] = [-1e-8, 1e-8].map(|by| at(step(dir, along, by), levels, &mut cache).height_m);
                 let difference = (b - a) / 2e-8;
-                let error = (difference - point.gradient.dot(along)).abs();
+                let error = (difference - gradient.dot(along)).abs();
                 all += 1;
-                good += usize::from(error < 2e-3 * (100.0 + point.gradient.length()));
+                good += usize::from(error < 2e-3 * (100.0 + gradient.length()));
             }
         }
     }
@@ -201,7 +201,7 @@ fn a_river_is_in_the_same_place_at_every_spacing() {
             assert!(river.distance_m <= river.width_m.max(spacing_rad(levels) * 6.371e6), "{levels} {river:?}");
             // Between nodes it winds more and more, by less than the points of the coarser level are apart.
             let block = block(reach.from, levels - 1, &mut cache);
-            let all = block.pieces.iter().filter(|piece| piece.river == reach.river);
+            let all = block.pieces().filter(|piece| piece.stream.river == reach.river);
             let middles: Vec<DVec3> = all.map(|piece| piece.line.start + piece.line.along * 0.5).collect();
             for middle in middles.iter().step_by(11) {
                 let finer = at(middle.normalize(), levels + 1, &mut cache).river;

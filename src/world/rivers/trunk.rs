@@ -23,16 +23,12 @@ pub(super) struct Trunks {
     cells: Arc<Cells>,
     pub(super) radius_m: f64,
     pub(super) sea_level_m: Option<f64>,
-    pub(super) height_m: Vec<f32>,
-    pub(super) receiver: Vec<u32>,
-    pub(super) discharge_m3_s: Vec<f32>,
+    pub(super) drainage: Arc<Drainage>,
     /// The cell upstream that carries most water, if any.
     pub(super) main: Vec<u32>,
     /// The last cell of the river that each cell belongs to.
     pub(super) river: Vec<u32>,
-    pub(super) lake: Vec<u32>,
     lake_near: Vec<u32>,
-    lake_level_m: Vec<f64>,
     /// Water that each cell adds to its river.
     pub(super) runoff_m3_s: Vec<f32>,
     /// How far the ground rises between the reaches of a cell.
@@ -40,10 +36,10 @@ pub(super) struct Trunks {
 }
 
 impl Trunks {
-    pub(super) fn new(drainage: &Drainage, sea_level_m: Option<f64>, radius_km: f64) -> Self {
-        let Drainage { side, height_m, receiver, discharge_m3_s, lake, lakes, seed, .. } = drainage;
+    pub(super) fn new(drainage: Arc<Drainage>, sea_level_m: Option<f64>, radius_km: f64) -> Self {
+        let Drainage { side, receiver, discharge_m3_s, seed, .. } = &*drainage;
         let grid = Grid::new(*side, 0, *seed);
-        let count = height_m.len();
+        let count = receiver.len();
         let flows = |cell: usize| receiver[cell] as usize != cell;
         // Main branches: the greatest discharge, then the least number.
         let mut main = vec![NONE; count];
@@ -56,26 +52,23 @@ impl Trunks {
             }
         }
         runoff_m3_s.iter_mut().for_each(|runoff| *runoff = runoff.max(0.0));
-        let lake_level_m: Vec<f64> = lakes.iter().map(|lake| lake.level_m).collect();
         let mut trunks = Self {
             grid,
-            cells: Cells::of(*side),
+            cells: Cells::of(grid.side),
             radius_m: radius_km * 1e3,
             sea_level_m,
-            height_m: height_m.clone(),
-            receiver: receiver.clone(),
-            discharge_m3_s: discharge_m3_s.clone(),
+            drainage,
             main,
             river: Vec::new(),
-            lake: lake.clone(),
             lake_near: Vec::new(),
-            lake_level_m,
             runoff_m3_s,
             relief_m: Vec::new(),
         };
         trunks.river = trunks.rivers();
-        let lake_near = |cell: usize| match trunks.lake[cell] {
-            0 => trunks.around(cell).map(|other| trunks.lake[other]).into_iter().filter(|&lake| lake != 0).min(),
+        let lake_near = |cell: usize| match trunks.drainage.lake[cell] {
+            0 => {
+                trunks.around(cell).map(|other| trunks.drainage.lake[other]).into_iter().filter(|&lake| lake != 0).min()
+            }
             lake => Some(lake),
         };
         let lakes = (0..count).into_par_iter().map(|cell| lake_near(cell).unwrap_or(0)).collect();
@@ -93,16 +86,16 @@ impl Trunks {
     /// the bed in the middle of the cell.
     pub(super) fn ground_m(&self) -> Vec<f32> {
         let texel = |(cell, &height_m): (usize, &f32)| {
-            if self.lake[cell] == 0 {
+            if self.drainage.lake[cell] == 0 {
                 return height_m;
             }
-            let around = self.around(cell).map(|other| f64::from(self.height_m[other]));
+            let around = self.around(cell).map(|other| f64::from(self.drainage.height_m[other]));
             // The weights of a cubic B-spline at a knot: 4/9, 1/9 and 1/36.
             let sum: f64 =
                 around.iter().zip(STEPS).map(|(m, (x, y))| if x * y == 0 { m / 9.0 } else { m / 36.0 }).sum();
             height_m.min((2.25 * (f64::from(height_m) - sum)) as f32)
         };
-        self.height_m.par_iter().enumerate().with_min_len(4096).map(texel).collect()
+        self.drainage.height_m.par_iter().enumerate().with_min_len(4096).map(texel).collect()
     }
 
     fn around(&self, cell: usize) -> [usize; 8] {
@@ -111,13 +104,13 @@ impl Trunks {
 
     /// Follows each river to its last cell. Nothing is followed twice.
     fn rivers(&self) -> Vec<u32> {
-        let mut river = vec![NONE; self.receiver.len()];
+        let mut river = vec![NONE; self.drainage.receiver.len()];
         let mut path = Vec::new();
         for start in 0..river.len() {
             let mut cell = start;
             while river[cell] == NONE {
                 path.push(cell);
-                let to = self.receiver[cell] as usize;
+                let to = self.drainage.receiver[cell] as usize;
                 if to == cell || !self.flows(to) || self.main[to] as usize != cell {
                     river[cell] = cell as u32;
                     break;
@@ -135,21 +128,23 @@ impl Trunks {
     }
 
     fn flows(&self, cell: usize) -> bool {
-        self.receiver[cell] as usize != cell
+        self.drainage.receiver[cell] as usize != cell
     }
 
     /// The level of a lake, counted from 1.
     pub(super) fn level_of(&self, lake: u32) -> Option<f64> {
-        self.lake_level_m.get((lake as usize).checked_sub(1)?).copied()
+        Some(self.drainage.lakes.get((lake as usize).checked_sub(1)?)?.level_m)
     }
 
     /// Mean difference in height to the land around a cell; 0 in water.
     fn relief(&self, cell: usize) -> f32 {
-        let land = |cell: usize| self.flows(cell) && self.lake[cell] == 0;
+        let land = |cell: usize| self.flows(cell) && self.drainage.lake[cell] == 0;
         if !land(cell) {
             return 0.0;
         }
-        let rise = |other: usize| if land(other) { (self.height_m[other] - self.height_m[cell]).abs() } else { 0.0 };
+        let rise = |other: usize| {
+            if land(other) { (self.drainage.height_m[other] - self.drainage.height_m[cell]).abs() } else { 0.0 }
+        };
         self.around(cell).iter().map(|&other| rise(other)).sum::<f32>() / 8.0
     }
 
@@ -160,7 +155,8 @@ impl Trunks {
     /// The direction of flow through a node, from its main branch to its receiver; none at a spring.
     fn tangent(&self, cell: usize) -> Option<DVec3> {
         let main = self.main[cell];
-        (main != NONE && self.flows(cell)).then(|| self.node(self.receiver[cell] as usize) - self.node(main as usize))
+        (main != NONE && self.flows(cell))
+            .then(|| self.node(self.drainage.receiver[cell] as usize) - self.node(main as usize))
     }
 
     /// Half the width of the floodplain at a cell, radians: many times the river's width where the land is flat.
@@ -172,24 +168,24 @@ impl Trunks {
     /// Heights of the banks and discharge at both ends of the reach that leaves a cell, and whether the river goes on
     /// there. None in the sea and within a lake.
     pub(super) fn ends(&self, cell: usize) -> Option<([f64; 2], [f64; 2], bool)> {
-        let to = self.receiver[cell] as usize;
-        let (lake, lake_to) = (self.lake[cell], self.lake[to]);
+        let to = self.drainage.receiver[cell] as usize;
+        let (lake, lake_to) = (self.drainage.lake[cell], self.drainage.lake[to]);
         if to == cell || (lake != 0 && lake == lake_to) {
             return None;
         }
-        let from_m = self.level_of(lake).unwrap_or(f64::from(self.height_m[cell]));
+        let from_m = self.level_of(lake).unwrap_or(f64::from(self.drainage.height_m[cell]));
         // A mouth lies a little below the water it flows into: a node of the sea may have higher ground around.
         // The bottom of a dry basin is land: what flows there ends on it, however high it lies.
-        let is_over = |level_m: &f64| !self.flows(to) && f64::from(self.height_m[to]) < *level_m;
+        let is_over = |level_m: &f64| !self.flows(to) && f64::from(self.drainage.height_m[to]) < *level_m;
         let water_m = if lake_to != 0 { self.level_of(lake_to) } else { self.sea_level_m.filter(is_over) };
         let to_m = match water_m {
             Some(level_m) => (level_m - MOUTH_M).min(from_m),
-            None => f64::from(self.height_m[to]).min(from_m),
+            None => f64::from(self.drainage.height_m[to]).min(from_m),
         };
-        let discharge = f64::from(self.discharge_m3_s[cell]);
+        let discharge = f64::from(self.drainage.discharge_m3_s[cell]);
         let goes_on = self.flows(to) && lake_to == 0;
         let is_same = goes_on && self.main[to] as usize == cell;
-        let last = if is_same { f64::from(self.discharge_m3_s[to]).max(discharge) } else { discharge };
+        let last = if is_same { f64::from(self.drainage.discharge_m3_s[to]).max(discharge) } else { discharge };
         Some(([from_m, to_m], [discharge, last], goes_on))
     }
 
@@ -197,8 +193,8 @@ impl Trunks {
     pub(super) fn reach(&self, at: Cell) -> Option<Reach> {
         let cell = self.grid.index(at) as usize;
         let (bank_m, [discharge, last], goes_on) = self.ends(cell)?;
-        let to = self.receiver[cell] as usize;
-        let (lake, lake_to) = (self.lake[cell], self.lake[to]);
+        let to = self.drainage.receiver[cell] as usize;
+        let (lake, lake_to) = (self.drainage.lake[cell], self.drainage.lake[to]);
         let is_main = !goes_on || self.main[to] as usize == cell;
         let (from, to_node) = (self.node(cell), self.node(to));
         Some(Reach {

@@ -1,9 +1,9 @@
 //! Bounds of cells near a direction, from the centres that can be nearest there.
 
 use super::{HORIZON, centre, neighbourhood};
+use crate::simd::Simd;
 use crate::terrain::landform::places::{Places, unit};
 use crate::terrain::noise::{self, Octave};
-use crate::terrain::simd::Simd;
 use glam::DVec3;
 
 /// The centres around a direction, for bounds within a distance of it.

@@ -1,9 +1,9 @@
 //! Bounds of craters near a direction: the profile of each crater that may reach there, between two distances.
 
 use super::{DISH, DISH_DEPTH, FILLED, Mould, PEAK, RADIUS, Size, THICKNESS};
+use crate::simd::Simd;
 use crate::terrain::landform::places::{Places, neighbour, unit};
 use crate::terrain::noise;
-use crate::terrain::simd::Simd;
 use glam::DVec3;
 
 impl Size {

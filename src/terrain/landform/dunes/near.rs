@@ -4,10 +4,10 @@
 //! The carrier advances the phase evenly; the range of the other factor follows from its derivatives.
 
 use super::{Dunes, FAINT, JITTER, Profile, REACH, Size, WAVES, wave};
+use crate::simd::Simd;
 use crate::terrain::landform::places::Places;
 use crate::terrain::landform::varying::{Around, Point, Varying};
 use crate::terrain::noise;
-use crate::terrain::simd::Simd;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
