@@ -1,7 +1,7 @@
 //! Series of octaves: the same noise, finer and weaker each time.
 
 use crate::planet::Precision;
-use crate::terrain::noise::{self, Octave};
+use crate::terrain::noise::Octave;
 use crate::world::noise::mix;
 
 /// Which octaves are evaluated in f64. The rounding of f32 is up to a millimetre in a few kilometres.

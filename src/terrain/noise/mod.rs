@@ -185,6 +185,7 @@ pub(crate) fn value_gradient_curvature<S: Scalar>(cell: [u32; 3], fraction: [S; 
 mod tests {
     use super::near::{CURVATURE_BOUND, TWIST_BOUND};
     use super::*;
+    use crate::world::noise::mix;
     use proptest::prelude::*;
 
     /// Cell and fraction of a point on a shifted lattice.

@@ -4,7 +4,7 @@
 //! Between two of them the river winds a little.
 
 use super::Rivers;
-use super::reach::{Channel, LEAST_RIVER_M3_S, Piece, depth_m, width_m};
+use super::reach::{Channel, LEAST_RIVER_M3_S, Piece, Stream, depth_m, width_m};
 use super::tributaries::PIECES;
 use super::trunk::{NONE, Trunks};
 use super::winding::refine;
@@ -122,7 +122,7 @@ impl Trunks {
 
     /// The point at a share of a piece. Banks lie no lower than `floor_m`.
     fn point(&self, piece: &Piece, share: f64, floor_m: f64) -> CoursePoint {
-        let Piece { line, channel, .. } = piece;
+        let Piece { line, stream: Stream { channel, .. } } = piece;
         let Channel { depth_m, depth_change_m, discharge_m3_s, discharge_change_m3_s, .. } = channel;
         let bank_m = (line.bank_m + line.bank_change_m * share).max(floor_m);
         CoursePoint {

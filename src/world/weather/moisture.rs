@@ -5,9 +5,9 @@
 
 use super::Ground;
 use super::winds::Season;
+use crate::world::EARTH_KM;
 use crate::world::map::KeepGoing;
 use crate::world::noise::ramp;
-use crate::world::plates::EARTH_KM;
 use rayon::prelude::*;
 
 /// Distance in km over which the air takes up moisture from the sea.
