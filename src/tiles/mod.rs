@@ -32,7 +32,7 @@ use crate::planet::{InvalidPlanet, Planet};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::coarse::CellFields;
-pub use crate::world::MapWork;
+pub use crate::world::{MapLevel, MapWork};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -100,9 +100,18 @@ pub fn build_now(planet: &Arc<Planet>, view: &View) -> Result<Surface, InvalidPl
     let (mut stats, fields) = (BuildStats::default(), CellFields::default());
     let terrain = Arc::new(Terrain::try_new_with(planet.clone(), &fields, &mut stats.maps)?);
     stats.octave_samples = fields.take_octave_samples();
+    Ok(built(&terrain, view, stats))
+}
+
+/// The same of a terrain, with the world maps that serve it.
+pub fn build_over(terrain: &Arc<Terrain>, view: &View) -> Surface {
+    built(terrain, view, BuildStats::default())
+}
+
+fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats) -> Surface {
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
     cache.set_keys(terrain.tile_keys());
-    Ok(refine::refine(&terrain, view, &cache, &mut None, Instant::now(), stats, &|| true))
+    refine::refine(terrain, view, &cache, &mut None, Instant::now(), stats, &|| true)
 }
 
 /// Computes the horizon angles and detail textures of all tiles that a view shows, and waits for them.

@@ -19,6 +19,7 @@ const COARSEST: usize = 64;
 const CRUST: usize = 128;
 
 impl WorldMap for Plates {
+    const NAME: &'static str = "plates";
     const SIDES: &'static [usize] = &[CRUST];
     const COARSE_FIRST: bool = true;
 
@@ -33,6 +34,7 @@ impl WorldMap for Plates {
 }
 
 impl WorldMap for Weather {
+    const NAME: &'static str = "weather";
     const SIDES: &'static [usize] = &[COARSEST];
 
     fn key(inputs: &Inputs) -> Option<Key> {
@@ -68,6 +70,7 @@ impl Carved {
 }
 
 impl WorldMap for Carved {
+    const NAME: &'static str = "rivers";
     const SIDES: &'static [usize] = &[COARSEST, 128, 256, 512, 1024];
     const COARSE_FIRST: bool = true;
 

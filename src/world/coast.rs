@@ -24,6 +24,7 @@ pub(crate) struct Coast {
 }
 
 impl WorldMap for Coast {
+    const NAME: &'static str = "coast";
     /// One level: a cell is about 200 km wide on the Earth, and the map is solved in a few milliseconds.
     const SIDES: &'static [usize] = &[48];
 

@@ -70,6 +70,9 @@ impl Job<'_> {
 
 /// A world map.
 pub(crate) trait WorldMap: Sized + Send + Sync {
+    /// For reports.
+    const NAME: &'static str;
+
     /// Cells along the side of a cube face, coarse to fine. The last level that [`WorldMap::levels`] counts is the
     /// answer.
     const SIDES: &'static [usize];

@@ -32,8 +32,8 @@ use coast::Coast;
 use map::Job;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 use plates::Plates;
-pub use slot::MapWork;
 pub(crate) use slot::Slot;
+pub use slot::{MapLevel, MapWork};
 use std::fmt;
 use weather::Weather;
 

@@ -12,6 +12,19 @@ pub struct MapWork {
     pub runs: usize,
     /// Seconds it took.
     pub busy_secs: f64,
+    /// The level that was solved last.
+    pub last: Option<MapLevel>,
+}
+
+/// One level of a world map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapLevel {
+    /// Name of the map.
+    pub map: &'static str,
+    /// Cells along the side of a cube face.
+    pub side: usize,
+    /// Seconds it took.
+    pub secs: f64,
 }
 
 /// A map, if there is one.
@@ -76,9 +89,11 @@ impl<M: WorldMap> Slot<M> {
         profiling::scope!("world map");
         let begun = Instant::now();
         let map = M::solve(job, M::SIDES[level], coarser.map(|coarser| &*coarser.map));
-        work.busy_secs += begun.elapsed().as_secs_f64();
+        let secs = begun.elapsed().as_secs_f64();
+        work.busy_secs += secs;
         let map = Arc::new(map?);
         work.runs += 1;
+        work.last = Some(MapLevel { map: M::NAME, side: M::SIDES[level], secs });
         Some(Self(Some(Served { key, level, map })))
     }
 }
@@ -121,6 +136,7 @@ mod tests {
     struct Echo(f64, usize);
 
     impl WorldMap for Echo {
+        const NAME: &'static str = "echo";
         const SIDES: &'static [usize] = &[4, 8, 16];
         fn key(inputs: &Inputs) -> Option<Key> {
             inputs.sea_level_m.map(|number| Key::of(&number))

@@ -3,12 +3,14 @@
 //! - [`noise`]: million points a second, against fastnoise-lite
 //! - [`edits`]: time from an edit to the finished tiles
 //! - [`queries`]: time of heights, samples and rays
+//! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
 //! - [`air`]: time that new LUTs of the air take on the GPU
 
 mod air;
 mod edits;
 mod noise;
 mod queries;
+mod structure;
 
 use super::{Failure, headless, print};
 use crate::lod::{Quality, View, opening};
@@ -25,6 +27,26 @@ pub(super) struct Args {
     /// Answer as a JSON object
     #[arg(long)]
     json: bool,
+    /// Measure one part alone
+    #[arg(long, value_name = "PART")]
+    only: Option<Part>,
+}
+
+/// A part of the report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Part {
+    /// Million points of noise a second
+    Noise,
+    /// The whole opening view of each shipped planet
+    Rebuild,
+    /// Heights, samples and rays
+    Queries,
+    /// Edits of the default planet and of the one whose tiles take longest
+    Edits,
+    /// Plates, weather and rivers
+    Structure,
+    /// LUTs of the air, on the GPU
+    Air,
 }
 
 /// Size of the opening view that rebuilds are measured in.
@@ -50,22 +72,34 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         })
         .collect::<Result<_, _>>()?;
     let Some((_, default)) = planets.first() else { return Err("no preset is shipped".to_owned().into()) };
-    let rebuilds: Vec<Value> = planets.iter().map(|(file, planet)| rebuild(file, planet)).collect::<Result<_, _>>()?;
-    let full_ms = |i: &usize| rebuilds[*i]["full_ms"].as_f64().unwrap_or(0.0);
-    let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
-    let report = json!({
-        "simd": Simd::detect().name(),
-        "threads": rayon::current_num_threads(),
-        "adapter": headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name),
-        "noise": noise::measure(),
-        "rebuild": rebuilds,
-        "queries": queries::measure(default)?,
-        "edits": edits::measure(default),
-        "air": air::measure(default),
-        "heaviest": planets[heaviest].0,
-        "heaviest_edits": edits::measure(&planets[heaviest].1),
-        "memory_mb": peak_memory_mb(),
-    });
+    let wants = |part: Part| args.only.is_none_or(|only| only == part);
+    let mut report = json!({ "simd": Simd::detect().name(), "threads": rayon::current_num_threads() });
+    if wants(Part::Noise) {
+        report["noise"] = noise::measure();
+    }
+    if wants(Part::Rebuild) {
+        let rebuilds: Result<Vec<Value>, _> = planets.iter().map(|(file, planet)| rebuild(file, planet)).collect();
+        report["rebuild"] = json!(rebuilds?);
+    }
+    if wants(Part::Queries) {
+        report["queries"] = queries::measure(default)?;
+    }
+    if wants(Part::Edits) {
+        report["edits"] = json!(edits::measure(default));
+        // Of the planet whose tiles take longest.
+        let full_ms = |i: &usize| report["rebuild"][*i]["full_ms"].as_f64().unwrap_or(0.0);
+        let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
+        report["heaviest"] = json!(planets[heaviest].0);
+        report["heaviest_edits"] = json!(edits::measure(&planets[heaviest].1));
+    }
+    if wants(Part::Structure) {
+        report["structure"] = structure::measure(default)?;
+    }
+    if wants(Part::Air) {
+        report["adapter"] = json!(headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name));
+        report["air"] = json!(air::measure(default));
+    }
+    report["memory_mb"] = json!(peak_memory_mb());
     print(&if args.json { format!("{report:#}") } else { as_text(&report) })
 }
 
@@ -125,15 +159,25 @@ fn as_text(report: &Value) -> String {
         Value::Null => "-".to_owned(),
         other => other.to_string(),
     };
+    let row = |item: &Value| {
+        let fields = item.as_object().into_iter().flatten().map(|(k, v)| format!("{k} {}", plain(v)));
+        fields.collect::<Vec<_>>().join(", ")
+    };
     let mut lines = Vec::new();
     for (key, value) in report.as_object().into_iter().flatten() {
         match value {
-            Value::Object(fields) => lines.extend(fields.iter().map(|(k, v)| format!("{key}.{k}: {}", plain(v)))),
-            Value::Array(items) => {
-                for item in items.iter().filter_map(Value::as_object) {
-                    let fields: Vec<String> = item.iter().map(|(k, v)| format!("{k} {}", plain(v))).collect();
-                    lines.push(format!("{key}: {}", fields.join(", ")));
+            Value::Object(fields) => {
+                for (name, value) in fields {
+                    match value {
+                        Value::Array(items) => {
+                            lines.extend(items.iter().map(|item| format!("{key}.{name}: {}", row(item))));
+                        }
+                        other => lines.push(format!("{key}.{name}: {}", plain(other))),
+                    }
                 }
+            }
+            Value::Array(items) => {
+                lines.extend(items.iter().map(|item| format!("{key}: {}", row(item))));
             }
             other => lines.push(format!("{key}: {}", plain(other))),
         }

@@ -85,9 +85,9 @@ impl Evaluate for Structure {
                 *value += point.height_m;
             }
             for (gradient, &spacing_rad) in scratch.sums.gradients_mut().iter_mut().zip(chunk.spacings_rad) {
-                let seen = rivers.levels_for(spacing_rad, GRADIENT_POINTS).clamp(1, levels);
+                let seen = rivers.levels_for(spacing_rad, GRADIENT_POINTS).min(levels);
                 for (i, point) in points.iter().enumerate() {
-                    for (lane, slope) in gradient.iter_mut().zip(point.gradients[seen - 1].to_array()) {
+                    for (lane, slope) in gradient.iter_mut().zip(point.gradients[seen].to_array()) {
                         lane[i] += slope as f32;
                     }
                 }

@@ -130,7 +130,7 @@ impl Level<'_> {
 }
 
 /// How often routes and heights are found in turn on a grid.
-fn rounds(side: usize) -> usize {
+pub(crate) fn rounds(side: usize) -> usize {
     match side {
         0..=64 => 6,
         65..=128 => 4,

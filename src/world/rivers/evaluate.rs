@@ -23,8 +23,8 @@ const LEAST_SHARE: f64 = 0.2;
 /// The ground at a point, and the reaches of its finest level.
 pub(super) struct Ground {
     pub(super) ground: Jet,
-    /// The gradient after each level.
-    gradients: [DVec3; LEVELS],
+    /// The gradient of the solved ground, and after each level.
+    gradients: [DVec3; LEVELS + 1],
     /// Mean of the rise over all levels: 0 in valleys, 1 on ridges.
     ridge: f64,
     pub(super) nearest: Option<Nearest>,
@@ -80,7 +80,7 @@ impl Rivers {
         let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
         let mut found = Ground {
             ground,
-            gradients: [DVec3::ZERO; LEVELS],
+            gradients: [DVec3::ZERO; LEVELS + 1],
             ridge: 0.0,
             nearest: None,
             river: None,
@@ -89,6 +89,7 @@ impl Rivers {
             lake: self.trunks.lake_near(trunk),
             next_relief_m: 0.0,
         };
+        found.gradients[0] = ground.gradient;
         let (mut scale, mut ridges) = (1.0, 0.0);
         for k in 0..levels {
             let Some((_, block)) = &cache.current[k] else { continue };
@@ -96,7 +97,7 @@ impl Rivers {
             let amplitude = capped(relief.scaled(scale), self.steepest_m[k]).times(share);
             ground = laid_over(ground, amplitude, &here);
             // Sums of tangential parts keep a little of the radial one.
-            found.gradients[k] = ground.gradient - dir * ground.gradient.dot(dir);
+            found.gradients[k + 1] = ground.gradient - dir * ground.gradient.dot(dir);
             let x = here.x;
             share = share.times(x.mapped(LEAST_SHARE + (1.0 - LEAST_SHARE) * x.value, 1.0 - LEAST_SHARE));
             ridges += scale;
@@ -127,10 +128,9 @@ impl Rivers {
         }
     }
 
-    /// The levels whose cells are no finer than this many points.
+    /// How many levels have cells no finer than this many points.
     pub(crate) fn levels_for(&self, spacing_rad: f64, points: f64) -> usize {
-        let width_rad = |grid: &Grid| 2.0 / grid.side as f64;
-        self.grids.iter().take_while(|grid| grid.level == 0 || width_rad(grid) > points * spacing_rad).count()
+        self.grids.iter().take_while(|grid| 2.0 / grid.side as f64 > points * spacing_rad).count()
     }
 
     /// Evaluates points near each other, in order: one answer for each direction.
@@ -148,7 +148,7 @@ impl Rivers {
         let height_m = at.ground.value - at.carved.value;
         let standing_m = standing_m.filter(|level_m| height_m < *level_m);
         let mut gradients = at.gradients;
-        if let Some(gradient) = gradients.get_mut(levels.wrapping_sub(1)) {
+        if let Some(gradient) = gradients.get_mut(levels) {
             *gradient -= at.carved.gradient - dir * at.carved.gradient.dot(dir);
         }
         let mut point = RiverPoint {

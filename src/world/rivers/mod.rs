@@ -2,7 +2,8 @@
 //!
 //! - `trunk`: the solved drainage, prepared: one reach for each land cell, from its node to the receiver's node
 //! - `grid`: cells of a level of refinement, their neighbours and nodes; each level is four times as fine
-//! - `net`: nodes of finer levels and where they drain; `coarser`: the reaches around that they must not cross
+//! - `net`: nodes of finer levels and where they drain; `coarser`: the reaches around that they must not cross;
+//!   `window`: the cells around a block
 //! - `tributaries`: the reaches between them, which drain into those before
 //! - `reach`: the curve, bed and channel of a reach, cut into straight pieces; `winding`: their bends on finer levels
 //! - `block`: pieces near a square of cells, listed by bucket; `cache`: blocks that were built
@@ -33,6 +34,7 @@ mod tests;
 mod tributaries;
 mod trunk;
 mod winding;
+mod window;
 
 use super::drainage::Drainage;
 use crate::sphere::raster::Raster;
@@ -65,9 +67,9 @@ pub(crate) struct Rivers {
 pub(crate) struct RiverPoint {
     /// Height of the ground, the beds of rivers, lakes and the sea included.
     pub(crate) height_m: f64,
-    /// Tangential gradients of the height by the direction: of the ground of the first level, of the first two, and so
-    /// on. The one of all levels that were asked for has channels in it; later ones are 0.
-    pub(crate) gradients: [DVec3; LEVELS],
+    /// Tangential gradients of the height by the direction: of the ground of no level, of the first level, of the first
+    /// two, and so on. The one of all levels that were asked for has channels in it; later ones are 0.
+    pub(crate) gradients: [DVec3; LEVELS + 1],
     /// Surface of the water that stands or flows here, if any.
     pub(crate) water_level_m: Option<f64>,
     /// The lake whose water it is, counted from 1; else 0.

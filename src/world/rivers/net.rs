@@ -5,14 +5,13 @@
 //! function of the cells around, so that blocks agree about every reach they share.
 
 use super::Rivers;
-use super::block::{BLOCK, cells_of};
 use super::cache::Cache;
 use super::coarser::Coarser;
-use super::grid::{BESIDE, Cell, Grid, RATIO, STEPS};
+use super::grid::{BESIDE, Cell, Grid, RATIO};
 use super::reach::Line;
+use super::window::Window;
 use crate::world::noise::mix;
 use glam::DVec3;
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Rings of cells around a block whose reaches may touch it.
@@ -53,7 +52,7 @@ pub(super) struct Net {
 
 impl Net {
     pub(super) fn new(rivers: &Rivers, grid: &Grid, block: u64, cache: &mut Cache) -> Self {
-        let Window { cells, around } = Window::inside(grid, block).unwrap_or_else(|| Window::across(grid, block));
+        let Window { cells, around } = Window::new(grid, block, NODES);
         let mut coarser = Coarser::default();
         let mut nodes: Vec<Node> =
             cells.into_iter().map(|(cell, ring)| rivers.child_node(grid, cell, ring, &mut coarser, cache)).collect();
@@ -183,58 +182,4 @@ fn crosses(from: DVec3, to: DVec3, line: &Line) -> bool {
     }
     let way = from.cross(end);
     (way.dot(a) > 0.0) != (way.dot(b) > 0.0)
-}
-
-/// The cells of a block and of the rings around it.
-struct Window {
-    cells: Vec<(Cell, u8)>,
-    /// Positions of the eight around each cell; of the last ring they mean nothing.
-    around: Vec<[u32; 8]>,
-}
-
-impl Window {
-    /// A window within a face, row by row. None if it reaches beyond.
-    fn inside(grid: &Grid, block: u64) -> Option<Self> {
-        const SIDE: usize = BLOCK + 2 * NODES;
-        let first = cells_of(grid, block).next()?;
-        let (left, top) = (first.x.checked_sub(NODES)?, first.y.checked_sub(NODES)?);
-        if left.max(top) + SIDE > grid.side {
-            return None;
-        }
-        let away = |k: usize| NODES.saturating_sub(k).max((k + 1).saturating_sub(NODES + BLOCK));
-        let places = || (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
-        let cell =
-            |(x, y): (usize, usize)| (Cell { face: first.face, x: left + x, y: top + y }, away(x).max(away(y)) as u8);
-        let beside = |at: usize| STEPS.map(|(x, y)| (at as i32 + y * SIDE as i32 + x) as u32);
-        Some(Self { cells: places().map(cell).collect(), around: (0..SIDE * SIDE).map(beside).collect() })
-    }
-
-    /// A window that reaches across the edges of its face, ring by ring.
-    fn across(grid: &Grid, block: u64) -> Self {
-        let cells = rings(grid, block, NODES);
-        let positions: BTreeMap<u64, u32> = cells.iter().map(|(cell, _)| grid.index(*cell)).zip(0..).collect();
-        let position = |cell: Cell| positions.get(&grid.index(cell)).copied().unwrap_or(0);
-        let around = cells.iter().map(|(cell, _)| STEPS.map(|step| position(grid.beside(*cell, step)))).collect();
-        Self { cells, around }
-    }
-}
-
-/// The cells of a block, then ring by ring those around it, each with its ring.
-pub(super) fn rings(grid: &Grid, block: u64, count: usize) -> Vec<(Cell, u8)> {
-    let mut cells: Vec<(Cell, u8)> = cells_of(grid, block).map(|cell| (cell, 0)).collect();
-    let mut known: std::collections::BTreeSet<u64> = cells.iter().map(|(cell, _)| grid.index(*cell)).collect();
-    let mut first = 0;
-    for ring in 1..=count {
-        let last = cells.len();
-        for at in first..last {
-            for step in STEPS {
-                let cell = grid.beside(cells[at].0, step);
-                if known.insert(grid.index(cell)) {
-                    cells.push((cell, ring as u8));
-                }
-            }
-        }
-        first = last;
-    }
-    cells
 }

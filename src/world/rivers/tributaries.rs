@@ -4,9 +4,10 @@ use super::Rivers;
 use super::block::{Block, Touch, block_of, cells_of};
 use super::cache::Cache;
 use super::grid::{Cell, Grid, RATIO};
-use super::net::{Net, REACHES, rings};
+use super::net::{Net, REACHES};
 use super::reach::{INFLUENCE, Piece, Reach, width_m};
 use super::winding::{REFINED, refine};
+use super::window::Window;
 
 /// Straight pieces of a reach: few, because each costs time at every point near it.
 pub(super) const PIECES: usize = 3;
@@ -19,7 +20,7 @@ impl Rivers {
     /// The block of the coarsest level: reaches of the solved drainage.
     pub(super) fn trunk_block(&self, block: u64) -> Block {
         let grid = &self.trunks.grid;
-        let mut cells = rings(grid, block, REACHES);
+        let Window { mut cells, .. } = Window::new(grid, block, REACHES);
         cells.sort_by_key(|(cell, _)| grid.index(*cell));
         let mut pieces = Vec::with_capacity(cells.len() * PIECES);
         for reach in cells.into_iter().filter_map(|(cell, _)| self.trunks.reach(cell)) {

@@ -1,0 +1,119 @@
+//! The cost of a structure: its solvers level by level, the tiles of the opening view, and points among its rivers.
+
+use super::{median, opening_view, repeat};
+use crate::planet::{Planet, Structure};
+use crate::sphere::spread;
+use crate::terrain::coarse::CellFields;
+use crate::terrain::{Scratch, Terrain};
+use crate::tiles::{MapWork, build_over};
+use crate::world::World;
+use crate::world::drainage;
+use glam::DVec3;
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Points along the side of a patch, and the distance between them: near enough for every level of rivers.
+const PATCH_SIDE: usize = 128;
+const PATCH_STEP_M: f64 = 15.0;
+/// Patches on land, far from each other.
+const PATCHES: usize = 24;
+
+/// The `structure` object of the report: of the default planet with a structure of default parameters, medians of a few
+/// runs. `first_ms` and `finest_ms` are times until the coarsest and the finest rivers serve; `levels` has each solver's
+/// share, with nanoseconds a cell and pass of the river solver. `view_ms` is the whole opening view with maps at hand,
+/// `view_first_ms` its first time. `cold_mps` and `warm_mps` are million heights a second on one core, of patches with
+/// all levels of rivers: where no river has been asked for, and again.
+pub(super) fn measure(default: &Planet) -> Result<Value, String> {
+    let planet = Arc::new(Planet { structure: Some(Structure::default()), ..default.clone() });
+    let draft = Terrain::try_draft(planet.clone(), &World::default()).map_err(|error| error.to_string())?;
+    let mut runs: Vec<(f64, Run)> = Vec::new();
+    repeat(|| {
+        let run = solve(&draft);
+        runs.push((run.finest_ms, run));
+    });
+    runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let middle = runs.len() / 2;
+    let (_, Run { terrain, first_ms, finest_ms, levels }) = runs.swap_remove(middle);
+
+    let terrain = Arc::new(terrain);
+    let view = opening_view(&planet);
+    let timed = || {
+        let begun = Instant::now();
+        drop(build_over(&terrain, &view));
+        begun.elapsed().as_secs_f64() * 1000.0
+    };
+    let view_first_ms = timed();
+    let view_ms = median(&repeat(|| {
+        timed();
+    }));
+    let [cold_mps, warm_mps] = patches_mps(&terrain);
+    Ok(json!({
+        "first_ms": first_ms,
+        "finest_ms": finest_ms,
+        "levels": levels,
+        "view_first_ms": view_first_ms,
+        "view_ms": view_ms,
+        "cold_mps": cold_mps,
+        "warm_mps": warm_mps,
+    }))
+}
+
+struct Run {
+    terrain: Terrain,
+    first_ms: f64,
+    finest_ms: f64,
+    levels: Vec<Value>,
+}
+
+/// Solves all maps of a planet.
+fn solve(draft: &Terrain) -> Run {
+    let fields = CellFields::default();
+    let mut run = Run { terrain: draft.clone(), first_ms: 0.0, finest_ms: 0.0, levels: Vec::new() };
+    let mut work = MapWork::default();
+    while let Some(next) = run.terrain.with_next_map(&fields, &|| true, &mut work) {
+        run.terrain = next;
+        let Some(level) = work.last else { continue };
+        let ms = level.secs * 1000.0;
+        run.finest_ms += ms;
+        let mut row = json!({ "map": level.map, "side": level.side, "ms": ms, "cells": 6 * level.side * level.side });
+        if let Some(carved) = run.terrain.world().carved.map().filter(|carved| carved.drainage.side == level.side) {
+            if run.first_ms == 0.0 {
+                run.first_ms = run.finest_ms;
+            }
+            let (land, passes) = (carved.drainage.order.len(), drainage::rounds(level.side));
+            row["land"] = json!(land);
+            row["passes"] = json!(passes);
+            row["ns_per_land_cell_and_pass"] = json!(level.secs * 1e9 / (land * passes).max(1) as f64);
+        }
+        run.levels.push(row);
+    }
+    run
+}
+
+/// Million heights a second of patches that nobody has asked for yet, and of the same again.
+fn patches_mps(terrain: &Terrain) -> [Option<f64>; 2] {
+    let step_rad = PATCH_STEP_M / terrain.planet().radius_m();
+    let sea_m = terrain.planet().sea_level_m().unwrap_or(f64::MIN);
+    let is_land = |dir: &DVec3| terrain.height_bounds_near_m(*dir, 1e-4).0 > sea_m;
+    let middles = spread(40 * PATCHES).filter(is_land).take(PATCHES);
+    let patch = |middle: DVec3| -> Vec<DVec3> {
+        let (east, north) = middle.any_orthonormal_pair();
+        let away = |k: usize| (k as f64 - 0.5 * PATCH_SIDE as f64) * step_rad;
+        let at = |i: usize| (middle + east * away(i % PATCH_SIDE) + north * away(i / PATCH_SIDE)).normalize();
+        (0..PATCH_SIDE * PATCH_SIDE).map(at).collect()
+    };
+    let (mut heights_m, mut scratch) = (vec![0.0; PATCH_SIDE * PATCH_SIDE], Scratch::default());
+    let (mut cold, mut warm) = (Vec::new(), Vec::new());
+    for dirs in middles.map(patch) {
+        for times in [&mut cold, &mut warm] {
+            let begun = Instant::now();
+            terrain.heights_into(&dirs, &mut heights_m, &mut scratch);
+            times.push(dirs.len() as f64 / begun.elapsed().as_secs_f64() * 1e-6);
+        }
+    }
+    [cold, warm].map(|mut rates| {
+        rates.sort_by(f64::total_cmp);
+        median(&rates)
+    })
+}
