@@ -13,14 +13,12 @@ use super::weather::{self, Weather};
 use crate::planet::Key;
 use std::sync::{Arc, OnceLock};
 
-/// Cells along the side of the grid of the weather, and of the coarsest grid of rivers.
+/// Cells along the side of the grids of plates and weather, and of the coarsest grid of rivers.
 const COARSEST: usize = 64;
-/// Cells along the side of the grid of the plates. Finer grids of rivers add detail to it.
-const CRUST: usize = 128;
 
 impl WorldMap for Plates {
     const NAME: &'static str = "plates";
-    const SIDES: &'static [usize] = &[CRUST];
+    const SIDES: &'static [usize] = &[COARSEST];
     const COARSE_FIRST: bool = true;
 
     fn key(inputs: &Inputs) -> Option<Key> {
@@ -43,7 +41,7 @@ impl WorldMap for Weather {
     }
 
     fn solve(job: &Job<'_>, side: usize, _coarser: Option<&Self>) -> Option<Self> {
-        let rock = rock(job, side, None)?;
+        let rock = rock(job, None)?;
         // Rivers need rain, and rain needs the relief that rivers leave.
         let risen_m: Vec<f64> =
             rock.base_m.iter().zip(&rock.uplift_m).map(|(base_m, uplift_m)| base_m + 0.5 * uplift_m).collect();
@@ -82,25 +80,24 @@ impl WorldMap for Carved {
         Weather::key(inputs)
     }
 
-    fn solve(job: &Job<'_>, side: usize, coarser: Option<&Self>) -> Option<Self> {
+    fn solve(job: &Job<'_>, _side: usize, coarser: Option<&Self>) -> Option<Self> {
         let structure = job.inputs().structure.as_ref()?;
         let weather = job.world.weather.map()?;
-        let rock = rock(job, side, coarser.map(|coarser| &coarser.rock))?;
+        let rock = rock(job, coarser.map(|coarser| &coarser.rock))?;
         let drainage = Arc::new(drainage_of(job, &rock, weather, coarser.map(|coarser| &*coarser.drainage))?);
         let rivers = Rivers::new(drainage.clone(), job.inputs().sea_level_m, structure.radius_km);
         Some(Self { drainage, rivers: Arc::new(rivers), rock, basins: OnceLock::new() })
     }
 }
 
-/// The crust at the cells of a grid.
-fn rock(job: &Job<'_>, side: usize, coarser: Option<&Rock>) -> Option<Rock> {
+/// The crust on the coarsest grid, or on the one after `coarser`: solved on the first two, with detail added on finer
+/// ones.
+fn rock(job: &Job<'_>, coarser: Option<&Rock>) -> Option<Rock> {
     let plates = job.world.plates.map()?;
-    let rock = match coarser.filter(|coarser| side > CRUST && coarser.side * 2 == side) {
+    let rock = match coarser {
+        None => plates.rock.clone(),
+        Some(coarser) if coarser.side == plates.rock.side => plates.finer(job.keep_going)?.clone(),
         Some(coarser) => coarser.finer(&plates.layout),
-        None => {
-            let at = |values: &Vec<f64>| resampled(values.clone(), plates.side, side);
-            Rock { side, base_m: at(&plates.base_m), uplift_m: at(&plates.uplift_m), softness: at(&plates.softness) }
-        }
     };
     (job.keep_going)().then_some(rock)
 }

@@ -1,7 +1,6 @@
 //! Noise for world maps: gradient noise in f64 on a cubic lattice (Perlin 2002), one point at a time.
 //!
-//! World maps evaluate it at a few hundred thousand points, so it is plain code. It uses basic operations alone: the
-//! same bits on every machine.
+//! It uses basic operations alone: the same bits on every machine, for one point or for a row of points.
 
 use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
@@ -81,6 +80,60 @@ fn octaves<const SEEDS: usize>(p: DVec3, shape: [f64; 2], count: u32, seeds: [u3
     }
 }
 
+/// Points that are evaluated side by side.
+const LANES: usize = 8;
+
+/// [`octave`] of one seed at some points side by side, to the bit.
+#[inline(always)]
+fn octave_lanes(p: &[[f64; LANES]; 3], seed: u32) -> [f64; LANES] {
+    const SHIFT: f64 = 16_777_216.0;
+    let whole = p.map(|axis| axis.map(|w| (w + SHIFT) as i32));
+    let near: [[f64; LANES]; 3] =
+        std::array::from_fn(|axis| std::array::from_fn(|l| p[axis][l] - (f64::from(whole[axis][l]) - SHIFT)));
+    let by = [0x8DA6_B343_u32, 0xD816_3841, 0xCB1A_B31F];
+    let side =
+        |axis: usize, bit: usize| whole[axis].map(|w| (w as u32).wrapping_add(bit as u32).wrapping_mul(by[axis]));
+    let sides: [[[u32; LANES]; 2]; 3] = std::array::from_fn(|axis| [side(axis, 0), side(axis, 1)]);
+    let fades = near.map(|axis| axis.map(fade));
+    let mut planes = [[0.0; LANES]; 8];
+    for (k, plane) in planes.iter_mut().enumerate() {
+        let bit = [k & 1, k >> 1 & 1, k >> 2];
+        for (l, plane) in plane.iter_mut().enumerate() {
+            let bits = scramble(sides[0][bit[0]][l] ^ sides[1][bit[1]][l] ^ sides[2][bit[2]][l] ^ seed);
+            let part = |shift: u32| f64::from((bits >> shift & 0xF) as i32) * (2.0 / 15.0) - 1.0;
+            let away = |axis: usize| near[axis][l] - bit[axis] as f64;
+            *plane = part(28) * away(0) + part(24) * away(1) + part(20) * away(2);
+        }
+    }
+    std::array::from_fn(|l| {
+        let line = |k: usize| planes[2 * k][l] + (planes[2 * k + 1][l] - planes[2 * k][l]) * fades[0][l];
+        let (a, b) = (line(0) + (line(1) - line(0)) * fades[1][l], line(2) + (line(3) - line(2)) * fades[1][l]);
+        (a + (b - a) * fades[2][l]) * 1.2
+    })
+}
+
+/// [`octaves`] of one seed at a row of points.
+#[inline(always)]
+fn row(points: &[DVec3], shape: [f64; 2], count: u32, seed: u32, out: &mut [f64]) {
+    for (points, out) in points.chunks(LANES).zip(out.chunks_mut(LANES)) {
+        let at = |l: usize| points[l.min(points.len() - 1)];
+        let p: [[f64; LANES]; 3] =
+            [std::array::from_fn(|l| at(l).x), std::array::from_fn(|l| at(l).y), std::array::from_fn(|l| at(l).z)];
+        let (mut amplitude, [mut frequency, gain], mut sums) = (1.0, shape, [0.0; LANES]);
+        for k in 0..count {
+            let shift = f64::from(k) * 17.17 + 5.3;
+            let scaled = p.map(|axis| axis.map(|w| w * frequency + shift));
+            let values = octave_lanes(&scaled, seed.wrapping_add(k.wrapping_mul(0x9E37_79B1)));
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += amplitude * value;
+            }
+            amplitude *= gain;
+            frequency *= 2.03;
+        }
+        out.copy_from_slice(&sums[..out.len()]);
+    }
+}
+
 #[inline(always)]
 fn one(p: DVec3, seed: u32, out: &mut f64) {
     [*out] = octave(p, [seed]);
@@ -93,6 +146,21 @@ for_each_simd!(fn fbm_simd(
 for_each_simd!(fn fbm3_simd(
     p: DVec3, shape: [f64; 2], count: u32, seeds: [u32; 3], out: &mut [f64; 3]
 ) = octaves::<3>);
+
+for_each_simd!(fn row_simd(points: &[DVec3], shape: [f64; 2], count: u32, seed: u32, out: &mut [f64]) = row);
+
+/// [`fbm`] at each point of a row, several times as fast.
+pub(crate) fn fbm_row(points: &[DVec3], frequency: f64, octaves: u32, gain: f64, seed: u32) -> Vec<f64> {
+    let mut out = vec![0.0; points.len()];
+    row_simd(Simd::detect(), points, [frequency, gain], octaves, seed, &mut out);
+    out
+}
+
+/// [`fbm3`] at each point of a row.
+pub(crate) fn fbm3_row(points: &[DVec3], frequency: f64, octaves: u32, gain: f64, seed: u32) -> Vec<DVec3> {
+    let [x, y, z] = [0, 1, 2].map(|axis| fbm_row(points, frequency, octaves, gain, hash(seed, axis)));
+    (0..points.len()).map(|i| DVec3::new(x[i], y[i], z[i])).collect()
+}
 
 /// One octave, -1 to 1 with a standard deviation of about 0.33.
 pub(crate) fn noise(p: DVec3, seed: u32) -> f64 {
@@ -150,6 +218,15 @@ mod tests {
             (sum / count as f64).abs() < 0.02 && (0.2..0.5).contains(&deviation) && most <= 1.3,
             "{deviation} {most}"
         );
+    }
+
+    #[test]
+    fn a_row_has_the_bits_of_its_points() {
+        let points: Vec<DVec3> = crate::sphere::spread(101).map(|dir| dir * 3.7).collect();
+        let one: Vec<f64> = points.iter().map(|p| fbm(*p, 2.1, 4, 0.55, 9)).collect();
+        assert_eq!(fbm_row(&points, 2.1, 4, 0.55, 9), one);
+        let one: Vec<DVec3> = points.iter().map(|p| fbm3(*p, 1.4, 3, 0.5, 9)).collect();
+        assert_eq!(fbm3_row(&points, 1.4, 3, 0.5, 9), one);
     }
 
     #[test]

@@ -88,15 +88,14 @@ impl Side {
 }
 
 impl Layout {
-    /// The effects of all boundaries of a plate at a bent direction.
-    pub(super) fn edges(&self, params: &Params, plate: usize, bent: DVec3) -> Edges {
+    /// The effects of all boundaries of a plate at a bent direction. `along` varies along them, about -1 to 1.
+    pub(super) fn edges(&self, params: &Params, plate: usize, bent: DVec3, along: f64) -> Edges {
         const BLEND_KM: f64 = 500.0;
         let sides = &self.sides[plate];
         let nearest_km = sides.iter().map(|side| side.km(bent)).fold(f64::MAX, f64::min);
         let nearest_km = if sides.is_empty() { NO_EDGE_KM } else { nearest_km };
         let mut sum = Edges { fold: bent.any_orthonormal_vector(), edge_km: nearest_km, ..Edges::default() };
         let (mut total, mut youngest, mut strongest) = (0.0, 1.0 / (OLDEST_MYR * OLDEST_MYR * OLDEST_MYR), 0.0);
-        let along = noise(bent * 6.3, hash(self.seed, 21)) + 0.5 * noise(bent * 15.0, hash(self.seed, 22));
         for side in sides {
             let km = side.km(bent);
             // Too far for a new ocean floor, and for a blend.

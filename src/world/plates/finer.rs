@@ -1,23 +1,34 @@
-//! The crust on finer grids than the one on which plates are solved.
+//! The crust as rivers read it, and on finer grids than those on which it is solved.
 
-use super::Layout;
+use super::{Crust, Layout};
 use crate::world::cells::Cells;
 use crate::world::grid::refined;
 use crate::world::noise::{fbm, hash, ramp};
 use rayon::prelude::*;
 
 /// What rivers read of the crust, at the cells of a grid.
+#[derive(Clone)]
 pub(crate) struct Rock {
     pub(crate) side: usize,
-    /// See [`Plates::base_m`].
+    /// See [`Crust::base_m`].
     pub(crate) base_m: Vec<f64>,
-    /// See [`Plates::uplift_m`].
+    /// See [`Crust::uplift_m`].
     pub(crate) uplift_m: Vec<f64>,
-    /// See [`Plates::softness`].
+    /// See [`Crust::softness`].
     pub(crate) softness: Vec<f64>,
 }
 
 impl Rock {
+    pub(super) fn new(side: usize, crust: &[Crust]) -> Self {
+        let each = |value: fn(&Crust) -> f64| crust.iter().map(value).collect();
+        Self {
+            side,
+            base_m: each(|crust| crust.base_m),
+            uplift_m: each(|crust| crust.uplift_m),
+            softness: each(|crust| crust.softness),
+        }
+    }
+
     /// The crust on the grid of twice the side: detail is added that the coarser grid could not hold.
     pub(crate) fn finer(&self, layout: &Layout) -> Self {
         let (coarse, side) = (Cells::of(self.side), 2 * self.side);

@@ -6,7 +6,7 @@ use super::edges::Side;
 use crate::planet::Plates as Params;
 use crate::sphere::spread;
 use crate::world::EARTH_KM;
-use crate::world::noise::{fbm, fbm3, hash, unit};
+use crate::world::noise::{fbm, fbm_row, fbm3, fbm3_row, hash, unit};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -75,6 +75,10 @@ impl Dice {
     }
 }
 
+/// Frequency, octaves and gain of the noise that bends boundaries; frequency and gain of the noise of coasts.
+const BEND: (f64, u32, f64) = (1.45, 5, 0.47);
+const COAST: (f64, f64) = (2.1, 0.58);
+
 /// Directions from which shares of the globe are counted.
 const SURVEY: usize = 3000;
 
@@ -118,8 +122,18 @@ impl Layout {
     }
 
     /// The direction by which plates and continents are found: bent, so that boundaries are ragged.
-    pub(super) fn bent(&self, dir: DVec3) -> DVec3 {
-        let bent = dir + fbm3(dir, 1.45, 5, 0.47, self.seed) * self.bend_rad;
+    fn bent(&self, dir: DVec3) -> DVec3 {
+        self.bent_by(dir, fbm3(dir, BEND.0, BEND.1, BEND.2, self.seed))
+    }
+
+    /// The same of a row of directions.
+    pub(super) fn bent_row(&self, dirs: &[DVec3]) -> Vec<DVec3> {
+        let bends = fbm3_row(dirs, BEND.0, BEND.1, BEND.2, self.seed);
+        dirs.iter().zip(bends).map(|(dir, bend)| self.bent_by(*dir, bend)).collect()
+    }
+
+    fn bent_by(&self, dir: DVec3, bend: DVec3) -> DVec3 {
+        let bent = dir + bend * self.bend_rad;
         bent * (1.0 / bent.length())
     }
 
@@ -148,7 +162,14 @@ impl Layout {
 
     /// How far noise moves the coast outwards.
     pub(super) fn coast_rad(&self, bent: DVec3, octaves: u32) -> f64 {
-        self.coast_rad * fbm(bent, 2.1, octaves, 0.58, hash(self.seed, 11))
+        self.coast_rad * fbm(bent, COAST.0, octaves, COAST.1, hash(self.seed, 11))
+    }
+
+    /// The same of a row of directions.
+    pub(super) fn coast_rad_row(&self, bent: &[DVec3], octaves: u32) -> Vec<f64> {
+        let mut coast = fbm_row(bent, COAST.0, octaves, COAST.1, hash(self.seed, 11));
+        coast.iter_mut().for_each(|coast| *coast *= self.coast_rad);
+        coast
     }
 
     /// The crust without the noise of the coast.
@@ -175,12 +196,8 @@ impl Layout {
     }
 
     fn add_continents(&mut self, params: &Params, dice: &mut Dice) {
-        let survey: Vec<(usize, DVec3)> = spread(SURVEY)
-            .map(|dir| {
-                let bent = self.bent(dir);
-                (self.plate_at(bent), bent)
-            })
-            .collect();
+        let bent = self.bent_row(&spread(SURVEY).collect::<Vec<DVec3>>());
+        let survey: Vec<(usize, DVec3)> = bent.into_iter().map(|bent| (self.plate_at(bent), bent)).collect();
         let share = |plate: usize| survey.iter().filter(|(p, _)| *p == plate).count() as f64 / SURVEY as f64;
         // Large plates first, each by chance, until there is room for the continents.
         let mut order: Vec<(f64, usize)> =

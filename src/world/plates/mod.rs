@@ -14,13 +14,14 @@ mod layout;
 use super::EARTH_KM;
 use super::cells::Cells;
 use super::map::KeepGoing;
-use super::noise::{fbm, hash, noise, ramp};
+use super::noise::{fbm_row, hash, noise as one_octave, ramp};
 use crate::planet::Plates as Params;
 use edges::NO_EDGE_KM;
 pub(crate) use finer::Rock;
 use glam::DVec3;
 pub(crate) use layout::Layout;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// The crust at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,12 +44,12 @@ pub(crate) struct Crust {
 
 /// The crust at the cells of a grid.
 pub(crate) struct Plates {
-    pub(crate) side: usize,
     pub(crate) layout: Layout,
-    /// Height in metres before rock rises and rivers carve.
-    pub(crate) base_m: Vec<f64>,
-    /// Height in metres by which rock rises while rivers carve.
-    pub(crate) uplift_m: Vec<f64>,
+    params: Params,
+    /// What rivers read of it.
+    pub(crate) rock: Rock,
+    /// The same on the grid of twice the side.
+    finer: OnceLock<Rock>,
     /// Index of the plate.
     #[cfg_attr(
         not(test),
@@ -61,48 +62,90 @@ pub(crate) struct Plates {
         expect(dead_code, reason = "tests check it; landforms that follow folds and debug views will read it")
     )]
     pub(crate) folds: Vec<(DVec3, f64)>,
-    /// See [`Crust::softness`].
-    pub(crate) softness: Vec<f64>,
 }
 
 impl Plates {
     /// Solves the plates at the cells of `side`. None if `keep_going` said no.
     pub(crate) fn solve(params: &Params, planet_seed: u32, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self> {
         let layout = Layout::new(params, planet_seed);
-        let cells = Cells::of(side);
-        let rows: Option<Vec<Vec<Crust>>> = cells
-            .dirs
-            .par_chunks(side)
-            .map(|row| keep_going().then(|| row.iter().map(|dir| layout.crust(params, *dir)).collect()))
-            .collect();
-        let all = rows?.concat();
-        let each = |value: fn(&Crust) -> f64| all.iter().map(value).collect::<Vec<f64>>();
+        let all = layout.crust_of(params, side, keep_going)?;
         Some(Self {
-            side,
-            base_m: each(|crust| crust.base_m),
-            uplift_m: each(|crust| crust.uplift_m),
+            rock: Rock::new(side, &all),
             plate: all.iter().map(|crust| crust.plate).collect(),
             folds: all.iter().map(|crust| (crust.fold, crust.folded)).collect(),
-            softness: each(|crust| crust.softness),
+            params: params.clone(),
+            finer: OnceLock::new(),
             layout,
         })
     }
+
+    /// What rivers read of the crust on the grid of twice the side. Solved once, when rivers get there: the first
+    /// answer must not wait for it. None if `keep_going` said no.
+    pub(crate) fn finer(&self, keep_going: &KeepGoing<'_>) -> Option<&Rock> {
+        if self.finer.get().is_none() {
+            let side = 2 * self.rock.side;
+            let rock = Rock::new(side, &self.layout.crust_of(&self.params, side, keep_going)?);
+            // Another thread may have been faster: both are equal.
+            let _ = self.finer.set(rock);
+        }
+        self.finer.get()
+    }
+}
+
+/// Noise at one point of a row.
+struct Noise {
+    /// How far it moves the coast outwards.
+    coast_rad: f64,
+    broad: f64,
+    hills: f64,
+    rises: f64,
+    worn: f64,
+    /// Along boundaries, about -1 to 1.
+    along: f64,
 }
 
 impl Layout {
-    /// The crust at a direction.
-    pub(crate) fn crust(&self, params: &Params, dir: DVec3) -> Crust {
-        let bent = self.bent(dir);
+    /// The crust at the cells of a grid.
+    fn crust_of(&self, params: &Params, side: usize, keep_going: &KeepGoing<'_>) -> Option<Vec<Crust>> {
+        let cells = Cells::of(side);
+        let rows = cells.dirs.par_chunks(side).map(|row| keep_going().then(|| self.crusts(params, row)));
+        Some(rows.collect::<Option<Vec<_>>>()?.concat())
+    }
+
+    /// The crust at a row of directions.
+    pub(crate) fn crusts(&self, params: &Params, dirs: &[DVec3]) -> Vec<Crust> {
+        let seed = |k: u32| hash(self.seed, k);
+        let bent = self.bent_row(dirs);
+        let coast_rad = self.coast_rad_row(&bent, 6);
+        let broad = fbm_row(dirs, 3.1, 3, 0.55, seed(31));
+        let hills = fbm_row(dirs, 11.0, 4, 0.55, seed(32));
+        let rises = fbm_row(dirs, 2.2, 2, 0.5, seed(33));
+        let worn = fbm_row(&bent, 3.4, 1, 1.0, seed(34));
+        let [long, short] = [(6.3, 21), (15.0, 22)].map(|(frequency, k)| fbm_row(&bent, frequency, 1, 1.0, seed(k)));
+        let at = |i: usize| {
+            let noise = Noise {
+                coast_rad: coast_rad[i],
+                broad: broad[i],
+                hills: hills[i],
+                rises: rises[i],
+                worn: worn[i],
+                along: long[i] + 0.5 * short[i],
+            };
+            self.crust(params, dirs[i], bent[i], &noise)
+        };
+        (0..dirs.len()).map(at).collect()
+    }
+
+    fn crust(&self, params: &Params, dir: DVec3, bent: DVec3, noise: &Noise) -> Crust {
+        let &Noise { coast_rad, broad, hills, .. } = noise;
         let plate = self.plate_at(bent);
-        let edges = self.edges(params, plate, bent);
-        let inside_km = self.crust_rad(plate, bent, 6) * EARTH_KM;
+        let edges = self.edges(params, plate, bent, noise.along);
+        let inside_km = (self.even_crust_rad(plate, bent) + coast_rad) * EARTH_KM;
         // A boundary that cuts a continent off makes its coast.
         // The crust reaches under the sea as far as the shelf.
         let coast_km = smooth_min(inside_km - params.shelf_km - 60.0, edges.coast_km, 120.0);
         let cut = ramp(0.0, 300.0, inside_km - edges.coast_km) * f64::from(u8::from(edges.coast_km < NO_EDGE_KM));
         let seed = |k: u32| hash(self.seed, k);
-        let broad = fbm(dir, 3.1, 3, 0.55, seed(31));
-        let hills = fbm(dir, 11.0, 4, 0.55, seed(32));
 
         let floor_m = -floor_depth(params, edges.floor_myr) + 90.0 * hills;
         let shelf_km = params.shelf_km * (1.0 + 0.9 * broad).clamp(0.25, 2.0) * (1.0 - 0.85 * cut);
@@ -115,8 +158,8 @@ impl Layout {
         let on_land = ramp(-70.0, 60.0, coast_km);
         let (suture_km, core) = self.cores(plate, bent);
         let inland = 0.3 * ramp(0.0, 500.0, coast_km) + 0.7 * ramp(150.0, 1700.0, coast_km);
-        let rises = (1.0 + 1.5 * fbm(dir, 2.2, 2, 0.5, seed(33))).clamp(0.12, 2.4);
-        let worn = (1.0 - ramp(0.0, 170.0, suture_km)) * ramp(-0.15, 0.45, noise(bent * 3.4, seed(34)));
+        let rises = (1.0 + 1.5 * noise.rises).clamp(0.12, 2.4);
+        let worn = (1.0 - ramp(0.0, 170.0, suture_km)) * ramp(-0.15, 0.45, noise.worn);
         let rough = (1.0 + 0.55 * hills).clamp(0.35, 1.7);
         let mut uplift_m = edges.uplift_m * rough + params.inland_m * inland * rises + 40.0;
         uplift_m += params.old_belts_m * worn * rough * on_land;
@@ -127,7 +170,7 @@ impl Layout {
 
         let folded = edges.folded.max(0.7 * worn * on_land);
         // Folded rock lies in bands of hard and soft along the belt.
-        let bands = noise(DVec3::new(edges.edge_km / 75.0, suture_km / 75.0, 3.0 * broad), seed(35));
+        let bands = one_octave(DVec3::new(edges.edge_km / 75.0, suture_km / 75.0, 3.0 * broad), seed(35));
         let softness = 1.9 * bands * folded + 1.1 * broad * (1.0 - folded) - 0.8 * core
             + 0.35 * hills
             + 0.5 * (1.0 - ramp(0.0, 500.0, coast_km))

@@ -7,8 +7,8 @@ fn solved(seed: u32, side: usize) -> Plates {
 
 /// The share of the globe where the surface, after rock has risen, lies above the sea.
 fn land_share(plates: &Plates) -> f64 {
-    let areas = areas_sr(plates.side);
-    let land = (0..areas.len()).filter(|&cell| plates.base_m[cell] + plates.uplift_m[cell] > 0.0);
+    let areas = areas_sr(plates.rock.side);
+    let land = (0..areas.len()).filter(|&cell| plates.rock.base_m[cell] + plates.rock.uplift_m[cell] > 0.0);
     land.map(|cell| areas[cell]).sum::<f64>() / areas.iter().sum::<f64>()
 }
 
@@ -22,8 +22,8 @@ fn the_default_has_about_as_much_land_as_the_earth_and_two_levels() {
         mean += share / 4.0;
         // Heights are frequent on land near zero and on ocean floors, and rare between.
         let between = |low: f64, high: f64| {
-            let count = plates.base_m.iter().zip(&plates.uplift_m).filter(|(b, u)| (low..high).contains(&(*b + *u)));
-            count.count() as f64 / plates.base_m.len() as f64 / (high - low)
+            let count = plates.rock.base_m.iter().zip(&plates.rock.uplift_m).filter(|(b, u)| (low..high).contains(&(*b + *u)));
+            count.count() as f64 / plates.rock.base_m.len() as f64 / (high - low)
         };
         let (floor, slope, land) = (between(-5500.0, -3500.0), between(-2500.0, -1000.0), between(-200.0, 900.0));
         assert!(floor > 1.8 * slope && land > 1.8 * slope, "seed {seed}: {floor} {slope} {land}");
@@ -39,7 +39,7 @@ fn the_layout_does_not_depend_on_the_grid() {
     assert_eq!(coarse.layout, layout);
     assert_eq!(fine.layout, layout);
     for (cell, dir) in Cells::of(16).dirs.iter().enumerate() {
-        assert_eq!(layout.crust(&Params::default(), *dir).base_m.to_bits(), coarse.base_m[cell].to_bits());
+        assert_eq!(layout.crusts(&Params::default(), &[*dir])[0].base_m.to_bits(), coarse.rock.base_m[cell].to_bits());
     }
 }
 
@@ -59,7 +59,7 @@ fn belts_lie_along_boundaries_and_folds_are_tangents() {
     for (cell, dir) in dirs.iter().enumerate() {
         let (fold, folded) = plates.folds[cell];
         assert!(fold.dot(*dir).abs() < 1e-9 && (fold.length() - 1.0).abs() < 1e-9 && (0.0..=1.0).contains(&folded));
-        high += usize::from(plates.uplift_m[cell] > 3000.0);
+        high += usize::from(plates.rock.uplift_m[cell] > 3000.0);
     }
     let share = high as f64 / dirs.len() as f64;
     assert!((0.002..0.12).contains(&share), "{share}");
@@ -72,7 +72,7 @@ fn equal_bits_on_any_number_of_threads_and_an_end_when_told() {
         pool.install(|| solved(5, 16))
     };
     let (one, three) = (on(1), on(3));
-    assert!(one.base_m.iter().zip(&three.base_m).all(|(a, b)| a.to_bits() == b.to_bits()));
+    assert!(one.rock.base_m.iter().zip(&three.rock.base_m).all(|(a, b)| a.to_bits() == b.to_bits()));
     assert_eq!(one.plate, three.plate);
     assert!(Plates::solve(&Params::default(), 1, 16, &|| false).is_none());
 }
@@ -82,6 +82,6 @@ fn extreme_parameters_give_finite_heights() {
     for (count, continents) in [(2, 0.0), (60, 1.0), (7, 0.5)] {
         let params = Params { count, continents, size_variation: 1.0, raggedness: 2.0, ..Params::default() };
         let plates = Plates::solve(&params, 9, 12, &|| true).unwrap();
-        assert!(plates.base_m.iter().chain(&plates.uplift_m).all(|m| m.is_finite() && m.abs() < 60_000.0));
+        assert!(plates.rock.base_m.iter().chain(&plates.rock.uplift_m).all(|m| m.is_finite() && m.abs() < 60_000.0));
     }
 }
