@@ -13,7 +13,10 @@ use tellus::terrain::Terrain;
 
 /// An editor on the biomes tab, its picture complete; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
-    let mut harness = crate::app::open([1024.0, 760.0], answers);
+    on_biomes(crate::app::open([1024.0, 760.0], answers))
+}
+
+fn on_biomes(mut harness: Editor) -> Editor {
     // A debug view is drawn fast: without sky and sea.
     send(&mut harness, Command::Show(tellus::render::DebugView::Biome));
     click(&mut harness, "Biomes");
@@ -284,7 +287,7 @@ fn a_ready_made_table_goes_out_as_a_picture_and_comes_back() {
 /// compare the planet beside it.
 #[test]
 fn the_painter_looks_as_it_did() {
-    let mut harness = editor(vec![]);
+    let mut harness = on_biomes(crate::app::open_drawn([1024.0, 760.0], vec![], 60.0, 1.0));
     choose(&mut harness, 3);
     wait_for_picture(&mut harness);
     let picture = harness.render().unwrap();

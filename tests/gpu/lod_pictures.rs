@@ -160,6 +160,7 @@ fn is_gentle([with, without]: [f64; 2]) -> bool {
 }
 
 #[test]
+#[ignore = "long: minutes"]
 fn a_way_down_shows_no_level_change() {
     // Among them the steps with the most popping when there is no morphing.
     let steps = [8, 34, 59, 121, 215, 301, 401, 501];

@@ -25,8 +25,9 @@ const POSES: [(f64, f64, f64); 8] = [
 fn every_pose_is_lit_and_drawn_twice_the_same() {
     let planet = Arc::new(earth());
     let mut gpu = gpu();
-    for quality in Quality::ALL {
-        for (altitude_m, pitch, sun_lon) in POSES {
+    for (number, quality) in Quality::ALL.into_iter().enumerate() {
+        // Each pose at one of the qualities.
+        for (altitude_m, pitch, sun_lon) in POSES.into_iter().skip(number).step_by(Quality::ALL.len()) {
             let camera = camera(&planet, 10.0, 10.0, altitude_m, 40.0, pitch);
             let surface = surface(&planet, &camera);
             let mut frame = frame(&surface, &planet, camera, (12.0, sun_lon));
@@ -180,8 +181,8 @@ fn exposure_lights_dusk_and_lets_night_be_read() {
     assert!(mean(91.0, Metering::Manual) < sunset && mean(96.0, Metering::Manual) < dusk);
     // Adapts gradually from noon to sunset.
     mean(0.0, Metering::Instant);
-    let steps = [0.1; 60].map(|secs| mean(91.0, Metering::Adapting { secs }));
-    assert!(steps[0] < steps[3] && (steps[59] - sunset).abs() < 1.0, "{steps:?} {sunset}");
+    let steps = [0.4; 15].map(|secs| mean(91.0, Metering::Adapting { secs }));
+    assert!(steps[0] < steps[2] && (steps[14] - sunset).abs() < 1.0, "{steps:?} {sunset}");
 }
 
 /// With and without air: ridges stand out against the sky, and the ground is not black.

@@ -38,10 +38,20 @@ fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
 
 #[test]
 fn the_shaders_agree_with_the_physics() {
+    compare_with_the_physics(80);
+}
+
+#[test]
+#[ignore = "long: minutes"]
+fn the_shaders_agree_with_the_physics_along_many_rays() {
+    compare_with_the_physics(500);
+}
+
+fn compare_with_the_physics(count: u64) {
     let mut gpu = gpu();
     let mut problems = Vec::new();
     for (file, planet) in planets() {
-        let rays = rays(&planet, 500);
+        let rays = rays(&planet, count);
         let air = Air::try_new(&planet).unwrap();
         let answers = gpu.renderer.sky(&planet, Quality::High, &rays).unwrap();
         for (ray, answer) in rays.iter().zip(&answers) {

@@ -13,6 +13,9 @@ use tellus::editor::files::dialogs::{FileDialogs, ScriptedDialogs};
 use tellus::editor::viewport::pointer::UnderPointer;
 use tellus::planet::Planet;
 
+/// Pixels for each point where no test looks at the picture: the software driver takes most of the time of a test.
+const COARSE: f32 = 0.5;
+
 pub type Editor = Harness<'static, EditorApp>;
 
 /// An editor in a window of this size, after a few frames; file dialogs give these answers.
@@ -22,7 +25,12 @@ pub fn open(size: [f32; 2], answers: Vec<Option<PathBuf>>) -> Editor {
 
 /// An editor with this number of frames a second.
 pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec: f32) -> Editor {
-    start(size, frames_per_sec, move |cc| {
+    open_drawn(size, answers, frames_per_sec, COARSE)
+}
+
+/// An editor that is drawn with this many pixels for each point of the user interface.
+pub fn open_drawn(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec: f32, pixels_per_point: f32) -> Editor {
+    start(size, frames_per_sec, pixels_per_point, move |cc| {
         EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
     })
 }
@@ -30,7 +38,7 @@ pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_se
 /// An editor that starts with a file, asks through these dialogs, and keeps its working copy in a folder.
 pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recovery: &Path) -> Editor {
     let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
-    start([1024.0, 640.0], 60.0, move |cc| {
+    start([1024.0, 640.0], 60.0, COARSE, move |cc| {
         EditorApp::new(cc, file).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
     })
 }
@@ -38,9 +46,11 @@ pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recov
 fn start(
     size: [f32; 2],
     frames_per_sec: f32,
+    pixels_per_point: f32,
     app: impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp,
 ) -> Editor {
-    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec).wgpu();
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec);
+    let builder = builder.with_pixels_per_point(pixels_per_point).wgpu();
     let mut harness = builder.build_eframe(app);
     harness.run_steps(4);
     harness

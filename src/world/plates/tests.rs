@@ -22,7 +22,8 @@ fn the_default_has_about_as_much_land_as_the_earth_and_two_levels() {
         mean += share / 4.0;
         // Heights are frequent on land near zero and on ocean floors, and rare between.
         let between = |low: f64, high: f64| {
-            let count = plates.rock.base_m.iter().zip(&plates.rock.uplift_m).filter(|(b, u)| (low..high).contains(&(*b + *u)));
+            let count =
+                plates.rock.base_m.iter().zip(&plates.rock.uplift_m).filter(|(b, u)| (low..high).contains(&(*b + *u)));
             count.count() as f64 / plates.rock.base_m.len() as f64 / (high - low)
         };
         let (floor, slope, land) = (between(-5500.0, -3500.0), between(-2500.0, -1000.0), between(-200.0, 900.0));
