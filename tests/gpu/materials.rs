@@ -58,7 +58,7 @@ fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
 #[test]
 #[ignore = "long: minutes"]
 fn every_pattern_is_as_bright_from_orbit_as_from_near() {
-    compare_patterns(&Detail::ALL, &[vec![PLACE.1], vec![PLACE.1 + 50.0, PLACE.1 - 50.0]]);
+    compare_patterns(Detail::ALL, &[vec![PLACE.1], vec![PLACE.1 + 50.0, PLACE.1 - 50.0]]);
 }
 
 #[test]

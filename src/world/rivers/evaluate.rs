@@ -10,11 +10,13 @@ use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// The relief of a level by that of the level before: slopes double as cells shrink to a quarter (slope-area law with
-/// concavity near 1/2, Flint 1974).
-const RELIEF_RATIO: f64 = 0.5;
-/// The relief between the reaches of the coarsest level, by the mean difference in height of neighbouring cells.
-pub(super) const RELIEF: f64 = 0.6;
+/// The relief of a level by that of the level before. Slopes grow as cells shrink to a quarter: with the area drained
+/// to the power -0.45 (Flint 1974), and that area with the length of the valley to the power 1.75 (Hack 1957), so by
+/// 2.98; a little less, because springs lie above the ground.
+const RELIEF_RATIO: f64 = 0.7;
+/// The relief between the reaches of the coarsest level, by the mean difference in height of neighbouring cells. The
+/// same laws give 1.6 times the fall of a river across a cell; differences between rivers are greater than that fall.
+pub(super) const RELIEF: f64 = 1.0;
 /// The steepest hillslope: a tangent of about 35 degrees.
 const STEEPEST: f64 = 0.7;
 /// The relief of a level on the reaches of the level before, by that on its ridges.
@@ -211,4 +213,4 @@ pub(super) fn steepest_m(grid: &Grid, radius_m: f64) -> f64 {
 
 /// Bound of the rise of all levels above the reaches, by the relief of the cells: springs, drawn-out banks and ridges
 /// together stay below 1.45 times the relief of their level.
-pub(super) const MOST_RELIEF: f64 = 1.45 * RELIEF / (1.0 - RELIEF_RATIO);
+pub(super) const MOST_RELIEF: f64 = 1.45 * RELIEF * (1.0 + RELIEF_RATIO * (1.0 + RELIEF_RATIO * (1.0 + RELIEF_RATIO)));
