@@ -25,6 +25,9 @@ pub const ALL: &[Shipped] = &[
     Shipped { file: "cinnabar.ron", text: include_str!("../../planets/cinnabar.ron") },
     Shipped { file: "hoarfrost.ron", text: include_str!("../../planets/hoarfrost.ron") },
     Shipped { file: "pallor.ron", text: include_str!("../../planets/pallor.ron") },
+    Shipped { file: "alder.ron", text: include_str!("../../planets/alder.ron") },
+    Shipped { file: "skerry.ron", text: include_str!("../../planets/skerry.ron") },
+    Shipped { file: "sabkha.ron", text: include_str!("../../planets/sabkha.ron") },
 ];
 
 /// The planet shown at the start: the first of [`ALL`].

@@ -62,8 +62,10 @@ fn the_counter_counts() {
 #[test]
 fn queries_allocate_nothing_after_the_first() {
     let dirs: Vec<DVec3> = spread(600).collect();
-    for shipped in shipped::ALL {
-        let planet = Arc::new(shipped.load().unwrap());
+    // Rivers build blocks of cells where nobody has been: see the next test.
+    let all = shipped::ALL.iter().map(|shipped| (shipped.file, shipped.load().unwrap()));
+    for (file, planet) in all.filter(|(_, planet)| planet.structure.is_none()) {
+        let planet = Arc::new(planet);
         let terrain = Terrain::try_new(planet.clone()).unwrap();
         let (mut heights_m, mut samples) = (vec![0.0; dirs.len()], vec![Sample::default(); dirs.len()]);
         let mut scratch = Scratch::default();
@@ -79,7 +81,7 @@ fn queries_allocate_nothing_after_the_first() {
         };
         // Every layer is met by one of the directions, so that all memory has grown.
         ask(&dirs);
-        assert_eq!(allocations(|| ask(&dirs[..100])), 0, "{}", shipped.file);
+        assert_eq!(allocations(|| ask(&dirs[..100])), 0, "{file}");
     }
 }
 
