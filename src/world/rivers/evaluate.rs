@@ -48,7 +48,7 @@ impl Rivers {
 
     /// Makes the blocks of the first levels at a direction current.
     #[inline(always)]
-    fn find_blocks(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
+    pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         // Building a block moves the current blocks of coarser levels, so that the search starts again.
         loop {
             let mut moved = false;
@@ -145,6 +145,7 @@ impl Rivers {
     fn point(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
         let at = self.ground(dir, levels, cache);
         let (standing_m, lake) = self.trunks.standing(at.lake);
+        let lake_level_m = standing_m.filter(|_| lake != 0);
         let height_m = at.ground.value - at.carved.value;
         let standing_m = standing_m.filter(|level_m| height_m < *level_m);
         let mut gradients = at.gradients;
@@ -156,6 +157,7 @@ impl Rivers {
             gradients,
             water_level_m: standing_m,
             lake: if standing_m.is_some() { lake } else { 0 },
+            lake_level_m,
             ridge: 2.0 * at.ridge - 1.0,
             river: None,
         };
