@@ -14,6 +14,9 @@ const MEAN_DEPTH: f64 = 0.6;
 /// Least change of the ground from one point to the next that counts at a shore, metres.
 const LEAST_SPREAD_M: f64 = 0.02;
 
+/// Points beside a lake that know of its shore.
+const SHORE: f64 = 2.0;
+
 /// Water near a point of a grid, as the structure of a planet knows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Water {
@@ -36,7 +39,7 @@ pub(crate) struct Wet {
     pub(crate) rise_m: f64,
     /// Share of the ground around the point that is under water, 0 to 1.
     pub(crate) share: f64,
-    /// Depth of the water, metres.
+    /// Depth of the water, metres; negative on the dry ground beside a lake, so that it is 0 at the shore.
     pub(crate) depth_m: f64,
     /// 0 where the water is narrower than the points are apart, 1 where it has a shore.
     pub(crate) wide: f64,
@@ -66,11 +69,13 @@ impl Water {
         let is_land = sea_m.is_none_or(|sea_m| ground_m + river_rise_m > sea_m);
         let river = if is_land { f64::from(self.river) } else { 0.0 };
         if lake >= river {
+            // Beyond a shore the next points know of it, too.
+            let is_near = over_m > -SHORE * spread_m.max(LEAST_SPREAD_M);
             return Wet {
                 rise_m: over_m.max(0.0),
                 share: lake,
-                depth_m: over_m.max(0.0),
-                wide: if lake > 0.0 { 1.0 } else { 0.0 },
+                depth_m: if is_near { over_m } else { 0.0 },
+                wide: if is_near { 1.0 } else { 0.0 },
                 slope: 1.0 - lake,
             };
         }
@@ -100,7 +105,7 @@ mod tests {
         for ground_m in [-20.0, 0.0, 99.0, 99.9, 100.0, 100.1, 300.0] {
             for water in [lake, river] {
                 let wet = water.over(ground_m, 2.0, Some(0.0));
-                assert!(wet.rise_m >= 0.0 && wet.depth_m >= 0.0, "{wet:?}");
+                assert!(wet.rise_m >= 0.0 && (wet.depth_m >= 0.0 || wet.share < 0.5), "{wet:?}");
                 assert!((0.0..=1.0).contains(&wet.share) && (0.0..=1.0).contains(&wet.slope), "{wet:?}");
             }
         }
