@@ -71,7 +71,9 @@ fn water_cover(footprint: DetailFootprint, parent: f32) -> vec2f {
     // Where texels are wider than pixels, a shore is as sharp as pixels.
     let texel_px = f32(footprint.parts) / max(length(footprint.along), 1e-6);
     let sharp = saturate1(0.5 + (share - 0.5) * max(texel_px, 1.0));
-    return vec2f(mix(share, sharp, sum.w), max(sum.y, 0.0));
+    // A river much narrower than a pixel is drawn stronger than its share, as maps do: else none is seen from orbit.
+    let line = pow(share, 0.65);
+    return vec2f(mix(line, sharp, sum.w), max(sum.y, 0.0));
 }
 
 // Texels around the middle of a footprint, `reach` to each side: every texel of the tile, every second one (those of

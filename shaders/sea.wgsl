@@ -157,7 +157,8 @@ fn water_radiance(water: Water) -> vec3f {
     if ice < 1.0 {
         let step_x = pixel_step(rel_m, up, body.pixel_right);
         let step_y = pixel_step(rel_m, up, body.pixel_up);
-        waves = waves_at(rel_m, up, step_x, step_y, border_jitter(rel_m, max(footprint_m, 15.0)).x, water.slope_variance);
+        let bend = border_jitter(rel_m, max(footprint_m, 15.0)).x;
+        waves = waves_at(rel_m, up, step_x, step_y, bend, water.slope_variance);
         fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
         // Rough water reflects a patch of sky above the mirror direction.

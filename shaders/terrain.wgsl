@@ -374,17 +374,17 @@ fn visibility_at(in: Ground, up: vec3f) -> Visibility {
     return visibility(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, altitude_km);
 }
 
-// Radiance of rivers and lakes. They are murkier than the sea, shallow water most of all, and the wind raises lower waves
-// on them.
-fn inland_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depth_m: f32, climate: Climate, altitude_km: f32,
-    visible: Visibility) -> vec3f {
+// Radiance of rivers and lakes. They are murkier than the sea, shallow water most of all, and the wind raises lower
+// waves on them.
+fn inland_radiance(facet: Facet, floor: vec3f, depth_m: f32, temperature_c: f32, visible: Visibility) -> vec3f {
     let clear = smoothstep(2.0, 60.0, depth_m);
-    let absorption_per_m = body.water_absorption_per_m * mix(4.0, 1.5, clear) + mix(SILT_PER_M, 0.1 * SILT_PER_M, clear);
-    let color = body.water_color + mix(SILT_COLOR, 0.3 * SILT_COLOR, clear);
+    let silt = mix(1.0, 0.1, clear);
+    let absorption_per_m = body.water_absorption_per_m * mix(4.0, 1.5, clear) + SILT_PER_M * silt;
+    let color = body.water_color + SILT_COLOR * mix(1.0, 0.3, clear);
     let variance = body.wave_slope_variance * mix(0.1, 0.4, clear);
     return water_radiance(Water(
-        rel_km, dir, floor, vec2f(depth_m), climate.temperature_c, visible, altitude_km, absorption_per_m, color,
-        variance, 0.0,
+        facet.rel_km, -facet.v, floor, vec2f(depth_m), temperature_c, visible, facet.altitude_km, absorption_per_m,
+        color, variance, 0.0,
     ));
 }
 
@@ -445,7 +445,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         radiance += lit(ground, facet, from_here);
     }
     if wet > 0.0 {
-        let water = inland_radiance(rel_km, -v, radiance, pixel_ground.water.y, climate, facet.altitude_km, from_ground);
+        let water = inland_radiance(facet, radiance, pixel_ground.water.y, climate.temperature_c, from_ground);
         radiance = mix(radiance, water, wet);
     }
     let marked_radiance = highlighted(radiance, location, body.suns[0].irradiance / PI);

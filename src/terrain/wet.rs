@@ -24,7 +24,7 @@ pub(crate) struct Water {
     lake_m: f32,
     /// Share of the point's footprint in a river.
     river: f32,
-    /// Depth of that river, metres.
+    /// Depth of that river, metres: its mean where it is narrow, else the depth at the point.
     river_depth_m: f32,
     /// Height of its surface above the carved ground if the point is in it, metres; else 0.
     river_rise_m: f32,
@@ -51,12 +51,14 @@ impl Water {
     /// The water of a point and of its footprint.
     pub(crate) fn new(point: &RiverPoint, flow: &Flow) -> Self {
         let rise_m = if flow.is_inside { (flow.level_m - point.height_m).max(0.0) } else { 0.0 };
+        let wide = ((flow.width - WIDE[0]) / (WIDE[1] - WIDE[0])).clamp(0.0, 1.0);
+        let mean_m = MEAN_DEPTH * flow.depth_m;
         Self {
             lake_m: point.lake_level_m.map_or(f32::NEG_INFINITY, |level_m| level_m as f32),
             river: flow.share as f32,
-            river_depth_m: flow.depth_m as f32,
+            river_depth_m: (mean_m + (flow.depth_here_m - mean_m) * wide) as f32,
             river_rise_m: rise_m as f32,
-            river_wide: ((flow.width - WIDE[0]) / (WIDE[1] - WIDE[0])).clamp(0.0, 1.0) as f32,
+            river_wide: wide as f32,
         }
     }
 
@@ -75,16 +77,15 @@ impl Water {
                 rise_m: over_m.max(0.0),
                 share: lake,
                 depth_m: if is_near { over_m } else { 0.0 },
-                wide: if is_near { 1.0 } else { 0.0 },
+                wide: if is_near { 1.0 } else { f64::from(self.river_wide) },
                 slope: 1.0 - lake,
             };
         }
-        let (wide, mean_m) = (f64::from(self.river_wide), MEAN_DEPTH * f64::from(self.river_depth_m));
         Wet {
             rise_m: over_m.max(river_rise_m),
             share: river,
-            depth_m: mean_m + (river_rise_m - mean_m) * wide,
-            wide,
+            depth_m: f64::from(self.river_depth_m),
+            wide: f64::from(self.river_wide),
             slope: if river_rise_m > 0.0 { 0.0 } else { 1.0 - river },
         }
     }

@@ -5,9 +5,15 @@
 
 use super::Rivers;
 use super::cache::Cache;
-use super::grid::FacePlace;
-use super::reach::FREEBOARD;
+use super::grid::{FacePlace, RATIO};
+use super::reach::{Channel, FREEBOARD, Line};
 use glam::DVec3;
+
+/// Square of half a river's width, by that of its influence, from which the next level is too fine for its banks.
+const OUTGROWN: f64 = 0.8 / (RATIO * RATIO) as f64;
+
+/// How far beyond its banks the width of a river is known, in spacings.
+const BESIDE: f64 = 2.5;
 
 /// The river in the footprint of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,9 +22,10 @@ pub(crate) struct Flow {
     pub(crate) share: f64,
     /// Height of the water's surface.
     pub(crate) level_m: f64,
-    /// Depth of the water in the middle of the river.
+    /// Depth of the water in the middle of the river, and at the point.
     pub(crate) depth_m: f64,
-    /// Width of the water, in spacings.
+    pub(crate) depth_here_m: f64,
+    /// Width of the water, in spacings: known on the dry points next to the footprint, too.
     pub(crate) width: f64,
     /// Whether the point itself is in the water.
     pub(crate) is_inside: bool,
@@ -44,37 +51,55 @@ impl Rivers {
         let place = FacePlace::new(dir);
         self.find_blocks(&place, levels, cache);
         let mut flow = Flow::default();
-        let Some((_, block)) = cache.current.get(levels.wrapping_sub(1)).and_then(Option::as_ref) else { return flow };
-        for &number in block.near(&place) {
-            let line = &block.lines[usize::from(number)];
-            if line.channel2 == 0.0 {
-                continue;
-            }
-            let v = dir - line.start;
-            let share = (v.dot(line.along) * line.per_length2).clamp(0.0, 1.0);
-            let straight = v - line.along * share;
-            // The part along the ground alone: the piece lies a little below it.
-            let offset = straight - dir * straight.dot(dir);
-            let distance2 = offset.dot(offset);
-            // Beyond half the width and the footprint: (a + b)² is at most 2 (a² + b²).
-            if distance2 >= 2.0 * (line.channel2 + spacing_rad * spacing_rad) {
-                continue;
-            }
-            let channel = &block.stream(number).channel;
-            let (distance_rad, half_rad) = (distance2.sqrt(), channel.half_width_rad(share));
-            let found = share_of(distance_rad / spacing_rad, half_rad / spacing_rad);
-            if found > flow.share {
-                let depth_m = channel.depth_m + channel.depth_change_m * share;
-                flow = Flow {
-                    share: found,
-                    level_m: line.bank_m + line.bank_change_m * share - FREEBOARD * depth_m,
-                    depth_m: depth_m * (1.0 - FREEBOARD),
-                    width: 2.0 * half_rad / spacing_rad,
-                    is_inside: distance_rad < half_rad,
-                };
+        for (level, block) in cache.current[..levels].iter().enumerate() {
+            let Some((_, block)) = block else { continue };
+            let is_last = level + 1 == levels;
+            for &number in block.near(&place) {
+                let line = &block.lines[usize::from(number)];
+                // A river wider than the influence that it has on the next level is taken from this one, too.
+                if line.channel2 == 0.0 || !(is_last || line.channel2 * line.per_influence2 > OUTGROWN) {
+                    continue;
+                }
+                flow.join(dir, line, &block.stream(number).channel, spacing_rad);
             }
         }
         flow
+    }
+}
+
+impl Flow {
+    /// Becomes the river of a piece if that has a greater share.
+    #[inline(always)]
+    fn join(&mut self, dir: DVec3, line: &Line, channel: &Channel, spacing_rad: f64) {
+        let v = dir - line.start;
+        let share = (v.dot(line.along) * line.per_length2).clamp(0.0, 1.0);
+        let straight = v - line.along * share;
+        // The part along the ground alone: the piece lies a little below it.
+        let offset = straight - dir * straight.dot(dir);
+        let distance2 = offset.dot(offset);
+        // Beyond half the width and the points next to the footprint: (a + b)² is at most 2 (a² + b²).
+        let far_rad = BESIDE * spacing_rad;
+        if distance2 >= 2.0 * (line.channel2 + far_rad * far_rad) {
+            return;
+        }
+        let (distance_rad, half_rad) = (distance2.sqrt(), channel.half_width_rad(share));
+        let found = share_of(distance_rad / spacing_rad, half_rad / spacing_rad);
+        let width = 2.0 * half_rad / spacing_rad;
+        if found > self.share {
+            let depth_m = channel.depth_m + channel.depth_change_m * share;
+            let bank_rad = channel.bank_rad + channel.bank_change_rad * share;
+            let inside = (1.0 - distance2 / (bank_rad * bank_rad)).max(0.0);
+            *self = Flow {
+                share: found,
+                level_m: line.bank_m + line.bank_change_m * share - FREEBOARD * depth_m,
+                depth_m: depth_m * (1.0 - FREEBOARD),
+                depth_here_m: depth_m * (inside * inside - FREEBOARD).max(0.0),
+                width,
+                is_inside: distance_rad < half_rad,
+            };
+        } else if self.share == 0.0 && distance_rad < half_rad + far_rad {
+            self.width = self.width.max(width);
+        }
     }
 }
 
