@@ -50,7 +50,7 @@ pub(crate) struct Wet {
 impl Water {
     /// The water of a point and of its footprint.
     pub(crate) fn new(point: &RiverPoint, flow: &Flow) -> Self {
-        let rise_m = if flow.is_inside { (flow.level_m - point.height_m).max(0.0) } else { 0.0 };
+        let rise_m = if flow.depth_here_m > 0.0 { (flow.level_m - point.height_m).max(0.0) } else { 0.0 };
         let wide = ((flow.width - WIDE[0]) / (WIDE[1] - WIDE[0])).clamp(0.0, 1.0);
         let mean_m = MEAN_DEPTH * flow.depth_m;
         Self {

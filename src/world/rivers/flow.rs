@@ -20,15 +20,14 @@ const BESIDE: f64 = 2.5;
 pub(crate) struct Flow {
     /// Share of the footprint that is water, 0 to 1.
     pub(crate) share: f64,
-    /// Height of the water's surface.
-    pub(crate) level_m: f64,
-    /// Depth of the water in the middle of the river, and at the point.
+    /// Depth of the water in the middle of the river.
     pub(crate) depth_m: f64,
+    /// Depth of the water at the point; 0 if that is not in the water.
     pub(crate) depth_here_m: f64,
+    /// Height of the water's surface at the point, if that is in the water.
+    pub(crate) level_m: f64,
     /// Width of the water, in spacings: known on the dry points next to the footprint, too.
     pub(crate) width: f64,
-    /// Whether the point itself is in the water.
-    pub(crate) is_inside: bool,
 }
 
 impl Rivers {
@@ -68,7 +67,7 @@ impl Rivers {
 }
 
 impl Flow {
-    /// Becomes the river of a piece if that has a greater share.
+    /// Takes in the river of a piece.
     #[inline(always)]
     fn join(&mut self, dir: DVec3, line: &Line, channel: &Channel, spacing_rad: f64) {
         let v = dir - line.start;
@@ -85,20 +84,19 @@ impl Flow {
         let (distance_rad, half_rad) = (distance2.sqrt(), channel.half_width_rad(share));
         let found = share_of(distance_rad / spacing_rad, half_rad / spacing_rad);
         let width = 2.0 * half_rad / spacing_rad;
+        let depth_m = channel.depth_m + channel.depth_change_m * share;
         if found > self.share {
-            let depth_m = channel.depth_m + channel.depth_change_m * share;
-            let bank_rad = channel.bank_rad + channel.bank_change_rad * share;
-            let inside = (1.0 - distance2 / (bank_rad * bank_rad)).max(0.0);
-            *self = Flow {
-                share: found,
-                level_m: line.bank_m + line.bank_change_m * share - FREEBOARD * depth_m,
-                depth_m: depth_m * (1.0 - FREEBOARD),
-                depth_here_m: depth_m * (inside * inside - FREEBOARD).max(0.0),
-                width,
-                is_inside: distance_rad < half_rad,
-            };
+            (self.share, self.width, self.depth_m) = (found, width, depth_m * (1.0 - FREEBOARD));
         } else if self.share == 0.0 && distance_rad < half_rad + far_rad {
             self.width = self.width.max(width);
+        }
+        // Pieces overlap where they meet: the deepest one decides.
+        let bank_rad = channel.bank_rad + channel.bank_change_rad * share;
+        let inside = (1.0 - distance2 / (bank_rad * bank_rad)).max(0.0);
+        let depth_here_m = depth_m * (inside * inside - FREEBOARD);
+        if depth_here_m > self.depth_here_m {
+            self.depth_here_m = depth_here_m;
+            self.level_m = line.bank_m + line.bank_change_m * share - FREEBOARD * depth_m;
         }
     }
 }
