@@ -4,7 +4,10 @@
 // `detail_heights`: height in metres as the sum of two values (xy), steepness (rise over run) of the slopes in the
 // texel (z), and steepness including finer slopes that are faded out of them (w).
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
+// `detail_water`: rivers and lakes. Share of the ground under water (x), depth of the water in metres (y), the share in
+// the parent's detail texture (z), and 1 where the water has a shore, 0 where it is narrower than texels (w).
 @group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
+@group(2) @binding(2) var detail_water: texture_2d_array<f32>;
 
 // Footprint of a pixel in a detail texture.
 struct DetailFootprint {
@@ -52,6 +55,25 @@ fn detail_slopes_at(footprint: DetailFootprint) -> vec4f {
     let apron = f32(DETAIL_APRON);
     let at = (footprint.at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
     return textureSampleLevel(detail_slopes, clamped, at, footprint.layer, 0.0);
+}
+
+// Share of a pixel that is under the water of rivers and lakes (x), and the depth of that water in metres (y).
+// `parent`: share to which the parent has taken over.
+fn water_cover(footprint: DetailFootprint, parent: f32) -> vec2f {
+    if body.has_rivers == 0u || footprint.layer < 0 { return vec2f(0.0); }
+    let apron = f32(DETAIL_APRON);
+    var sum = vec4f(0.0);
+    for (var number = 0; number < footprint.parts; number++) {
+        let at = (part_of(footprint, number).at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+        sum += textureSampleLevel(detail_water, clamped, at, footprint.layer, 0.0) / f32(footprint.parts);
+    }
+    let share = mix(sum.x, sum.z, parent);
+    // Where texels are wider than pixels, a shore is as sharp as pixels.
+    let texel_px = f32(footprint.parts) / max(length(footprint.along), 1e-6);
+    let sharp = saturate1(0.5 + (share - 0.5) * max(texel_px, 1.0));
+    // A river much narrower than a pixel is drawn stronger than its share, as maps do: else none is seen from orbit.
+    let line = pow(share, 0.65);
+    return vec2f(mix(line, sharp, sum.w), max(sum.y, 0.0));
 }
 
 // Texels around the middle of a footprint, `reach` to each side: every texel of the tile, every second one (those of

@@ -1,17 +1,11 @@
 // Visibility of the sun and of the sky over the surrounding ground, from the horizon angles of horizon tiles
 // (src/lod/horizon.rs).
 #include "air_model.wgsl"
+#include "visibility.wgsl"
 
 // Atlas of images, one for each azimuth and one for the sky visibility. Each texel has the tile's own value (r) and the
 // parent's (g).
 @group(3) @binding(0) var horizons: texture_2d_array<f32>;
-
-struct Visibility {
-    // Visible share of the sun's disc, relative to the share over the horizon of the smooth planet
-    star: f32,
-    // Sky visibility
-    sky: f32,
-}
 
 // Azimuth of the sun in the coordinates of the cube face, in steps from one image to the next; see `face_step` in
 // src/lod/horizon.rs.

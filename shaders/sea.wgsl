@@ -1,6 +1,7 @@
-// The surface of the sea: waves, reflection, ice.
+// Water of the sea, of lakes and of rivers: its body, waves, reflection, foam, ice.
 #include "cloud_model.wgsl"
 #include "macro_variation.wgsl"
+#include "visibility.wgsl"
 
 // Amplitudes of three sets of wave groups, some hundred metres wide; their mean square is 1. `footprint_m`: width of a
 // pixel at the point.
@@ -21,10 +22,10 @@ struct Waves {
 
 // Sum of plane waves in the planet frame. A wave shorter than a few pixels fades into roughness (Bruneton, Neyret,
 // Holzschuch, Real-time Realistic Ocean Lighting, 2010), so that the mean stays and nothing shimmers. `step_x`,
-// `step_y`: steps to the next pixel along the sea, metres. `broad`: slow noise that bends crests. It must change little
-// over a wavelength, or crests follow the contours of the noise like the grain of wood.
-fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32) -> Waves {
-    let total = body.wave_slope_variance;
+// `step_y`: steps to the next pixel along the water, metres. `broad`: slow noise that bends crests. It must change
+// little over a wavelength, or crests follow the contours of the noise like the grain of wood. `total`: variance of the
+// slope of all waves.
+fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32, total: f32) -> Waves {
     var slope = vec3f(0.0);
     var seen = 0.0;
     if min(length(step_x), length(step_y)) < 20.0 {
@@ -84,4 +85,110 @@ fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
 fn frozen(temperature_c: f32, variation: f32, broad: f32) -> f32 {
     let broken = temperature_c + broad * 3.0 + variation * 1.2;
     return 1.0 - smoothstep(-0.4, 0.4, broken - body.freezing_c);
+}
+
+// Water at a pixel.
+struct Water {
+    rel_km: vec3f,
+    // Direction of the view ray
+    dir: vec3f,
+    // Radiance of the bed without the water
+    floor: vec3f,
+    // Least and greatest depth in the wet part of the pixel
+    depths_m: vec2f,
+    temperature_c: f32,
+    // Over the surrounding ground, of the first sun and of the sky
+    visible: Visibility,
+    altitude_km: f32,
+    absorption_per_m: vec3f,
+    // Light that deep water scatters back
+    color: vec3f,
+    // Variance of the slope of all waves
+    slope_variance: f32,
+    // Strength of foam along the shore
+    foam: f32,
+}
+
+// Light that leaves the water: light of the sea bed through the water, and light scattered by the water itself.
+fn water_body(water: Water, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> vec3f {
+    // Refraction (Snell, refractive index 1.333): paths under water are steeper.
+    let path = inverseSqrt(1.0 - (1.0 - view_mu * view_mu) / 1.7769)
+        + inverseSqrt(1.0 - (1.0 - sun_mu * sun_mu) / 1.7769);
+    let shallow = water.absorption_per_m * min(path * water.depths_m.x, 1e5);
+    let deeper = water.absorption_per_m * min(path * (water.depths_m.y - water.depths_m.x), 1e5);
+    // Mean over all depths in between.
+    let mean = (1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3));
+    let transmittance = exp(-shallow) * select(mean, 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
+    return water.floor * transmittance + water.color * downwelling / PI * (1.0 - transmittance);
+}
+
+// Greatest depth of foam.
+const FOAM_M: f32 = 1.2;
+
+// Integral of the share of foam (1 - smoothstep) from the shore down to a depth.
+fn foam_down_to(depth_m: f32) -> f32 {
+    let x = saturate1(depth_m / FOAM_M);
+    return FOAM_M * x * (1.0 - x * x * (1.0 - 0.5 * x));
+}
+
+// Mean share of foam between two depths, where waves run up the shore.
+fn foam_between(depths_m: vec2f) -> f32 {
+    return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / max(depths_m.y - depths_m.x, 1e-3);
+}
+
+// Radiance of water.
+fn water_radiance(water: Water) -> vec3f {
+    let rel_km = water.rel_km;
+    let dir = water.dir;
+    let distance_km = length(rel_km);
+    let up = normalize(body.eye_km + rel_km);
+    let view_mu = clamp(-dot(up, dir), 0.0, 1.0);
+    let footprint_m = distance_km * 1000.0 * frame.pixel_rad / max(sqrt(view_mu), 0.1);
+    let h = water.altitude_km;
+    let rel_m = rel_km * 1000.0;
+    let variation = macro_variation(rel_m, footprint_m);
+    let broad = border_jitter(rel_m, footprint_m).x;
+    let ice = frozen(water.temperature_c, variation, broad);
+    // Only the first sun determines the path of light down through the water.
+    let first_mu = max(dot(up, body.suns[0].dir), 0.0);
+    var waves = Waves(up, 0.0);
+    var fresnel = 0.0;
+    var mirror_mu = 0.0;
+    if ice < 1.0 {
+        let step_x = pixel_step(rel_m, up, body.pixel_right);
+        let step_y = pixel_step(rel_m, up, body.pixel_up);
+        let bend = border_jitter(rel_m, max(footprint_m, 15.0)).x;
+        waves = waves_at(rel_m, up, step_x, step_y, bend, water.slope_variance);
+        fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
+        let mirrored = reflect(dir, waves.normal);
+        // Rough water reflects a patch of sky above the mirror direction.
+        mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
+    }
+    var downwelling = vec3f(0.0);
+    var mirrored_light = vec3f(0.0);
+    for (var i = 0u; i < body.sun_count; i++) {
+        use_sun(i);
+        let sun = active_sun.dir;
+        let sun_mu = dot(up, sun);
+        let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu);
+        var shadow = 1.0;
+        if sun_mu > -0.1 { shadow = cloud_shadow(rel_km, h, sun_mu, footprint_m * 0.001); }
+        let share = overcast(shadow);
+        // The shadow of the ground is known for the first sun only.
+        shadow *= select(1.0, water.visible.star, i == 0u);
+        let diffused = sunlight * max(sun_mu, 0.0) * share.y;
+        downwelling += sunlight * shadow * max(sun_mu, 0.0) + sky_irradiance(h, sun_mu) * share.x + diffused;
+        if ice < 1.0 {
+            mirrored_light += (sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI) * fresnel * water.visible.sky;
+            mirrored_light += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
+        }
+    }
+    var light = vec3f(0.0);
+    if ice < 1.0 {
+        light = water_body(water, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
+        let foam = foam_between(water.depths_m) * smoothstep(0.1, 0.6, variation + 0.25);
+        light = mix(light, vec3f(0.7) * downwelling / PI, foam * 0.6 * water.foam);
+    }
+    let white = body.ice_color * (1.0 + 0.18 * variation) * downwelling / PI;
+    return mix(light, white, ice);
 }

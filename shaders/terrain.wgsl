@@ -4,6 +4,7 @@
 #include "material.wgsl"
 #include "highlight.wgsl"
 #include "horizon.wgsl"
+#include "sea.wgsl"
 
 struct Vertex {
     @location(0) high_m: vec3f,
@@ -105,6 +106,8 @@ struct PixelGround {
     plane_m: f32,
     spread_m: f32,
     steep: Steepness,
+    // Share of the pixel that is under the water of rivers and lakes, and its depth in metres
+    water: vec2f,
 }
 
 // Change from a pixel to the next on the right and below: position in the detail texture in texels (xy), height of the
@@ -128,7 +131,7 @@ fn pixel_ground_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f
     let footprint = detail_place(in.layer, texel, step.right.xy, step.below.xy, by_distance);
     let change_m = 0.5 * (abs(step.right.z) + abs(step.below.z));
     let steep = Steepness(footprint, vec2f(0.0), Heights(0.0, vec2f(0.0), 0.0), 0.0, reach, dot(smooth_normal, up));
-    var out = PixelGround(smooth_normal, in.height_m, change_m, change_m, steep);
+    var out = PixelGround(smooth_normal, in.height_m, change_m, change_m, steep, vec2f(0.0));
     if in.layer < 0.0 { return out; }
     let slopes = detail_slopes_at(footprint);
     let slope = mix(slopes.xy, slopes.zw, parent);
@@ -144,6 +147,7 @@ fn pixel_ground_of(in: Ground, up: vec3f, footprint_m: f32, step: Step, reach: f
     if apart < 1.0 { out.steep.shown = rises_at(footprint); }
     out.steep.heights = heights;
     out.steep.apart = apart;
+    out.water = water_cover(footprint, parent);
     return out;
 }
 
@@ -360,10 +364,28 @@ fn lit(ground: Material, facet: Facet, from_ground: Visibility) -> vec3f {
         + sunlight * shadow * glint.x + sky * open * glint.y / PI;
 }
 
+// Absorption of what floats in rivers, and the light that it scatters back.
+const SILT_PER_M: vec3f = vec3f(0.35, 0.28, 0.45);
+const SILT_COLOR: vec3f = vec3f(0.010, 0.012, 0.005);
+
 // Visibility of the active sun and of the sky over the surrounding ground.
 fn visibility_at(in: Ground, up: vec3f) -> Visibility {
     let altitude_km = max(in.height_m, body.sea_level_km * 1000.0) * 0.001;
     return visibility(in.horizon, in.slope_axis, in.place.xy, faded(in.fade_m, in.chosen_distance_m), up, altitude_km);
+}
+
+// Radiance of rivers and lakes. They are murkier than the sea, shallow water most of all, and the wind raises lower
+// waves on them.
+fn inland_radiance(facet: Facet, floor: vec3f, depth_m: f32, temperature_c: f32, visible: Visibility) -> vec3f {
+    let clear = smoothstep(2.0, 60.0, depth_m);
+    let silt = mix(1.0, 0.1, clear);
+    let absorption_per_m = body.water_absorption_per_m * mix(4.0, 1.5, clear) + SILT_PER_M * silt;
+    let color = body.water_color + SILT_COLOR * mix(1.0, 0.3, clear);
+    let variance = body.wave_slope_variance * mix(0.1, 0.4, clear);
+    return water_radiance(Water(
+        facet.rel_km, -facet.v, floor, vec2f(depth_m), temperature_c, visible, facet.altitude_km, absorption_per_m,
+        color, variance, 0.0,
+    ));
 }
 
 // Radiance; height above sea level in metres; half the range of heights within the pixel in metres.
@@ -405,7 +427,10 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
     let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, variation);
     let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
-    if frame.debug_view == VIEW_ALBEDO { return Shaded(ground.albedo, over_sea_m, pixel_ground.spread_m); }
+    let wet = pixel_ground.water.x;
+    if frame.debug_view == VIEW_ALBEDO {
+        return Shaded(mix(ground.albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);
+    }
     n = bumped(n, in.rel_m, footprint_m);
     // Tilted ground has a larger area than the untilted ground below it. With the area included, bumps vary the light
     // but not its mean, so the ground is as bright from near as from far away, where bumps are too fine to be drawn.
@@ -418,6 +443,10 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         var from_here = from_ground;
         if i > 0u { from_here = visibility_at(on_mesh, up); }
         radiance += lit(ground, facet, from_here);
+    }
+    if wet > 0.0 {
+        let water = inland_radiance(facet, radiance, pixel_ground.water.y, climate.temperature_c, from_ground);
+        radiance = mix(radiance, water, wet);
     }
     let marked_radiance = highlighted(radiance, location, body.suns[0].irradiance / PI);
     return Shaded(min(marked_radiance, vec3f(60000.0)), over_sea_m, pixel_ground.spread_m);

@@ -44,7 +44,7 @@ pub(super) struct Args {
         value_parser = args::longitude
     )]
     lon: Option<f64>,
-    /// Altitude of the camera above the ground or the sea, whichever is higher; negative: depth under the sea
+    /// Altitude of the camera above the ground or the water on it, whichever is higher; negative: depth under water
     /// [default: far enough to see the whole planet]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
     altitude: Option<f64>,
@@ -182,8 +182,9 @@ fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
     let (radius_m, altitude_m) = match args.altitude {
         Some(altitude_m) => {
             let terrain = Terrain::try_new(planet.clone()).map_err(|error| error.to_string())?;
-            let ground_m = terrain.height_m(place.direction());
-            let floor_m = planet.sea_level_m().map_or(ground_m, |sea_m| sea_m.max(ground_m));
+            let below = terrain.sample(place.direction());
+            let ground_m = below.height_m;
+            let floor_m = below.water_level_m.map_or(ground_m, |water_m| water_m.max(ground_m));
             let depth_m = floor_m - ground_m;
             // Lowest altitude: 0.1 m above the ground or the sea bed.
             let deepest_m = 0.1 - depth_m;
@@ -191,8 +192,8 @@ fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
                 // Rounded up, so that the offered altitude is allowed.
                 let least_m = (deepest_m * 10.0).ceil() / 10.0;
                 let range = match depth_m > 0.2 {
-                    true => format!("the sea is {depth_m:.1} m deep there; use {least_m:.1} or more"),
-                    false => "there is no sea there; use 0.1 or more".to_owned(),
+                    true => format!("the water is {depth_m:.1} m deep there; use {least_m:.1} or more"),
+                    false => "there is no water there; use 0.1 or more".to_owned(),
                 };
                 return Err(format!("--altitude: {altitude_m} m is under the ground: {range}").into());
             }

@@ -39,12 +39,16 @@ pub struct DetailTile {
     /// Height in metres as the sum of the first two. The other two are the slope (rise over run) at the point as
     /// [`DetailTile::slopes`] show it, and with every octave.
     pub heights: Vec<[half::f16; 4]>,
+    /// Rivers and lakes: share of the ground around the point that is under water (0 to 1), depth of the water in
+    /// metres, the share as the detail texture of the parent shows it, and 1 where the water has a shore (0 where it
+    /// is narrower than texels). Empty without a structure. Heights and slopes are those of the water's surface.
+    pub water: Vec<[half::f16; 4]>,
 }
 
 impl DetailTile {
     /// Resident size.
     pub fn bytes(&self) -> usize {
-        self.slopes.len() * size_of::<[half::f16; 4]>() + self.heights.len() * size_of::<[half::f16; 4]>()
+        (self.slopes.len() + self.heights.len() + self.water.len()) * size_of::<[half::f16; 4]>()
     }
 }
 

@@ -15,6 +15,7 @@ pub(crate) const HORIZON: LayerKind = LayerKind {
     label: "horizon tiles",
     side_px: SIDE_PX as u32,
     formats: &[wgpu::TextureFormat::Rg16Float],
+    extra: None,
     layers: 64,
 };
 

@@ -15,6 +15,8 @@ pub(crate) struct LayerKind {
     pub(crate) side_px: u32,
     /// One image for each format; at most two.
     pub(crate) formats: &'static [wgpu::TextureFormat],
+    /// One more image, which only some tiles have. Its texture has a single layer until the first of them comes.
+    pub(crate) extra: Option<wgpu::TextureFormat>,
     /// Layers of one texture array.
     pub(crate) layers: u32,
 }
@@ -36,7 +38,7 @@ struct Held {
 pub(crate) struct LayerPool {
     kind: LayerKind,
     layout: wgpu::BindGroupLayout,
-    /// For each array, a texture for each format.
+    /// For each array, a texture for each format, then the extra one.
     textures: Vec<Vec<wgpu::Texture>>,
     groups: Vec<wgpu::BindGroup>,
     free: Vec<LayerPlace>,
@@ -58,18 +60,59 @@ impl LayerKind {
             },
             count: None,
         };
-        let entries: Vec<_> = (0..).zip(self.formats).map(entry).collect();
+        let entries: Vec<_> = (0..).zip(self.all_formats()).map(entry).collect();
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(self.label), entries: &entries })
     }
 
-    /// Bytes of the images of a tile.
+    fn all_formats(&self) -> impl Iterator<Item = wgpu::TextureFormat> {
+        self.formats.iter().copied().chain(self.extra)
+    }
+
+    /// Bytes of an image.
+    fn image_bytes(&self, format: wgpu::TextureFormat) -> u64 {
+        u64::from(self.side_px * self.side_px * format.block_copy_size(None).unwrap_or(0))
+    }
+
+    /// Bytes of the images that every tile has.
     pub(crate) fn tile_bytes(&self) -> u64 {
-        let texel = |format: &wgpu::TextureFormat| format.block_copy_size(None).unwrap_or(0);
-        u64::from(self.side_px * self.side_px * self.formats.iter().map(texel).sum::<u32>())
+        self.formats.iter().map(|format| self.image_bytes(*format)).sum()
     }
 
     fn extent(&self) -> wgpu::Extent3d {
         wgpu::Extent3d { width: self.side_px, height: self.side_px, depth_or_array_layers: 1 }
+    }
+
+    fn texture(&self, device: &wgpu::Device, format: wgpu::TextureFormat, layers: u32) -> wgpu::Texture {
+        device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(self.label),
+            size: wgpu::Extent3d { depth_or_array_layers: layers, ..self.extent() },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        })
+    }
+
+    /// The bind group of an array.
+    fn group(
+        &self,
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        textures: &[wgpu::Texture],
+    ) -> wgpu::BindGroup {
+        let array_view = |texture: &wgpu::Texture| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..wgpu::TextureViewDescriptor::default()
+            })
+        };
+        let views: Vec<_> = textures.iter().map(array_view).collect();
+        let entry =
+            |(binding, view)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+        let entries: Vec<_> = (0..).zip(&views).map(entry).collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(self.label), layout, entries: &entries })
     }
 }
 
@@ -106,7 +149,7 @@ impl LayerPool {
     }
 
     /// Uploads a tile ahead of the frame that draws it, if its bytes are `affordable`; a tile already in the pool keeps
-    /// its layer. Returns false if the tile has to wait.
+    /// its layer. `texels`: as for [`LayerPool::place`]. Returns false if the tile has to wait.
     pub(crate) fn place_ahead(
         &mut self,
         device: &wgpu::Device,
@@ -122,8 +165,8 @@ impl LayerPool {
         fits
     }
 
-    /// Location of a tile, which is uploaded if it is new. `texels` returns the bytes of each image, or `None` for a
-    /// tile that cannot be drawn.
+    /// Location of a tile, which is uploaded if it is new. `texels` returns the bytes of each image, the extra one last
+    /// if the tile has it, or `None` for a tile that cannot be drawn.
     pub(crate) fn place(
         &mut self,
         device: &wgpu::Device,
@@ -137,12 +180,36 @@ impl LayerPool {
         }
         let images = texels()?;
         let place = self.take_layer(device)?;
+        if let Some(format) = self.kind.extra {
+            self.place_extra(device, queue, place, format, images.len() > self.kind.formats.len());
+        }
         for (texture, bytes) in self.textures.get(place.array)?.iter().zip(&images) {
             write(queue, texture, place.layer, self.kind.extent(), bytes);
             self.uploaded_bytes += bytes.len() as u64;
         }
         self.held.insert(serial, Held { place, wanted_in_frame: self.frame });
         Some(place)
+    }
+
+    /// Makes room for the extra image of a tile that has one; clears the layer's for a tile without.
+    fn place_extra(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        place: LayerPlace,
+        format: wgpu::TextureFormat,
+        has_extra: bool,
+    ) {
+        let kind = self.kind;
+        let Some(textures) = self.textures.get_mut(place.array) else { return };
+        let Some(texture) = textures.last_mut() else { return };
+        let is_full = texture.depth_or_array_layers() == kind.layers;
+        if has_extra && !is_full {
+            *texture = kind.texture(device, format, kind.layers);
+            self.groups[place.array] = kind.group(device, &self.layout, textures);
+        } else if !has_extra && is_full {
+            write(queue, texture, place.layer, kind.extent(), &vec![0; kind.image_bytes(format) as usize]);
+        }
     }
 
     fn take_layer(&mut self, device: &wgpu::Device) -> Option<LayerPlace> {
@@ -165,34 +232,10 @@ impl LayerPool {
 
     fn grow(&mut self, device: &wgpu::Device) {
         let kind = self.kind;
-        let texture = |format: &wgpu::TextureFormat| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(kind.label),
-                size: wgpu::Extent3d { depth_or_array_layers: kind.layers, ..kind.extent() },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: *format,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            })
-        };
-        let textures: Vec<_> = kind.formats.iter().map(texture).collect();
-        let array_view = |texture: &wgpu::Texture| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2Array),
-                ..wgpu::TextureViewDescriptor::default()
-            })
-        };
-        let views: Vec<_> = textures.iter().map(array_view).collect();
-        let entry =
-            |(binding, view)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
-        let entries: Vec<_> = (0..).zip(&views).map(entry).collect();
-        self.groups.push(device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(kind.label),
-            layout: &self.layout,
-            entries: &entries,
-        }));
+        let mut textures: Vec<_> =
+            kind.formats.iter().map(|format| kind.texture(device, *format, kind.layers)).collect();
+        textures.extend(kind.extra.map(|format| kind.texture(device, format, 1)));
+        self.groups.push(kind.group(device, &self.layout, &textures));
         let array = self.textures.len();
         self.textures.push(textures);
         self.free.extend((0..kind.layers).rev().map(|layer| LayerPlace { array, layer }));

@@ -7,6 +7,7 @@
 use super::landform::{Chunk, Landform, MAX_BANDS, Scratch};
 use super::lane::CHUNK;
 use super::points::Points;
+use super::wet::Water;
 use crate::simd::Simd;
 use std::cell::RefCell;
 use std::ops::Deref;
@@ -52,12 +53,15 @@ pub(crate) struct Field {
     spacings_rad: Spacings,
     /// Gradients by the unit direction, one for each spacing; any more are spare memory.
     gradients: Vec<Components>,
+    /// Water at the points. Only the structure of a planet has it, at the points of a grid.
+    pub(crate) water: Vec<Water>,
 }
 
 impl PartialEq for Field {
     fn eq(&self, other: &Self) -> bool {
         *self.spacings_rad == *other.spacings_rad
             && self.value == other.value
+            && self.water == other.water
             && self.spacings_rad.iter().all(|&spacing| self.gradient(spacing) == other.gradient(spacing))
     }
 }
@@ -113,6 +117,7 @@ impl Field {
             };
             landform.chunk(&chunk, scratch);
             self.value.extend_from_slice(&scratch.sums.value[..end - start]);
+            self.water.extend_from_slice(&scratch.sums.water);
             for (components, lanes) in self.gradients.iter_mut().zip(scratch.sums.gradients()) {
                 for (component, lane) in components.iter_mut().zip(lanes) {
                     component.extend_from_slice(&lane[..end - start]);
@@ -122,6 +127,7 @@ impl Field {
     }
 
     /// Copies the numbers of a field at some of the points to their positions among `n` points; the others become 0.
+    /// Layers with masks have no water.
     pub(crate) fn scatter(&mut self, some: &Field, n: usize, is_there: impl Fn(usize) -> bool) {
         self.clear(&some.spacings_rad);
         self.value.resize(n, 0.0);
@@ -143,6 +149,7 @@ impl Field {
         self.spacings_rad = Spacings::new(spacings_rad.iter().copied());
         self.reserve(0, self.spacings_rad.len());
         self.value.clear();
+        self.water.clear();
         self.gradients.iter_mut().flatten().for_each(Vec::clear);
     }
 
@@ -160,5 +167,6 @@ impl Field {
     /// Resident size.
     pub(crate) fn bytes(&self) -> usize {
         self.value.len() * (size_of::<f64>() + self.spacings_rad.len() * size_of::<[f32; 3]>())
+            + self.water.len() * size_of::<Water>()
     }
 }

@@ -42,6 +42,7 @@ pub(crate) mod relief;
 pub mod revision;
 mod scalar;
 mod water;
+pub(crate) mod wet;
 
 use crate::planet::{InvalidPlanet, Planet};
 use crate::world::{Inputs, KeepGoing, MapWork, World};

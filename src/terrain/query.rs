@@ -11,6 +11,7 @@ use super::field::{ALL_OCTAVES, Components};
 use super::lane::CHUNK;
 use super::points::unit;
 use super::water::River;
+use super::wet::Water;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::cell::RefCell;
@@ -130,6 +131,8 @@ pub(crate) struct Slopes {
     pub(crate) height_m: Vec<f64>,
     /// For each spacing, the slopes that points so far apart can show: see [`tangent_slope`].
     pub(crate) slopes: Vec<Vec<DVec3>>,
+    /// Water over the ground; empty without a structure.
+    pub(crate) water: Vec<Water>,
 }
 
 impl Terrain {
@@ -239,12 +242,14 @@ impl Terrain {
         let mut ground = Slopes {
             height_m: Vec::with_capacity(dirs_planet.len()),
             slopes: spacings_rad.iter().map(|_| Vec::with_capacity(dirs_planet.len())).collect(),
+            water: Vec::new(),
         };
         with_scratch(|scratch| {
             for dirs in dirs_planet.chunks(CHUNK) {
                 self.evaluate_at(dirs, spacings_rad.first().copied().unwrap_or(0.0), spacings_rad, scratch);
                 let heights = &scratch.0.heights;
                 ground.height_m.extend_from_slice(&heights.height_m);
+                ground.water.extend_from_slice(&heights.water);
                 for (slopes, gradient) in ground.slopes.iter_mut().zip(&heights.gradients) {
                     let slope = |(i, &dir)| self.slope(dir, gradient, i, heights.height_m[i]);
                     slopes.extend(dirs.iter().enumerate().map(slope));

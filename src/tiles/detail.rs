@@ -4,6 +4,7 @@ use crate::lod::range::spacing_rad;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_IMAGE, DETAIL_SIDE, DetailTile, TILE_QUADS, Tile, slope_basis};
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
+use crate::terrain::wet::Wet;
 use glam::DVec3;
 use half::f16;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -23,6 +24,19 @@ struct Texel {
     slope: [f64; 2],
     /// Slope of the ground with every octave.
     steepest: f64,
+    water: Wet,
+}
+
+impl Texel {
+    /// The ground with water on it.
+    fn under(self, water: Wet) -> Self {
+        Self {
+            height_m: self.height_m + water.rise_m,
+            slope: self.slope.map(|slope| slope * water.slope),
+            steepest: self.steepest * water.slope,
+            water,
+        }
+    }
 }
 
 /// Computes the detail texture of a tile; None once `wanted`, asked repeatedly, says no.
@@ -44,8 +58,15 @@ pub(crate) fn make_detail(terrain: &Terrain, tile: &Tile, wanted: &dyn Fn() -> b
         let rest = half(height_m - f64::from(greater), MOST);
         heights.push([greater, rest, half(own.slope[0].hypot(own.slope[1]), STEEPEST), half(own.steepest, STEEPEST)]);
     }
+    let mut water = Vec::new();
+    if terrain.planet().structure.is_some() {
+        water.extend(own_texels.iter().enumerate().map(|(i, own)| {
+            let parent = between(&parents, i % DETAIL_IMAGE, i / DETAIL_IMAGE).water;
+            [own.water.share, own.water.depth_m, parent.share, own.water.wide].map(|value| half(value, MOST))
+        }));
+    }
     let serial = NEXT_SERIAL.fetch_add(1, Ordering::Relaxed);
-    Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights })
+    Some(DetailTile { id: tile.id, serial, heights_serial: tile.heights_serial, slopes, base_m, heights, water })
 }
 
 /// Every `stride`th texel of a node and its apron, row by row. Slopes omit octaves that this spacing cannot show.
@@ -54,6 +75,7 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
     let apron = DETAIL_APRON / stride;
     let side = quads + 1 + 2 * apron;
     let spacing_rad = spacing_rad(id.level) * TILE_QUADS as f64 / quads as f64;
+    let (spacing_m, sea_m) = (spacing_rad * terrain.planet().radius_m(), terrain.planet().sea_level_m());
     let mut texels = Vec::with_capacity(side * side);
     for start in (0..side * side).step_by(BATCH) {
         if !wanted() {
@@ -67,7 +89,11 @@ fn texels(terrain: &Terrain, id: NodeId, stride: usize, wanted: &dyn Fn() -> boo
         texels.extend(dirs.iter().enumerate().map(|(i, dir)| {
             let [seen, all] = [0, 1].map(|band| relief.slopes[band][i]);
             let slope = slope_basis(id.face, *dir).map(|tangent| seen.dot(tangent));
-            Texel { height_m: relief.height_m[i], slope, steepest: all.length() }
+            let ground = Texel { height_m: relief.height_m[i], slope, steepest: all.length(), water: Wet::default() };
+            match relief.water.get(i) {
+                Some(water) => ground.under(water.over(ground.height_m, seen.length() * spacing_m, sea_m)),
+                None => ground,
+            }
         }));
     }
     Some(texels)
@@ -82,6 +108,7 @@ fn between(wide: &[Texel], x: usize, y: usize) -> Texel {
         mean.height_m += 0.25 * texel.height_m;
         mean.slope[0] += 0.25 * texel.slope[0];
         mean.slope[1] += 0.25 * texel.slope[1];
+        mean.water.share += 0.25 * texel.water.share;
     }
     mean
 }

@@ -26,6 +26,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Clone, Debug)]
 pub(crate) struct Parts {
     points: Arc<Points>,
+    /// Of the ground and of the water on it.
     heights: Arc<Heights>,
     /// See [`Tile::heights_serial`].
     heights_serial: u64,
@@ -152,7 +153,8 @@ pub(crate) fn make_tile(
                 relief: &relief_fields,
                 climate: ClimateInputs { noise: [&climate.temperature, &climate.moisture], from_maps: &from_maps },
             };
-            let heights = terrain.joined(&points, &spacings_rad, &mut kept);
+            let mut heights = terrain.joined(&points, &spacings_rad, &mut kept);
+            heights.flood(&points.dirs, own_spacing_rad, terrain.planet().sea_level_m());
             (Arc::new(heights), NEXT_HEIGHTS.fetch_add(1, Ordering::Relaxed))
         }),
     };

@@ -293,5 +293,5 @@ fn altitude_goes_below_the_sea() {
     let (status, _, err) = shot("15", "45", "-9000");
     assert!(status == 1 && err.contains("m deep there; use -"), "{err}");
     let (status, _, err) = shot("13", "-6", "-5");
-    assert!(status == 1 && err.contains("there is no sea there; use 0.1 or more"), "{err}");
+    assert!(status == 1 && err.contains("there is no water there; use 0.1 or more"), "{err}");
 }

@@ -3,6 +3,7 @@
 //! - `shaders`: every WGSL file through naga
 //! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
 //! - `biomes`, `colours`, `materials`: the colours of the ground
+//! - `lakes`: water of planets with a structure
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
 //! - `render`: passes, stages and errors of the renderer
@@ -13,6 +14,7 @@ mod air;
 mod biomes;
 mod colours;
 mod edges;
+mod lakes;
 mod lod_pictures;
 mod materials;
 mod planets;

@@ -195,6 +195,8 @@ uniform_struct! {
         moisture_per_m: f32,
         /// 1 while cells of the biome table are highlighted.
         marked: u32,
+        /// 1 where there are rivers and lakes.
+        has_rivers: u32,
     }
 }
 

@@ -1,4 +1,4 @@
-//! Uniforms of the sea.
+//! Uniforms of the sea, and of rivers and lakes.
 
 use super::{Body, rgb};
 use crate::planet::{Planet, Water};
@@ -13,13 +13,14 @@ const GOLDEN_ANGLE_RAD: f64 = 2.399_963;
 /// Gravity that drives the waves, m/s².
 const GRAVITY_M_S2: f64 = 9.81;
 
-/// Sets the sea of a planet.
+/// Sets the water of a planet. Rivers and lakes of a planet with no sea have the default colours.
 pub(super) fn of(out: &mut Body, planet: &Planet) {
     let none = Water::default();
     let water = planet.water.as_ref().unwrap_or(&none);
     // Cox and Munk 1954: variance of the slope, up- and crosswind together.
     let variance = 0.003 + 0.00512 * water.wind_m_s;
     out.has_sea = u32::from(planet.water.is_some());
+    out.has_rivers = u32::from(planet.structure.is_some());
     out.water_absorption_per_m = rgb(water.absorption_per_m);
     out.water_color = rgb(water.color);
     out.wave_slope_variance = variance as f32;

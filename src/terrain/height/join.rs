@@ -12,6 +12,8 @@ use crate::simd::Simd;
 use crate::terrain::field::{Components, Field};
 use crate::terrain::landform::MAX_BANDS;
 use crate::terrain::points::Points;
+use crate::terrain::wet::Water;
+use glam::DVec3;
 use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
@@ -23,6 +25,8 @@ pub(crate) struct Heights {
     pub(crate) height_m: Vec<f64>,
     /// One for each of the spacings asked for.
     pub(crate) gradients: Vec<Components>,
+    /// Water over the ground, at the points of a grid; empty without a structure.
+    pub(crate) water: Vec<Water>,
 }
 
 impl Heights {
@@ -33,9 +37,28 @@ impl Heights {
         (lowest_m, greatest_m)
     }
 
+    /// Raises the ground to the water that stands or flows on it, and levels its slopes there. `dirs`: the points, a
+    /// grid `spacing_rad` apart. Without a structure nothing happens.
+    pub(crate) fn flood(&mut self, dirs: &[DVec3], spacing_rad: f64, sea_m: Option<f64>) {
+        for (i, (water, dir)) in std::mem::take(&mut self.water).iter().zip(dirs).enumerate() {
+            let by_dir = self.gradients.first().map_or(DVec3::ZERO, |gradient| {
+                DVec3::from_array(gradient.each_ref().map(|component| f64::from(component[i])))
+            });
+            let along = by_dir - *dir * dir.dot(by_dir);
+            let wet = water.over(self.height_m[i], along.length() * spacing_rad, sea_m);
+            self.height_m[i] += wet.rise_m;
+            if wet.slope < 1.0 {
+                for component in self.gradients.iter_mut().flatten() {
+                    component[i] *= wet.slope as f32;
+                }
+            }
+        }
+    }
+
     /// Makes room for a batch without giving memory back, so that nothing is allocated for the next batch.
     fn clear(&mut self, points: usize, bands: usize) {
         self.height_m.clear();
+        self.water.clear();
         self.height_m.reserve(points);
         self.gradients.resize_with(bands.max(self.gradients.len()), Default::default);
         self.gradients.iter_mut().flatten().for_each(Vec::clear);
@@ -125,6 +148,11 @@ impl Batch<'_> {
                     component.extend_from_slice(&lane[..chunk.len()]);
                 }
             }
+        }
+        if self.stack.has_structure
+            && let Some(field) = fields.field(0)
+        {
+            heights.water.extend_from_slice(&field.water);
         }
     }
 }

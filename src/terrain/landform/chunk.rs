@@ -4,6 +4,7 @@ use crate::simd::{Simd, for_each_simd};
 use crate::terrain::jet::Jets;
 use crate::terrain::lane::{CHUNK, Lane, Points3};
 use crate::terrain::scalar::Scalar;
+use crate::terrain::wet::Water;
 use glam::DVec3;
 
 /// Most gradient bands at once: a tile's own spacing, its parent's, and those of slope masks.
@@ -29,6 +30,11 @@ pub(crate) struct Chunk<'a> {
 impl Chunk<'_> {
     pub(crate) fn len(&self) -> usize {
         self.dirs.len()
+    }
+
+    /// Whether the points are to be drawn, so that their water counts: those of a grid, with all detail.
+    pub(super) fn is_drawn(&self) -> bool {
+        self.point_spacing_rad > 0.0 && !self.seen_only
     }
 
     /// How many octaves to evaluate in f64: none where millimetres do not count.
@@ -90,11 +96,13 @@ pub(crate) struct Sums {
     /// Gradients by the unit direction. Only the first `bands` belong to the chunk.
     gradients: Vec<[Lane<f32>; 3]>,
     bands: usize,
+    /// Water at the points; only the structure of a planet fills it, for points of a grid.
+    pub(crate) water: Vec<Water>,
 }
 
 impl Default for Sums {
     fn default() -> Self {
-        Self { value: [0.0; CHUNK], gradients: Vec::new(), bands: 0 }
+        Self { value: [0.0; CHUNK], gradients: Vec::new(), bands: 0, water: Vec::new() }
     }
 }
 
@@ -102,6 +110,7 @@ impl Sums {
     pub(super) fn restart(&mut self, chunk: &Chunk<'_>) {
         let n = chunk.len();
         self.value[..n].fill(0.0);
+        self.water.clear();
         self.bands = chunk.spacings_rad.len();
         if self.gradients.len() < self.bands {
             self.gradients.resize(self.bands, [[0.0; CHUNK]; 3]);

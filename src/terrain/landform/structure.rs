@@ -5,8 +5,9 @@
 
 use super::{Chunk, Evaluate, Scratch};
 use crate::planet::Key;
+use crate::terrain::wet::Water;
 use crate::world::carved::Carved;
-use crate::world::rivers::{Cache, LEVELS, RiverPoint, Rivers};
+use crate::world::rivers::{Cache, Flow, LEVELS, RiverPoint, Rivers};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -40,12 +41,19 @@ impl Structure {
 
 thread_local! {
     /// The blocks of rivers that the thread uses, and its last answers.
-    static MEMORY: RefCell<(Cache, Vec<RiverPoint>)> = RefCell::default();
+    static MEMORY: RefCell<Memory> = RefCell::default();
+}
+
+#[derive(Default)]
+struct Memory {
+    cache: Cache,
+    points: Vec<RiverPoint>,
+    flows: Vec<Flow>,
 }
 
 /// Evaluates rivers at unit directions, on all their levels. Allocates nothing once the blocks around have been built.
 pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], answer: impl FnOnce(&[RiverPoint])) {
-    MEMORY.with_borrow_mut(|(cache, points)| {
+    MEMORY.with_borrow_mut(|Memory { cache, points, .. }| {
         rivers.evaluate(dirs, LEVELS, cache, points);
         answer(points);
     });
@@ -78,7 +86,7 @@ impl Evaluate for Structure {
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
         let Some(rivers) = self.rivers.upgrade() else { return };
-        MEMORY.with_borrow_mut(|(cache, points)| {
+        MEMORY.with_borrow_mut(|Memory { cache, points, flows }| {
             let levels = rivers.levels_for(chunk.point_spacing_rad, VALUE_POINTS);
             rivers.evaluate(chunk.dirs, levels, cache, points);
             for (value, point) in scratch.sums.value.iter_mut().zip(&*points) {
@@ -91,6 +99,11 @@ impl Evaluate for Structure {
                         lane[i] += slope as f32;
                     }
                 }
+            }
+            if chunk.is_drawn() {
+                rivers.flows(chunk.dirs, levels, chunk.point_spacing_rad, cache, flows);
+                let water = points.iter().zip(&*flows).map(|(point, flow)| Water::new(point, flow));
+                scratch.sums.water.extend(water);
             }
         });
     }

@@ -35,6 +35,9 @@ pub(super) struct Ground {
     banks_m: f64,
     /// The lake whose basin this is, counted from 1.
     pub(super) lake: u32,
+    /// The cell of the solver, and the height of the banks of its nearest reach if that has nothing to do with a lake.
+    cell: usize,
+    dry_bank_m: Option<f64>,
     /// The relief of the level after the finest one.
     pub(super) next_relief_m: f64,
 }
@@ -50,7 +53,7 @@ impl Rivers {
 
     /// Makes the blocks of the first levels at a direction current.
     #[inline(always)]
-    fn find_blocks(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
+    pub(super) fn find_blocks(&self, place: &FacePlace, levels: usize, cache: &mut Cache) {
         // Building a block moves the current blocks of coarser levels, so that the search starts again.
         loop {
             let mut moved = false;
@@ -89,6 +92,8 @@ impl Rivers {
             carved: Jet::default(),
             banks_m: 0.0,
             lake: self.trunks.lake_near(trunk),
+            cell: trunk,
+            dry_bank_m: None,
             next_relief_m: 0.0,
         };
         found.gradients[0] = ground.gradient;
@@ -106,7 +111,7 @@ impl Rivers {
             found.ridge += scale * x.value;
             scale *= RELIEF_RATIO;
             if k == 0 && found.lake != 0 {
-                found.lake = self.lake_at(found.lake, &here, block);
+                (found.lake, found.dry_bank_m) = self.lake_at(found.lake, &here, block);
             }
             (found.nearest, found.river, found.carved) = (here.nearest, here.river, here.carved);
             found.banks_m = here.banks.value;
@@ -119,14 +124,15 @@ impl Rivers {
     }
 
     /// The lake near a point if its water may stand there: not where the nearest reach lies below it, beyond its sill.
-    fn lake_at(&self, lake: u32, here: &Level, block: &Block) -> u32 {
-        let Some(near) = &here.nearest else { return lake };
+    /// And the height of the banks of that reach, if it flows neither into a lake nor out of one.
+    fn lake_at(&self, lake: u32, here: &Level, block: &Block) -> (u32, Option<f64>) {
+        let Some(near) = &here.nearest else { return (lake, None) };
         let line = &block.lines[usize::from(near.piece)];
         let bank_m = line.bank_m + line.bank_change_m * near.share;
         match block.stream(near.piece).lake {
-            0 if self.trunks.standing(lake).0.is_some_and(|level_m| bank_m < level_m) => 0,
-            0 => lake,
-            own => own,
+            0 if self.trunks.standing(lake).0.is_some_and(|level_m| bank_m < level_m) => (0, Some(bank_m)),
+            0 => (lake, Some(bank_m)),
+            own => (own, None),
         }
     }
 
@@ -158,6 +164,7 @@ impl Rivers {
             gradients,
             water_level_m: standing_m,
             lake: if standing_m.is_some() { lake } else { 0 },
+            lake_level_m: self.shore_m(dir, at.cell, at.dry_bank_m),
             ridge: 2.0 * at.ridge - 1.0,
             river: None,
         };

@@ -10,6 +10,7 @@
 //! - `blend`: the ground of one level at a point, laid over the level before
 //! - `courses`: rivers from source to mouth
 //! - `evaluate`: ground, water and river at points; `bounds`: bounds of the ground near a direction
+//! - `flow`: shares of rivers in the footprints of points, to be drawn; `shore`: the drawn surface of lakes
 //!
 //! The solved ground is a smooth raster. Each level of reaches is laid over it: on a reach the ground is the reach's
 //! bed, which never rises downstream; away from reaches it returns to the level before, raised by the relief between
@@ -26,9 +27,11 @@ mod cache;
 mod coarser;
 mod courses;
 mod evaluate;
+mod flow;
 mod grid;
 mod net;
 mod reach;
+mod shore;
 #[cfg(test)]
 mod tests;
 mod tributaries;
@@ -42,6 +45,7 @@ use bounds::Bounds;
 use cache::Blocks;
 pub(crate) use cache::{Cache, LEVELS};
 pub(crate) use courses::CourseEnd;
+pub(crate) use flow::Flow;
 use glam::DVec3;
 use grid::Grid;
 use std::sync::Arc;
@@ -74,6 +78,8 @@ pub(crate) struct RiverPoint {
     pub(crate) water_level_m: Option<f64>,
     /// The lake whose water it is, counted from 1; else 0.
     pub(crate) lake: u32,
+    /// Surface of the lake near the point as tiles draw it, if it is higher than the sea: on dry ground, too.
+    pub(crate) lake_level_m: Option<f64>,
     /// From -1 in valleys to 1 on ridges.
     pub(crate) ridge: f64,
     /// The nearest reach, if one is near.

@@ -102,6 +102,12 @@ impl Trunks {
         self.cells.around(cell).map(|other| other as usize)
     }
 
+    /// A cell and the eight around it, with their middles.
+    pub(super) fn ring(&self, cell: usize) -> impl Iterator<Item = (usize, DVec3)> {
+        let all = std::iter::once(cell).chain(self.around(cell));
+        all.map(|cell| (cell, self.cells.dirs[cell]))
+    }
+
     /// Follows each river to its last cell. Nothing is followed twice.
     fn rivers(&self) -> Vec<u32> {
         let mut river = vec![NONE; self.drainage.receiver.len()];
