@@ -22,6 +22,9 @@ const STEEPEST: f64 = 0.7;
 /// The relief of a level on the reaches of the level before, by that on its ridges.
 const LEAST_SHARE: f64 = 0.2;
 
+/// Depth of the solved sea floor from which rivers and the relief between them add nothing, metres.
+const SHALLOWS_M: f64 = 30.0;
+
 /// The ground at a point, and the reaches of its finest level.
 pub(super) struct Ground {
     pub(super) ground: Jet,
@@ -96,13 +99,14 @@ impl Rivers {
             dry_bank_m: None,
             next_relief_m: 0.0,
         };
+        let solved = ground;
         found.gradients[0] = ground.gradient;
         let (mut scale, mut ridges) = (1.0, 0.0);
         for k in 0..levels {
             let Some((_, block)) = &cache.current[k] else { continue };
             let here: Level = level(dir, block, block.near(&face_place), k + 1 == levels);
             let amplitude = capped(relief.scaled(scale), self.steepest_m[k]).times(share);
-            ground = laid_over(ground, amplitude, &here);
+            ground = drowned(laid_over(ground, amplitude, &here), solved, self.trunks.sea_level_m);
             // Sums of tangential parts keep a little of the radial one.
             found.gradients[k + 1] = ground.gradient - dir * ground.gradient.dot(dir);
             let x = here.x;
@@ -205,6 +209,19 @@ fn points(rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out
 for_each_simd!(fn points_simd(
     rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>
 ) = points);
+
+/// Off the coast the solved sea floor holds: no spit of land follows the last reach of each river.
+#[inline(always)]
+fn drowned(ground: Jet, solved: Jet, sea_level_m: Option<f64>) -> Jet {
+    let depth_m = sea_level_m.map_or(0.0, |sea_m| sea_m - solved.value);
+    if depth_m <= 0.0 || ground.value <= solved.value {
+        return ground;
+    }
+    let t = (depth_m * (1.0 / SHALLOWS_M)).min(1.0);
+    let share = solved.mapped(1.0 - t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) * (1.0 / SHALLOWS_M));
+    let above = Jet { value: ground.value - solved.value, gradient: ground.gradient - solved.gradient };
+    solved.plus(above.times(share))
+}
 
 /// A relief that approaches the steepest possible one, never above it.
 #[inline(always)]
