@@ -68,7 +68,7 @@ impl Water {
         let over_m = f64::from(self.lake_m) - ground_m;
         let lake = (0.5 + over_m / spread_m.max(LEAST_SPREAD_M)).clamp(0.0, 1.0);
         let river_rise_m = f64::from(self.river_rise_m);
-        let is_land = sea_m.is_none_or(|sea_m| ground_m + river_rise_m > sea_m);
+        let is_land = sea_m.is_none_or(|sea_m| ground_m > sea_m);
         let river = if is_land { f64::from(self.river) } else { 0.0 };
         if lake >= river {
             // Beyond a shore the next points know of it, too.

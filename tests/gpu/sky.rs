@@ -10,7 +10,10 @@ use tellus::planet::{Planet, shipped};
 fn planets() -> Vec<(&'static str, Planet)> {
     let earth = Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap();
     let shipped = shipped::ALL.iter().map(|preset| (preset.file, preset.load().unwrap()));
-    shipped.filter(|(_, planet)| planet.atmosphere.is_some() && planet.structure.is_none()).chain([("earth_air.ron", earth)]).collect()
+    shipped
+        .filter(|(_, planet)| planet.atmosphere.is_some() && planet.structure.is_none())
+        .chain([("earth_air.ron", earth)])
+        .collect()
 }
 
 /// Radiance below which errors are absolute: a ten-thousandth of the sky at noon.
