@@ -19,11 +19,13 @@ const PATCH_STEP_M: f64 = 15.0;
 /// Patches on land, far from each other.
 const PATCHES: usize = 24;
 
-/// The `structure` object of the report: of the default planet with a structure of default parameters, medians of a few
-/// runs. `first_ms` and `finest_ms` are times until the coarsest and the finest rivers serve; `levels` has each solver's
-/// share, with nanoseconds a cell and pass of the river solver. `view_ms` is the whole opening view with maps at hand,
-/// `view_first_ms` its first time. `cold_mps` and `warm_mps` are million heights a second on one core, of patches with
-/// all levels of rivers: where no river has been asked for, and again.
+/// The `structure` object of the report: the default planet with a structure of default parameters, median run.
+///
+/// - `first_ms`, `finest_ms`: time until the coarsest and the finest rivers serve
+/// - `levels`: each solver's share, with nanoseconds for each land cell and pass of the river solver
+/// - `view_first_ms`, `view_ms`: the whole opening view with maps at hand, the first time and again
+/// - `cold_mps`, `warm_mps`: million heights a second on one core with all levels of rivers, where no river has been
+///   asked for, and again
 pub(super) fn measure(default: &Planet) -> Result<Value, String> {
     let planet = Arc::new(Planet { structure: Some(Structure::default()), ..default.clone() });
     let draft = Terrain::try_draft(planet.clone(), &World::default()).map_err(|error| error.to_string())?;

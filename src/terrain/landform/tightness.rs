@@ -61,7 +61,8 @@ fn bounds_of_small_places_are_tight() {
         }
     }
     for shipped in shipped::ALL {
-        if let Ok(planet) = shipped.load() {
+        // The bounds of a structure are those of its cells: wider than a small place by far.
+        if let Some(planet) = shipped.load().ok().filter(|planet| planet.structure.is_none()) {
             let fine = report(shipped.file, planet);
             if fine > 4.0 {
                 loose.push((shipped.file, fine));
