@@ -12,12 +12,15 @@ const SIDE_PX: u32 = 64;
 /// Width of a pixel on the lake, which is some kilometres wide.
 const PIXEL_M: f64 = 30.0;
 
-/// A lake far from other lakes, and a location where it is deep.
+/// A lake without ice far from other lakes, and a location where it is deep.
 fn lake(terrain: &Terrain) -> (Lake, LatLon) {
     let lakes = terrain.rivers(1e9).lakes;
     let is_alone = |lake: &&Lake| {
         let others = lakes.iter().filter(|other| other.id != lake.id).flat_map(|other| &other.cells);
-        lake.level_m > 1.0 && others.into_iter().all(|other| other.direction().dot(lake.cells[0].direction()) < 0.99)
+        let is_warm = terrain.sample(lake.cells[0].direction()).temperature_c > 8.0;
+        is_warm
+            && lake.level_m > 1.0
+            && others.into_iter().all(|other| other.direction().dot(lake.cells[0].direction()) < 0.99)
     };
     let lake = lakes.iter().find(is_alone).expect("a lake");
     let middle = lake.cells[0].direction();
