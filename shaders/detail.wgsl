@@ -4,9 +4,9 @@
 // `detail_heights`: height in metres as the sum of two values (xy), steepness (rise over run) of the slopes in the
 // texel (z), and steepness including finer slopes that are faded out of them (w).
 @group(2) @binding(0) var detail_slopes: texture_2d_array<f32>;
+@group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 // `detail_water`: rivers and lakes. Share of the ground under water (x), depth of the water in metres (y), the share in
 // the parent's detail texture (z), and 1 where the water has a shore, 0 where it is narrower than texels (w).
-@group(2) @binding(1) var detail_heights: texture_2d_array<f32>;
 @group(2) @binding(2) var detail_water: texture_2d_array<f32>;
 
 // Footprint of a pixel in a detail texture.

@@ -5,7 +5,7 @@
 
 use super::cells::Cells;
 use super::drainage::{self, Basins, Drainage};
-use super::grid::{coarsened, refined};
+use super::grid::refined;
 use super::map::{Inputs, Job, WorldMap};
 use super::plates::{Plates, Rock};
 use super::rivers::Rivers;
@@ -140,15 +140,11 @@ fn drainage_of(job: &Job<'_>, rock: &Rock, weather: &Weather, coarser: Option<&D
     Drainage::solve(&inputs, coarser, job.keep_going)
 }
 
-/// Values of one grid at the cells of another, whose side is a power of two times as large or as small.
-pub(super) fn resampled(mut values: Vec<f64>, mut side: usize, to: usize) -> Vec<f64> {
+/// Values of a grid at the cells of a finer one, whose side is a power of two times as large.
+fn resampled(mut values: Vec<f64>, mut side: usize, to: usize) -> Vec<f64> {
     while side < to {
         values = refined(&Cells::of(side), &values);
         side *= 2;
-    }
-    while side > to {
-        values = coarsened(side, &values);
-        side /= 2;
     }
     values
 }

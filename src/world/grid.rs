@@ -77,13 +77,6 @@ pub(crate) fn refined(cells: &Cells, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Values on the grid of half the side: means of four cells.
-pub(crate) fn coarsened(side: usize, values: &[f64]) -> Vec<f64> {
-    let half = side / 2;
-    let mean = |cell: usize| children(half, cell).iter().map(|&child| values[child]).sum::<f64>() * 0.25;
-    (0..6 * half * half).into_par_iter().map(mean).collect()
-}
-
 /// Means over each cell and its neighbours, `rounds` times.
 pub(crate) fn smoothed(cells: &Cells, values: &[f64], rounds: usize) -> Vec<f64> {
     let mut values = values.to_vec();

@@ -224,7 +224,11 @@ mod tests {
     fn a_row_has_the_bits_of_its_points() {
         let points: Vec<DVec3> = crate::sphere::spread(101).map(|dir| dir * 3.7).collect();
         let one: Vec<f64> = points.iter().map(|p| fbm(*p, 2.1, 4, 0.55, 9)).collect();
-        assert_eq!(fbm_row(&points, 2.1, 4, 0.55, 9), one);
+        for simd in Simd::available() {
+            let mut row = vec![0.0; points.len()];
+            row_simd(simd, &points, [2.1, 0.55], 4, 9, &mut row);
+            assert_eq!(row, one, "{simd:?}");
+        }
         let one: Vec<DVec3> = points.iter().map(|p| fbm3(*p, 1.4, 3, 0.5, 9)).collect();
         assert_eq!(fbm3_row(&points, 1.4, 3, 0.5, 9), one);
     }

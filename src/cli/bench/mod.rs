@@ -78,7 +78,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if wants(Part::Noise) {
         report["noise"] = noise::measure();
     }
-    if wants(Part::Rebuild) {
+    // Edits need them too: to find the planet whose tiles take longest.
+    if wants(Part::Rebuild) || wants(Part::Edits) {
         let rebuilds: Result<Vec<Value>, _> = planets.iter().map(|(file, planet)| rebuild(file, planet)).collect();
         report["rebuild"] = json!(rebuilds?);
     }
@@ -87,7 +88,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Edits) {
         report["edits"] = json!(edits::measure(default));
-        // Of the planet whose tiles take longest.
         let full_ms = |i: &usize| report["rebuild"][*i]["full_ms"].as_f64().unwrap_or(0.0);
         let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
         report["heaviest"] = json!(planets[heaviest].0);

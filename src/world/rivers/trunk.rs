@@ -65,10 +65,9 @@ impl Trunks {
             relief_m: Vec::new(),
         };
         trunks.river = trunks.rivers();
-        let lake_near = |cell: usize| match trunks.drainage.lake[cell] {
-            0 => {
-                trunks.around(cell).map(|other| trunks.drainage.lake[other]).into_iter().filter(|&lake| lake != 0).min()
-            }
+        let lake = &trunks.drainage.lake;
+        let lake_near = |cell: usize| match lake[cell] {
+            0 => trunks.around(cell).map(|other| lake[other]).into_iter().filter(|&lake| lake != 0).min(),
             lake => Some(lake),
         };
         let lakes = (0..count).into_par_iter().map(|cell| lake_near(cell).unwrap_or(0)).collect();
@@ -144,13 +143,12 @@ impl Trunks {
 
     /// Mean difference in height to the land around a cell; 0 in water.
     fn relief(&self, cell: usize) -> f32 {
-        let land = |cell: usize| self.flows(cell) && self.drainage.lake[cell] == 0;
+        let Drainage { height_m, lake, .. } = &*self.drainage;
+        let land = |cell: usize| self.flows(cell) && lake[cell] == 0;
         if !land(cell) {
             return 0.0;
         }
-        let rise = |other: usize| {
-            if land(other) { (self.drainage.height_m[other] - self.drainage.height_m[cell]).abs() } else { 0.0 }
-        };
+        let rise = |other: usize| if land(other) { (height_m[other] - height_m[cell]).abs() } else { 0.0 };
         self.around(cell).iter().map(|&other| rise(other)).sum::<f32>() / 8.0
     }
 
