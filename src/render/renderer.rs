@@ -15,15 +15,16 @@ use super::{FrameStats, Metering, RenderError, exposure, gpu, shaders};
 use crate::lod::Quality;
 use crate::tiles::Surface;
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 /// Draws scenes on one device. Bodies and views have their own resources, under the ids that a scene gives them.
 pub struct Renderer {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    shared: UniformGroups,
-    pub(crate) patterns: Patterns,
-    pub(crate) indices: Indices,
-    pub(crate) pipelines: Pipelines,
+    shared: Arc<UniformGroups>,
+    pub(crate) patterns: Arc<Patterns>,
+    pub(crate) indices: Arc<Indices>,
+    pub(crate) pipelines: Arc<Pipelines>,
     pub(crate) bodies: HashMap<BodyId, BodyResources>,
     pub(crate) views: HashMap<ViewId, ViewResources>,
     watch: shaders::Watch,
@@ -89,16 +90,34 @@ impl Renderer {
         Ok(Self {
             device: device.clone(),
             queue: queue.clone(),
-            shared,
-            patterns,
-            indices: Indices::new(device),
-            pipelines,
+            shared: Arc::new(shared),
+            patterns: Arc::new(patterns),
+            indices: Arc::new(Indices::new(device)),
+            pipelines: Arc::new(pipelines),
             bodies: HashMap::new(),
             views: HashMap::new(),
             watch: shaders::Watch::new(),
             shader_error: None,
             newest: None,
         })
+    }
+
+    /// A second renderer on the same device, with bodies and views of its own: it shares the pipelines and the patterns
+    /// of this one, so that it costs nothing to make.
+    pub fn sibling(&self) -> Self {
+        Self {
+            device: self.device.clone(),
+            queue: self.queue.clone(),
+            shared: Arc::clone(&self.shared),
+            patterns: Arc::clone(&self.patterns),
+            indices: Arc::clone(&self.indices),
+            pipelines: Arc::clone(&self.pipelines),
+            bodies: HashMap::new(),
+            views: HashMap::new(),
+            watch: shaders::Watch::new(),
+            shader_error: None,
+            newest: None,
+        }
     }
 
     /// Layouts of the two bind groups of a body ([`PreparedFrame::body_groups`]): group 0 and 1 of a pipeline whose
@@ -227,7 +246,7 @@ impl Renderer {
             resources.luts.update(
                 (device, queue),
                 encoder,
-                (&self.patterns, &self.pipelines.luts),
+                (&*self.patterns, &self.pipelines.luts),
                 (&body_view.group, values.lut_sun_radius_rad),
                 &body.revision,
                 body.marked.as_ref(),
@@ -290,7 +309,7 @@ impl Renderer {
         let shared = Shared { uniforms: &self.shared.layout, luts: &self.patterns.layout };
         match Pipelines::new(&self.device, shared) {
             Ok(pipelines) => {
-                self.pipelines = pipelines;
+                self.pipelines = Arc::new(pipelines);
                 for body in self.bodies.values_mut() {
                     body.luts.forget();
                 }

@@ -82,7 +82,7 @@ impl Renderer {
         body.write(queue, &values);
         let group = self.uniform_group(&frame, &body);
         let mut luts = Luts::new(device, queue, &self.patterns);
-        let pipelines = (&self.patterns, &self.pipelines.luts);
+        let pipelines = (&*self.patterns, &self.pipelines.luts);
         luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), revision, None);
         (group, luts)
     }

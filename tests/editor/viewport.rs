@@ -27,7 +27,7 @@ fn a_drag_with_shift_turns_the_star_in_one_step() {
 }
 
 /// Frames a second of tests that travel: few, so that the tests are quick.
-const FRAMES_PER_SEC: f32 = 15.0;
+const FRAMES_PER_SEC: f32 = 8.0;
 
 /// An editor for travelling. Its debug view is drawn fast: without sky and sea.
 fn plain_editor(answers: Vec<Option<PathBuf>>) -> Editor {

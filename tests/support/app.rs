@@ -3,15 +3,19 @@
 
 use eframe::egui;
 use eframe::egui::accesskit::Role;
+use eframe::egui_wgpu::{self, RenderState, RendererOptions};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
 use tellus::editor::files::dialogs::{FileDialogs, ScriptedDialogs};
 use tellus::editor::viewport::pointer::UnderPointer;
 use tellus::planet::Planet;
+use tellus::render::Renderer;
 
 /// Pixels for each point where no test looks at the picture: the software driver takes most of the time of a test.
 const COARSE: f32 = 0.5;
@@ -50,10 +54,25 @@ fn start(
     app: impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp,
 ) -> Editor {
     let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec);
-    let builder = builder.with_pixels_per_point(pixels_per_point).wgpu();
+    let builder = builder.with_pixels_per_point(pixels_per_point);
+    let builder = builder.renderer(WgpuTestRenderer::from_render_state(render_state()));
     let mut harness = builder.build_eframe(app);
     harness.run_steps(4);
     harness
+}
+
+/// The device that all editors of a binary share, and a renderer that lends them its pipelines: on a software driver
+/// these take longer to compile than most tests.
+fn render_state() -> RenderState {
+    static FIRST: LazyLock<(RenderState, Renderer)> = LazyLock::new(|| {
+        let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+        let renderer = Renderer::new(&state.device, &state.queue).unwrap_or_else(|error| panic!("{error}"));
+        (state, renderer)
+    });
+    let (state, renderer) = &*FIRST;
+    let mut egui = egui_wgpu::Renderer::new(&state.device, state.target_format, RendererOptions::PREDICTABLE);
+    egui.callback_resources.insert(renderer.sibling());
+    RenderState { renderer: Arc::new(egui::mutex::RwLock::new(egui)), ..state.clone() }
 }
 
 /// Steps until a condition holds.

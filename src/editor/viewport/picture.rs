@@ -9,7 +9,7 @@ use super::target::Target;
 use super::timeline::{self, Span};
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Renderer, Scene, Tone};
+use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, RenderError, Renderer, Scene, Tone};
 use crate::terrain::Revision;
 use crate::tiles::{Leaf, Surface};
 use eframe::egui::{self, TextureId};
@@ -60,7 +60,7 @@ impl Picture {
     /// Draws with eframe's device, or says why it cannot.
     pub(super) fn new(render_state: Option<&RenderState>) -> Self {
         let drawing = match render_state {
-            Some(state) => match Renderer::new(&state.device, &state.queue) {
+            Some(state) => match renderer_on(state) {
                 Ok(renderer) => Drawing::Ready(Box::new(renderer), state.clone()),
                 Err(error) => Drawing::Failed(error.to_string()),
             },
@@ -189,6 +189,12 @@ impl Picture {
         meters.edit_clock.drawn(&key.surface, revision, &timeline::Drawing { upload, uploaded_bytes, draw });
         self.drawn = Some(key);
     }
+}
+
+/// A renderer with eframe's device. A [`Renderer`] among egui's callback resources lends its pipelines.
+fn renderer_on(state: &RenderState) -> Result<Renderer, RenderError> {
+    let first = state.renderer.read().callback_resources.get::<Renderer>().map(Renderer::sibling);
+    first.map_or_else(|| Renderer::new(&state.device, &state.queue), Ok)
 }
 
 /// The quality that an adapter can bear: low on a software adapter.
