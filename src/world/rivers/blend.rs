@@ -34,6 +34,10 @@ impl Jet {
         Jet { value: self.value + other.value, gradient: self.gradient + other.gradient }
     }
 
+    pub(super) fn plus_number(self, number: f64) -> Jet {
+        Jet { value: self.value + number, gradient: self.gradient }
+    }
+
     pub(super) fn scaled(self, by: f64) -> Jet {
         Jet { value: self.value * by, gradient: self.gradient * by }
     }

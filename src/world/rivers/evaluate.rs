@@ -5,6 +5,7 @@ use super::block::{Block, block_of};
 use super::cache::{Cache, LEVELS};
 use super::grid::{FacePlace, Grid};
 use super::reach::FREEBOARD;
+use super::shore::{Lakeside, sunk};
 use super::{River, RiverPoint, Rivers};
 use crate::simd::{Simd, for_each_simd};
 use glam::DVec3;
@@ -22,13 +23,21 @@ const STEEPEST: f64 = 0.7;
 /// The relief of a level on the reaches of the level before, by that on its ridges.
 const LEAST_SHARE: f64 = 0.2;
 
-/// Depth of the solved sea floor from which rivers and the relief between them add nothing, metres.
-const SHALLOWS_M: f64 = 30.0;
+/// Mean rise of the ground by the first level of reaches, by its relief.
+const MEAN_RISE_OF_FIRST: f64 = 0.4;
+/// The same for a finer level, where the level before it rises freely.
+const MEAN_RISE: f64 = 0.9;
+/// Mean share of a level's relief that the levels before it leave.
+const MEAN_SHARE: f64 = 0.7;
+/// Where the mean rise of finer levels begins, and where it is whole: by the influence of a reach. Beds have none.
+const RISE_FROM_TO: [f64; 2] = [0.1, 0.5];
 
 /// The ground at a point, and the reaches of its finest level.
 pub(super) struct Ground {
     pub(super) ground: Jet,
-    /// The gradient of the solved ground, and after each level.
+    /// The ground with the mean rise of the levels that are left out.
+    mean: Jet,
+    /// The gradient of that for the solved ground alone, for the first level, for the first two, and so on.
     gradients: [DVec3; LEVELS + 1],
     /// Mean of the rise over all levels: 0 in valleys, 1 on ridges.
     ridge: f64,
@@ -38,8 +47,8 @@ pub(super) struct Ground {
     banks_m: f64,
     /// The lake whose basin this is, counted from 1.
     pub(super) lake: u32,
-    /// The cell of the solver, and the height of the banks of its nearest reach if that has nothing to do with a lake.
-    cell: usize,
+    /// The lakes around, and the height of the banks of the nearest reach if that has nothing to do with a lake.
+    lakeside: Option<Lakeside>,
     dry_bank_m: Option<f64>,
     /// The relief of the level after the finest one.
     pub(super) next_relief_m: f64,
@@ -88,6 +97,7 @@ impl Rivers {
         let trunk = self.trunks.grid.index(self.trunks.grid.cell_at(&face_place)) as usize;
         let mut found = Ground {
             ground,
+            mean: ground,
             gradients: [DVec3::ZERO; LEVELS + 1],
             ridge: 0.0,
             nearest: None,
@@ -95,22 +105,34 @@ impl Rivers {
             carved: Jet::default(),
             banks_m: 0.0,
             lake: self.trunks.lake_near(trunk),
-            cell: trunk,
+            lakeside: self.lakeside(dir, trunk),
             dry_bank_m: None,
             next_relief_m: 0.0,
         };
         let solved = ground;
-        found.gradients[0] = ground.gradient;
+        let amplitudes = self.amplitudes(relief);
+        let rises = mean_rises(&amplitudes);
+        let lakeside = found.lakeside;
+        let drowned = |ground: Jet| {
+            // Off the coast the solved sea floor holds, as the solved bed does in a lake.
+            let depth_m = self.trunks.sea_level_m.map(|sea_m| solved.scaled(-1.0).plus_number(sea_m));
+            let ground = depth_m.map_or(ground, |depth_m| sunk(ground, solved, depth_m));
+            lakeside.map_or(ground, |lakeside| lakeside.drowned(ground, solved))
+        };
+        found.mean = drowned(ground.plus(rises[0]));
+        found.gradients[0] = found.mean.gradient;
         let (mut scale, mut ridges) = (1.0, 0.0);
         for k in 0..levels {
             let Some((_, block)) = &cache.current[k] else { continue };
             let here: Level = level(dir, block, block.near(&face_place), k + 1 == levels);
-            let amplitude = capped(relief.scaled(scale), self.steepest_m[k]).times(share);
-            ground = drowned(laid_over(ground, amplitude, &here), solved, self.trunks.sea_level_m);
-            // Sums of tangential parts keep a little of the radial one.
-            found.gradients[k + 1] = ground.gradient - dir * ground.gradient.dot(dir);
             let x = here.x;
+            let laid = laid_over(ground, amplitudes[k].times(share), &here);
+            ground = drowned(laid);
             share = share.times(x.mapped(LEAST_SHARE + (1.0 - LEAST_SHARE) * x.value, 1.0 - LEAST_SHARE));
+            let rise = rises[k + 1].times(share).times(beside(x));
+            found.mean = drowned(laid.plus(rise));
+            // Sums of tangential parts keep a little of the radial one.
+            found.gradients[k + 1] = found.mean.gradient - dir * found.mean.gradient.dot(dir);
             ridges += scale;
             found.ridge += scale * x.value;
             scale *= RELIEF_RATIO;
@@ -121,10 +143,20 @@ impl Rivers {
             found.banks_m = here.banks.value;
         }
         found.ridge = if ridges > 0.0 { found.ridge / ridges } else { 0.0 };
-        let cap_m = self.steepest_m.get(levels).copied().unwrap_or(0.0);
-        found.next_relief_m = capped(relief.scaled(scale), cap_m.max(1e-3)).value * share.value;
+        found.next_relief_m = amplitudes.get(levels).map_or(0.0, |amplitude| amplitude.value * share.value);
         found.ground = ground;
         found
+    }
+
+    /// The relief of each level, where no level before it takes a share.
+    #[inline(always)]
+    fn amplitudes(&self, relief: Jet) -> [Jet; LEVELS] {
+        let mut scale = 1.0;
+        self.steepest_m.map(|steepest_m| {
+            let amplitude = capped(relief.scaled(scale), steepest_m);
+            scale *= RELIEF_RATIO;
+            amplitude
+        })
     }
 
     /// The lake near a point if its water may stand there: not where the nearest reach lies below it, beyond its sill.
@@ -157,7 +189,7 @@ impl Rivers {
     fn point(&self, dir: DVec3, levels: usize, cache: &mut Cache) -> RiverPoint {
         let at = self.ground(dir, levels, cache);
         let (standing_m, lake) = self.trunks.standing(at.lake);
-        let height_m = at.ground.value - at.carved.value;
+        let height_m = at.mean.value - at.carved.value;
         let standing_m = standing_m.filter(|level_m| height_m < *level_m);
         let mut gradients = at.gradients;
         if let Some(gradient) = gradients.get_mut(levels) {
@@ -168,7 +200,7 @@ impl Rivers {
             gradients,
             water_level_m: standing_m,
             lake: if standing_m.is_some() { lake } else { 0 },
-            lake_level_m: self.shore_m(dir, at.cell, at.dry_bank_m),
+            lake_level_m: at.lakeside.and_then(|lakeside| self.shore_m(&lakeside, at.dry_bank_m)),
             ridge: 2.0 * at.ridge - 1.0,
             river: None,
         };
@@ -210,17 +242,23 @@ for_each_simd!(fn points_simd(
     rivers: &Rivers, dirs: &[DVec3], levels: usize, cache: &mut Cache, out: &mut Vec<RiverPoint>
 ) = points);
 
-/// Off the coast the solved sea floor holds: no spit of land follows the last reach of each river.
+/// The mean rise of the ground by the levels from each one on; the last is that of none.
 #[inline(always)]
-fn drowned(ground: Jet, solved: Jet, sea_level_m: Option<f64>) -> Jet {
-    let depth_m = sea_level_m.map_or(0.0, |sea_m| sea_m - solved.value);
-    if depth_m <= 0.0 || ground.value <= solved.value {
-        return ground;
+fn mean_rises(amplitudes: &[Jet; LEVELS]) -> [Jet; LEVELS + 1] {
+    let mut rises = [Jet::default(); LEVELS + 1];
+    for (k, amplitude) in amplitudes.iter().enumerate().rev() {
+        rises[k] = amplitude.scaled(MEAN_RISE).plus(rises[k + 1].scaled(MEAN_SHARE));
     }
-    let t = (depth_m * (1.0 / SHALLOWS_M)).min(1.0);
-    let share = solved.mapped(1.0 - t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) * (1.0 / SHALLOWS_M));
-    let above = Jet { value: ground.value - solved.value, gradient: ground.gradient - solved.gradient };
-    solved.plus(above.times(share))
+    rises[0] = amplitudes[0].scaled(MEAN_RISE_OF_FIRST).plus(rises[1].scaled(MEAN_SHARE));
+    rises
+}
+
+/// The share of the mean rise of finer levels beside the reaches of a level.
+#[inline(always)]
+fn beside(x: Jet) -> Jet {
+    let [from, to] = RISE_FROM_TO;
+    let t = ((x.value - from) * (1.0 / (to - from))).clamp(0.0, 1.0);
+    x.mapped(t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) * (1.0 / (to - from)))
 }
 
 /// A relief that approaches the steepest possible one, never above it.

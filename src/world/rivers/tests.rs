@@ -236,6 +236,23 @@ fn the_solved_heights_hold_at_large_scale() {
     assert!((0.5..1.3).contains(&rise), "{rise} times the relief of the cells, which is {}", relief / count);
 }
 
+/// Coarse tiles and fine ones show the same landscape: no level raises or lowers the ground as a whole.
+#[test]
+fn levels_that_are_left_out_leave_their_mean() {
+    let mut cache = Cache::default();
+    let (mut sums, mut relief_m) = ([0.0; LEVELS + 1], 0.0);
+    for dir in land(1500) {
+        relief_m += rivers().rasters[1].value(&rivers().rasters[1].place(dir), 0);
+        for (levels, sum) in sums.iter_mut().enumerate() {
+            *sum += at(dir, levels, &mut cache).height_m;
+        }
+    }
+    for levels in 0..LEVELS {
+        let rise = (sums[levels + 1] - sums[levels]) / relief_m;
+        assert!(rise.abs() < 0.06, "level {levels} adds {rise} times the relief between reaches");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]

@@ -16,6 +16,19 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Depth of a mouth below the water it flows into.
 const MOUTH_M: f64 = 3.0;
+/// Half the width of the valley floor of a river of 100 m³/s in low land.
+const VALLEY_M: f64 = 1500.0;
+/// Share of a cell's relief that remains where a valley floor fills it.
+const FLOOR_RELIEF: f64 = 0.25;
+
+/// Half the width of the valley floor of a river, in metres. The floor of a great river is kilometres wide even in a
+/// canyon (exponent: valleys widen with the area drained to the power 0.3 to 0.5, Langston and Temme 2019); that of a
+/// small one is many times its width where the land is flat.
+fn floor_m(discharge_m3_s: f64, relief_m: f64) -> f64 {
+    let floodplain_m = 6.0 * width_m(discharge_m3_s) / (1.0 + relief_m * (1.0 / 60.0));
+    let valley_m = VALLEY_M * libm::pow(discharge_m3_s.max(0.0) * 0.01, 0.4) / (1.0 + relief_m * (1.0 / 2500.0));
+    floodplain_m.max(valley_m)
+}
 
 /// The solved drainage, prepared for look-ups.
 pub(super) struct Trunks {
@@ -141,7 +154,7 @@ impl Trunks {
         Some(self.drainage.lakes.get((lake as usize).checked_sub(1)?)?.level_m)
     }
 
-    /// Mean difference in height to the land around a cell; 0 in water.
+    /// Mean difference in height to the land around a cell, less where a valley floor fills the cell; 0 in water.
     fn relief(&self, cell: usize) -> f32 {
         let Drainage { height_m, lake, .. } = &*self.drainage;
         let land = |cell: usize| self.flows(cell) && lake[cell] == 0;
@@ -149,7 +162,10 @@ impl Trunks {
             return 0.0;
         }
         let rise = |other: usize| if land(other) { (height_m[other] - height_m[cell]).abs() } else { 0.0 };
-        self.around(cell).iter().map(|&other| rise(other)).sum::<f32>() / 8.0
+        let mean_m = self.around(cell).iter().map(|&other| rise(other)).sum::<f32>() / 8.0;
+        let half_m = 0.5 * self.grid.width_rad(self.cells.dirs[cell]) * self.radius_m;
+        let floor = floor_m(f64::from(self.drainage.discharge_m3_s[cell]), f64::from(mean_m)) / half_m;
+        mean_m * (1.0 - (1.0 - FLOOR_RELIEF) * floor.min(1.0)) as f32
     }
 
     fn node(&self, cell: usize) -> DVec3 {
@@ -163,10 +179,9 @@ impl Trunks {
             .then(|| self.node(self.drainage.receiver[cell] as usize) - self.node(main as usize))
     }
 
-    /// Half the width of the floodplain at a cell, radians: many times the river's width where the land is flat.
+    /// Half the width of the valley floor at a cell, radians.
     fn flat_rad(&self, cell: usize, discharge_m3_s: f64) -> f64 {
-        let relief_m = f64::from(self.relief_m[cell]);
-        6.0 * width_m(discharge_m3_s) / (1.0 + relief_m * (1.0 / 60.0)) / self.radius_m
+        floor_m(discharge_m3_s, f64::from(self.relief_m[cell])) / self.radius_m
     }
 
     /// Heights of the banks and discharge at both ends of the reach that leaves a cell, and whether the river goes on
