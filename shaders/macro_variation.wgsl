@@ -41,7 +41,7 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
-        if i >= 3u {
+        if i >= 4u {
             let step_m = max(octave.period / NOISE_TILE_SIDE, 0.5 * footprint_m);
             for (var axis = 0u; axis < 2u; axis++) {
                 let aside = along[axis] * step_m;
@@ -59,12 +59,12 @@ fn bumps_at(rel_m: vec3f, footprint_m: f32, tangents: array<vec3f, 2>) -> vec2f 
 fn border_jitter(rel_m: vec3f, footprint_m: f32) -> vec2f {
     var sum = vec2f(0.0);
     var position = rel_m;
-    for (var i = 0u; i < 4u; i++) {
+    for (var i = 0u; i < 5u; i++) {
         let octave = body.variation[i];
         let lod = log2(footprint_m * NOISE_TILE_SIDE / octave.period);
         let share = octave_share(lod);
         if share <= 0.0 { break; }
-        if i >= 1u {
+        if i >= 2u {
             let at = (octave.offset + position / octave.period).yzx;
             sum += (textureSampleLevel(noise_tile, repeated, at, lod).rg - 0.5) * share;
         }

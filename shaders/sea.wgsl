@@ -6,7 +6,7 @@
 // Amplitudes of three sets of wave groups, some hundred metres wide; their mean square is 1. `footprint_m`: width of a
 // pixel at the point.
 fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
-    let octave = body.variation[2];
+    let octave = body.variation[3];
     let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
     let at = octave.offset + rel_m / octave.period;
     let first = textureSampleLevel(noise_tile, repeated, at.zxy * 4.0, lod + 2.0).rg;

@@ -88,9 +88,9 @@ fn planet(name: &str) -> Planet {
 fn no_pose_shows_the_background_through_the_ground() {
     let mut dice = Dice(11);
     for shipped in shipped::ALL {
-        look_for_holes(shipped.load().unwrap(), 3, &mut dice);
+        look_for_holes(shipped.load().unwrap(), 1, &mut dice);
     }
-    for seed in 0..10 {
+    for seed in 0..5 {
         look_for_holes(random::random(seed), 1, &mut dice);
     }
 }
