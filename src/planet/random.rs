@@ -2,6 +2,7 @@
 //!
 //! - `dice`: the pseudo-random numbers
 //! - `lands`: layers that suit a kind of world
+//! - `structure`: plates, weather and rivers of most wet worlds
 //! - `grounds`: biomes that suit a climate
 //!
 //! [`random`] makes a planet: a few layers that build on each other, a climate, and biomes that suit it. [`vary`] moves
@@ -10,6 +11,7 @@
 mod dice;
 mod grounds;
 mod lands;
+mod structure;
 
 use super::param::Stage;
 use super::{Atmosphere, Climate, Clouds, Mask, Planet, Precision, Star, Water, validate};
@@ -24,19 +26,24 @@ pub fn random(seed: u64) -> Planet {
     let radius_km = dice.rounded_log(if kind == Kind::Bare { 400.0 } else { 2500.0 }, 12_000.0);
     let climate = climate(kind, radius_km, &mut dice);
     let sea = kind == Kind::Temperate || kind == Kind::Cold && dice.chance(0.7);
-    let layers = lands::layers(kind, sea, radius_km, &mut dice);
+    let structure = (kind == Kind::Temperate && dice.chance(0.7)).then(|| structure::structure(radius_km, &mut dice));
+    let layers = match structure {
+        Some(_) => lands::detail(radius_km, &mut dice),
+        None => lands::layers(kind, sea, radius_km, &mut dice),
+    };
     let water = sea.then(|| Water {
         level_m: dice.rounded(-80.0, 40.0),
         wind_m_s: dice.rounded(2.0, 15.0),
-        color: dice.color([0.002, 0.02, 0.03], [0.01, 0.04, 0.07]),
+        color: sea_color(&mut dice),
         ..Water::default()
     });
     let air = kind != Kind::Bare && (water.is_some() || dice.chance(0.7));
     let clouds = (air && dice.chance(if water.is_some() { 0.9 } else { 0.4 })).then(|| Clouds {
         // Over ice, clouds would hide white behind white; deserts have few.
-        coverage: if kind == Kind::Temperate { dice.rounded(0.2, 0.5) } else { dice.rounded(0.1, 0.35) },
-        scale_km: three_digits(radius_km * dice.between(0.2, 0.5)),
-        curl: dice.rounded(0.3, 1.2),
+        // More than a third would hide the land.
+        coverage: if kind == Kind::Temperate { dice.rounded(0.14, 0.34) } else { dice.rounded(0.08, 0.25) },
+        scale_km: three_digits(radius_km * dice.between(0.25, 0.45)),
+        curl: dice.rounded(0.35, 0.7),
         seed: dice.seed(),
         wind_km_h: dice.rounded(-120.0, 120.0),
         ..Clouds::default()
@@ -47,15 +54,11 @@ pub fn random(seed: u64) -> Planet {
         radius_km,
         precision: Precision::default(),
         height_curve: Vec::new(),
-        star: Star {
-            latitude_deg: dice.rounded(-24.0, 24.0),
-            color: dice.color([0.9, 0.85, 0.75], [1.0, 0.98, 1.0]),
-            ..Star::default()
-        },
+        star: Star { latitude_deg: dice.rounded(-24.0, 24.0), color: star_color(&mut dice), ..Star::default() },
         layers,
         biomes: grounds::biomes(kind, &climate, &mut dice),
         climate,
-        structure: None,
+        structure,
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,
@@ -115,6 +118,25 @@ enum Kind {
     Dry,
     /// Without air: a moon.
     Bare,
+}
+
+/// White like the Sun, or blue-white, orange or red.
+fn star_color(dice: &mut Dice) -> [f64; 3] {
+    let white = ([0.9, 0.85, 0.75], [1.0, 0.98, 1.0]);
+    let blue = ([0.72, 0.82, 1.0], [0.85, 0.92, 1.0]);
+    let orange = ([1.0, 0.7, 0.42], [1.0, 0.82, 0.6]);
+    let red = ([1.0, 0.5, 0.26], [1.0, 0.62, 0.4]);
+    let (low, high) = *dice.pick(&[white, white, white, white, blue, orange, orange, red]);
+    dice.color(low, high)
+}
+
+/// Blue-green like most of the Earth's, or teal, or rusty with iron.
+fn sea_color(dice: &mut Dice) -> [f64; 3] {
+    let blue = ([0.002, 0.02, 0.03], [0.01, 0.04, 0.07]);
+    let teal = ([0.003, 0.045, 0.04], [0.01, 0.08, 0.065]);
+    let rust = ([0.05, 0.018, 0.008], [0.09, 0.035, 0.018]);
+    let (low, high) = *dice.pick(&[blue, blue, blue, blue, teal, teal, rust]);
+    dice.color(low, high)
 }
 
 fn climate(kind: Kind, radius_km: f64, dice: &mut Dice) -> Climate {
@@ -180,7 +202,8 @@ mod tests {
         fn random_planets_are_valid_and_repeatable(seed: u64) {
             let planet = random(seed);
             assert_valid(&planet)?;
-            prop_assert!((4..=12).contains(&planet.layers.len()));
+            let fewest = if planet.structure.is_some() { 1 } else { 4 };
+            prop_assert!((fewest..=12).contains(&planet.layers.len()));
             prop_assert!(planet.biomes.palette.len() >= 2, "{:?}", planet.biomes.table);
             let biomes = &planet.biomes;
             let named = biomes.palette.iter().map(|biome| biome.steep_key).chain([biomes.beach_key, biomes.snow_key]);
@@ -205,11 +228,11 @@ mod tests {
     /// Every feature of the evaluator occurs, except pictures.
     #[test]
     fn every_kind_of_layer_is_used() {
-        let planets: Vec<_> = (0..64).map(random).collect();
+        let planets: Vec<_> = (0..192).map(random).collect();
         for (index, name) in Shape::NAMES.iter().enumerate().filter(|(_, name)| **name != "HeightMap") {
             let has = |p: &&Planet| p.layers.iter().any(|layer| layer.shape.index() == index);
             let count = planets.iter().filter(has).count();
-            assert!(count >= 6, "{name}: {count} of 64");
+            assert!(count >= 6, "{name}: {count} of 192");
         }
     }
 
@@ -221,6 +244,7 @@ mod tests {
             ("sea", share(|p| p.water.is_some())),
             ("air", share(|p| p.atmosphere.is_some())),
             ("clouds", share(|p| p.clouds.is_some())),
+            ("structure", share(|p| p.structure.is_some())),
         ] {
             assert!((10..=60).contains(&count), "{what}: {count} of 64");
         }

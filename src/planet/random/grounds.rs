@@ -43,6 +43,28 @@ const LIVING: &[Ground] = &[
     ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), 500.0, 0.72),
 ];
 
+/// Keys of vegetated ground.
+const FOLIAGE: [char; 8] = ['k', 'g', 'f', 'a', 'w', 'j', 'c', 'x'];
+
+/// How the red, green and blue of green leaves make the colours of other leaves.
+type Leaves = [[f64; 3]; 3];
+
+const GREEN: Leaves = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+const LEAVES: &[Leaves] = &[
+    GREEN,
+    GREEN,
+    GREEN,
+    GREEN,
+    // Red: they leave little of the green.
+    [[0.2, 1.1, 0.0], [0.3, 0.12, 0.0], [0.0, 0.15, 0.7]],
+    // Violet.
+    [[0.2, 0.75, 0.0], [0.3, 0.15, 0.0], [0.0, 0.65, 0.5]],
+    // Teal.
+    [[0.35, 0.1, 0.0], [0.0, 0.9, 0.0], [0.0, 0.7, 0.3]],
+    // Gold.
+    [[0.6, 1.2, 0.0], [0.2, 0.75, 0.0], [0.0, 0.1, 0.5]],
+];
+
 /// Ground colours of a world without weather, the darkest first.
 type Shades = [[f64; 3]; 5];
 
@@ -102,13 +124,18 @@ fn living(climate: &Climate, dice: &mut Dice) -> Biomes {
             }
         }
     }
+    let leaves = *dice.pick(LEAVES);
+    let tinted = |ground: &Ground| {
+        let mixed = leaves.map(|row| row.iter().zip(ground.color).map(|(share, c)| share * c).sum());
+        if FOLIAGE.contains(&ground.key) { mixed } else { ground.color }
+    };
     let palette = LIVING
         .iter()
         .filter(|g| used.contains(&g.key))
         .map(|g| Biome {
             key: g.key,
             name: g.name.to_owned(),
-            color: g.color.map(|c| three_digits((c * dice.between(0.88, 1.12)).min(1.0))),
+            color: tinted(g).map(|c: f64| three_digits((c * dice.between(0.88, 1.12)).min(1.0))),
             variation: dice.rounded(0.15, 0.4),
             roughness: if matches!(g.key, 'i' | 's' | 'b') { 0.6 } else { 0.9 },
             detail: g.detail.0,
@@ -143,7 +170,7 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
         let shade = ((level + fray * along).clamp(0.0, 0.999) * NAMES.len() as f64) as usize;
         table.set_key(column, row, NAMES[shade].0);
     }
-    let palette = NAMES
+    let mut palette: Vec<Biome> = NAMES
         .iter()
         .zip(shades)
         .map(|((key, name, detail, detail_m), color)| Biome {
@@ -157,6 +184,19 @@ fn strata(kind: Kind, dice: &mut Dice) -> Biomes {
             ..Biome::default()
         })
         .collect();
+    // On some hot worlds the dark lowlands still flow.
+    if kind == Kind::Hot && !upside_down && dice.chance(0.6) {
+        let lava = Biome {
+            name: "Lava".to_owned(),
+            color: [0.03, 0.025, 0.024],
+            detail: Detail::Lava,
+            detail_m: dice.rounded(8.0, 20.0),
+            glow: dice.rounded_log(0.2, 1.0),
+            flow_m_s: dice.rounded(0.1, 0.6),
+            ..palette[0].clone()
+        };
+        palette[0] = lava;
+    }
     let (lowest_m, highest_m) = if kind == Kind::Bare { (-2000.0, 2500.0) } else { (-2500.0, 4500.0) };
     let cliff_color = shades[1].map(|c| three_digits(c * 0.8));
     Biomes {

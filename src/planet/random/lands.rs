@@ -25,6 +25,13 @@ pub(super) fn layers(kind: Kind, sea: bool, radius_km: f64, dice: &mut Dice) -> 
     lands.layers
 }
 
+/// The layers over a structure.
+pub(super) fn detail(radius_km: f64, dice: &mut Dice) -> Vec<Layer> {
+    let mut lands = Lands { dice, radius_km, relief: 1.0, layers: Vec::new() };
+    lands.hills(6.0, 12.0, 35.0, 70.0);
+    lands.layers
+}
+
 struct Lands<'a> {
     dice: &'a mut Dice,
     radius_km: f64,

@@ -7,8 +7,7 @@ pub const MAX_SUNS: usize = 4;
 /// Plane waves of the sea near the eye.
 pub(crate) const WAVES: usize = 16;
 /// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
-pub(crate) const VARIATION_PERIODS_M: [f64; VARIATION_OCTAVES] =
-    [2.6e6, 330e3, 41e3, 5100.0, 640.0, 80.0, 10.0, 1.25];
+pub(crate) const VARIATION_PERIODS_M: [f64; VARIATION_OCTAVES] = [2.6e6, 330e3, 41e3, 5100.0, 640.0, 80.0, 10.0, 1.25];
 /// Octaves of the macro variation.
 pub(crate) const VARIATION_OCTAVES: usize = 8;
 /// Octaves of the border jitter.

@@ -45,6 +45,27 @@ fn the_layout_does_not_depend_on_the_grid() {
 }
 
 #[test]
+fn a_finer_crust_keeps_the_heights_and_makes_coasts_longer() {
+    let plates = solved(5, 48);
+    let (coarse, fine) = (&plates.rock, plates.rock.finer(&plates.layout));
+    let surface_m = |rock: &Rock| -> Vec<f64> { rock.base_m.iter().zip(&rock.uplift_m).map(|(b, u)| b + u).collect() };
+    let [coarse_m, fine_m] = [coarse, &fine].map(surface_m);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    assert_eq!((fine.side, fine_m.len()), (96, 4 * coarse_m.len()));
+    assert!((mean(&fine_m) - mean(&coarse_m)).abs() < 60.0, "{} {}", mean(&fine_m), mean(&coarse_m));
+    // A smooth coast crosses twice as many cells on a grid of twice the side; a ragged one more.
+    let coast = |side: usize, heights_m: &[f64]| {
+        let cells = Cells::of(side);
+        let on_coast = |cell: &usize| {
+            heights_m[*cell] > 0.0 && cells.around(*cell).iter().any(|&other| heights_m[other as usize] <= 0.0)
+        };
+        (0..heights_m.len()).filter(on_coast).count() as f64
+    };
+    let ratio = coast(96, &fine_m) / coast(48, &coarse_m);
+    assert!(ratio > 2.1, "{ratio}");
+}
+
+#[test]
 fn ocean_floors_sink_with_the_square_root_of_their_age() {
     let params = Params::default();
     let depth = |myr: f64| floor_depth(&params, myr) - params.ridge_m;

@@ -16,7 +16,7 @@ const SINKS_M: f64 = 80.0;
 /// A reach this far below a lake lies beyond its sill.
 const BEYOND_M: f64 = 40.0;
 /// Shares of lake cells around a point between which the solved bed takes over from the banks of reaches.
-const OFF_SHORE: [f64; 2] = [0.25, 0.6];
+pub(super) const OFF_SHORE: [f64; 2] = [0.25, 0.6];
 /// Depth of the solved bed from which rivers and the relief between them add nothing, metres.
 pub(super) const SHALLOWS_M: f64 = 30.0;
 
@@ -24,7 +24,7 @@ pub(super) const SHALLOWS_M: f64 = 30.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lakeside {
     /// Share of the weights that lies in lakes, above 0 and at most 1.
-    share: Jet,
+    pub(super) share: Jet,
     /// Mean height of their surfaces.
     level_m: Jet,
 }

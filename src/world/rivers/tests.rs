@@ -236,6 +236,31 @@ fn the_solved_heights_hold_at_large_scale() {
     assert!((0.5..1.3).contains(&rise), "{rise} times the relief of the cells, which is {}", relief / count);
 }
 
+/// No spit of land follows a river into a lake.
+#[test]
+fn no_land_stands_off_the_shore_of_a_lake() {
+    let (drainage, mut cache) = (drainage(), Cache::default());
+    let level_m = drainage.lakes[0].level_m;
+    let mut points = 0;
+    for cell in (0..drainage.lake.len()).filter(|&cell| drainage.lake[cell] != 0) {
+        let middle = rivers().trunks.ring(cell).next().map(|(_, dir)| dir).unwrap_or_default();
+        let (east, north) = middle.any_orthonormal_pair();
+        let by = 0.15 * rivers().trunks.grid.width_rad(middle);
+        for (x, y) in (-3..=3).flat_map(|x| (-3..=3).map(move |y| (f64::from(x) * by, f64::from(y) * by))) {
+            let dir = (middle + east * x + north * y).normalize();
+            let solved = &rivers().rasters[0];
+            let is_deep = solved.value(&solved.place(dir), 0) < level_m - shore::SHALLOWS_M;
+            let is_off = rivers().lakeside(dir, cell).is_some_and(|side| side.share.value > shore::OFF_SHORE[1]);
+            for levels in (0..=LEVELS).filter(|_| is_deep && is_off) {
+                let point = at(dir, levels, &mut cache);
+                assert!(point.height_m < level_m, "{} above {level_m} at {dir}, {levels} levels", point.height_m);
+                points += 1;
+            }
+        }
+    }
+    assert!(points > 50, "{points}");
+}
+
 /// Coarse tiles and fine ones show the same landscape: no level raises or lowers the ground as a whole.
 #[test]
 fn levels_that_are_left_out_leave_their_mean() {
