@@ -12,3 +12,5 @@
 @group(1) @binding(8) var material_tint: texture_2d_array<f32>;
 @group(1) @binding(9) var material_surface: texture_2d_array<f32>;
 @group(1) @binding(10) var border_tile: texture_3d<f32>;
+// The world map that a debug view shows
+@group(1) @binding(11) var map_picture: texture_cube<f32>;

@@ -323,6 +323,9 @@ fn debug_color(in: Ground, pixel_ground: PixelGround, up: vec3f) -> vec3f {
         case VIEW_LOD: { return level_color(in.level) * lit; }
         case VIEW_TILE_BORDERS: { return mix(vec3f(0.30) * lit, level_color(in.level), edge); }
         case VIEW_WIREFRAME: { return mix(level_color(in.level), vec3f(0.9), 0.4); }
+        case VIEW_PLATES, VIEW_RAIN, VIEW_RIVERS: {
+            return textureSampleLevel(map_picture, clamped, up, 0.0).rgb * (0.4 + 0.6 * lit);
+        }
         case VIEW_ERROR: { return spacing_color(spacing_pixels(in)) * lit; }
         default: { return vec3f(1.0); }
     }

@@ -138,6 +138,9 @@ impl ValueEnum for DebugView {
             DebugView::Wireframe => "wireframe",
             DebugView::Coverage => "coverage",
             DebugView::Albedo => "albedo",
+            DebugView::Plates => "plates",
+            DebugView::Rain => "rain",
+            DebugView::Rivers => "rivers",
         }))
     }
 }

@@ -365,6 +365,9 @@ fn debug_view(view: DebugView) -> Row {
         DebugView::Error => ("Show the vertex spacing: blue 1 pixel, green 4, yellow 16, red 64.", Some(Key::Minus)),
         DebugView::Coverage => ("Show the ground white and the rest black.", Some(Key::Equals)),
         DebugView::Albedo => ("Show the colour of the ground without light.", None),
+        DebugView::Plates => ("Show the plates of the structure. Darts point along their motion.", None),
+        DebugView::Rain => ("Show the rain of the structure. Darts point along the wind.", None),
+        DebugView::Rivers => ("Show the basins, rivers and lakes of the structure.", None),
     };
     Row::new(Command::Show(view), view.label(), tooltip, move |state, _| state.viewport.settings.debug_view = view)
         .within(Menu::View, 0)

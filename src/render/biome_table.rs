@@ -1,7 +1,7 @@
 //! Biomes as two small textures for `material.wgsl`: the biome of each cell of the biome table (row 0 is the hottest or
 //! highest), and a column of parameters for each biome.
 
-use super::material_kinds;
+use super::{gpu, material_kinds};
 use crate::planet::{Biome, Biomes, Detail, MAX_BIOMES, Steep};
 use crate::terrain::biome::{BEACH_SOFT_DEG, SNOW_SOFT_DEG};
 
@@ -144,16 +144,7 @@ impl BiomeTextures {
     /// Creates textures with these texels.
     pub(crate) fn with(device: &wgpu::Device, queue: &wgpu::Queue, texels: &BiomeTexels) -> Self {
         let make = |size_px, format| {
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("biomes"),
-                size: extent(size_px),
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            });
+            let texture = gpu::written_texture(device, "biomes", extent(size_px), format);
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
         let textures = Self {

@@ -1,6 +1,7 @@
 //! Cache of tile images on the GPU: layers of a few large texture arrays, keyed by serial number. A layer is filled
 //! once and kept until another tile needs it and no frame has requested it for a while.
 
+use super::gpu;
 use std::collections::HashMap;
 
 /// Number of frames after which an unrequested tile may lose its layer. More than one, because a surface that is
@@ -83,16 +84,8 @@ impl LayerKind {
     }
 
     fn texture(&self, device: &wgpu::Device, format: wgpu::TextureFormat, layers: u32) -> wgpu::Texture {
-        device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(self.label),
-            size: wgpu::Extent3d { depth_or_array_layers: layers, ..self.extent() },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        })
+        let size = wgpu::Extent3d { depth_or_array_layers: layers, ..self.extent() };
+        gpu::written_texture(device, self.label, size, format)
     }
 
     /// The bind group of an array.

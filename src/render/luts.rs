@@ -15,8 +15,9 @@ use super::shared::{IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SKY_
 use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Biomes, Key};
-use crate::terrain::Revision;
-use std::sync::Arc;
+use crate::terrain::{Revision, Terrain};
+use crate::world::{MapPicture, MapView};
+use std::sync::{Arc, Weak};
 
 /// The LUTs of the air in order of dependence: name, shader, size.
 const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
@@ -55,7 +56,7 @@ impl Patterns {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         use Slot::{Cube, Float2d, Float2dArray, Float3d, Unfiltered2d};
         let air = [Float2d; 4];
-        let rest = [Cube, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d];
+        let rest = [Cube, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d, Cube];
         Self {
             noise: [noise_tile::upload(device, queue), border_tile::upload(device, queue)],
             materials: MaterialMaps::new(device, queue),
@@ -95,6 +96,9 @@ pub(crate) struct Luts {
     air: Vec<wgpu::TextureView>,
     weather: WeatherMap,
     biomes: BiomeTextures,
+    /// The cube with the world map that a debug view shows, and what is in it.
+    map_picture: wgpu::TextureView,
+    shown_map: Option<(MapView, Weak<Terrain>)>,
     groups: Groups,
     /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
     air_key: Option<(Key, u32)>,
@@ -118,11 +122,14 @@ impl Luts {
         let weather = WeatherMap::new(device);
         let biome_texels = BiomeTexels::new(&Biomes::default(), None);
         let biomes = BiomeTextures::with(device, queue, &biome_texels);
-        let groups = Groups::new(device, patterns, &air, &weather.cube, &biomes);
+        let map_picture = write_map(device, queue, &no_map());
+        let groups = Groups::new(device, patterns, &air, [&weather.cube, &map_picture], &biomes);
         Self {
             air,
             weather,
             biomes,
+            map_picture,
+            shown_map: None,
             groups,
             air_key: None,
             weather_key: None,
@@ -176,6 +183,28 @@ impl Luts {
         }
     }
 
+    /// Draws a world map into the cube of the debug views, if it is not there already.
+    pub(crate) fn show_map(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        patterns: &Patterns,
+        view: MapView,
+        terrain: &Arc<Terrain>,
+    ) {
+        let is_shown = |(shown, of): &(MapView, Weak<Terrain>)| *shown == view && of.as_ptr() == Arc::as_ptr(terrain);
+        if self.shown_map.as_ref().is_some_and(is_shown) {
+            return;
+        }
+        self.shown_map = Some((view, Arc::downgrade(terrain)));
+        self.map_picture = write_map(device, queue, &terrain.map_picture(view).unwrap_or_else(no_map));
+        self.bind(device, patterns);
+    }
+
+    fn bind(&mut self, device: &wgpu::Device, patterns: &Patterns) {
+        let cubes = [&self.weather.cube, &self.map_picture];
+        self.groups = Groups::new(device, patterns, &self.air, cubes, &self.biomes);
+    }
+
     /// Writes the biome textures if their texels have changed. Some edits, such as names, do not change texels.
     fn write_biomes(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns, texels: BiomeTexels) {
         if texels == self.biome_texels {
@@ -185,7 +214,7 @@ impl Luts {
             self.biomes.write(queue, &texels);
         } else {
             self.biomes = BiomeTextures::with(device, queue, &texels);
-            self.groups = Groups::new(device, patterns, &self.air, &self.weather.cube, &self.biomes);
+            self.bind(device, patterns);
         }
         self.biome_texels = texels;
         self.runs.biomes += 1;
@@ -203,20 +232,36 @@ impl Luts {
     }
 }
 
+/// An even grey, for planets without the map.
+fn no_map() -> MapPicture {
+    MapPicture { side: 1, texels: vec![[46, 46, 46, 255]; 6] }
+}
+
+/// Uploads the picture of a world map.
+fn write_map(device: &wgpu::Device, queue: &wgpu::Queue, picture: &MapPicture) -> wgpu::TextureView {
+    let side = picture.side as u32;
+    let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 };
+    let texture = gpu::written_texture(device, "world map", size, wgpu::TextureFormat::Rgba8Unorm);
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * side), rows_per_image: Some(side) };
+    queue.write_texture(texture.as_image_copy(), picture.texels.as_flattened(), layout, size);
+    let cube = wgpu::TextureViewDimension::Cube;
+    texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(cube), ..Default::default() })
+}
+
 impl Groups {
     fn new(
         device: &wgpu::Device,
         patterns: &Patterns,
         air: &[wgpu::TextureView],
-        weather: &wgpu::TextureView,
+        [weather, map_picture]: [&wgpu::TextureView; 2],
         biomes: &BiomeTextures,
     ) -> Self {
         let (noise, materials) = (&patterns.noise, &patterns.materials);
         // A texture must not be bound while it is drawn, so the first LUT stands in for those not ready yet.
         let bind = |ready: usize| {
             let air = (0..air.len()).map(|i| &air[if i < ready { i } else { 0 }]);
-            let rest =
-                [weather, &noise[0], &biomes.ids, &biomes.params, &materials.tint, &materials.surface, &noise[1]];
+            let (ids, params) = (&biomes.ids, &biomes.params);
+            let rest = [weather, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
             gpu::group(device, "LUTs", &patterns.layout, views)
         };

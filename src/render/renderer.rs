@@ -251,6 +251,9 @@ impl Renderer {
                 &body.revision,
                 body.marked.as_ref(),
             );
+            if let Some(map) = scene.debug_view.map() {
+                resources.luts.show_map((device, queue), &self.patterns, map, &body.surface.terrain);
+            }
         }
         let renderer: &Self = self;
         match renderer.views.get(&scene.view_id) {

@@ -9,6 +9,7 @@ use crate::lod::{Camera, Quality, View};
 use crate::planet::{Planet, Star};
 use crate::terrain::Revision;
 use crate::tiles::Surface;
+use crate::world::MapView;
 use glam::{DQuat, DVec3, Mat4};
 use std::sync::Arc;
 
@@ -312,11 +313,17 @@ pub enum DebugView {
     Coverage,
     /// The ground's albedo with its patterns, without light.
     Albedo,
+    /// The plates of a structure, with darts along their motion.
+    Plates,
+    /// The rain of a structure, with darts along the wind.
+    Rain,
+    /// The basins, rivers and lakes of a structure.
+    Rivers,
 }
 
 impl DebugView {
     /// All of them.
-    pub const ALL: [DebugView; 13] = [
+    pub const ALL: [DebugView; 16] = [
         DebugView::Shaded,
         DebugView::Height,
         DebugView::Normal,
@@ -330,7 +337,20 @@ impl DebugView {
         DebugView::Error,
         DebugView::Coverage,
         DebugView::Albedo,
+        DebugView::Plates,
+        DebugView::Rain,
+        DebugView::Rivers,
     ];
+
+    /// The map of the structure that it shows, if it shows one.
+    pub(crate) fn map(self) -> Option<MapView> {
+        match self {
+            DebugView::Plates => Some(MapView::Plates),
+            DebugView::Rain => Some(MapView::Rain),
+            DebugView::Rivers => Some(MapView::Rivers),
+            _ => None,
+        }
+    }
 
     /// The name that the editor shows.
     pub fn label(self) -> &'static str {
@@ -348,6 +368,9 @@ impl DebugView {
             DebugView::Wireframe => "Wireframe",
             DebugView::Coverage => "Coverage",
             DebugView::Albedo => "Albedo",
+            DebugView::Plates => "Plates",
+            DebugView::Rain => "Rain",
+            DebugView::Rivers => "Rivers",
         }
     }
 }

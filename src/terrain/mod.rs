@@ -45,7 +45,7 @@ mod water;
 pub(crate) mod wet;
 
 use crate::planet::{InvalidPlanet, Planet};
-use crate::world::{Inputs, KeepGoing, MapWork, World};
+use crate::world::{Inputs, KeepGoing, MapPicture, MapView, MapWork, World};
 pub use height::curve_at;
 
 use crate::simd::Simd;
@@ -158,6 +158,11 @@ impl Terrain {
     /// The world maps that serve.
     pub(crate) fn world(&self) -> &World {
         &self.climate.world
+    }
+
+    /// The picture of a map of the structure, if it is solved.
+    pub(crate) fn map_picture(&self, view: MapView) -> Option<MapPicture> {
+        self.world().picture(view)
     }
 
     /// Whether the world maps that serve are the planet's own, at their finest level.

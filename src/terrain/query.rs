@@ -155,8 +155,19 @@ impl Terrain {
     /// [`Terrain::height_m`] of many directions, on the calling thread and without allocating. `heights_m` has one
     /// number for each direction; where the lengths differ, the shorter counts.
     pub fn heights_into(&self, dirs_planet: &[DVec3], heights_m: &mut [f64], scratch: &mut Scratch) {
+        self.heights_spaced_into(dirs_planet, 0.0, heights_m, scratch);
+    }
+
+    /// As [`Terrain::heights_into`], without valleys of a structure that points `spacing_rad` apart would not show.
+    pub(super) fn heights_spaced_into(
+        &self,
+        dirs_planet: &[DVec3],
+        spacing_rad: f64,
+        heights_m: &mut [f64],
+        scratch: &mut Scratch,
+    ) {
         for (dirs, heights_m) in dirs_planet.chunks(CHUNK).zip(heights_m.chunks_mut(CHUNK)) {
-            self.evaluate_at(dirs, 0.0, &[], scratch);
+            self.evaluate_at(dirs, spacing_rad, &[], scratch);
             for (height_m, found) in heights_m.iter_mut().zip(&scratch.0.heights.height_m) {
                 *height_m = *found;
             }

@@ -14,6 +14,9 @@ const MAX_BATCHES: usize = 200;
 const STEP: f64 = 0.5;
 /// Least step, as a share of the height above the ground at the start of the batch.
 const LEAST_STEP: f64 = 0.05;
+/// Far above the ground of a structure the march leaves out valleys that points this share of its least step apart
+/// would not show: finding rivers takes long where nothing has been drawn.
+const SEEN: f64 = 0.25;
 /// Steps planned beyond the point at which the ray would meet level ground.
 const SPARE_STEPS: usize = 3;
 /// The crossing is found to this distance: a hundredth of the millimetre that heights are good for.
@@ -84,14 +87,15 @@ struct Ray<'a> {
 }
 
 impl Ray<'_> {
-    /// Finds the heights of points above the ground or the sea.
-    fn find_clearances(&mut self, points: &mut [RayPoint]) {
+    /// Finds the heights of points above the ground or the sea, of the ground that points `spacing_m` apart show.
+    fn find_clearances(&mut self, points: &mut [RayPoint], spacing_m: f64) {
         let (mut points_m, mut heights_m) = ([DVec3::ZERO; BATCH], [0.0; BATCH]);
         let n = points.len().min(BATCH);
         for (point_m, point) in points_m.iter_mut().zip(&*points) {
             *point_m = self.origin_m + self.dir * point.t_m;
         }
-        self.terrain.heights_into(&points_m[..n], &mut heights_m[..n], self.scratch);
+        let (dirs, spacing_rad) = (&points_m[..n], spacing_m / self.radius_m);
+        self.terrain.heights_spaced_into(dirs, spacing_rad, &mut heights_m[..n], self.scratch);
         for ((point, point_m), height_m) in points.iter_mut().zip(points_m).zip(heights_m) {
             point.clearance_m = point_m.length() - self.radius_m - height_m.max(self.sea_m);
         }
@@ -99,7 +103,7 @@ impl Ray<'_> {
 
     fn point(&mut self, t_m: f64) -> RayPoint {
         let mut point = [RayPoint { t_m, clearance_m: 0.0 }];
-        self.find_clearances(&mut point);
+        self.find_clearances(&mut point, 0.0);
         point[0]
     }
 
@@ -108,8 +112,10 @@ impl Ray<'_> {
     fn march(&mut self, start: RayPoint, fall: f64) -> (RayPoint, Option<RayPoint>) {
         let mut points = [RayPoint::default(); BATCH];
         let (mut t_m, mut expected_m, mut spare, mut count) = (start.t_m, start.clearance_m, SPARE_STEPS, 0);
+        let mut least_m = f64::MAX;
         for point in &mut points {
             let step_m = (expected_m * STEP).max(start.clearance_m * LEAST_STEP).max(0.02 + t_m * 2e-4);
+            least_m = least_m.min(step_m);
             (t_m, expected_m) = (t_m + step_m, (expected_m - fall * step_m).max(0.0));
             point.t_m = t_m;
             count += 1;
@@ -121,15 +127,18 @@ impl Ray<'_> {
             }
         }
         let points = &mut points[..count];
-        self.find_clearances(points);
-        let mut above = start;
-        for point in points {
-            if point.clearance_m <= 0.0 {
-                return (above, Some(*point));
+        if self.terrain.planet().structure.is_some() {
+            self.find_clearances(points, SEEN * least_m);
+            let (above, below) = first_below(start, points);
+            let Some(below) = below else { return (above, None) };
+            // The ground of all levels decides, if it agrees about the step.
+            let [above, below] = [above, below].map(|point| self.point(point.t_m));
+            if above.clearance_m > 0.0 && below.clearance_m <= 0.0 {
+                return (above, Some(below));
             }
-            above = *point;
         }
-        (above, None)
+        self.find_clearances(points, 0.0);
+        first_below(start, points)
     }
 
     /// The distance of the crossing between a point above the ground and one below: by the secant, halving the weight
@@ -158,6 +167,13 @@ impl Ray<'_> {
         }
         below.t_m
     }
+}
+
+/// The last point before a ray goes below the ground, and the first one below, if there is one.
+fn first_below(start: RayPoint, points: &[RayPoint]) -> (RayPoint, Option<RayPoint>) {
+    let below = points.iter().position(|point| point.clearance_m <= 0.0);
+    let above = below.unwrap_or(points.len()).checked_sub(1).map_or(start, |last| points[last]);
+    (above, below.map(|below| points[below]))
 }
 
 /// Distances at which a ray enters and leaves a sphere around the origin, if it meets it ahead of its start.

@@ -10,7 +10,7 @@
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
 //! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
 //!   rivers carve (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
-//! - `coast`: signed distance to the coast
+//! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
 //!
 //! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
 //! the terrain's climate. The finest answer depends on the planet alone, never on the maps that served before.
@@ -22,6 +22,7 @@ pub(crate) mod drainage;
 pub(crate) mod grid;
 mod map;
 pub(crate) mod noise;
+mod picture;
 pub(crate) mod plates;
 pub(crate) mod rivers;
 mod slot;
@@ -31,6 +32,7 @@ use carved::Carved;
 use coast::Coast;
 use map::Job;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
+pub(crate) use picture::{MapPicture, MapView};
 use plates::Plates;
 pub(crate) use slot::Slot;
 pub use slot::{MapLevel, MapWork};

@@ -183,12 +183,12 @@ frozen! {
         name: String = "Layer".to_owned(),
         enabled: bool = true,
         seed: u32 = 1,
+        shape: Shape = Shape::Fbm(Fbm::default()),
         amplitude_m: f64 = 1000.0,
         bias: f64 = 0.0,
+        curve: Vec<[f64; 2]> = Vec::new(),
         blend: Blend = Blend::Add,
         softness_m: f64 = 100.0,
-        curve: Vec<[f64; 2]> = Vec::new(),
-        shape: Shape = Shape::Fbm(Fbm::default()),
         masks: Vec<Mask> = Vec::new(),
     }
     adding { under: false }

@@ -15,32 +15,26 @@ struct Ground {
     from_moisture: f64,
 }
 
-const fn ground(
-    key: char,
-    name: &'static str,
-    color: [f64; 3],
-    detail: (Detail, f64),
-    below_c: f64,
-    from_moisture: f64,
-) -> Ground {
-    Ground { key, name, color, detail, below_c, from_moisture }
+/// Ground that is found below a temperature and from a moisture.
+const fn ground(key: char, name: &'static str, color: [f64; 3], detail: (Detail, f64), fits: [f64; 2]) -> Ground {
+    Ground { key, name, color, detail, below_c: fits[0], from_moisture: fits[1] }
 }
 
 /// For worlds with weather. The coldest that fits wins; among those, the wettest.
 const LIVING: &[Ground] = &[
-    ground('i', "Ice", [0.78, 0.82, 0.87], (Detail::Ice, 6.0), -14.0, 0.0),
-    ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::Ice, 6.0), -14.0, 0.52),
-    ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, 4.0), -6.0, 0.0),
-    ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, 2.0), 1.0, 0.0),
-    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Grass, 1.5), 8.0, 0.0),
-    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Litter, 1.2), 8.0, 0.35),
-    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, 1.5), 20.0, 0.25),
-    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Gravel, 1.6), 20.0, 0.0),
-    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, 1.2), 20.0, 0.5),
-    ground('d', "Desert", [0.45, 0.32, 0.17], (Detail::Sand, 2.5), 500.0, 0.0),
-    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Grass, 1.8), 500.0, 0.3),
-    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, 1.5), 500.0, 0.5),
-    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), 500.0, 0.72),
+    ground('i', "Ice", [0.78, 0.82, 0.87], (Detail::Ice, 6.0), [-14.0, 0.0]),
+    ground('b', "Blue ice", [0.36, 0.50, 0.62], (Detail::Ice, 6.0), [-14.0, 0.52]),
+    ground('s', "Snow", [0.70, 0.73, 0.76], (Detail::Snow, 4.0), [-6.0, 0.0]),
+    ground('t', "Tundra", [0.19, 0.18, 0.12], (Detail::Gravel, 2.0), [1.0, 0.0]),
+    ground('c', "Cold steppe", [0.21, 0.19, 0.11], (Detail::Grass, 1.5), [8.0, 0.0]),
+    ground('k', "Taiga", [0.055, 0.09, 0.045], (Detail::Litter, 1.2), [8.0, 0.35]),
+    ground('g', "Grassland", [0.15, 0.18, 0.065], (Detail::Grass, 1.5), [20.0, 0.25]),
+    ground('x', "Dry scrub", [0.27, 0.22, 0.12], (Detail::Gravel, 1.6), [20.0, 0.0]),
+    ground('f', "Forest", [0.045, 0.085, 0.03], (Detail::Litter, 1.2), [20.0, 0.5]),
+    ground('d', "Desert", [0.45, 0.32, 0.17], (Detail::Sand, 2.5), [500.0, 0.0]),
+    ground('a', "Savanna", [0.24, 0.2, 0.075], (Detail::Grass, 1.8), [500.0, 0.3]),
+    ground('w', "Woodland", [0.09, 0.12, 0.04], (Detail::Grass, 1.5), [500.0, 0.5]),
+    ground('j', "Rain forest", [0.025, 0.065, 0.018], (Detail::Litter, 1.2), [500.0, 0.72]),
 ];
 
 /// Keys of vegetated ground.

@@ -51,16 +51,9 @@ pub(crate) struct Plates {
     /// The same on the grid of twice the side.
     finer: OnceLock<Rock>,
     /// Index of the plate.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "tests check it; landforms that follow folds and debug views will read it")
-    )]
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests check it; the picture asks the layout, which is finer"))]
     pub(crate) plate: Vec<u16>,
     /// Unit tangent along the folds, and the share of folded rock.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "tests check it; landforms that follow folds and debug views will read it")
-    )]
     pub(crate) folds: Vec<(DVec3, f64)>,
 }
 

@@ -1,0 +1,230 @@
+//! Pictures of the world maps, for debug views: the six faces of a cube texture.
+
+use super::World;
+use super::carved::Carved;
+use super::noise::{hash, unit};
+use super::plates::Plates;
+use super::weather::Weather;
+use crate::sphere::raster::{Raster, cube_point};
+use crate::sphere::spread;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// A map that can be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MapView {
+    /// Plates in their colours, bright where they stand high, with darts along their motion.
+    Plates,
+    /// Rain, from brown over green and blue to violet, with darts along the wind.
+    Rain,
+    /// Basins in their colours, with rivers and lakes.
+    Rivers,
+}
+
+/// The picture of a map.
+pub(crate) struct MapPicture {
+    /// Texels along the side of a face.
+    pub(crate) side: usize,
+    /// Linear red, green, blue and alpha of the faces +X, -X, +Y, -Y, +Z and -Z of a cube texture, rows from the top.
+    pub(crate) texels: Vec<[u8; 4]>,
+}
+
+/// Texels along the side of a face where the map is smooth, and the most for rivers.
+const SIDE: usize = 192;
+const MOST: usize = 512;
+/// Number of darts on the globe.
+const DARTS: usize = 500;
+/// Half the width of a dart at its tail, and its greatest length, radians.
+const DART_HALF_WIDTH: f64 = 0.012;
+const DART_LENGTH: f64 = 0.08;
+/// Speeds at which a dart is half as long as it can be: of plates in radians a million years, of the wind in m/s.
+const PLATE_SPEED: f64 = 0.008;
+const WIND_SPEED: f64 = 6.0;
+/// Colours of rain: mm a year, and linear red, green and blue.
+const RAIN: [(f64, [f64; 3]); 5] = [
+    (0.0, [0.35, 0.2, 0.08]),
+    (500.0, [0.5, 0.42, 0.12]),
+    (1100.0, [0.12, 0.4, 0.08]),
+    (2200.0, [0.02, 0.22, 0.4]),
+    (4500.0, [0.25, 0.05, 0.45]),
+];
+
+impl World {
+    /// The picture of a map; None if the planet has no structure, or its map is not solved yet.
+    pub(crate) fn picture(&self, view: MapView) -> Option<MapPicture> {
+        let (plates, weather, carved) = (self.plates.map()?, self.weather.map(), self.carved.map());
+        match view {
+            MapView::Plates => Some(plates_picture(plates)),
+            MapView::Rain => Some(rain_picture(weather?, carved.map(|carved| &**carved))),
+            MapView::Rivers => Some(rivers_picture(carved?)),
+        }
+    }
+}
+
+impl MapPicture {
+    fn new(side: usize, color: impl Fn(DVec3) -> [f64; 3] + Sync) -> Self {
+        let byte = |linear: f64| (linear.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        let texel = |at: usize| {
+            let [r, g, b] = color(face_direction(at / (side * side), side, at % side, at / side % side)).map(byte);
+            [r, g, b, 255]
+        };
+        Self { side, texels: (0..6 * side * side).into_par_iter().with_min_len(side).map(texel).collect() }
+    }
+}
+
+/// The direction of a texel of a cube texture, as WebGPU orders and turns its faces.
+fn face_direction(face: usize, side: usize, x: usize, y: usize) -> DVec3 {
+    let along = |at: usize| (2.0 * at as f64 + 1.0) / side as f64 - 1.0;
+    let (u, v) = (along(x), along(y));
+    let dir = match face {
+        0 => DVec3::new(1.0, -v, -u),
+        1 => DVec3::new(-1.0, -v, u),
+        2 => DVec3::new(u, 1.0, v),
+        3 => DVec3::new(u, -1.0, -v),
+        4 => DVec3::new(u, -v, 1.0),
+        _ => DVec3::new(-u, -v, -1.0),
+    };
+    dir.normalize()
+}
+
+/// The cell of a grid at a direction.
+fn cell_at(dir: DVec3, side: usize) -> usize {
+    let (face, x, y) = cube_point(dir, side);
+    let within = |at: f64| (at.max(0.0) as usize).min(side - 1);
+    (face * side + within(y)) * side + within(x)
+}
+
+fn plates_picture(plates: &Plates) -> MapPicture {
+    let Plates { layout, rock, folds, .. } = plates;
+    let surface: Vec<f32> = rock.base_m.iter().zip(&rock.uplift_m).map(|(base, rise)| (base + rise) as f32).collect();
+    let surface_m = Raster::cube(rock.side, surface);
+    let folded = Raster::cube(rock.side, folds.iter().map(|(_, share)| *share as f32).collect());
+    let darts = Darts::new(PLATE_SPEED, |dir| layout.plates[layout.plate_under(dir)].pole.cross(dir));
+    MapPicture::new(SIDE, |dir| {
+        let place = surface_m.place(dir);
+        let height = ((surface_m.value(&place, 0) + 6000.0) / 9000.0).clamp(0.0, 1.0);
+        let folds = folded.value(&place, 0).clamp(0.0, 1.0);
+        let light = 0.06 + 0.5 * height * height + 0.25 * folds;
+        darts.over(dir, hue(layout.plate_under(dir) as u32).map(|c| c * light))
+    })
+}
+
+fn rain_picture(weather: &Weather, carved: Option<&Carved>) -> MapPicture {
+    let darts = Darts::new(WIND_SPEED, |dir| weather.rain_and_wind(dir).1);
+    MapPicture::new(SIDE, |dir| {
+        let (rain_mm, _) = weather.rain_and_wind(dir);
+        let is_sea = carved.is_some_and(|Carved { drainage, .. }| drainage.is_sea[cell_at(dir, drainage.side)]);
+        darts.over(dir, rain_color(rain_mm).map(|c| if is_sea { 0.3 * c } else { c }))
+    })
+}
+
+fn rivers_picture(carved: &Carved) -> MapPicture {
+    let (drainage, basins) = (&carved.drainage, carved.basins());
+    MapPicture::new(drainage.side.clamp(SIDE, MOST), |dir| {
+        let cell = cell_at(dir, drainage.side);
+        if drainage.is_sea[cell] {
+            return [0.005, 0.012, 0.03];
+        }
+        if drainage.lake[cell] != 0 {
+            return [0.03, 0.2, 0.55];
+        }
+        let basin = hue(basins.of(cell).unwrap_or(0)).map(|c| 0.16 * c);
+        let discharge_m3_s = f64::from(drainage.discharge_m3_s[cell]).max(1e-3);
+        let water = ((libm::log10(discharge_m3_s) - 1.5) / 3.0).clamp(0.0, 1.0);
+        mixed(basin, [0.35, 0.75, 1.0], water)
+    })
+}
+
+/// A colour for a number: equal for equal numbers.
+fn hue(number: u32) -> [f64; 3] {
+    let turn = unit(hash(0xC0105, number));
+    let channel = |k: f64| (((turn + k).fract() * 6.0 - 3.0).abs() - 1.0).clamp(0.0, 1.0);
+    [0.0, 2.0 / 3.0, 1.0 / 3.0].map(|k| 0.25 + 0.75 * channel(k))
+}
+
+fn mixed(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
+}
+
+fn rain_color(rain_mm: f64) -> [f64; 3] {
+    let next = RAIN.iter().position(|(mm, _)| rain_mm < *mm).unwrap_or(RAIN.len() - 1).max(1);
+    let ((from_mm, from), (to_mm, to)) = (RAIN[next - 1], RAIN[next]);
+    mixed(from, to, ((rain_mm - from_mm) / (to_mm - from_mm)).clamp(0.0, 1.0))
+}
+
+/// Triangles on the globe that point along a motion, longer where it is faster.
+struct Darts(Vec<Dart>);
+
+struct Dart {
+    tail: DVec3,
+    /// Unit tangent along the motion.
+    along: DVec3,
+    length: f64,
+}
+
+impl Darts {
+    /// `motion`: a tangent at a direction; of length `half` it makes a dart of half the greatest length.
+    fn new(half: f64, motion: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+        let all: Vec<DVec3> = spread(DARTS).collect();
+        let dart = |&tail: &DVec3| {
+            let motion = motion(tail);
+            let speed = motion.length();
+            let length = DART_LENGTH * speed / (speed + half);
+            Dart { tail, along: motion.normalize_or_zero(), length }
+        };
+        Self(all.par_iter().map(dart).collect())
+    }
+
+    /// A colour with the darts over it.
+    fn over(&self, dir: DVec3, color: [f64; 3]) -> [f64; 3] {
+        let reach2 = (DART_LENGTH + DART_HALF_WIDTH) * (DART_LENGTH + DART_HALF_WIDTH);
+        let covers = |dart: &&Dart| {
+            let away = dir - dart.tail;
+            if away.length_squared() > reach2 || dart.length < DART_HALF_WIDTH {
+                return false;
+            }
+            let share = away.dot(dart.along) / dart.length;
+            let aside = (away - dart.along * away.dot(dart.along)).length();
+            (0.0..1.0).contains(&share) && aside < DART_HALF_WIDTH * (1.0 - share)
+        };
+        if self.0.iter().any(|dart| covers(&dart)) { [0.9; 3] } else { color }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::Plates as Params;
+
+    #[test]
+    fn texels_of_a_cube_texture_look_where_webgpu_looks() {
+        // The middle of each face, and a texel beside it to the right and below.
+        let middles = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];
+        let rights = [-DVec3::Z, DVec3::Z, DVec3::X, DVec3::X, DVec3::X, -DVec3::X];
+        let downs = [-DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z, -DVec3::Y, -DVec3::Y];
+        for (face, ((middle, right), down)) in middles.into_iter().zip(rights).zip(downs).enumerate() {
+            let at = |x, y| face_direction(face, 5, x, y);
+            assert!(at(2, 2).distance(middle) < 1e-12, "{face}");
+            assert!(at(3, 2).dot(right) > 0.3 && at(2, 3).dot(down) > 0.3, "{face}");
+        }
+    }
+
+    #[test]
+    fn plates_have_colours_of_their_own_and_darts() {
+        let plates = Plates::solve(&Params::default(), 3, 32, &|| true).unwrap();
+        let picture = plates_picture(&plates);
+        assert_eq!(picture.texels.len(), 6 * picture.side * picture.side);
+        let darts = picture.texels.iter().filter(|texel| texel[..3].iter().all(|&c| c == 230)).count();
+        let share = darts as f64 / picture.texels.len() as f64;
+        assert!((0.005..0.1).contains(&share), "{share}");
+        let hues: std::collections::HashSet<_> = (0..15).map(|id| hue(id).map(|c| (c * 100.0) as u8)).collect();
+        assert!(hues.len() >= 14, "{hues:?}");
+    }
+
+    #[test]
+    fn rain_turns_from_brown_to_green_to_blue() {
+        let [dry, wet, drenched] = [50.0, 1100.0, 2500.0].map(rain_color);
+        assert!(dry[0] > dry[2] && wet[1] > wet[0] && drenched[2] > drenched[1], "{dry:?} {wet:?} {drenched:?}");
+        assert_eq!(rain_color(9000.0), RAIN[4].1);
+    }
+}
