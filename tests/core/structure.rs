@@ -47,6 +47,24 @@ fn it_has_land_and_sea_of_the_same_bits_for_any_number_of_threads_and_instructio
     }
 }
 
+/// From far away a ray leaves valleys out, but it ends on the ground that queries know.
+#[test]
+fn rays_from_orbit_end_on_the_ground() {
+    let planet = planet();
+    let (terrain, radius_m) = (terrain(&planet), planet.radius_m());
+    let mut land = 0;
+    for dir in spread(40) {
+        let from = dir * (radius_m + 400_000.0);
+        for aim in [-dir, dir.any_orthonormal_vector() * 1.5 - dir] {
+            let hit = from + aim.normalize() * terrain.raycast(from, aim).unwrap();
+            let ground_m = terrain.height_m(hit).max(planet.sea_level_m().unwrap());
+            assert!((hit.length() - radius_m - ground_m).abs() < 0.01, "{hit}: {ground_m}");
+            land += usize::from(ground_m > 1.0);
+        }
+    }
+    assert!(land > 12, "{land}");
+}
+
 #[test]
 fn a_layer_over_it_is_added_and_one_under_it_is_carved() {
     let bare = planet();

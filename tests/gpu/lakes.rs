@@ -93,3 +93,26 @@ fn without_a_structure_tiles_have_no_water() {
     let mut details = surface.leaves.iter().filter_map(|leaf| leaf.detail.as_ref()).peekable();
     assert!(details.peek().is_some() && details.all(|detail| detail.water.is_empty()));
 }
+
+#[test]
+fn maps_of_a_structure_are_shown_where_there_is_one() {
+    let with = Planet { structure: Some(Structure { grids: 1, ..Structure::default() }), ..Planet::default() };
+    let mut gpu = gpu();
+    let mut colours = |planet: &Planet, debug_view| {
+        let planet = Arc::new(planet.clone());
+        let terrain = Terrain::try_new(planet.clone()).unwrap();
+        let camera = camera_over(&terrain, LatLon::from_degrees(10.0, 20.0), 1e7, [0.0, -std::f64::consts::FRAC_PI_2]);
+        let view = View { camera, size_px: [SIDE_PX; 2], quality: Quality::Low };
+        let surface = surface_of(&planet, &view);
+        let scene = debug(frame_of(&surface, &planet, view, LatLon::from_degrees(10.0, 20.0).direction()), debug_view);
+        let picture = gpu.draw(&scene);
+        let coloured = |pixel: &&[u8]| pixel[..3].iter().max().unwrap() - pixel[..3].iter().min().unwrap() > 12;
+        picture.chunks(4).filter(coloured).map(<[u8]>::to_vec).collect::<std::collections::HashSet<_>>()
+    };
+    let views = [DebugView::Plates, DebugView::Rain, DebugView::Rivers];
+    let [plates, rain, rivers] = views.map(|view| colours(&with, view));
+    assert!([&plates, &rain, &rivers].iter().all(|seen| seen.len() > 20), "{plates:?} {rain:?} {rivers:?}");
+    assert!(plates != rain && rain != rivers);
+    let none = colours(&Planet { structure: None, ..with.clone() }, DebugView::Plates);
+    assert!(none.is_empty(), "{none:?}");
+}
