@@ -30,16 +30,16 @@ pub(crate) struct MapPicture {
 }
 
 /// Texels along the side of a face where the map is smooth, and the most for rivers.
-const SIDE: usize = 192;
+const SIDE: usize = 256;
 const MOST: usize = 512;
 /// Number of darts on the globe.
 const DARTS: usize = 500;
 /// Half the width of a dart at its tail, and its greatest length, radians.
-const DART_HALF_WIDTH: f64 = 0.012;
-const DART_LENGTH: f64 = 0.08;
+const DART_HALF_WIDTH: f64 = 0.015;
+const DART_LENGTH: f64 = 0.15;
 /// Speeds at which a dart is half as long as it can be: of plates in radians a million years, of the wind in m/s.
-const PLATE_SPEED: f64 = 0.008;
-const WIND_SPEED: f64 = 6.0;
+const PLATE_SPEED: f64 = 0.004;
+const WIND_SPEED: f64 = 3.0;
 /// Colours of rain: mm a year, and linear red, green and blue.
 const RAIN: [(f64, [f64; 3]); 5] = [
     (0.0, [0.35, 0.2, 0.08]),
