@@ -45,7 +45,9 @@ mod water;
 pub(crate) mod wet;
 
 use crate::planet::{InvalidPlanet, Planet};
-use crate::world::{Inputs, KeepGoing, MapPicture, MapView, MapWork, World};
+use crate::world::{Inputs, KeepGoing, MapWork, World};
+#[cfg(feature = "render")]
+use crate::world::{MapPicture, MapView};
 pub use height::curve_at;
 
 use crate::simd::Simd;
@@ -161,6 +163,7 @@ impl Terrain {
     }
 
     /// The picture of a map of the structure, if it is solved.
+    #[cfg(feature = "render")]
     pub(crate) fn map_picture(&self, view: MapView) -> Option<MapPicture> {
         self.world().picture(view)
     }

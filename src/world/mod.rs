@@ -22,6 +22,7 @@ pub(crate) mod drainage;
 pub(crate) mod grid;
 mod map;
 pub(crate) mod noise;
+#[cfg(feature = "render")]
 mod picture;
 pub(crate) mod plates;
 pub(crate) mod rivers;
@@ -32,6 +33,7 @@ use carved::Carved;
 use coast::Coast;
 use map::Job;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
+#[cfg(feature = "render")]
 pub(crate) use picture::{MapPicture, MapView};
 use plates::Plates;
 pub(crate) use slot::Slot;

@@ -30,6 +30,11 @@ fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
     app::open([1024.0, 640.0], answers)
 }
 
+/// The same with a picture.
+fn drawn_editor() -> Editor {
+    app::open_with_picture([1024.0, 640.0], vec![])
+}
+
 fn slide(harness: &mut Editor, label: &str, value: f64) {
     harness.get_by_role_and_label(Role::Slider, label).set_value_accesskit(value);
     harness.run_steps(3);
@@ -207,7 +212,7 @@ fn wait_for_picture(harness: &mut Editor) {
 
 #[test]
 fn an_idle_editor_draws_nothing() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     wait_for_picture(&mut harness);
     let pictures = harness.state().viewport().pictures();
     assert!(pictures > 0);
@@ -220,7 +225,7 @@ fn an_idle_editor_draws_nothing() {
 
 #[test]
 fn the_time_from_an_edit_to_its_picture_is_measured() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     wait_for_picture(&mut harness);
     assert_eq!(harness.state().viewport().edit_clock.last(), None);
     click(&mut harness, "Star");
@@ -241,7 +246,7 @@ fn the_time_from_an_edit_to_its_picture_is_measured() {
 
 #[test]
 fn the_performance_panel_tells_where_an_edit_went() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     wait_for_picture(&mut harness);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
     assert!(harness.query_by_label_contains("times of the next edit").is_some());

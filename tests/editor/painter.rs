@@ -13,7 +13,7 @@ use tellus::terrain::Terrain;
 
 /// An editor on the biomes tab, its picture complete; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
-    on_biomes(crate::app::open([1024.0, 760.0], answers))
+    on_biomes(crate::app::open_with_picture([1024.0, 760.0], answers))
 }
 
 fn on_biomes(mut harness: Editor) -> Editor {

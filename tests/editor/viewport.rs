@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_drag_with_shift_turns_the_star_in_one_step() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     let before = planet(&harness).star;
     let center = canvas(&harness).center();
     let button = |pressed, pos| egui::Event::PointerButton {
@@ -97,7 +97,7 @@ fn keys_change_the_way_to_move_and_the_status_says_so() {
 
 #[test]
 fn number_keys_show_debug_views_but_not_while_one_types() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     for (key, view) in [
         (egui::Key::Num2, DebugView::Height),
         (egui::Key::Num6, DebugView::Temperature),
@@ -206,7 +206,7 @@ fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
 
 #[test]
 fn every_key_stands_in_the_list_of_controls() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F1);
     for text in ["Walk; slower uphill", "Keep this view in the preset", "Show the borders of the tiles"] {
         assert!(harness.query_by_label(text).is_some(), "{text}");

@@ -4,9 +4,9 @@
 use eframe::egui;
 use eframe::egui::accesskit::Role;
 use eframe::egui_wgpu::{self, RenderState, RendererOptions};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use egui_kittest::{Harness, HarnessBuilder};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
@@ -22,8 +22,14 @@ const COARSE: f32 = 0.5;
 
 pub type Editor = Harness<'static, EditorApp>;
 
-/// An editor in a window of this size, after a few frames; file dialogs give these answers.
+/// An editor in a window of this size, after a few frames; file dialogs give these answers. It has no graphics device:
+/// a picture of the planet would take most of the time of a test.
 pub fn open(size: [f32; 2], answers: Vec<Option<PathBuf>>) -> Editor {
+    start(Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 60.0), scripted(answers))
+}
+
+/// The same with a picture.
+pub fn open_with_picture(size: [f32; 2], answers: Vec<Option<PathBuf>>) -> Editor {
     open_at_rate(size, answers, 60.0)
 }
 
@@ -34,28 +40,28 @@ pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_se
 
 /// An editor that is drawn with this many pixels for each point of the user interface.
 pub fn open_drawn(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec: f32, pixels_per_point: f32) -> Editor {
-    start(size, frames_per_sec, pixels_per_point, move |cc| {
-        EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
-    })
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec);
+    let builder = builder.with_pixels_per_point(pixels_per_point);
+    start(builder.renderer(WgpuTestRenderer::from_render_state(render_state())), scripted(answers))
 }
 
-/// An editor that starts with a file, asks through these dialogs, and keeps its working copy in a folder.
+/// An editor without a picture that starts with a file, asks through these dialogs, and keeps its working copy in a
+/// folder.
 pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recovery: &Path) -> Editor {
     let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
-    start([1024.0, 640.0], 60.0, COARSE, move |cc| {
+    start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
         EditorApp::new(cc, file).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
     })
 }
 
+fn scripted(answers: Vec<Option<PathBuf>>) -> impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp {
+    move |cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
+}
+
 fn start(
-    size: [f32; 2],
-    frames_per_sec: f32,
-    pixels_per_point: f32,
+    builder: HarnessBuilder<EditorApp>,
     app: impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp,
 ) -> Editor {
-    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec);
-    let builder = builder.with_pixels_per_point(pixels_per_point);
-    let builder = builder.renderer(WgpuTestRenderer::from_render_state(render_state()));
     let mut harness = builder.build_eframe(app);
     harness.run_steps(4);
     harness

@@ -54,6 +54,7 @@ pub(crate) struct Plates {
     #[cfg_attr(not(test), expect(dead_code, reason = "tests check it; the picture asks the layout, which is finer"))]
     pub(crate) plate: Vec<u16>,
     /// Unit tangent along the folds, and the share of folded rock.
+    #[cfg_attr(not(any(test, feature = "render")), expect(dead_code, reason = "its picture is drawn"))]
     pub(crate) folds: Vec<(DVec3, f64)>,
 }
 
