@@ -11,9 +11,16 @@ use tellus::editor::command::Command;
 use tellus::planet::Biomes;
 use tellus::terrain::Terrain;
 
-/// An editor on the biomes tab, its picture complete; file dialogs give these answers.
+/// An editor on the biomes tab, without a picture; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {
-    on_biomes(crate::app::open_with_picture([1024.0, 760.0], answers))
+    let mut harness = crate::app::open([1024.0, 760.0], answers);
+    click(&mut harness, "Biomes");
+    harness
+}
+
+/// An editor on the biomes tab, its picture complete.
+fn drawn_editor() -> Editor {
+    on_biomes(crate::app::open_with_picture([1024.0, 760.0], vec![]))
 }
 
 fn on_biomes(mut harness: Editor) -> Editor {
@@ -130,7 +137,7 @@ fn letters_and_the_right_button_choose_biomes_and_a_selection_confines() {
 
 #[test]
 fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     let below = harness.state().viewport().eye(&planet(&harness)).1;
     let [column, row] = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(below.direction()).cell;
     // A biome without biome relief, other than the one there.
@@ -158,7 +165,7 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
 
 #[test]
 fn after_an_undo_no_preview_covers_what_came_back() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     let marked = |harness: &Editor| harness.state().viewport().painter.marked.clone();
     choose(&mut harness, 3);
     for tool in ["Fill", "Brush"] {
@@ -185,7 +192,7 @@ fn after_an_undo_no_preview_covers_what_came_back() {
 
 #[test]
 fn the_planet_and_the_table_point_at_each_other() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     let marked = |harness: &Editor| harness.state().viewport().painter.marked.clone();
     assert!(marked(&harness).is_none());
     harness.hover_at(cell(&harness, 7, 5));
@@ -206,7 +213,7 @@ fn the_planet_and_the_table_point_at_each_other() {
 
 #[test]
 fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
-    let mut harness = editor(vec![]);
+    let mut harness = drawn_editor();
     let rect = canvas(&harness);
     let under = point_at_planet(&mut harness);
     let name = biomes(&harness).palette[under.biome_index].name.clone();

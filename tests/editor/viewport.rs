@@ -145,7 +145,7 @@ fn frozen_detail_stays_while_the_camera_goes_on() {
 fn bookmarks_are_added_gone_to_renamed_and_deleted_and_saved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.ron");
-    let mut harness = plain_editor(vec![Some(path.clone())]);
+    let mut harness = app::open([1024.0, 640.0], vec![Some(path.clone())]);
     let names = |harness: &Editor| -> Vec<String> {
         let bookmarks = planet(harness).editor.map(|editor| editor.bookmarks).unwrap_or_default();
         bookmarks.into_iter().map(|bookmark| bookmark.name).collect()
