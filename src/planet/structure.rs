@@ -16,7 +16,7 @@ params! {
         grids: u32 = 4, "Grids", Unit::None, count(1, MAX_GRIDS), Stage::Field;
         /// Share of the solved weather in the climate of the biome table; the rest is the climate's own belts and
         /// coasts.
-        weather_share: f64 = 1.0, "Weather in the climate", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        weather_share: f64 = 1.0, "Weather share", Unit::None, linear(0.0, 1.0), Stage::Climate;
     } with {
         /// Plates of the crust: continents, mountain belts, island arcs, ridges of the ocean floor.
         plates: Plates = Plates::default();
