@@ -147,6 +147,10 @@ impl ValueEnum for DebugView {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
+    if args.view.needs_structure() && planet.structure.is_none() {
+        let (file, view) = (args.file.display(), args.view.label());
+        return Err(format!("{file}: the planet has no structure, so that there is no map of {view} to show").into());
+    }
     let gpu = headless::Gpu::open(args.size)?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let view = view(args, &planet)?;

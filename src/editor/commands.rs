@@ -373,6 +373,7 @@ fn debug_view(view: DebugView) -> Row {
         .within(Menu::View, 0)
         .keys(key.map(plain).into_iter().collect::<Vec<_>>())
         .chosen_when(move |state| state.viewport.settings.debug_view == view)
+        .enabled_when(move |state| !view.needs_structure() || state.document.valid_planet().structure.is_some())
         .yielding_to_text()
 }
 

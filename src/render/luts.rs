@@ -17,7 +17,7 @@ use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Biomes, Key};
 use crate::terrain::{Revision, Terrain};
 use crate::world::{MapPicture, MapView};
-use std::sync::{Arc, Weak};
+use std::sync::Arc;
 
 /// The LUTs of the air in order of dependence: name, shader, size.
 const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
@@ -98,7 +98,7 @@ pub(crate) struct Luts {
     biomes: BiomeTextures,
     /// The cube with the world map that a debug view shows, and what is in it.
     map_picture: wgpu::TextureView,
-    shown_map: Option<(MapView, Weak<Terrain>)>,
+    shown_map: Option<(MapView, [Option<Key>; 2])>,
     groups: Groups,
     /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
     air_key: Option<(Key, u32)>,
@@ -189,13 +189,13 @@ impl Luts {
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         patterns: &Patterns,
         view: MapView,
-        terrain: &Arc<Terrain>,
+        terrain: &Terrain,
     ) {
-        let is_shown = |(shown, of): &(MapView, Weak<Terrain>)| *shown == view && of.as_ptr() == Arc::as_ptr(terrain);
-        if self.shown_map.as_ref().is_some_and(is_shown) {
+        let shown = Some((view, terrain.map_picture_key(view)));
+        if self.shown_map == shown {
             return;
         }
-        self.shown_map = Some((view, Arc::downgrade(terrain)));
+        self.shown_map = shown;
         self.map_picture = write_map(device, queue, &terrain.map_picture(view).unwrap_or_else(no_map));
         self.bind(device, patterns);
     }

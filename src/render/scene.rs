@@ -352,6 +352,11 @@ impl DebugView {
         }
     }
 
+    /// Whether it shows a map of the structure: of a planet without one it is an even grey.
+    pub fn needs_structure(self) -> bool {
+        self.map().is_some()
+    }
+
     /// The name that the editor shows.
     pub fn label(self) -> &'static str {
         match self {

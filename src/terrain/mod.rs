@@ -168,6 +168,12 @@ impl Terrain {
         self.world().picture(view)
     }
 
+    /// Keys of the maps that [`Terrain::map_picture`] shows.
+    #[cfg(feature = "render")]
+    pub(crate) fn map_picture_key(&self, view: MapView) -> [Option<crate::planet::Key>; 2] {
+        self.world().picture_key(view)
+    }
+
     /// Whether the world maps that serve are the planet's own, at their finest level.
     pub fn has_final_maps(&self) -> bool {
         self.world().is_final(&self.map_inputs)

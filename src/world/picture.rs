@@ -5,7 +5,8 @@ use super::carved::Carved;
 use super::noise::{hash, unit};
 use super::plates::Plates;
 use super::weather::Weather;
-use crate::sphere::raster::{Raster, cube_point};
+use crate::planet::Key;
+use crate::sphere::raster::{Raster, cube_direction, cube_point};
 use crate::sphere::spread;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -50,6 +51,15 @@ const RAIN: [(f64, [f64; 3]); 5] = [
 ];
 
 impl World {
+    /// Keys of the maps that a picture shows: equal keys give equal pictures.
+    pub(crate) fn picture_key(&self, view: MapView) -> [Option<Key>; 2] {
+        match view {
+            MapView::Plates => [self.plates.key(), None],
+            MapView::Rain => [self.weather.key(), self.carved.key()],
+            MapView::Rivers => [self.carved.key(), None],
+        }
+    }
+
     /// The picture of a map; None if the planet has no structure, or its map is not solved yet.
     pub(crate) fn picture(&self, view: MapView) -> Option<MapPicture> {
         let (plates, weather, carved) = (self.plates.map()?, self.weather.map(), self.carved.map());
@@ -152,9 +162,13 @@ fn rain_color(rain_mm: f64) -> [f64; 3] {
     mixed(from, to, ((rain_mm - from_mm) / (to_mm - from_mm)).clamp(0.0, 1.0))
 }
 
-/// Triangles on the globe that point along a motion, longer where it is faster.
-struct Darts(Vec<Dart>);
+/// Triangles on the globe that point along a motion, longer where it is faster: those near each cell of a coarse grid.
+struct Darts(Vec<Vec<Dart>>);
 
+/// Cells along the side of the grid of darts.
+const DART_CELLS: usize = 8;
+
+#[derive(Clone)]
 struct Dart {
     tail: DVec3,
     /// Unit tangent along the motion.
@@ -172,22 +186,28 @@ impl Darts {
             let length = DART_LENGTH * speed / (speed + half);
             Dart { tail, along: motion.normalize_or_zero(), length }
         };
-        Self(all.par_iter().map(dart).collect())
+        let darts: Vec<Dart> = all.par_iter().map(dart).filter(|dart| dart.length >= DART_HALF_WIDTH).collect();
+        let near = |middle: DVec3| {
+            // Half the diagonal of the widest cell, which lies in the middle of a face.
+            let reach = std::f64::consts::SQRT_2 / DART_CELLS as f64 + DART_LENGTH + DART_HALF_WIDTH;
+            darts.iter().filter(|dart| dart.tail.distance(middle) < reach).cloned().collect()
+        };
+        let face_cell = |at: usize| {
+            let (face, x, y) = (at / (DART_CELLS * DART_CELLS), at % DART_CELLS, at / DART_CELLS % DART_CELLS);
+            cube_direction(face, DART_CELLS, x as f64 + 0.5, y as f64 + 0.5)
+        };
+        Self((0..6 * DART_CELLS * DART_CELLS).map(|at| near(face_cell(at))).collect())
     }
 
     /// A colour with the darts over it.
     fn over(&self, dir: DVec3, color: [f64; 3]) -> [f64; 3] {
-        let reach2 = (DART_LENGTH + DART_HALF_WIDTH) * (DART_LENGTH + DART_HALF_WIDTH);
-        let covers = |dart: &&Dart| {
+        let covers = |dart: &Dart| {
             let away = dir - dart.tail;
-            if away.length_squared() > reach2 || dart.length < DART_HALF_WIDTH {
-                return false;
-            }
             let share = away.dot(dart.along) / dart.length;
             let aside = (away - dart.along * away.dot(dart.along)).length();
             (0.0..1.0).contains(&share) && aside < DART_HALF_WIDTH * (1.0 - share)
         };
-        if self.0.iter().any(|dart| covers(&dart)) { [0.9; 3] } else { color }
+        if self.0[cell_at(dir, DART_CELLS)].iter().any(covers) { [0.9; 3] } else { color }
     }
 }
 

@@ -280,6 +280,15 @@ fn a_reader_that_goes_away_is_no_failure() {
 
 /// The camera may be under water, but not under the sea bed.
 #[test]
+fn a_map_of_a_structure_is_refused_where_there_is_none() {
+    let folder = folder();
+    let picture = folder.path().join("plates.png");
+    let (status, _, err) = run(&["render", AUREL, "-o", text_of(&picture), "--view", "plates"]);
+    assert!(status == 1 && err.contains("no structure") && err.contains("Plates"), "{err}");
+    assert!(!picture.exists());
+}
+
+#[test]
 fn altitude_goes_below_the_sea() {
     let folder = folder();
     let picture = folder.path().join("deep.png");

@@ -13,8 +13,7 @@ use crate::planet::{
 
 /// The layers of a kind of world. With a sea, its coasts are at height 0.
 pub(super) fn layers(kind: Kind, sea: bool, radius_km: f64, dice: &mut Dice) -> Vec<Layer> {
-    // Mountains are higher on smaller planets, up to a limit.
-    let relief = libm::pow(6371.0 / radius_km, 0.3) * dice.between(0.75, 1.3);
+    let relief = steepness(radius_km) * dice.between(0.75, 1.3);
     let mut lands = Lands { dice, radius_km, relief, layers: Vec::new() };
     match kind {
         Kind::Cold => lands.ice(),
@@ -23,6 +22,11 @@ pub(super) fn layers(kind: Kind, sea: bool, radius_km: f64, dice: &mut Dice) -> 
         _ => lands.desert(),
     }
     lands.layers
+}
+
+/// Heights relative to those of a planet of the Earth's size: mountains are higher on smaller planets, up to a limit.
+pub(super) fn steepness(radius_km: f64) -> f64 {
+    libm::pow(6371.0 / radius_km, 0.3)
 }
 
 /// The layers over a structure.

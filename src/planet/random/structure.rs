@@ -1,17 +1,15 @@
 //! The structure of a random wet world: between an old continent with great rivers and young, steep islands.
 
 use super::dice::{Dice, three_digits};
+use super::lands::steepness;
 use crate::planet::{Plates, Rivers, Structure, Weather};
-
-/// Radius of the planet for which the heights below are meant.
-const EARTH_KM: f64 = 6371.0;
 
 /// Plates, weather and rivers of a planet with a sea.
 pub(super) fn structure(radius_km: f64, dice: &mut Dice) -> Structure {
     let islands = dice.chance(0.3);
     let age = if islands { dice.between(0.0, 0.4) } else { dice.between(0.1, 1.0) };
-    // Lengths along the ground scale with the radius by themselves. Mountains are higher on smaller planets.
-    let steepness = libm::pow(EARTH_KM / radius_km, 0.3);
+    // Lengths along the ground scale with the radius by themselves.
+    let steepness = steepness(radius_km);
     let mountains_m = three_digits(steepness * (10_000.0 - 4000.0 * age) * dice.between(0.8, 1.1));
     let plates = Plates {
         seed: dice.seed(),
