@@ -22,8 +22,8 @@ const VALLEY_M: f64 = 1500.0;
 const FLOOR_RELIEF: f64 = 0.25;
 
 /// Half the width of the valley floor of a river, in metres. The floor of a great river is kilometres wide even in a
-/// canyon (the exponent is that of the depth of rivers, and the factor chosen by eye); that of a small one is many times
-/// its width where the land is flat.
+/// canyon (the exponent is that of the depth of rivers, and the factor chosen by eye); that of a small one is many
+/// times its width where the land is flat.
 fn floor_m(discharge_m3_s: f64, relief_m: f64) -> f64 {
     let floodplain_m = 6.0 * width_m(discharge_m3_s) / (1.0 + relief_m * (1.0 / 60.0));
     let valley_m = VALLEY_M * libm::pow(discharge_m3_s.max(0.0) * 0.01, 0.4) / (1.0 + relief_m * (1.0 / 2500.0));
