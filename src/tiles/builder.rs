@@ -20,7 +20,7 @@ use crate::lod::tile::{DetailTile, Tile};
 use crate::planet::{InvalidPlanet, Planet};
 use crate::terrain::Terrain;
 use crate::terrain::coarse::CellFields;
-use crate::world::KeepGoing;
+use crate::world::{KeepGoing, MapStore, World};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -39,6 +39,36 @@ const NEXT_SLICE: Duration = Duration::from_millis(80);
 /// Builds surfaces in the background. The newest planet and views win; stale work is dropped.
 pub struct Builder {
     shared: Arc<Shared>,
+}
+
+/// Options of a [`Builder`].
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct BuilderOptions {
+    /// Limit of the cache of tiles and fields. With 0 every edit is a rebuild from nothing.
+    pub budget_bytes: usize,
+    /// Where world maps are kept from one process to the next.
+    pub maps: Option<Arc<MapStore>>,
+}
+
+impl Default for BuilderOptions {
+    fn default() -> Self {
+        Self { budget_bytes: DEFAULT_BUDGET_BYTES, maps: None }
+    }
+}
+
+impl BuilderOptions {
+    /// Options with this cache budget.
+    pub fn budget_bytes(mut self, budget_bytes: usize) -> Self {
+        self.budget_bytes = budget_bytes;
+        self
+    }
+
+    /// Options with this store of world maps, if there is one.
+    pub fn maps(mut self, maps: Option<Arc<MapStore>>) -> Self {
+        self.maps = maps;
+        self
+    }
 }
 
 #[derive(Default)]
@@ -110,12 +140,12 @@ impl State {
 impl Builder {
     /// Starts the worker thread. It calls `wake` whenever a new surface is ready.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::with_budget(DEFAULT_BUDGET_BYTES, wake)
+        Self::with_options(BuilderOptions::default(), wake)
     }
 
-    /// The same with another cache budget. With a budget of zero every edit is a rebuild from nothing.
-    pub fn with_budget(budget_bytes: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self::start(Worker::new(budget_bytes), wake)
+    /// The same with options.
+    pub fn with_options(options: BuilderOptions, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self::start(Worker::new(options), wake)
     }
 
     fn start(mut worker: Worker, wake: impl Fn() + Send + Sync + 'static) -> Self {
@@ -204,6 +234,8 @@ type Refine =
 /// State of the worker thread.
 struct Worker {
     cache: Cache,
+    /// Where world maps are kept from one process to the next.
+    maps: Option<Arc<MapStore>>,
     terrain: Option<Arc<Terrain>>,
     /// Layer fields at the cells of world maps, kept for the next revision.
     cell_fields: CellFields,
@@ -227,9 +259,9 @@ struct ViewWork {
 }
 
 impl Worker {
-    fn new(budget_bytes: usize) -> Self {
-        let cache = Cache::new(budget_bytes);
-        Self { cache, terrain: None, cell_fields: CellFields::default(), request: 0, views: Vec::new(), refine }
+    fn new(options: BuilderOptions) -> Self {
+        let (cache, maps) = (Cache::new(options.budget_bytes), options.maps);
+        Self { cache, maps, terrain: None, cell_fields: CellFields::default(), request: 0, views: Vec::new(), refine }
     }
 
     fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
@@ -349,7 +381,8 @@ impl Worker {
             return Ok(terrain.clone());
         }
         profiling::scope!("compile");
-        let world = self.terrain.as_ref().map(|before| before.world().clone()).unwrap_or_default();
+        let first = || World { store: self.maps.clone(), ..World::default() };
+        let world = self.terrain.as_ref().map_or_else(first, |before| before.world().clone());
         Ok(self.serve(Terrain::try_draft(planet.clone(), &world)?))
     }
 
@@ -394,7 +427,8 @@ mod tests {
             assert!(!BROKEN.load(Ordering::Relaxed), "the ground gave way");
             refine(terrain, view, cache, cut, asked, stats, keep_going)
         };
-        let builder = Builder::start(Worker { refine: refine_or_panic, ..Worker::new(DEFAULT_BUDGET_BYTES) }, || {});
+        let builder =
+            Builder::start(Worker { refine: refine_or_panic, ..Worker::new(BuilderOptions::default()) }, || {});
         let planet = Arc::new(Planet::default());
         let view = |side_px| opening::opening_view(&planet, [side_px, 64], Quality::Low);
         let settle = || {

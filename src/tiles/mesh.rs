@@ -16,7 +16,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Adding this to an f32 below 2^22 leaves the nearest integer in the low bits.
 const ROUNDER_F32: f32 = 12_582_912.0;
 
-static NEXT_SERIAL: AtomicU64 = AtomicU64::new(1);
+/// A number that no other tile has.
+pub(super) fn next_serial() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
 
 /// Makes the tile of a node. `dirs`, `heights` (with the gradients at the tile's own spacing and at its parent's) and
 /// `climate` are those of its vertices. The caller sets [`Tile::heights_serial`].
@@ -46,7 +50,7 @@ pub(super) fn mesh(
     }
     let mut tile = Tile {
         id,
-        serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed),
+        serial: next_serial(),
         heights_serial: 0,
         vertices,
         min_height_m,
@@ -67,7 +71,7 @@ pub(super) fn with_climate(
     dirs: &[DVec3],
     climate: &VertexClimate<'_>,
 ) -> Tile {
-    let mut tile = Tile { serial: NEXT_SERIAL.fetch_add(1, Ordering::Relaxed), ..Tile::clone(tile) };
+    let mut tile = Tile { serial: next_serial(), ..Tile::clone(tile) };
     let (rules, mut lanes) = (SeaLevelClimate::new(planet), Lanes::default());
     for range in chunks(dirs.len().min(tile.vertices.len())) {
         climate.chunk(simd, &rules, &dirs[range.clone()], range.clone(), &mut lanes);

@@ -4,7 +4,7 @@
 //!   meshes
 //! - `detail`: detail textures; `horizon`: horizon angles
 //! - `cache`: tiles of earlier requests, whole or as inputs for stages
-//! - `refine`: the LOD cut of a view
+//! - `refine`: the LOD cut of a view; `sew`: seams between its tiles
 //! - [`builder`]: surfaces in the background
 //! - `stats`: time and memory
 pub mod builder;
@@ -15,9 +15,10 @@ mod horizon;
 mod make;
 mod mesh;
 mod refine;
+mod sew;
 mod stats;
 
-pub use builder::Builder;
+pub use builder::{Builder, BuilderOptions};
 pub use cache::DEFAULT_BUDGET_BYTES;
 pub use horizon::HorizonWork;
 pub use refine::budget_tiles;

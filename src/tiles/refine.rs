@@ -5,6 +5,7 @@
 //! that neighbours differ by at most one level. Within a level, nodes near the camera come first.
 
 use super::cache::Cache;
+use super::sew::Seams;
 use super::stats::{BuildStats, Work};
 use super::{Leaf, Surface};
 use crate::lod::cull::lowest_radius_m;
@@ -68,7 +69,11 @@ pub(crate) fn refine(
     builder.build(&forced, &|| true);
 
     let building_secs = builder.secs;
-    let leaves = leaves(&choice, cache);
+    let mut leaves = leaves(&choice, cache);
+    let mut seams = before.as_mut().map(|cut| std::mem::take(&mut cut.seams)).unwrap_or_default();
+    if terrain.planet().structure.is_some() {
+        seams.sew(&mut leaves);
+    }
     stats.tiles = leaves.len();
     stats.vertices = leaves.iter().map(|leaf| leaf.tile.vertices.len()).sum();
     stats.select_secs += begun.elapsed().as_secs_f64() - building_secs;
@@ -76,7 +81,9 @@ pub(crate) fn refine(
     stats.slices += 1;
     let Choice { ranges, complete, bias, split, .. } = choice;
     if complete {
-        *before = Some(Cut { heights, view: *view, bias, split });
+        *before = Some(Cut { heights, view: *view, bias, split, seams });
+    } else if let Some(cut) = before {
+        cut.seams = seams;
     }
     Surface { terrain: terrain.clone(), leaves, complete, view: *view, ranges, asked, stats }
 }
@@ -91,6 +98,8 @@ pub(crate) struct Cut {
     bias: u32,
     /// The nodes that are split.
     split: HashSet<NodeId>,
+    /// Its sewn tiles.
+    seams: Seams,
 }
 
 /// A LOD cut that is searched for.

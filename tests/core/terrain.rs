@@ -8,13 +8,13 @@ use std::sync::Arc;
 use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{
-    Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, SlopeMask, Water,
-    shipped,
+    Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, SlopeMask, Structure,
+    Water, shipped,
 };
 use tellus::simd::Simd;
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
 use tellus::terrain::{Scratch, Terrain, Wanted};
-use tellus::tiles::{Builder, Surface, build_now};
+use tellus::tiles::{Builder, Surface, build_now, build_over};
 
 /// A mask by the noise of another layer.
 fn mask(layer: &str, from: f64, to: f64) -> Mask {
@@ -176,8 +176,29 @@ fn position(surface: &Surface, leaf: usize, x: usize, y: usize) -> [u32; 6] {
 
 #[test]
 fn neighbouring_tiles_share_their_edges_to_the_bit_and_leave_no_gap() {
-    for (altitude_m, pitch_deg) in [(20_000_000.0, -90.0), (30_000.0, -30.0), (2.0, 0.0)] {
-        let surface = build_now(&Arc::new(planet()), &view(altitude_m, pitch_deg)).unwrap();
+    edges_meet(planet());
+}
+
+/// Tiles of different levels show different levels of rivers: their edges are sewn.
+#[test]
+fn tiles_among_rivers_share_their_edges_to_the_bit() {
+    edges_meet(Planet { structure: Some(Structure { grids: 1, ..Structure::default() }), ..planet() });
+}
+
+fn edges_meet(planet: Planet) {
+    let terrain = Arc::new(Terrain::try_new(Arc::new(planet)).unwrap());
+    for (altitude_m, pitch_deg) in [(20_000_000.0, -90.0), (300_000.0, -50.0), (30_000.0, -30.0), (2.0, 0.0)] {
+        let surface = build_over(&terrain, &view(altitude_m, pitch_deg));
+        // Wherever corners meet they are one point.
+        let mut corners: HashMap<[i64; 3], [u32; 6]> = HashMap::new();
+        for (index, leaf) in surface.leaves.iter().enumerate() {
+            for (x, y) in [(0, 0), (TILE_SIDE - 1, 0), (0, TILE_SIDE - 1), (TILE_SIDE - 1, TILE_SIDE - 1)] {
+                let dir = leaf.tile.vertices[y * TILE_SIDE + x].position_planet_m().normalize();
+                let place = (dir * 1e9).to_array().map(|w| w.round() as i64);
+                let here = position(&surface, index, x, y);
+                assert_eq!(*corners.entry(place).or_insert(here), here, "{:?} {x} {y}", leaf.tile.id);
+            }
+        }
         let level_of: HashMap<NodeId, usize> = surface.leaves.iter().enumerate().map(|(i, l)| (l.tile.id, i)).collect();
         // The leaves cover the sphere exactly once.
         let area: f64 = surface.leaves.iter().map(|l| 0.25_f64.powi(i32::from(l.tile.id.level))).sum();
