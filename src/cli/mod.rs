@@ -1,7 +1,8 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `check`, `sample`, `rivers`, `sky`, `new`, `bench`: the subcommands; `points`: many points for `sample`
+//! - `render`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands; `points`: many points for
+//!   `sample`
 //! - `headless`: a GPU without a window
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
@@ -10,6 +11,7 @@ mod args;
 mod bench;
 mod check;
 mod headless;
+mod maps;
 mod new;
 mod points;
 mod render;
@@ -27,7 +29,9 @@ use std::process::ExitCode;
 /// Shape a whole planet with live sliders, save it as one RON preset, draw and query it from scripts.
 #[derive(Parser)]
 #[command(name = "tellus", version, args_conflicts_with_subcommands = true)]
-#[command(after_help = "Without a subcommand the editor opens, with FILE if one is given.")]
+#[command(after_help = "Without a subcommand the editor opens, with FILE if one is given.\n\n\
+    World maps of structures are kept in the user's cache folder, at most 512 MiB of them. TELLUS_MAPS names another \
+    folder; empty for none.")]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -42,6 +46,7 @@ enum Command {
     Check(check::Args),
     Sample(sample::Args),
     Rivers(rivers::Args),
+    Maps(maps::Args),
     Sky(sky::Args),
     New(new::Args),
     Bench(bench::Args),
@@ -87,6 +92,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
         Some(Command::Rivers(args)) => rivers::run(&args),
+        Some(Command::Maps(args)) => maps::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),
         Some(Command::New(args)) => new::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
@@ -109,7 +115,7 @@ fn edit(file: Option<PathBuf>) -> Result<(), Failure> {
         // editor itself reports a missing picture. A name without a file is that of a new planet.
         crate::editor::check_first(file)?;
     }
-    Ok(crate::editor::run(file)?)
+    Ok(crate::editor::run(file, maps::kept())?)
 }
 
 #[cfg(not(feature = "editor"))]

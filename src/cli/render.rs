@@ -1,13 +1,12 @@
 //! `tellus render`: a picture of a planet, without a window.
 
-use super::{Failure, args, headless, load};
+use super::{Failure, args, headless, load, maps};
 use crate::lod::{Camera, Quality, View, opening};
-use crate::planet::Planet;
 use crate::planet::file::write_atomically;
 use crate::render::{DebugView, Metering, Renderer, Scene, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
-use crate::tiles::{add_detail, build_now};
+use crate::tiles::{add_detail, build_over};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use std::path::PathBuf;
@@ -153,8 +152,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let gpu = headless::Gpu::open(args.size)?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
-    let view = view(args, &planet)?;
-    let mut surface = build_now(&planet, &view).map_err(|error| error.to_string())?;
+    let terrain = Arc::new(maps::terrain(planet.clone())?);
+    let view = view(args, &terrain)?;
+    let mut surface = build_over(&terrain, &view);
     add_detail(&mut surface, &view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
     let mut scene = Scene::of_planet(&surface, view, sun.direction());
@@ -183,12 +183,12 @@ fn encode(rgba: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, png::Encodi
     Ok(bytes)
 }
 
-fn view(args: &Args, planet: &Arc<Planet>) -> Result<View, Failure> {
+fn view(args: &Args, terrain: &Terrain) -> Result<View, Failure> {
+    let planet = terrain.planet();
     let (opening_lat_deg, opening_lon_deg) = opening::opening_place(planet).to_degrees();
     let place = LatLon::from_degrees(args.lat.unwrap_or(opening_lat_deg), args.lon.unwrap_or(opening_lon_deg));
     let (radius_m, altitude_m) = match args.altitude {
         Some(altitude_m) => {
-            let terrain = Terrain::try_new(planet.clone()).map_err(|error| error.to_string())?;
             let below = terrain.sample(place.direction());
             let ground_m = below.height_m;
             let floor_m = below.water_level_m.map_or(ground_m, |water_m| water_m.max(ground_m));

@@ -4,11 +4,11 @@
 //! there (section 3.1.9). The arrays of numbers in the properties have the shape of the coordinates. Lakes are
 //! MultiPoints, basins are Points at their mouths.
 
-use super::{Failure, args, load};
+use super::{Failure, args, load, maps};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
 use crate::sphere::LatLon;
-use crate::terrain::{Basin, Course, CoursePoint, Lake, Mouth, Terrain};
+use crate::terrain::{Basin, Course, CoursePoint, Lake, Mouth};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Err(format!("{}: {} has no structure, so it has no rivers", args.file.display(), planet.name).into());
     }
     let least_m3_s = args.min_discharge.unwrap_or_else(|| default_m3_s(&planet));
-    let terrain = Terrain::try_new(planet).map_err(|error| error.to_string())?;
+    let terrain = maps::terrain(planet)?;
     let rivers = terrain.rivers(least_m3_s);
     let courses = rivers.courses.iter().map(course);
     let features = courses.chain(rivers.lakes.iter().map(lake)).chain(rivers.basins.iter().map(basin));

@@ -2,7 +2,7 @@
 //! games use.
 
 use super::points::Points;
-use super::{Failure, args, load, print};
+use super::{Failure, args, load, maps, print};
 use crate::sphere::LatLon;
 use crate::sphere::geo::east_north;
 use crate::terrain::{River, Sample, Terrain};
@@ -49,7 +49,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
-    let terrain = || Terrain::try_new(planet).map_err(|error| error.to_string());
+    let terrain = || maps::terrain(planet);
     if let Some(points) = &args.points {
         // A file that is not there is told before anything is solved.
         let points = Points::open(points)?;

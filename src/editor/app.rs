@@ -17,8 +17,10 @@ use super::state::recovery::Recovery;
 use super::viewport::Viewport;
 use super::views::{controls, look, menus, performance, problems, prompts::Prompts, shortcuts, status};
 use crate::planet::shipped;
+use crate::terrain::MapStore;
 use eframe::egui;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// The key under which eframe keeps the layout between runs.
@@ -34,6 +36,8 @@ pub struct EditorApp {
     panels: PanelState,
     prompts: Prompts,
     surveyor: Surveyor,
+    /// Where solved world maps are kept.
+    maps: Option<Arc<MapStore>>,
     /// Whether a field had the focus at the end of the last frame.
     was_typing: bool,
     title: String,
@@ -41,11 +45,11 @@ pub struct EditorApp {
 
 impl EditorApp {
     /// The application, with a preset if one is given. A preset that does not exist yet is a new planet of that name;
-    /// a message reports a preset that cannot be loaded.
-    pub fn new(cc: &eframe::CreationContext<'_>, path: Option<PathBuf>) -> Self {
+    /// a message reports a preset that cannot be loaded. `maps`: where solved world maps are kept.
+    pub fn new(cc: &eframe::CreationContext<'_>, path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Self {
         look::set_up(&cc.egui_ctx);
         let planet = shipped::default_planet();
-        let viewport = Viewport::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &planet);
+        let viewport = Viewport::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &planet, maps.clone());
         let mut state = State::new(planet, viewport, Box::new(NativeDialogs::default()));
         state.shows.panel = cc.storage.and_then(|storage| storage.get_string(LAYOUT_KEY)).as_deref() != Some("hidden");
         state.adapter = cc.wgpu_render_state.as_ref().map_or_else(String::new, |state| {
@@ -62,6 +66,7 @@ impl EditorApp {
             panels: PanelState::default(),
             prompts: Prompts::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
+            maps,
             was_typing: false,
             title: String::new(),
         }
@@ -210,6 +215,9 @@ impl eframe::App for EditorApp {
         open_file::poll(state, ctx);
         self.commands = apply_all(state, ctx, self.commands.take());
         state.notices.poll(state.document.path(), ctx);
+        if let Some(problem) = self.maps.as_ref().and_then(|maps| maps.take_problem()) {
+            log::warn!("{problem}");
+        }
         state.pictures.poll(&mut state.document, ctx);
         answers::close_request(state, ctx, &mut self.commands);
         self.panels.keep_to_document(state.document_number);

@@ -28,6 +28,7 @@ pub mod widgets;
 pub use app::EditorApp;
 
 use crate::render::Renderer;
+use crate::terrain::MapStore;
 use eframe::{egui, egui_wgpu};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -35,8 +36,9 @@ use std::sync::Arc;
 /// The name of the editor for the desktop, and of the folder that keeps the layout.
 const APP_ID: &str = "tellus";
 
-/// Opens the editor's window, with a preset if one is given, and stays until it is closed.
-pub fn run(path: Option<PathBuf>) -> Result<(), String> {
+/// Opens the editor's window, with a preset if one is given, and stays until it is closed. `maps`: where solved world
+/// maps are kept.
+pub fn run(path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Result<(), String> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Tellus")
@@ -49,7 +51,7 @@ pub fn run(path: Option<PathBuf>) -> Result<(), String> {
         ..Default::default()
     };
     let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let app = EditorApp::new(cc, path);
+        let app = EditorApp::new(cc, path, maps);
         Ok(Box::new(match eframe::storage_dir(APP_ID) {
             Some(folder) => app.with_recovery(&folder),
             None => app,

@@ -18,6 +18,11 @@ impl Key {
         let _ = write!(hash, "{content:?}");
         Self(hash.0)
     }
+
+    /// The hash as a number.
+    pub(crate) fn bits(self) -> u128 {
+        self.0
+    }
 }
 
 /// FNV-1a with 128 bits (Fowler, Noll, Vo; IETF draft-eastlake-fnv): start value and prime.

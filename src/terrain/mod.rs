@@ -45,6 +45,7 @@ mod water;
 pub(crate) mod wet;
 
 use crate::planet::{InvalidPlanet, Planet};
+pub use crate::world::MapStore;
 use crate::world::{Inputs, KeepGoing, MapWork, World};
 #[cfg(feature = "render")]
 use crate::world::{MapPicture, MapView};
@@ -96,6 +97,31 @@ impl Terrain {
     /// and not changed since is valid.
     pub fn try_new(planet: Arc<Planet>) -> Result<Self, InvalidPlanet> {
         Self::try_new_with(planet, &CellFields::default(), &mut MapWork::default())
+    }
+
+    /// As [`Terrain::try_new`], with world maps from a store where it has them. Those that it lacks are solved, and
+    /// written to it.
+    ///
+    /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
+    /// answers no, the answer is None.
+    ///
+    /// # Errors
+    /// As [`Terrain::try_new`].
+    pub fn load(
+        planet: Arc<Planet>,
+        store: Option<Arc<MapStore>>,
+        go_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Option<Self>, InvalidPlanet> {
+        let (fields, mut work) = (CellFields::default(), MapWork::default());
+        let mut terrain = Self::try_draft(planet, &World { store, ..World::default() })?;
+        while !terrain.has_final_maps() {
+            let done = terrain.world().progress(&terrain.map_inputs);
+            match terrain.with_next_map(&fields, &|| go_on(done), &mut work) {
+                Some(next) => terrain = next,
+                None => return Ok(None),
+            }
+        }
+        Ok(Some(terrain))
     }
 
     /// As [`Terrain::try_new`]: waits for the finest world maps.
@@ -160,6 +186,12 @@ impl Terrain {
     /// The world maps that serve.
     pub(crate) fn world(&self) -> &World {
         &self.climate.world
+    }
+
+    /// What the world maps depend on.
+    #[cfg(test)]
+    pub(crate) fn map_inputs(&self) -> &Inputs {
+        &self.map_inputs
     }
 
     /// The picture of a map of the structure, if it is solved.

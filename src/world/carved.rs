@@ -3,6 +3,7 @@
 //! - [`Plates`] and [`Weather`] as world maps: how they follow from a planet
 //! - [`Carved`]: the drainage on grids from 64 cells a side on, each solved from the one before
 
+use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use super::drainage::{self, Basins, Drainage};
 use super::grid::refined;
@@ -29,6 +30,17 @@ impl WorldMap for Plates {
         let structure = job.inputs().structure.as_ref()?;
         Plates::solve(&structure.plates, structure.seed, side, job.keep_going)
     }
+
+    const STORED: bool = true;
+
+    fn write(&self, to: &mut Writer) {
+        self.write_to(to);
+    }
+
+    fn read(inputs: &Inputs, side: usize, from: &mut Reader<'_>) -> Option<Self> {
+        let structure = inputs.structure.as_ref()?;
+        Plates::read_from(&structure.plates, structure.seed, side, from)
+    }
 }
 
 impl WorldMap for Weather {
@@ -50,17 +62,33 @@ impl WorldMap for Weather {
         let carved_m: Vec<f64> = drainage.height_m.iter().map(|height_m| f64::from(*height_m)).collect();
         weather_over(job, side, &carved_m)
     }
+
+    const STORED: bool = true;
+
+    fn write(&self, to: &mut Writer) {
+        self.write_to(to);
+    }
+
+    fn read(_inputs: &Inputs, side: usize, from: &mut Reader<'_>) -> Option<Self> {
+        Weather::read_from(side, from)
+    }
 }
 
 /// The carved ground of a planet.
 pub(crate) struct Carved {
     pub(crate) drainage: Arc<Drainage>,
     pub(crate) rivers: Arc<Rivers>,
-    rock: Rock,
+    /// What the next level is solved from; none if the map was read from disk.
+    rock: Option<Rock>,
     basins: OnceLock<Basins>,
 }
 
 impl Carved {
+    fn new(drainage: Arc<Drainage>, sea_level_m: Option<f64>, radius_km: f64, rock: Option<Rock>) -> Self {
+        let rivers = Arc::new(Rivers::new(drainage.clone(), sea_level_m, radius_km));
+        Self { drainage, rivers, rock, basins: OnceLock::new() }
+    }
+
     /// The basins, found when they are first asked for.
     pub(crate) fn basins(&self) -> &Basins {
         self.basins.get_or_init(|| Basins::new(&self.drainage))
@@ -83,10 +111,24 @@ impl WorldMap for Carved {
     fn solve(job: &Job<'_>, _side: usize, coarser: Option<&Self>) -> Option<Self> {
         let structure = job.inputs().structure.as_ref()?;
         let weather = job.world.weather.map()?;
-        let rock = rock(job, coarser.map(|coarser| &coarser.rock))?;
+        let rock = rock(job, coarser.and_then(|coarser| coarser.rock.as_ref()))?;
         let drainage = Arc::new(drainage_of(job, &rock, weather, coarser.map(|coarser| &*coarser.drainage))?);
-        let rivers = Rivers::new(drainage.clone(), job.inputs().sea_level_m, structure.radius_km);
-        Some(Self { drainage, rivers: Arc::new(rivers), rock, basins: OnceLock::new() })
+        Some(Self::new(drainage, job.inputs().sea_level_m, structure.radius_km, Some(rock)))
+    }
+
+    fn can_be_refined(&self) -> bool {
+        self.rock.is_some()
+    }
+
+    const STORED: bool = true;
+
+    fn write(&self, to: &mut Writer) {
+        self.drainage.write(to);
+    }
+
+    fn read(inputs: &Inputs, side: usize, from: &mut Reader<'_>) -> Option<Self> {
+        let drainage = Arc::new(Drainage::read(side, from)?);
+        Some(Self::new(drainage, inputs.sea_level_m, inputs.structure.as_ref()?.radius_km, None))
     }
 }
 

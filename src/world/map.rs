@@ -1,6 +1,7 @@
 //! What a world map declares, and the planet as it reads it.
 
 use super::World;
+use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use crate::planet::{Key, Plates, Rivers, Weather};
 use std::sync::Arc;
@@ -93,4 +94,20 @@ pub(crate) trait WorldMap: Sized + Send + Sync {
     /// Solves the map with cubes of `side` cells. `coarser`: the level before, if it was solved. None if nobody wants
     /// the answer any more.
     fn solve(job: &Job<'_>, side: usize, coarser: Option<&Self>) -> Option<Self>;
+
+    /// Whether the next level can be solved from this one. A map that was read from disk may lack what that needs.
+    fn can_be_refined(&self) -> bool {
+        true
+    }
+
+    /// Whether the finest level is kept on disk: worth it where reading takes less time than solving.
+    const STORED: bool = false;
+
+    /// Writes what [`WorldMap::read`] needs.
+    fn write(&self, _to: &mut Writer) {}
+
+    /// A map that was written. None if the bytes are not those of a map of this side: they are checked, not trusted.
+    fn read(_inputs: &Inputs, _side: usize, _from: &mut Reader<'_>) -> Option<Self> {
+        None
+    }
 }

@@ -11,10 +11,12 @@
 //! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
 //!   rivers carve (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
 //! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
+//! - `store`: maps on disk; `bytes`: their numbers
 //!
 //! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
 //! the terrain's climate. The finest answer depends on the planet alone, never on the maps that served before.
 
+mod bytes;
 pub(crate) mod carved;
 pub(crate) mod cells;
 pub(crate) mod coast;
@@ -27,6 +29,7 @@ mod picture;
 pub(crate) mod plates;
 pub(crate) mod rivers;
 mod slot;
+mod store;
 pub(crate) mod weather;
 
 use carved::Carved;
@@ -39,6 +42,8 @@ use plates::Plates;
 pub(crate) use slot::Slot;
 pub use slot::{MapLevel, MapWork};
 use std::fmt;
+use std::sync::Arc;
+pub use store::MapStore;
 use weather::Weather;
 
 /// The Earth's radius in km. Widths and speeds of the structure are those of a planet of this size.
@@ -49,12 +54,24 @@ macro_rules! world_maps {
     ($( $(#[doc = $doc:literal])+ $name:ident: $map:ty; )+) => {
         /// The world maps that serve a planet: those of its own, or of an earlier revision until its own are whole.
         #[derive(Clone, Default)]
-        pub(crate) struct World { $( $(#[doc = $doc])+ pub(crate) $name: Slot<$map>, )+ }
+        pub(crate) struct World {
+            /// Where the finest maps are kept from one process to the next.
+            pub(crate) store: Option<Arc<MapStore>>,
+            $( $(#[doc = $doc])+ pub(crate) $name: Slot<$map>, )+
+        }
 
         impl World {
             /// The maps that may serve a planet at once: all but those that nothing reads any more.
             pub(crate) fn serving(&self, inputs: &Inputs) -> Self {
-                Self { $( $name: self.$name.serving(inputs), )+ }
+                Self { store: self.store.clone(), $( $name: self.$name.serving(inputs), )+ }
+            }
+
+            /// Share of the cells of all levels of all maps that are solved, 0 to 1: about the share of the work.
+            pub(crate) fn progress(&self, inputs: &Inputs) -> f64 {
+                let [done, all] = [$( self.$name.cells(inputs) ),+]
+                    .into_iter()
+                    .fold([0, 0], |[done, all], [more, of]| [done + more, all + of]);
+                if all == 0 { 1.0 } else { done as f64 / all as f64 }
             }
 
             /// Whether every map is the finest one of this planet.

@@ -10,6 +10,8 @@ use std::time::Instant;
 pub struct MapWork {
     /// Levels of maps that were solved.
     pub runs: usize,
+    /// Maps that were read from disk.
+    pub reads: usize,
     /// Seconds it took.
     pub busy_secs: f64,
     /// The level that was solved last.
@@ -76,10 +78,29 @@ impl<M: WorldMap> Slot<M> {
         self.key() == Self::final_key(inputs)
     }
 
+    /// Cells of the levels that are solved, and of all levels.
+    pub(super) fn cells(&self, inputs: &Inputs) -> [usize; 2] {
+        let Some(key) = M::key(inputs) else { return [0, 0] };
+        let up_to = |levels: usize| M::SIDES[..levels].iter().map(|side| 6 * side * side).sum();
+        let solved = self.0.as_ref().filter(|served| served.key == key).map_or(0, |served| served.level + 1);
+        let all = Self::finest(inputs) + 1;
+        [up_to(solved.min(all)), up_to(all)]
+    }
+
     pub(super) fn step(&self, job: &Job<'_>, work: &mut MapWork) -> Option<Self> {
         let Some(key) = M::key(job.inputs()) else { return Some(Self::default()) };
         let finest = Self::finest(job.inputs());
-        let coarser = self.0.as_ref().filter(|served| served.key == key && served.level < finest);
+        let coarser =
+            self.0.as_ref().filter(|served| served.key == key && served.level < finest && served.map.can_be_refined());
+        let store = job.world.store.as_deref().filter(|_| M::STORED);
+        let begun = Instant::now();
+        if coarser.is_none()
+            && let Some(map) = store.and_then(|store| store.read::<M>(job.inputs(), M::SIDES[finest], key))
+        {
+            work.reads += 1;
+            work.busy_secs += begun.elapsed().as_secs_f64();
+            return Some(Self(Some(Served { key, level: finest, map: Arc::new(map) })));
+        }
         let level = match (coarser, &self.0) {
             (Some(coarser), _) => coarser.level + 1,
             // A whole map of an earlier revision shows more than a coarse one of this planet would.
@@ -87,11 +108,13 @@ impl<M: WorldMap> Slot<M> {
             _ => 0,
         };
         profiling::scope!("world map");
-        let begun = Instant::now();
         let map = M::solve(job, M::SIDES[level], coarser.map(|coarser| &*coarser.map));
         let secs = begun.elapsed().as_secs_f64();
         work.busy_secs += secs;
         let map = Arc::new(map?);
+        if let Some(store) = store.filter(|_| level == finest) {
+            store.write(&*map, M::SIDES[level], key);
+        }
         work.runs += 1;
         work.last = Some(MapLevel { map: M::NAME, side: M::SIDES[level], secs });
         Some(Self(Some(Served { key, level, map })))

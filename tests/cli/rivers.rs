@@ -7,7 +7,7 @@ const AUREL: &str = "planets/aurel.ron";
 
 fn run(args: &[&str], input: &str) -> (i32, String, String) {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");
-    command.current_dir(env!("CARGO_MANIFEST_DIR")).args(args).write_stdin(input);
+    command.env("TELLUS_MAPS", "").current_dir(env!("CARGO_MANIFEST_DIR")).args(args).write_stdin(input);
     let output = command.output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))

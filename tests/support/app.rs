@@ -50,12 +50,12 @@ pub fn open_drawn(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec:
 pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recovery: &Path) -> Editor {
     let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
     start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
-        EditorApp::new(cc, file).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
+        EditorApp::new(cc, file, None).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
     })
 }
 
 fn scripted(answers: Vec<Option<PathBuf>>) -> impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp {
-    move |cc| EditorApp::new(cc, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
+    move |cc| EditorApp::new(cc, None, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
 }
 
 fn start(

@@ -7,7 +7,7 @@ use crate::lod::View;
 use crate::lod::tile::TILE_VERTICES;
 use crate::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueRef};
 use crate::planet::{Planet, validate};
-use crate::tiles::{BuildStats, Builder, DEFAULT_BUDGET_BYTES, Surface};
+use crate::tiles::{BuildStats, Builder, BuilderOptions, DEFAULT_BUDGET_BYTES, Surface};
 use serde_json::json;
 use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -60,7 +60,8 @@ impl Bench {
     fn new(budget_bytes: usize) -> Self {
         let bell = Arc::new((Mutex::new(()), Condvar::new()));
         let ring = Arc::clone(&bell);
-        let builder = Builder::with_budget(budget_bytes, move || ring.1.notify_all());
+        let builder =
+            Builder::with_options(BuilderOptions::default().budget_bytes(budget_bytes), move || ring.1.notify_all());
         Self { builder, bell }
     }
 

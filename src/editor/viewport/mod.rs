@@ -34,8 +34,8 @@ use crate::lod::opening::opening_place;
 use crate::planet::Planet;
 use crate::render::{FrameStats, LutRuns};
 use crate::sphere::LatLon;
-use crate::terrain::Revision;
-use crate::tiles::{Builder, Memory, Surface};
+use crate::terrain::{MapStore, Revision};
+use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
 use camera::pose::Pose;
 use camera::{Cameras, Ground};
 use clicks::Clicks;
@@ -82,7 +82,13 @@ pub struct Viewport {
 
 impl Viewport {
     /// A viewport that draws with eframe's device, or shows why it cannot.
-    pub fn new(ctx: &egui::Context, render_state: Option<&RenderState>, planet: &Planet) -> Self {
+    /// `maps`: where solved world maps are kept.
+    pub fn new(
+        ctx: &egui::Context,
+        render_state: Option<&RenderState>,
+        planet: &Planet,
+        maps: Option<Arc<MapStore>>,
+    ) -> Self {
         let waker = || {
             let ctx = ctx.clone();
             move || ctx.request_repaint()
@@ -93,7 +99,7 @@ impl Viewport {
             frame_meter: FrameMeter::default(),
             frames: FrameLog::default(),
             painter: PainterLink::default(),
-            builder: Builder::new(waker()),
+            builder: Builder::with_options(BuilderOptions::default().maps(maps), waker()),
             newest: None,
             picture: Picture::new(render_state),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),

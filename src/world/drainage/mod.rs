@@ -6,11 +6,13 @@
 //! one, so that both have them in the same places.
 //!
 //! - `flood`: filling of pits; `route`: receivers and discharge; `carve`: heights of beds; `lakes`: lakes
+//! - `kept`: rivers on disk
 //! - `start`: sea, closed basins and the surface at which a grid starts; deltas; `basins`: land by mouths
 
 mod basins;
 mod carve;
 mod flood;
+mod kept;
 mod lakes;
 mod route;
 mod start;
@@ -79,6 +81,7 @@ pub(crate) struct Drainage {
     /// Height of the ground in metres; under water that of the bed.
     pub(crate) height_m: Vec<f32>,
     /// Height of the river's bed in metres; in a lake with an outlet that of its surface. It falls along all receivers.
+    /// Like `discharge`, `sinks` and `mouths` it serves the next finer grid, and is empty in rivers that were read.
     pub(crate) bed_m: Vec<f64>,
     /// The cell to which a cell's water goes; itself in the sea and at the bottom of a basin without an outlet.
     pub(crate) receiver: Vec<u32>,

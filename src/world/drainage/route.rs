@@ -88,8 +88,8 @@ impl Routes {
         routes
     }
 
-    /// Orders land cells: from each outlet up its tree.
-    fn ordered(receiver: Vec<u32>, land: &[u32], is_sea: &[bool]) -> Self {
+    /// Orders land cells: from each outlet up its tree. A cell from which no way leads to an outlet is left out.
+    pub(super) fn ordered(receiver: Vec<u32>, land: &[u32], is_sea: &[bool]) -> Self {
         // Lists of the cells that flow into each cell.
         let (mut first, mut next) = (vec![NONE; receiver.len()], vec![NONE; receiver.len()]);
         let mut outlets = Vec::new();

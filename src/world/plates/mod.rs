@@ -12,6 +12,7 @@ mod finer;
 mod layout;
 
 use super::EARTH_KM;
+use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use super::map::KeepGoing;
 use super::noise::{fbm_row, hash, noise as one_octave, ramp};
@@ -51,10 +52,8 @@ pub(crate) struct Plates {
     /// The same on the grid of twice the side.
     finer: OnceLock<Rock>,
     /// Index of the plate.
-    #[cfg_attr(not(test), expect(dead_code, reason = "tests check it; the picture asks the layout, which is finer"))]
     pub(crate) plate: Vec<u16>,
     /// Unit tangent along the folds, and the share of folded rock.
-    #[cfg_attr(not(any(test, feature = "render")), expect(dead_code, reason = "its picture is drawn"))]
     pub(crate) folds: Vec<(DVec3, f64)>,
 }
 
@@ -67,6 +66,32 @@ impl Plates {
             rock: Rock::new(side, &all),
             plate: all.iter().map(|crust| crust.plate).collect(),
             folds: all.iter().map(|crust| (crust.fold, crust.folded)).collect(),
+            params: params.clone(),
+            finer: OnceLock::new(),
+            layout,
+        })
+    }
+
+    /// Writes what [`Plates::read_from`] needs.
+    pub(crate) fn write_to(&self, to: &mut Writer) {
+        for values in [&self.rock.base_m, &self.rock.uplift_m, &self.rock.softness] {
+            to.f64s(values.iter().copied());
+        }
+        to.bytes(self.plate.iter().flat_map(|plate| plate.to_le_bytes()));
+        to.f64s(self.folds.iter().flat_map(|(along, share)| [along.x, along.y, along.z, *share]));
+    }
+
+    /// Plates with these parameters on a grid that was written.
+    pub(crate) fn read_from(params: &Params, planet_seed: u32, side: usize, from: &mut Reader<'_>) -> Option<Self> {
+        let (layout, count) = (Layout::new(params, planet_seed), 6 * side * side);
+        let [base_m, uplift_m, softness] = [from.f64s(count)?, from.f64s(count)?, from.f64s(count)?];
+        let plate: Vec<u16> =
+            from.bytes(2 * count)?.as_chunks().0.iter().map(|bytes| u16::from_le_bytes(*bytes)).collect();
+        let folds = from.f64s(4 * count)?;
+        Some(Self {
+            rock: Rock { side, base_m, uplift_m, softness },
+            plate: plate.iter().all(|plate| usize::from(*plate) < layout.plates.len()).then_some(plate)?,
+            folds: folds.as_chunks().0.iter().map(|&[x, y, z, share]| (DVec3::new(x, y, z), share)).collect(),
             params: params.clone(),
             finer: OnceLock::new(),
             layout,

@@ -9,6 +9,7 @@
 mod moisture;
 mod winds;
 
+use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use super::grid::smoothed;
 use super::map::KeepGoing;
@@ -44,13 +45,23 @@ pub(crate) struct Weather {
     /// Water that the air would take up from a wet surface, in mm a year.
     pub(crate) evaporation_mm: Vec<f64>,
     /// Mean temperature of the ground in °C.
-    #[cfg_attr(not(test), expect(dead_code, reason = "tests check it; a debug view will read it"))]
     pub(crate) temperature_c: Vec<f64>,
+    /// How much warmer currents of the sea make it in °C.
+    warmer_c: Vec<f32>,
     /// How much warmer currents of the sea make it in °C, and the humidity, as [`Weather::at`] gives them.
     rasters: [Raster<f32>; 2],
     /// Rain in mm a year and the wind in m/s along the axes of the planet frame, as [`Weather::rain_and_wind`] gives
     /// them.
     air: OnceLock<[Raster<f32>; 4]>,
+}
+
+/// Values of [`Weather`] by cell.
+struct Cellwise {
+    wind_m_s: Vec<[f64; 2]>,
+    rain_mm: Vec<f64>,
+    evaporation_mm: Vec<f64>,
+    temperature_c: Vec<f64>,
+    warmer_c: Vec<f32>,
 }
 
 /// The most that currents of the sea warm or cool.
@@ -86,15 +97,36 @@ impl Weather {
         }
         let rain_mm = smoothed(&cells, &rain_mm, (inputs.side / 32).max(1));
         let evaporation_mm = ground.temperature_c.iter().map(|c| potential_mm(*c)).collect();
-        let rasters = {
-            let warmer = (0..cells.dirs.len()).map(|cell| ground.current_c(cell).clamp(-WARMEST_C, WARMEST_C) as f32);
-            let humid = |(rain, potential): (&f64, &f64)| humidity(*rain, *potential) as f32;
-            let humid = rain_mm.iter().zip(&evaporation_mm).map(humid);
-            [warmer.collect(), humid.collect()].map(|texels| Raster::cube(inputs.side, texels))
-        };
+        let warmer = (0..cells.dirs.len()).map(|cell| ground.current_c(cell).clamp(-WARMEST_C, WARMEST_C) as f32);
+        let warmer_c = warmer.collect();
         let temperature_c = ground.temperature_c;
-        let air = OnceLock::new();
-        Some(Self { side: inputs.side, wind_m_s, rain_mm, evaporation_mm, temperature_c, rasters, air })
+        Some(Self::new(inputs.side, Cellwise { wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c }))
+    }
+
+    fn new(side: usize, cells: Cellwise) -> Self {
+        let Cellwise { wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c } = cells;
+        let humid = |(rain, potential): (&f64, &f64)| humidity(*rain, *potential) as f32;
+        let humid = rain_mm.iter().zip(&evaporation_mm).map(humid).collect();
+        let rasters = [Raster::cube(side, warmer_c.clone()), Raster::cube(side, humid)];
+        Self { side, wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c, rasters, air: OnceLock::new() }
+    }
+
+    /// Writes what [`Weather::read_from`] needs.
+    pub(crate) fn write_to(&self, to: &mut Writer) {
+        to.f64s(self.wind_m_s.iter().copied().flatten());
+        for values in [&self.rain_mm, &self.evaporation_mm, &self.temperature_c] {
+            to.f64s(values.iter().copied());
+        }
+        to.f32s(self.warmer_c.iter().copied());
+    }
+
+    /// The weather on a grid that was written.
+    pub(crate) fn read_from(side: usize, from: &mut Reader<'_>) -> Option<Self> {
+        let count = 6 * side * side;
+        let wind_m_s = from.f64s(2 * count)?.as_chunks().0.to_vec();
+        let [rain_mm, evaporation_mm, temperature_c] = [from.f64s(count)?, from.f64s(count)?, from.f64s(count)?];
+        let warmer_c = from.f32s(count)?;
+        Some(Self::new(side, Cellwise { wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c }))
     }
 
     /// How much warmer currents of the sea make it in °C, and the humidity (0 to 1), at a unit direction.

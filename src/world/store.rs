@@ -1,0 +1,141 @@
+//! World maps on disk: solved once, read by every later process.
+//!
+//! Each file holds one map at its finest level. Its name is the map, the side of its grid and the key of everything
+//! that it was solved from, so a file is never out of date, only unused. A file that is damaged, or of another
+//! version, counts as missing.
+//!
+//! Format, little-endian: `MAGIC`, [`VERSION`], the key (16 bytes), a checksum (8 bytes), the content.
+
+use super::bytes::{Reader, Writer};
+use super::map::{Inputs, WorldMap};
+use crate::planet::Key;
+use crate::planet::file::write_atomically;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
+
+/// Version of the solvers and of the format. Increase it with every change after which a solver answers differently;
+/// a test of the solvers' answers says when.
+pub(super) const VERSION: u32 = 1;
+
+const MAGIC: [u8; 8] = *b"TELLUSWM";
+const HEADER: usize = MAGIC.len() + 4 + 16 + 8;
+const EXTENSION: &str = "map";
+
+/// A folder of solved world maps. Share one between all terrains and builders of a process.
+#[derive(Debug)]
+pub struct MapStore {
+    folder: PathBuf,
+    /// None: the folder is only read.
+    limit_bytes: Option<u64>,
+    problem: Mutex<Option<String>>,
+}
+
+impl MapStore {
+    /// A folder that keeps maps from one process to the next. It is made when the first map is written. When the maps
+    /// in it exceed `limit_bytes`, those that were not used for longest are deleted; the newest map always stays.
+    pub fn new(folder: impl Into<PathBuf>, limit_bytes: u64) -> Self {
+        Self { folder: folder.into(), limit_bytes: Some(limit_bytes), problem: Mutex::default() }
+    }
+
+    /// A folder that is only read: maps that a game ships beside its presets.
+    pub fn read_only(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), limit_bytes: None, problem: Mutex::default() }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The newest reason why a map could not be written, told once. Maps that cannot be written are solved again by
+    /// the next process; nothing else is lost.
+    pub fn take_problem(&self) -> Option<String> {
+        self.problem.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn path(&self, name: &str, side: usize, key: Key) -> PathBuf {
+        self.folder.join(format!("{name}_{side}_{:032x}.{EXTENSION}", key.bits()))
+    }
+
+    /// The map of a key, if it is there and whole.
+    pub(super) fn read<M: WorldMap>(&self, inputs: &Inputs, side: usize, key: Key) -> Option<M> {
+        profiling::scope!("read a world map");
+        let path = self.path(M::NAME, side, key);
+        let bytes = fs::read(&path).ok()?;
+        let content = content(&bytes, key)?;
+        let mut reader = Reader(content);
+        let map = M::read(inputs, side, &mut reader).filter(|_| reader.is_at_end())?;
+        if self.limit_bytes.is_some() {
+            // Keeps it from being the one that is deleted. Not every file system has times.
+            let _ = fs::File::open(&path).and_then(|file| file.set_modified(SystemTime::now()));
+        }
+        Some(map)
+    }
+
+    /// Writes a map, unless the folder is only read.
+    pub(super) fn write<M: WorldMap>(&self, map: &M, side: usize, key: Key) {
+        profiling::scope!("write a world map");
+        let Some(limit_bytes) = self.limit_bytes else { return };
+        let mut writer = Writer(vec![0; HEADER]);
+        map.write(&mut writer);
+        let bytes = with_header(writer.0, key);
+        let written = fs::create_dir_all(&self.folder)
+            .map_err(|error| format!("cannot make the folder: {error}"))
+            .and_then(|()| write_atomically(&self.path(M::NAME, side, key), &bytes));
+        match written {
+            Ok(()) => self.trim(limit_bytes),
+            Err(error) => {
+                let message = format!("{}: {error}; world maps will be solved again", self.folder.display());
+                *self.problem.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
+            }
+        }
+    }
+
+    /// Deletes the maps that were not used for longest, until the others take no more than the limit.
+    fn trim(&self, limit_bytes: u64) {
+        let Ok(entries) = fs::read_dir(&self.folder) else { return };
+        let maps = entries.flatten().filter(|entry| entry.path().extension().is_some_and(|end| end == EXTENSION));
+        let mut maps: Vec<_> = maps
+            .filter_map(|entry| {
+                let metadata = entry.metadata().ok().filter(fs::Metadata::is_file)?;
+                Some((metadata.modified().ok()?, metadata.len(), entry.path()))
+            })
+            .collect();
+        maps.sort_by(|a, b| b.cmp(a));
+        let mut sum_bytes = 0;
+        for (number, (_, bytes, path)) in maps.iter().enumerate() {
+            sum_bytes += bytes;
+            if number > 0 && sum_bytes > limit_bytes {
+                // Another process may have been faster.
+                let _ = fs::remove_file(path);
+            }
+        }
+    }
+}
+
+/// Fills in the header before the content.
+fn with_header(mut bytes: Vec<u8>, key: Key) -> Vec<u8> {
+    let (head, content) = bytes.split_at_mut(HEADER);
+    let fields = [&MAGIC[..], &VERSION.to_le_bytes(), &key.bits().to_le_bytes(), &checksum(content).to_le_bytes()];
+    head.copy_from_slice(&fields.concat());
+    bytes
+}
+
+/// The content of a file of a key, if it is whole.
+fn content(bytes: &[u8], key: Key) -> Option<&[u8]> {
+    let (head, content) = bytes.split_at_checked(HEADER)?;
+    let fields = [&MAGIC[..], &VERSION.to_le_bytes(), &key.bits().to_le_bytes(), &checksum(content).to_le_bytes()];
+    (head == fields.concat()).then_some(content)
+}
+
+/// FNV-1a over words of eight bytes, and the bytes after the last whole word.
+fn checksum(bytes: &[u8]) -> u64 {
+    let (words, rest) = bytes.as_chunks();
+    let words = words.iter().map(|word| u64::from_le_bytes(*word)).chain(rest.iter().map(|byte| u64::from(*byte)));
+    words.fold(0xcbf2_9ce4_8422_2325, |hash: u64, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3).rotate_left(23))
+}
+
+#[cfg(test)]
+mod tests;

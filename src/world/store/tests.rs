@@ -1,0 +1,171 @@
+use super::*;
+use crate::planet::{Planet, Structure};
+use crate::terrain::Terrain;
+use crate::terrain::coarse::CellFields;
+use crate::world::carved::Carved;
+use crate::world::{MapWork, World};
+use std::sync::Arc;
+
+/// A planet whose rivers are solved on the coarsest grid.
+fn planet() -> Arc<Planet> {
+    Arc::new(Planet { structure: Some(Structure { grids: 1, ..Structure::default() }), ..Planet::default() })
+}
+
+fn solved(store: &Arc<MapStore>, planet: &Arc<Planet>) -> (Terrain, MapWork) {
+    let mut terrain =
+        Terrain::try_draft(planet.clone(), &World { store: Some(store.clone()), ..World::default() }).unwrap();
+    let (fields, mut work) = (CellFields::default(), MapWork::default());
+    while let Some(next) = terrain.with_next_map(&fields, &|| true, &mut work) {
+        terrain = next;
+    }
+    (terrain, work)
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+}
+
+fn carved(terrain: &Terrain) -> &Carved {
+    terrain.world().carved.map().unwrap()
+}
+
+fn bits(terrain: &Terrain) -> Vec<u64> {
+    let cells = crate::world::cells::Cells::of(12);
+    cells.dirs.iter().step_by(31).map(|dir| terrain.height_m(*dir).to_bits()).collect()
+}
+
+#[test]
+fn maps_are_solved_once_and_read_the_same_to_the_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Arc::new(MapStore::new(folder.path().join("made"), u64::MAX));
+    let planet = planet();
+    let (first, work) = solved(&store, &planet);
+    assert_eq!((work.runs, work.reads), (3, 0), "plates, weather, rivers on one grid");
+    assert_eq!(files(store.folder()).len(), 3, "the finest of each");
+    let read_only = Arc::new(MapStore::read_only(store.folder()));
+    let (second, work) = solved(&read_only, &planet);
+    assert_eq!((work.runs, work.reads), (0, 3));
+    assert_eq!(bits(&first), bits(&second));
+    let [a, b] = [&first, &second].map(|terrain| &carved(terrain).drainage);
+    assert!(a.height_m == b.height_m && a.receiver == b.receiver && a.discharge_m3_s == b.discharge_m3_s);
+    assert!(a.lake == b.lake && a.lakes == b.lakes && a.is_sea == b.is_sea && a.order == b.order && a.seed == b.seed);
+    assert!(!a.lakes.is_empty(), "the test planet has lakes");
+    let dir = glam::DVec3::new(0.3, 0.5, 0.2).normalize();
+    assert_eq!(format!("{:?}", first.sample(dir)), format!("{:?}", second.sample(dir)));
+    // A finer answer cannot go on from what was read: it is solved from the start, and is the same as without a store.
+    let mut finer = Planet::clone(&planet);
+    finer.structure.as_mut().unwrap().grids = 2;
+    let finer = Arc::new(finer);
+    let world = second.world().clone();
+    let mut terrain = Terrain::try_draft(finer.clone(), &world).unwrap();
+    while let Some(next) = terrain.with_next_map(&CellFields::default(), &|| true, &mut MapWork::default()) {
+        terrain = next;
+    }
+    assert_eq!(bits(&terrain), bits(&Terrain::try_new(finer).unwrap()));
+    assert_eq!(files(store.folder()).len(), 3, "nothing is written to a folder that is only read");
+}
+
+#[test]
+fn a_damaged_file_counts_as_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Arc::new(MapStore::new(folder.path(), u64::MAX));
+    let planet = planet();
+    let (first, _) = solved(&store, &planet);
+    let path = files(folder.path()).into_iter().find(|path| path.to_string_lossy().contains("rivers")).unwrap();
+    let good = fs::read(&path).unwrap();
+    let mut flipped = good.clone();
+    *flipped.last_mut().unwrap() ^= 1;
+    let mut older = good.clone();
+    older[MAGIC.len()] ^= 1;
+    for bad in [&good[..good.len() - 1], &good[..20], &[], &flipped, &older] {
+        fs::write(&path, bad).unwrap();
+        let (again, work) = solved(&store, &planet);
+        assert_eq!((work.runs, work.reads), (1, 2));
+        assert_eq!(bits(&first), bits(&again));
+        assert_eq!(fs::read(&path).unwrap(), good, "it is written anew");
+    }
+}
+
+/// A file may be forged: its checksum is right, its numbers are not.
+#[test]
+fn forged_numbers_are_refused_or_harmless() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Arc::new(MapStore::new(folder.path(), u64::MAX));
+    let planet = planet();
+    let (terrain, _) = solved(&store, &planet);
+    let key = Key::of(&"forged");
+    let content = |name: &str| {
+        let path = files(folder.path()).into_iter().find(|path| path.to_string_lossy().contains(name)).unwrap();
+        fs::read(path).unwrap()[HEADER..].to_vec()
+    };
+    let inputs = terrain.map_inputs();
+    let dirs = &crate::world::cells::Cells::of(12).dirs;
+    let count = 6 * 64 * 64;
+    let good = content("rivers");
+    // The seed, a way to the neighbour at the left (of all cells: rings), an unknown way, a height that is no number,
+    // each byte of the lists at the end.
+    let mut bad: Vec<(usize, Vec<u8>)> = vec![(4, vec![3; count]), (4, vec![77; count]), (4 + count, vec![0xFF; 400])];
+    bad.extend((1..200).step_by(3).map(|back| (good.len() - back, vec![0xFF])));
+    let mut refused = 0;
+    for (at, bytes) in bad {
+        let mut forged = vec![0; HEADER];
+        forged.extend_from_slice(&good);
+        forged[HEADER + at..HEADER + at + bytes.len()].copy_from_slice(&bytes);
+        fs::write(store.path("rivers", 64, key), with_header(forged, key)).unwrap();
+        match store.read::<Carved>(inputs, 64, key) {
+            None => refused += 1,
+            Some(carved) => {
+                let mut out = Vec::new();
+                carved.rivers.evaluate(&dirs[..8], crate::world::rivers::LEVELS, &mut Default::default(), &mut out);
+                assert!(out.iter().all(|point| point.height_m.is_finite()), "{at}");
+            }
+        }
+    }
+    assert!(refused >= 3, "{refused}");
+}
+
+#[test]
+fn the_maps_that_were_not_used_for_longest_are_deleted() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = MapStore::new(folder.path(), 250);
+    let old = |name: &str, hours: u64| {
+        let path = folder.path().join(name);
+        fs::write(&path, [0; 100]).unwrap();
+        let then = SystemTime::now() - std::time::Duration::from_secs(3600 * hours);
+        fs::File::options().write(true).open(&path).unwrap().set_modified(then).unwrap();
+    };
+    old("new.map", 1);
+    old("older.map", 2);
+    old("oldest.map", 3);
+    old("a letter.txt", 9);
+    store.trim(250);
+    let names: Vec<String> =
+        files(folder.path()).iter().map(|path| path.file_name().unwrap().to_string_lossy().into_owned()).collect();
+    assert_eq!(names, ["a letter.txt", "new.map", "older.map"]);
+    store.trim(10);
+    assert_eq!(files(folder.path()).len(), 2, "the newest map stays");
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let store = Arc::new(MapStore::new(file.join("maps"), u64::MAX));
+    let (_, work) = solved(&store, &planet());
+    assert_eq!(work.runs, 3);
+    assert!(store.take_problem().is_some_and(|problem| problem.contains("maps")));
+    assert!(store.take_problem().is_none());
+}
+
+/// If this fails, the solvers answer differently than they did when [`VERSION`] was set: increase it, so that maps
+/// that are kept on disk are solved anew.
+#[test]
+fn the_version_is_that_of_the_solvers() {
+    let (terrain, _) = solved(&Arc::new(MapStore::read_only("nowhere")), &planet());
+    let (mut writer, drainage) = (Writer::default(), &carved(&terrain).drainage);
+    drainage.write(&mut writer);
+    assert_eq!((VERSION, checksum(&writer.0)), (1, 15_668_282_718_761_733_182));
+}
