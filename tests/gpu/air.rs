@@ -122,13 +122,13 @@ fn a_climb_to_space_has_no_jump() {
     let planet = Arc::new(planet);
     // Looks at the sky above the horizon, away from the star. The ground is smooth, so that no relief appears or
     // disappears.
-    const STEPS: usize = 120;
+    const STEPS: usize = 80;
     let mut last: Option<Vec<[f32; 3]>> = None;
     let mut changes: Vec<(f64, f64)> = Vec::new();
     for step in 0..STEPS {
         let altitude_m = 1.7 * (400e3_f64 / 1.7).powf(step as f64 / (STEPS - 1) as f64);
         let camera = camera(&planet, 5.0, 10.0, altitude_m, 200.0, 12.0);
-        let view = View { camera, size_px: [96, 60], quality: Quality::Medium };
+        let view = View { camera, size_px: [64, 40], quality: Quality::Medium };
         let surface = build_now(&planet, &View { quality: Quality::Low, ..view }).unwrap();
         gpu.draw(&frame_of(&surface, &planet, view, LatLon::from_degrees(20.0, 50.0).direction()));
         let (_, pixels) = gpu.renderer.radiance().unwrap();
@@ -268,8 +268,10 @@ fn no_band_of_sky_lies_across_the_ground() {
         (biome.variation, biome.detail_strength) = (0.0, 0.0);
     }
     let planet = Arc::new(planet);
-    for quality in Quality::ALL {
-        for altitude_m in [2.0, 100.0, 900.0, 10e3, 60e3, 110e3, 130e3, 400e3, 3e6] {
+    for (number, quality) in Quality::ALL.into_iter().enumerate() {
+        // Each altitude at one of the qualities, and those where something begins or ends at all of them.
+        let altitudes_m = [2.0, 100.0, 900.0, 10e3, 60e3, 400e3, 3e6].into_iter().skip(number).step_by(3);
+        for altitude_m in altitudes_m.chain([110e3]) {
             let radius_m = planet.radius_m();
             let dip_rad = ((radius_m + 1200.0) / (radius_m + 1200.0 + altitude_m)).acos();
             // The horizon lies in the upper half of the picture.

@@ -1,7 +1,7 @@
 //! Level of detail in pictures: no holes, no popping, mountains beyond the horizon.
 
 use crate::support::dice::Dice;
-use crate::support::{camera_over, debug, frame_of, gpu, lights, settled};
+use crate::support::{camera_over, debug, frame_of, gpu, lights, settled, terrain};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::morph::shifts_m;
@@ -11,7 +11,7 @@ use tellus::planet::{Fbm, Layer, Planet, Shape, Water, random, shipped};
 use tellus::render::{DebugView, Scene};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
-use tellus::tiles::{Builder, Surface, build_now};
+use tellus::tiles::{Builder, Surface, build_now, build_over};
 
 const SIZE_PX: [u32; 2] = [96, 64];
 
@@ -63,7 +63,7 @@ fn holes(view: &View, terrain: &Terrain, picture: &[u8], dice: &mut Dice) -> usi
 /// Looks for holes in pictures of a planet from random poses.
 fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
     let planet = bare(planet);
-    let terrain = Terrain::try_new(planet.clone()).unwrap();
+    let terrain = terrain(&planet);
     for _ in 0..poses {
         let place = dice.place();
         let altitude_m = 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
@@ -71,7 +71,7 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
         let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.8) * 1.8);
         let camera = camera_over(&terrain, place, altitude_m, [heading, pitch.max(-1.55)]);
         let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
-        let surface = build_now(&planet, &view).unwrap();
+        let surface = build_over(&terrain, &view);
         let coverage = debug(frame_of(&surface, &planet, view, DVec3::X), DebugView::Coverage);
         let picture = draw(&coverage);
         let holes = holes(&view, &terrain, &picture, dice);
@@ -87,11 +87,16 @@ fn planet(name: &str) -> Planet {
 #[test]
 fn no_pose_shows_the_background_through_the_ground() {
     let mut dice = Dice(11);
+    // One grid of rivers is enough: four take seconds to solve.
+    let coarse = |mut planet: Planet| {
+        planet.structure.iter_mut().for_each(|structure| structure.grids = 1);
+        planet
+    };
     for shipped in shipped::ALL {
-        look_for_holes(shipped.load().unwrap(), 1, &mut dice);
+        look_for_holes(coarse(shipped.load().unwrap()), 1, &mut dice);
     }
-    for seed in 0..5 {
-        look_for_holes(random::random(seed), 1, &mut dice);
+    for seed in 0..3 {
+        look_for_holes(coarse(random::random(seed)), 1, &mut dice);
     }
 }
 

@@ -1,9 +1,11 @@
 //! Biomes as materials: colour near and far, and queried against drawn biomes.
 
-use crate::support::{Gpu, SIZE_PX, camera, frame, gpu, surface, view_of};
+use crate::support::{Gpu, SIZE_PX, camera, frame, gpu, surface_of, view_of};
 use std::sync::Arc;
+use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Biome, Biomes, Detail, Planet, Steep, Table};
 use tellus::render::DebugView;
+use tellus::tiles::Surface;
 
 const PLACE: (f64, f64) = (37.0, 20.0);
 
@@ -23,22 +25,29 @@ fn grey(albedo: f64) -> Biome {
     Biome { color: [albedo; 3], variation: 0.0, specular: 0.0, ..Biome::default() }
 }
 
+fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
+    surface_of(planet, &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
+}
+
 /// The middle pixels of a picture straight down from `altitude_m`.
 fn middle(gpu: &mut Gpu, planet: &Planet, altitude_m: f64, sun_lon: f64) -> Vec<[u8; 3]> {
     let planet = Arc::new(planet.clone());
     let camera = camera(&planet, PLACE.0, PLACE.1, altitude_m, 0.0, -90.0);
     let surface = surface(&planet, &camera);
-    let picture = gpu.draw(&frame(&surface, &planet, camera, (PLACE.0, sun_lon)));
-    let [width, height] = SIZE_PX.map(|side| side as usize);
+    let mut frame = frame(&surface, &planet, camera, (PLACE.0, sun_lon));
+    frame.size_px = SIZE_PX.map(|side| side / 2);
+    let picture = gpu.draw(&frame);
+    let [width, height] = frame.size_px.map(|side| side as usize);
     let pixel = |x: usize, y: usize| std::array::from_fn(|c| picture[(y * width + x) * 4 + c]);
     (height / 4..height * 3 / 4).flat_map(|y| (width / 4..width * 3 / 4).map(move |x| pixel(x, y))).collect()
 }
 
 /// For each display code, the albedo of level grey ground that shows it from orbit.
 fn albedo_by_byte(gpu: &mut Gpu, sun_lon: f64) -> Vec<f64> {
+    const STEPS: u32 = 14;
     let mut known: Vec<(f64, f64)> = vec![(0.0, 0.0)];
-    for step in 1..=24 {
-        let albedo = (f64::from(step) / 24.0).powi(2);
+    for step in 1..=STEPS {
+        let albedo = (f64::from(step) / f64::from(STEPS)).powi(2);
         let pixels = middle(gpu, &ball(grey(albedo)), 2e4, sun_lon);
         let byte = pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / pixels.len() as f64;
         known.push((byte, albedo));
@@ -160,7 +169,7 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
         };
         colors.iter().position(|c| distance(c) == 0.0)
     };
-    for (lat, lon) in (0..24).map(|i| (-62.0 + 5.3 * f64::from(i), 37.0 * f64::from(i))) {
+    for (lat, lon) in (0..12).map(|i| (-62.0 + 10.6 * f64::from(i), 74.0 * f64::from(i))) {
         let camera = camera(&planet, lat, lon, 2500.0, 0.0, -90.0);
         let surface = surface(&planet, &camera);
         let mut frame = frame(&surface, &planet, camera, (lat, lon));
@@ -182,7 +191,7 @@ fn the_biome_of_a_query_is_the_one_in_the_picture() {
             right += u32::from(shown);
         }
     }
-    assert!(points > 1500 && seen.len() >= 4, "{points} points of the biomes {seen:?}");
+    assert!(points > 700 && seen.len() >= 4, "{points} points of the biomes {seen:?}");
     assert!(f64::from(right) >= 0.99 * f64::from(points), "{right} of {points} agree");
 }
 

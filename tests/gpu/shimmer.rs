@@ -1,4 +1,4 @@
-//! No shimmer at a distance: in a slow flight, pictures change nearly as smoothly as with sixteen samples per pixel.
+//! No shimmer at a distance: in a slow flight, pictures change nearly as smoothly as with nine samples per pixel.
 
 use crate::support::{Gpu, frame_of, gpu, settled};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use tellus::tiles::Builder;
 
 const SIZE_PX: [u32; 2] = [144, 96];
 /// Samples of the reference along each side of a pixel.
-const FINER: u32 = 4;
+const FINER: u32 = 3;
 /// Pictures of a flight, and pixels from one to the next.
 const PICTURES: usize = 5;
 const STEP_PX: f64 = 0.25;

@@ -12,20 +12,32 @@ use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table
 use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture, texture};
 use tellus::sphere::LatLon;
 use tellus::terrain::{Revision, Terrain};
-use tellus::tiles::{Builder, Surface, add_detail, build_now};
+use tellus::tiles::{Builder, Surface, add_detail, build_over};
 
 pub const SIZE_PX: [u32; 2] = [320, 180];
 
-/// The surface for a camera at low quality.
+/// Tiles for a camera at low quality, without horizon angles and detail textures: these take most of the time.
 pub fn surface(planet: &Arc<Planet>, camera: &Camera) -> Surface {
-    surface_of(planet, &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
+    build_over(&terrain(planet), &View { camera: *camera, size_px: SIZE_PX, quality: Quality::Low })
 }
 
 /// The surface for a view, with horizon angles and detail textures.
 pub fn surface_of(planet: &Arc<Planet>, view: &View) -> Surface {
-    let mut surface = build_now(planet, view).unwrap();
+    let mut surface = build_over(&terrain(planet), view);
     add_detail(&mut surface, view);
     surface
+}
+
+/// The terrain of a planet. The newest ones are kept for all tests of a binary: structures take seconds to solve.
+pub fn terrain(planet: &Arc<Planet>) -> Arc<Terrain> {
+    const KEPT: usize = 6;
+    static TERRAINS: Mutex<Vec<Arc<Terrain>>> = Mutex::new(Vec::new());
+    let mut terrains = TERRAINS.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = terrains.iter().position(|terrain| terrain.planet() == planet).map(|at| terrains.remove(at));
+    let terrain = known.unwrap_or_else(|| Arc::new(Terrain::try_new(planet.clone()).unwrap()));
+    terrains.insert(0, terrain.clone());
+    terrains.truncate(KEPT);
+    terrain
 }
 
 /// The surface for a view, after the builder has finished.
@@ -145,7 +157,7 @@ impl Gpu {
 
 /// A camera above a location, `altitude_m` above the ground or the sea; angles in degrees.
 pub fn camera(planet: &Planet, lat: f64, lon: f64, altitude_m: f64, heading: f64, pitch: f64) -> Camera {
-    let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
+    let terrain = terrain(&Arc::new(planet.clone()));
     let (place, angles) = (LatLon::from_degrees(lat, lon), [heading, pitch].map(f64::to_radians));
     camera_over(&terrain, place, altitude_m, angles)
 }
