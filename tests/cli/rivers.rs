@@ -111,6 +111,35 @@ fn what_has_no_rivers_or_cannot_be_written_is_said() {
 }
 
 #[test]
+fn maps_are_written_once_and_then_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let planet = rills(&folder);
+    let (planet, maps) = (planet.to_str().unwrap(), folder.path().join("game").join("maps"));
+    let names = || {
+        let mut names: Vec<_> = std::fs::read_dir(&maps).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(run(&["maps", planet, "-o", maps.to_str().unwrap()], ""), (0, String::new(), String::new()));
+    let first = names();
+    assert_eq!(first.len(), 3, "{first:?}");
+    let (status, _, err) = run(&["maps", planet, AUREL, "-o", maps.to_str().unwrap()], "");
+    assert!(status == 0 && err.contains("aurel.ron: has no structure, so nothing was written for it"), "{err}");
+    assert_eq!(names(), first);
+    // The answers are the same with the maps.
+    let ask = |maps: &str| {
+        let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");
+        command.env("TELLUS_MAPS", maps).current_dir(env!("CARGO_MANIFEST_DIR"));
+        let output = command.args(["sample", planet, "--lat", "12", "--lon", "34", "--json"]).output().unwrap();
+        assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
+        output.stdout
+    };
+    assert_eq!(ask(maps.to_str().unwrap()), ask(""));
+    let (status, _, err) = run(&["maps", planet, "-o", planet], "");
+    assert!(status == 1 && err.contains("cannot make the folder"), "{err}");
+}
+
+#[test]
 fn many_points_are_answered_in_order() {
     let input = "# the first two\n-33.5,-70\n\n 10 , 20\r\n90,0";
     let (status, out, err) = run(&["sample", AUREL, "--points", "-"], input);
