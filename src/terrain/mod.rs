@@ -188,12 +188,6 @@ impl Terrain {
         &self.climate.world
     }
 
-    /// What the world maps depend on.
-    #[cfg(test)]
-    pub(crate) fn map_inputs(&self) -> &Inputs {
-        &self.map_inputs
-    }
-
     /// The picture of a map of the structure, if it is solved.
     #[cfg(feature = "render")]
     pub(crate) fn map_picture(&self, view: MapView) -> Option<MapPicture> {

@@ -88,8 +88,8 @@ fn look_for_holes(gpu: &mut Gpu, surface: &Surface, view: View, told: &str) -> V
     inside
 }
 
-/// Goldens from orbit at medium quality and from 10 km above land at low quality. The ground has no hole, and a frame drawn twice
-/// is the same.
+/// Goldens from orbit at medium quality and from 10 km above land at low quality. The ground has no hole, and a frame
+/// drawn twice is the same.
 #[test]
 fn every_planet_looks_as_it_did() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/goldens");
