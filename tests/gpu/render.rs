@@ -1,7 +1,9 @@
 //! The renderer on a real (software) adapter.
 
 use crate::support::edits::{every_edit, full_planet};
-use crate::support::{Gpu, camera, debug, earth, frame, frame_of, gpu, inside_disc, lights, surface, view_of};
+use crate::support::{
+    Gpu, SIZE_PX, camera, debug, earth, frame, frame_of, gpu, inside_disc, lights, surface, surface_of, view_of,
+};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
@@ -277,7 +279,8 @@ fn a_surface_uploaded_ahead_is_there_when_it_is_drawn() {
     let planet = Arc::new(earth());
     let mut fresh = Gpu::new();
     let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
-    let surface = surface(&planet, &camera);
+    let view = View { camera, size_px: SIZE_PX, quality: Quality::Low };
+    let surface = surface_of(&planet, &view);
     let tile_bytes = (surface.leaves[0].tile.vertices.len() * size_of::<tellus::lod::Vertex>()) as u64;
     let (mut done, mut rounds, mut before) = (false, 0, 0);
     while !done {
@@ -328,7 +331,7 @@ fn ground_under_a_low_star_has_neither_fireflies_nor_blots() {
     let sun = tellus::sphere::LatLon::from_degrees(10.0, 37.0).direction();
     for quality in [Quality::Low, Quality::Medium] {
         let view = View { camera, size_px: [480, 300], quality };
-        let surface = crate::support::surface_of(&planet, &view);
+        let surface = surface_of(&planet, &view);
         gpu.draw_only(&crate::support::frame_of(&surface, &planet, view, sun), 1);
         let ([width, height], pixels) = gpu.renderer.radiance().expect("radiance");
         let ground = &pixels[(width * height * 55 / 100) as usize..];
