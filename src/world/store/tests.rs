@@ -39,10 +39,10 @@ fn planet(grids: usize) -> Bare {
 }
 
 fn solved(store: &Arc<MapStore>, planet: &Bare) -> (World, MapWork) {
-    finished(World { store: Some(store.clone()), ..World::default() }, planet)
+    finished(&World { store: Some(store.clone()), ..World::default() }, planet)
 }
 
-fn finished(world: World, planet: &Bare) -> (World, MapWork) {
+fn finished(world: &World, planet: &Bare) -> (World, MapWork) {
     let (mut world, mut work) = (world.serving(&planet.0), MapWork::default());
     while !world.is_final(&planet.0) {
         world = world.step(planet, &|| true, &mut work).unwrap();
@@ -88,9 +88,9 @@ fn maps_are_solved_once_and_read_the_same_to_the_bit() {
     let [a, b] = [&first, &second].map(|world| world.weather.map().unwrap());
     assert_eq!((a.at(dir), a.rain_and_wind(dir)), (b.at(dir), b.rain_and_wind(dir)));
     // A finer answer cannot go on from what was read: it is solved from the start, and is the same as without a store.
-    let (finer, work) = finished(second, &planet(2));
+    let (finer, work) = finished(&second, &planet(2));
     assert_eq!((work.runs, work.reads), (2, 0));
-    assert_eq!(bits(carved(&finer)), bits(carved(&finished(World::default(), &planet(2)).0)));
+    assert_eq!(bits(carved(&finer)), bits(carved(&finished(&World::default(), &planet(2)).0)));
     assert_eq!(files(store.folder()).len(), 3, "nothing is written to a folder that is only read");
 }
 
