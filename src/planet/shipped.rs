@@ -35,6 +35,12 @@ pub fn default_planet() -> Planet {
     ALL.first().and_then(|shipped| shipped.load().ok()).unwrap_or_default()
 }
 
+/// A planet without a structure, for unit tests: continents, mountains, canyons and dunes are layers.
+#[cfg(test)]
+pub(crate) fn layered() -> Planet {
+    Planet::from_text("layered.ron", include_str!("../../tests/fixtures/layered.ron")).expect("a valid fixture")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -205,7 +205,7 @@ mod tests {
         let pass = MorphPass::new(&device).unwrap();
         let mut pool = TilePool::new(&device);
         let mut morph = Morph::new(&device);
-        let planet = Arc::new(shipped::default_planet());
+        let planet = Arc::new(shipped::layered());
         let place = LatLon::from_degrees(35.0, -5.0);
         let ground_m = planet.radius_m() + Terrain::try_new(planet.clone()).unwrap().height_m(place.direction());
         for (altitude_m, quality) in [(1.7, Quality::Low), (2000.0, Quality::Medium), (1e6, Quality::High)] {

@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn tiles_have_the_keys_of_the_maps_that_they_were_made_from() {
         let structure = Some(Structure { grids: 1, ..Structure::default() });
-        let planet = Planet { structure, ..shipped::default_planet() };
+        let planet = Planet { structure, ..shipped::layered() };
         let content = Compiled::new(&planet).content;
         let map = |n: u32| Some(Key::of(&n));
         let own = content.keys(map(1), [map(2), map(3)]);
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn a_name_and_a_layer_that_is_off_change_nothing() {
-        let mut planet = shipped::default_planet();
+        let mut planet = shipped::layered();
         planet.layers.push(crate::planet::Layer { name: "Off".to_owned(), enabled: false, ..Default::default() });
         let revision = |planet: &Planet| Revision::try_new(Arc::new(planet.clone())).unwrap();
         let before = revision(&planet);

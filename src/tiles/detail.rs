@@ -129,7 +129,7 @@ mod tests {
     /// Neighbours have equal slopes on their common border, on whatever faces they lie.
     #[test]
     fn borders_are_shared_and_the_rise_is_small() {
-        let planet = Arc::new(shipped::default_planet());
+        let planet = Arc::new(shipped::layered());
         let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
         let detail = make_detail(&surface.terrain, tile, &|| true).unwrap();
@@ -173,8 +173,8 @@ mod tests {
     /// A child begins with what its parent shows.
     #[test]
     fn a_child_begins_as_its_parents_quarter() {
-        let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
-        let planet = Arc::new(shipped::default_planet());
+        let terrain = Terrain::try_new(Arc::new(shipped::layered())).unwrap();
+        let planet = Arc::new(shipped::layered());
         let surface = build_now(&planet, &opening::opening_view(&planet, [320, 200], Quality::Low)).unwrap();
         let tile = &surface.leaves[surface.leaves.len() / 2].tile;
         let parent = texels(&terrain, tile.id, 1, &|| true).unwrap();

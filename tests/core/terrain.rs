@@ -9,7 +9,7 @@ use tellus::lod::tile::TILE_SIDE;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{
     Atmosphere, Blend, Craters, Fbm, Layer, LayerMask, Mask, Planet, Precision, Ridged, Shape, SlopeMask, Structure,
-    Water, shipped,
+    Water,
 };
 use tellus::simd::Simd;
 use tellus::sphere::{Edge, Face, LatLon, NodeId};
@@ -102,7 +102,7 @@ fn one_point_and_a_batch_agree_to_the_bit() {
 /// Whatever is asked for, alone or in a batch, in fresh or used memory, the answers are the same.
 #[test]
 fn all_queries_of_a_point_agree() {
-    let terrain = Terrain::try_new(Arc::new(shipped::default_planet())).unwrap();
+    let terrain = Terrain::try_new(Arc::new(Planet::load("tests/fixtures/layered.ron").unwrap())).unwrap();
     let dirs = directions(1, 700);
     let samples = terrain.samples(&dirs, Wanted::ALL);
     let (mut heights_m, mut scratch) = (vec![0.0; dirs.len()], Scratch::default());

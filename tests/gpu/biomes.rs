@@ -1,10 +1,10 @@
 //! `Terrain::sample` names the biome that the biome debug view draws.
 
-use crate::support::{Gpu, camera_over, debug, frame_of, gpu, surface_of};
+use crate::support::{Gpu, LAYERED, camera_over, debug, files, frame_of, gpu, preset, surface_of};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Planet, TableBlend, shipped};
+use tellus::planet::{Planet, TableBlend};
 use tellus::render::DebugView;
 use tellus::sphere::LatLon;
 use tellus::sphere::spread;
@@ -124,20 +124,20 @@ fn place_with_borders(terrain: &Terrain, dirs: &mut impl Iterator<Item = DVec3>,
 /// Of 2,000 points on each planet, 99% agree, and the others lie within one pixel of a border.
 #[test]
 fn the_biome_of_a_query_is_the_one_in_the_picture() {
-    compare_biomes(&shipped::ALL[..1]);
+    compare_biomes(&[LAYERED]);
 }
 
 #[test]
 #[ignore = "long: minutes"]
 fn the_biome_of_a_query_is_the_one_in_the_picture_of_every_planet() {
-    compare_biomes(shipped::ALL);
+    compare_biomes(&files());
 }
 
-fn compare_biomes(presets: &[shipped::Shipped]) {
+fn compare_biomes(presets: &[&str]) {
     let mut gpu = gpu();
     let mut problems = Vec::new();
-    for preset in presets {
-        let planet = Arc::new(preset.load().unwrap());
+    for &name in presets {
+        let planet = Arc::new(preset(name));
         let terrain = Terrain::try_new(planet.clone()).unwrap();
         let mut dirs = spread(40_000).step_by(13);
         let [mut same, mut near, mut all] = [0; 3];
@@ -146,18 +146,18 @@ fn compare_biomes(presets: &[shipped::Shipped]) {
             let counts = compared(&mut gpu, &terrain, place, pose, POINTS.div_ceil(POSES.len()).min(POINTS - all));
             (same, near, all) = (same + counts[0], near + counts[1], all + counts[2]);
         }
-        println!("{}: {same} of {all} the same, {near} within a pixel of it", preset.file);
+        println!("{}: {same} of {all} the same, {near} within a pixel of it", name);
         assert_eq!(all, POINTS);
         if same * 100 < 99 * all || near < all {
-            problems.push(format!("{}: {same} of {all} the same, {near} within a pixel", preset.file));
+            problems.push(format!("{}: {same} of {all} the same, {near} within a pixel", name));
         }
         // Features finer than a pixel show as the mean height around them.
         let place = LatLon::from_degrees(17.0, 54.0);
         let orbit = Pose { pixel_m: ORBIT.pixel_m * planet.radius_km / 6371.0, ..ORBIT };
         let [same, near, all] = compared(&mut gpu, &terrain, place, &orbit, 200);
-        println!("{} from orbit: {same} of {all} the same, {near} within a pixel of it", preset.file);
+        println!("{} from orbit: {same} of {all} the same, {near} within a pixel of it", name);
         if same * 100 < 85 * all || near * 100 < 95 * all {
-            problems.push(format!("{} from orbit: {same} of {all} the same, {near} within a pixel", preset.file));
+            problems.push(format!("{} from orbit: {same} of {all} the same, {near} within a pixel", name));
         }
     }
     assert!(problems.is_empty(), "{problems:#?}");
@@ -165,7 +165,7 @@ fn compare_biomes(presets: &[shipped::Shipped]) {
 
 #[test]
 fn jitter_moves_borders_and_crisp_ones_have_edges() {
-    let mut planet = shipped::default_planet();
+    let mut planet = preset(LAYERED);
     let terrain = Terrain::try_new(Arc::new(planet.clone())).unwrap();
     planet.biomes.border_jitter = 0.0;
     let plain = Terrain::try_new(Arc::new(planet.clone())).unwrap();

@@ -1,11 +1,10 @@
 //! A region has the same mean colour from orbit as on the ground: pictures of one location, each with pixels four times
 //! smaller.
 
-use crate::support::{Gpu, debug, frame_of, gpu, surface_of};
+use crate::support::{Gpu, LAYERED, debug, files, frame_of, gpu, preset, surface_of, terrain};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::shipped;
 use tellus::render::DebugView;
 use tellus::sphere::LatLon;
 use tellus::sphere::spread;
@@ -19,7 +18,7 @@ const FOV_DEG: f64 = 5.0;
 /// Largest relative difference of a channel between the picture from orbit and any finer one.
 const MOST_OFF: f64 = 0.03;
 /// Snowy mountains with green valleys: the greatest variation within a pixel.
-const SNOWY: (&str, f64, f64) = ("aurel.ron", -30.0, 20.0);
+const SNOWY: (&str, f64, f64) = (LAYERED, -30.0, 20.0);
 
 type Color = [f64; 3];
 
@@ -64,28 +63,28 @@ fn widest_m(terrain: &Terrain, dir: DVec3) -> Option<f64> {
 
 #[test]
 fn a_region_has_the_same_colour_from_orbit_and_on_the_ground() {
-    look_at_regions(&shipped::ALL[..1], &[200.0]);
+    look_at_regions(&[LAYERED], &[200.0]);
 }
 
 #[test]
 #[ignore = "long: minutes"]
 fn regions_of_all_planets_have_the_same_colours_from_orbit_and_on_the_ground() {
-    look_at_regions(shipped::ALL, &[1.0, 200.0]);
+    look_at_regions(&files(), &[1.0, 200.0]);
 }
 
 /// `finest_m`: size of the last pixels on the ground, for one location each.
-fn look_at_regions(presets: &[shipped::Shipped], finest_m: &[f64]) {
+fn look_at_regions(presets: &[&str], finest_m: &[f64]) {
     let mut gpu = gpu();
     let mut problems = Vec::new();
-    for preset in presets {
-        let terrain = Terrain::try_new(Arc::new(preset.load().unwrap())).unwrap();
+    for &name in presets {
+        let terrain = terrain(&Arc::new(preset(name)));
         let mut places: Vec<(DVec3, f64)> =
             spread(60).filter_map(|dir| Some((dir, widest_m(&terrain, dir)?))).collect();
         places.sort_by(|a, b| b.1.total_cmp(&a.1));
         // One location down to the ground, the others as long as mountains are larger than pixels.
         let mut ways: Vec<_> = places.into_iter().step_by(3).zip(finest_m.iter().copied()).collect();
         let (file, lat_deg, lon_deg) = SNOWY;
-        if preset.file == file {
+        if name == file {
             let dir = LatLon::from_degrees(lat_deg, lon_deg).direction();
             ways.push(((dir, widest_m(&terrain, dir).expect("land")), 20.0));
         }
@@ -101,12 +100,12 @@ fn look_at_regions(presets: &[shipped::Shipped], finest_m: &[f64]) {
                 let (far, near) = (mean(&coarse, SIDE_PX / FINER), mean(&fine, SIDE_PX));
                 brighter = std::array::from_fn(|c| brighter[c] * near[c] / far[c]);
                 off = brighter.iter().fold(off, |off, brighter| off.max((brighter - 1.0).abs()));
-                println!("{} {pixel_m:.2} m: {far:.4?} {near:.4?}, of the first {brighter:.3?}", preset.file);
+                println!("{} {pixel_m:.2} m: {far:.4?} {near:.4?}, of the first {brighter:.3?}", name);
                 coarse = fine;
             }
             let told = format!(
                 "{} at {:.1?}, pixels from {widest_m} m to {pixel_m:.1} m: {:.2}%",
-                preset.file,
+                name,
                 place.to_degrees(),
                 100.0 * off
             );

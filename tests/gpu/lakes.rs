@@ -1,6 +1,6 @@
 //! Lakes and rivers of a planet with a structure are drawn as water.
 
-use crate::support::{camera_over, debug, frame_of, gpu, surface_of};
+use crate::support::{LAYERED, camera_over, debug, frame_of, gpu, preset, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::{Clouds, Planet, Structure, Water};
@@ -86,7 +86,7 @@ fn a_lake_is_drawn_as_level_water() {
 
 #[test]
 fn without_a_structure_tiles_have_no_water() {
-    let planet = Arc::new(tellus::planet::shipped::default_planet());
+    let planet = Arc::new(preset(LAYERED));
     let terrain = Terrain::try_new(planet.clone()).unwrap();
     let camera = camera_over(&terrain, LatLon::from_degrees(20.0, 14.0), 2e6, [0.0, -1.5]);
     let surface = surface_of(&planet, &View { camera, size_px: [32; 2], quality: Quality::Low });

@@ -1,7 +1,7 @@
 //! Level of detail in pictures: no holes, no popping, mountains beyond the horizon.
 
 use crate::support::dice::Dice;
-use crate::support::{camera_over, debug, frame_of, gpu, lights, settled, terrain};
+use crate::support::{LAYERED, camera_over, debug, frame_of, gpu, lights, preset, settled, terrain};
 use glam::DVec3;
 use std::sync::Arc;
 use tellus::lod::morph::shifts_m;
@@ -77,11 +77,6 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
         let holes = holes(&view, &terrain, &picture, dice);
         assert_eq!(holes, 0, "{} from {altitude_m} m, {:?}", planet.name, place.to_degrees());
     }
-}
-
-fn planet(name: &str) -> Planet {
-    let file = format!("{name}.ron");
-    shipped::ALL.iter().find(|shipped| shipped.file == file).expect("a shipped planet").load().unwrap()
 }
 
 #[test]
@@ -169,7 +164,7 @@ fn is_gentle([with, without]: [f64; 2]) -> bool {
 fn a_way_down_shows_no_level_change() {
     // Among them the steps with the most popping when there is no morphing.
     let steps = [8, 34, 59, 121, 215, 301, 401, 501];
-    for most in fly_down(planet("aurel"), steps.into_iter()) {
+    for most in fly_down(preset(LAYERED), steps.into_iter()) {
         assert!(is_gentle(most), "{most:?} with morphing and without");
     }
 }
@@ -180,7 +175,7 @@ mod thorough {
     use super::*;
 
     fn down(name: &str, every: usize) {
-        for most in fly_down(planet(name), (1..=STEPS).step_by(every)) {
+        for most in fly_down(preset(name), (1..=STEPS).step_by(every)) {
             println!("{name}: {most:?} with morphing and without");
             assert!(is_gentle(most), "{name}: {most:?} with morphing and without");
         }
@@ -203,14 +198,14 @@ mod thorough {
 
     #[test]
     #[ignore = "long: a quarter of an hour"]
-    fn every_step_of_the_way_down_to_aurel() {
-        down("aurel", 1);
+    fn every_step_of_the_way_down() {
+        down(LAYERED, 1);
     }
 
     #[test]
     #[ignore = "long: minutes"]
     fn ways_down_to_the_other_planets() {
-        ["maren", "cinnabar", "hoarfrost", "pallor"].into_iter().for_each(|name| down(name, 12));
+        ["maren.ron", "cinnabar.ron", "hoarfrost.ron", "pallor.ron"].into_iter().for_each(|name| down(name, 12));
     }
 }
 

@@ -330,7 +330,7 @@ fn ground_under_a_low_star_has_neither_fireflies_nor_blots() {
     let camera = camera(&planet, 13.0, 114.0, 2.0, 60.0, -3.0);
     let sun = tellus::sphere::LatLon::from_degrees(10.0, 37.0).direction();
     for quality in [Quality::Low, Quality::Medium] {
-        let view = View { camera, size_px: [480, 300], quality };
+        let view = View { camera, size_px: [320, 200], quality };
         let surface = surface_of(&planet, &view);
         gpu.draw_only(&crate::support::frame_of(&surface, &planet, view, sun), 1);
         let ([width, height], pixels) = gpu.renderer.radiance().expect("radiance");

@@ -1,10 +1,10 @@
 //! Scenes and stages: several bodies in one picture, targets and passes of the caller, any projection and viewport.
 
-use crate::support::{Gpu, camera, earth, frame, frame_of, gpu, lights, surface, surface_of, view_of};
+use crate::support::{Gpu, LAYERED, camera, earth, frame, frame_of, gpu, lights, preset, surface, surface_of, view_of};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
-use tellus::planet::{Planet, shipped};
+use tellus::planet::Planet;
 use tellus::render::{
     Body, BodyId, DEPTH_FORMAT, OpaqueTargets, Projection, RADIANCE_FORMAT, RenderError, Scene, Sun, ViewId,
     read_texture,
@@ -23,11 +23,7 @@ struct Pair {
 
 impl Pair {
     fn new() -> Self {
-        let load = |file: &str| {
-            let preset = shipped::ALL.iter().find(|preset| preset.file == file).unwrap();
-            Arc::new(preset.load().unwrap())
-        };
-        let planets = [load("cinnabar.ron"), load("aurel.ron")];
+        let planets = ["cinnabar.ron", LAYERED].map(|file| Arc::new(preset(file)));
         let positions_m = [DVec3::new(-0.7, 0.0, -4.0), DVec3::new(0.5, 0.0, -6.0)];
         let positions_m = [positions_m[0] * planets[0].radius_m(), positions_m[1] * planets[1].radius_m()];
         let empty = scene();

@@ -1,9 +1,9 @@
 //! No shimmer at a distance: in a slow flight, pictures change nearly as smoothly as with nine samples per pixel.
 
-use crate::support::{Gpu, frame_of, gpu, settled};
+use crate::support::{Gpu, LAYERED, frame_of, gpu, preset, settled};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Planet, shipped};
+use tellus::planet::Planet;
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 use tellus::tiles::Builder;
@@ -31,8 +31,8 @@ const fn flight(file: &'static str, [lat_deg, lon_deg]: [f64; 2], altitude_m: f6
 /// Scenes with many features as narrow as a pixel: coasts and snowy mountains from orbit, rivers, snow above a beach,
 /// crevasses.
 const FLIGHTS: [Flight; 4] = [
-    flight("aurel.ron", [16.0, -8.0], 4.0e6, -90.0),
-    flight("aurel.ron", [16.0, -8.0], 3.0e5, -40.0),
+    flight(LAYERED, [16.0, -8.0], 4.0e6, -90.0),
+    flight(LAYERED, [16.0, -8.0], 3.0e5, -40.0),
     flight("maren.ron", [41.0, -65.0], 1.0e4, -30.0),
     flight("hoarfrost.ron", [66.4, 85.0], 1.0e4, -30.0),
 ];
@@ -95,7 +95,7 @@ fn fly(flights: &[Flight]) {
     let mut gpu = gpu();
     let mut problems = Vec::new();
     for &Flight { file, lat_deg, lon_deg, altitude_m, pitch_deg } in flights {
-        let planet = shipped::ALL.iter().find(|shipped| shipped.file == file).unwrap().load().unwrap();
+        let planet = preset(file);
         let planet = Arc::new(Planet { clouds: None, ..planet });
         let terrain = Terrain::try_new(planet.clone()).unwrap();
         let place = LatLon::from_degrees(lat_deg, lon_deg).direction();

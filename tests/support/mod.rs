@@ -5,10 +5,11 @@ pub mod dice;
 pub mod edits;
 
 use glam::DVec3;
+use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water};
+use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water, shipped};
 use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture, texture};
 use tellus::sphere::LatLon;
 use tellus::terrain::{Revision, Terrain};
@@ -26,6 +27,23 @@ pub fn surface_of(planet: &Arc<Planet>, view: &View) -> Surface {
     let mut surface = build_over(&terrain(planet), view);
     add_detail(&mut surface, view);
     surface
+}
+
+/// A preset without a structure: continents, mountains, canyons and dunes are layers, with sea, air and clouds.
+pub const LAYERED: &str = "layered.ron";
+
+/// File names of [`LAYERED`] and of all shipped presets.
+pub fn files() -> Vec<&'static str> {
+    std::iter::once(LAYERED).chain(shipped::ALL.iter().map(|shipped| shipped.file)).collect()
+}
+
+/// A shipped preset or [`LAYERED`], by its file name.
+pub fn preset(file: &str) -> Planet {
+    if file == LAYERED {
+        return Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(file)).unwrap();
+    }
+    let shipped = shipped::ALL.iter().find(|shipped| shipped.file == file);
+    shipped.unwrap_or_else(|| panic!("no shipped preset {file}")).load().unwrap()
 }
 
 /// The terrain of a planet. The newest ones are kept for all tests of a binary: structures take seconds to solve.

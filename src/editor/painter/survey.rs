@@ -123,7 +123,7 @@ mod tests {
 
     #[test]
     fn shares_add_up_and_the_sea_is_left_out() {
-        let mut planet = shipped::default_planet();
+        let mut planet = shipped::layered();
         let survey = Survey::of(&Terrain::try_new(Arc::new(planet.clone())).unwrap());
         assert!((survey.cells.iter().sum::<f64>() - 1.0).abs() < 1e-9);
         assert!((survey.biomes.iter().sum::<f64>() - 1.0).abs() < 1e-9);

@@ -16,7 +16,7 @@ use super::map::KeepGoing;
 use crate::planet::Weather as Params;
 use crate::sphere::geo::east_north;
 use crate::sphere::raster::Raster;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 use winds::Season;
@@ -211,18 +211,35 @@ impl<'a> Ground<'a> {
         -params.currents * 6.0 * west_coast.clamp(-1.0, 1.0) * (flat2 - 0.55) / 0.45
     }
 
-    /// The gradient of values by the direction, from the neighbours of a cell.
-    fn slope(&self, values: &[f64], cell: usize) -> glam::DVec3 {
+    /// The neighbours of a cell in its tangent plane: to the east and to the north, on the unit sphere.
+    fn around(&self, cell: usize) -> [DVec2; 8] {
         let here = self.cells.dirs[cell];
-        let mut sum = glam::DVec3::ZERO;
-        let mut weight = 0.0;
-        for &other in &self.cells.neighbours[cell] {
-            let step = self.cells.dirs[other as usize] - here;
-            sum += step * (values[other as usize] - values[cell]);
-            weight += step.length_squared();
+        let (east, north) = east_north(here);
+        self.cells.neighbours[cell].map(|other| {
+            let way = self.cells.dirs[other as usize] - here;
+            DVec2::new(way.dot(east), way.dot(north))
+        })
+    }
+
+    /// A vector of the planet frame in the tangent plane of a cell.
+    fn tangent(&self, cell: usize, vector: DVec3) -> DVec2 {
+        let (east, north) = east_north(self.cells.dirs[cell]);
+        DVec2::new(vector.dot(east), vector.dot(north))
+    }
+
+    /// The gradient of values by the direction: of the plane that fits the neighbours of a cell best.
+    fn slope(&self, values: &[f64], cell: usize) -> DVec3 {
+        let [mut sum, mut squares] = [DVec2::ZERO; 2];
+        let mut across = 0.0;
+        for (way, &other) in self.around(cell).iter().zip(&self.cells.neighbours[cell]) {
+            sum += *way * (values[other as usize] - values[cell]);
+            squares += *way * *way;
+            across += way.x * way.y;
         }
-        let gradient = sum * (2.0 / weight.max(1e-12));
-        gradient - here * gradient.dot(here)
+        let scale = (squares.x * squares.y - across * across).max(1e-24);
+        let (east, north) = east_north(self.cells.dirs[cell]);
+        let slope = DVec2::new(sum.x * squares.y - sum.y * across, sum.y * squares.x - sum.x * across) / scale;
+        east * slope.x + north * slope.y
     }
 }
 

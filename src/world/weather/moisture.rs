@@ -8,6 +8,7 @@ use super::winds::Season;
 use crate::world::EARTH_KM;
 use crate::world::map::KeepGoing;
 use crate::world::noise::ramp;
+use glam::DVec2;
 use rayon::prelude::*;
 
 /// Distance in km over which the air takes up moisture from the sea.
@@ -83,22 +84,13 @@ pub(super) fn rain_mm(ground: &Ground<'_>, season: &Season, keep_going: &KeepGoi
 impl Step {
     fn new(ground: &Ground<'_>, season: &Season, cell: usize) -> Self {
         let params = ground.inputs.params;
-        let (here, wind) = (ground.cells.dirs[cell], season.wind_m_s[cell]);
+        let wind = season.wind_m_s[cell];
         let speed = wind.length() / params.wind_m_s.max(1e-6);
-        let (mut from, mut sum) = ([0.0; 8], 0.0);
-        for (share, &other) in from.iter_mut().zip(&ground.cells.neighbours[cell]) {
-            let way = here - ground.cells.dirs[other as usize];
-            let along = (way.dot(wind) / (way.length() * wind.length()).max(1e-12)).max(0.0);
-            // Some air comes from all around: weather is never as steady as its mean.
-            *share = 0.012 + along * along * along;
-            sum += *share;
-        }
-        let (mut km, mut climb_km) = (0.0, 0.0);
-        for (share, &other) in from.iter_mut().zip(&ground.cells.neighbours[cell]) {
-            *share /= sum;
-            km += *share * here.distance(ground.cells.dirs[other as usize]) * EARTH_KM;
-            climb_km += *share * (ground.height_km[cell] - ground.height_km[other as usize]);
-        }
+        let (from, away) = upwind(&ground.around(cell), ground.tangent(cell, wind));
+        let km = away * EARTH_KM;
+        let others = from.iter().zip(&ground.cells.neighbours[cell]);
+        let climb_km: f64 =
+            others.map(|(share, &other)| share * (ground.height_km[cell] - ground.height_km[other as usize])).sum();
         // Rising air rains; sinking air, and air that flows downhill, keeps its moisture.
         let lift = ramp(-1.05, 1.1, season.rising[cell]);
         let rising = 0.12 + 1.25 * lift;
@@ -115,4 +107,40 @@ impl Step {
             speed: speed.min(2.0),
         }
     }
+}
+
+/// The share of the air of a cell that comes from each neighbour, and the mean distance that it comes from.
+/// `around`: the neighbours in the tangent plane.
+///
+/// The mean of the shares lies exactly upwind, however the grid is turned. Otherwise wind would drift towards the lines
+/// of the grid, which have a kink at the edges of the cube, and rain would change there.
+fn upwind(around: &[DVec2; 8], wind: DVec2) -> ([f64; 8], f64) {
+    let ahead = wind / wind.length().max(1e-12);
+    let shares = around.map(|way| {
+        let along = (-way.dot(ahead) / way.length().max(1e-12)).max(0.0);
+        // Some air comes from all around: weather is never as steady as its mean.
+        0.012 + along * along * along
+    });
+    // In a square grid the mean square of the distances to the eight neighbours is 1.5 cells.
+    let cell = libm::sqrt(around.iter().map(|way| way.length_squared()).sum::<f64>() / 12.0);
+    let mean = ahead * -0.9 * cell;
+    // Shares (1 + turn . way) have this mean: two linear equations.
+    let (mut sum, mut first, mut squares, mut across) = (0.0, DVec2::ZERO, DVec2::ZERO, 0.0);
+    for (way, share) in around.iter().zip(shares) {
+        sum += share;
+        first += *way * share;
+        squares += *way * *way * share;
+        across += way.x * way.y * share;
+    }
+    let right = mean * sum - first;
+    let (xx, xy) = (squares.x - mean.x * first.x, across - mean.x * first.y);
+    let (yx, yy) = (across - mean.y * first.x, squares.y - mean.y * first.y);
+    let scale = xx * yy - xy * yx;
+    let turn = DVec2::new(right.x * yy - right.y * xy, right.y * xx - right.x * yx) / scale;
+    let mut from = [0.0; 8];
+    for ((from, way), share) in from.iter_mut().zip(around).zip(shares) {
+        *from = share * (1.0 + turn.dot(*way)).max(0.0);
+    }
+    let all: f64 = from.iter().sum();
+    (from.map(|share| share / all), 0.9 * cell)
 }
