@@ -16,7 +16,7 @@ use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::viewport::Viewport;
 use super::views::{controls, look, menus, performance, problems, prompts::Prompts, shortcuts, status};
-use crate::planet::shipped;
+use crate::planet::{Planet, shipped};
 use crate::terrain::MapStore;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -47,8 +47,17 @@ impl EditorApp {
     /// The application, with a preset if one is given. A preset that does not exist yet is a new planet of that name;
     /// a message reports a preset that cannot be loaded. `maps`: where solved world maps are kept.
     pub fn new(cc: &eframe::CreationContext<'_>, path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Self {
+        Self::with_planet(cc, shipped::default_planet(), path, maps)
+    }
+
+    /// The same with another planet than the default one where `path` is None: tests open one that is built faster.
+    pub fn with_planet(
+        cc: &eframe::CreationContext<'_>,
+        planet: Planet,
+        path: Option<PathBuf>,
+        maps: Option<Arc<MapStore>>,
+    ) -> Self {
         look::set_up(&cc.egui_ctx);
-        let planet = shipped::default_planet();
         let viewport = Viewport::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &planet, maps.clone());
         let mut state = State::new(planet, viewport, Box::new(NativeDialogs::default()));
         state.shows.panel = cc.storage.and_then(|storage| storage.get_string(LAYOUT_KEY)).as_deref() != Some("hidden");

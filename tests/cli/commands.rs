@@ -6,6 +6,8 @@ use tellus::lod::{Camera, opening};
 use tellus::planet::{Planet, random};
 
 const AUREL: &str = "planets/aurel.ron";
+/// A planet without a structure: there are no maps to solve.
+const LAYERED: &str = "tests/fixtures/layered.ron";
 
 fn tellus(args: &[&str]) -> Command {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");
@@ -39,15 +41,15 @@ fn broken(folder: &tempfile::TempDir) -> PathBuf {
 fn wrong_usage_is_status_2_and_says_what_would_be_right() {
     for (args, part) in [
         (vec!["render"], "--output <OUT.png>"),
-        (vec!["render", AUREL], "--output <OUT.png>"),
-        (vec!["render", AUREL, "-o", "x.png", "--size", "0x9"], "each 1 to 8192, such as 1280x720"),
-        (vec!["render", AUREL, "-o", "x.png", "--lat", "91"], "91 is out of range; use -90 to 90"),
-        (vec!["render", AUREL, "-o", "x.png", "--sun", "5"], "write LAT,LON such as 20,-45"),
-        (vec!["render", AUREL, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),
-        (vec!["render", AUREL, "-o", "x.png", "--quality", "best"], "possible values: low, medium, high"),
-        (vec!["render", AUREL, "-o", "x.png", "--altitude", "0"], "0 is on the surface; use 0.1 or more"),
+        (vec!["render", LAYERED], "--output <OUT.png>"),
+        (vec!["render", LAYERED, "-o", "x.png", "--size", "0x9"], "each 1 to 8192, such as 1280x720"),
+        (vec!["render", LAYERED, "-o", "x.png", "--lat", "91"], "91 is out of range; use -90 to 90"),
+        (vec!["render", LAYERED, "-o", "x.png", "--sun", "5"], "write LAT,LON such as 20,-45"),
+        (vec!["render", LAYERED, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),
+        (vec!["render", LAYERED, "-o", "x.png", "--quality", "best"], "possible values: low, medium, high"),
+        (vec!["render", LAYERED, "-o", "x.png", "--altitude", "0"], "0 is on the surface; use 0.1 or more"),
         (vec!["check"], "<FILE.ron>"),
-        (vec!["sample", AUREL, "--lat", "1"], "--lon <DEG>"),
+        (vec!["sample", LAYERED, "--lat", "1"], "--lon <DEG>"),
         (vec!["new", "-o", "x.ron", "--seed", "x"], "invalid digit"),
         (vec!["bench", "--fast"], "unexpected argument"),
         (vec!["--nonsense"], "unexpected argument"),
@@ -138,10 +140,10 @@ fn a_new_planet_needs_a_folder_and_a_name_that_ends_in_ron() {
 
 #[test]
 fn sample_answers_people_and_machines() {
-    let (status, out, err) = run(&["sample", AUREL, "--lat", "-33.5", "--lon", "-70", "--json"]);
+    let (status, out, err) = run(&["sample", LAYERED, "--lat", "-33.5", "--lon", "-70", "--json"]);
     assert_eq!((status, err.as_str()), (0, ""));
     let answer: serde_json::Value = serde_json::from_str(&out).unwrap();
-    let planet = Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join(AUREL)).unwrap();
+    let planet = Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join(LAYERED)).unwrap();
     for key in ["height_m", "slope_deg", "temperature_c", "temperature", "precipitation_mm", "moisture"] {
         assert!(answer[key].is_number(), "{key}: {answer}");
     }
@@ -150,7 +152,7 @@ fn sample_answers_people_and_machines() {
     for layer in answer["layers"].as_array().unwrap() {
         assert!(layer["name"].is_string() && layer["height_m"].is_number(), "{layer}");
     }
-    let (status, out, _) = run(&["sample", AUREL, "--lat", "-33.5", "--lon", "-70"]);
+    let (status, out, _) = run(&["sample", LAYERED, "--lat", "-33.5", "--lon", "-70"]);
     assert!(status == 0 && out.contains("height") && out.contains(" m\n"), "{out}");
 }
 
@@ -188,7 +190,7 @@ fn new_writes_valid_planets_that_their_seed_repeats() {
     assert_eq!(read(a), read(b));
     assert_eq!(Planet::load(a).unwrap(), random::random(7));
 
-    assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", AUREL]).0, 0);
+    assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", LAYERED]).0, 0);
     assert_ne!(read(a), read(b));
     assert_eq!(run(&["check", a, b]).0, 0);
 
@@ -205,7 +207,7 @@ fn render_writes_the_same_picture_for_the_same_command() {
     for path in &paths {
         let args = [
             "render",
-            AUREL,
+            LAYERED,
             "-o",
             text_of(path),
             "--size",
@@ -246,15 +248,16 @@ fn render_writes_the_same_picture_for_the_same_command() {
 fn render_needs_little_to_be_told_and_cannot_write_everywhere() {
     let folder = folder();
     let path = folder.path().join("a.png");
-    let (status, _, err) = run(&["render", AUREL, "-o", text_of(&path), "--size", "64x36", "--quality", "low"]);
+    let (status, _, err) = run(&["render", LAYERED, "-o", text_of(&path), "--size", "64x36", "--quality", "low"]);
     assert!(status == 0, "{err}");
-    let (status, _, err) = run(&["render", AUREL, "-o", "no/such/folder/x.png", "--size", "16x9", "--quality", "low"]);
+    let (status, _, err) =
+        run(&["render", LAYERED, "-o", "no/such/folder/x.png", "--size", "16x9", "--quality", "low"]);
     assert!(status == 1 && err.contains("there is no folder"), "{err}");
 }
 
 #[test]
 fn a_gpu_that_is_not_there_is_named() {
-    let output = tellus(&["render", AUREL, "-o", "never.png", "--size", "16x9"])
+    let output = tellus(&["render", LAYERED, "-o", "never.png", "--size", "16x9"])
         .env("WGPU_ADAPTER_NAME", "no such adapter")
         .output()
         .unwrap();
@@ -284,7 +287,7 @@ fn a_reader_that_goes_away_is_no_failure() {
 fn a_map_of_a_structure_is_refused_where_there_is_none() {
     let folder = folder();
     let picture = folder.path().join("plates.png");
-    let (status, _, err) = run(&["render", AUREL, "-o", text_of(&picture), "--view", "plates"]);
+    let (status, _, err) = run(&["render", LAYERED, "-o", text_of(&picture), "--view", "plates"]);
     assert!(status == 1 && err.contains("no structure") && err.contains("Plates"), "{err}");
     assert!(!picture.exists());
 }
@@ -295,7 +298,7 @@ fn altitude_goes_below_the_sea() {
     let picture = folder.path().join("deep.png");
     let shot = |lat: &str, lon: &str, altitude: &str| {
         let place = ["--lat", lat, "--lon", lon, "--altitude", altitude, "--size", "32x20", "--quality", "low"];
-        run(&[&["render", AUREL, "-o", text_of(&picture)][..], &place].concat())
+        run(&[&["render", LAYERED, "-o", text_of(&picture)][..], &place].concat())
     };
     // In the deep sea, below the sea bed, and on land.
     let (status, _, err) = shot("15", "45", "-30");

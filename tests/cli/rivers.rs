@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::path::PathBuf;
 
-const AUREL: &str = "planets/aurel.ron";
+const LAYERED: &str = "tests/fixtures/layered.ron";
 
 fn run(args: &[&str], input: &str) -> (i32, String, String) {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");
@@ -123,8 +123,8 @@ fn maps_are_written_once_and_then_read() {
     assert_eq!(run(&["maps", planet, "-o", maps.to_str().unwrap()], ""), (0, String::new(), String::new()));
     let first = names();
     assert_eq!(first.len(), 3, "{first:?}");
-    let (status, _, err) = run(&["maps", planet, AUREL, "-o", maps.to_str().unwrap()], "");
-    assert!(status == 0 && err.contains("aurel.ron: has no structure, so nothing was written for it"), "{err}");
+    let (status, _, err) = run(&["maps", planet, LAYERED, "-o", maps.to_str().unwrap()], "");
+    assert!(status == 0 && err.contains("layered.ron: has no structure, so nothing was written for it"), "{err}");
     assert_eq!(names(), first);
     // The answers are the same with the maps.
     let ask = |maps: &str| {
@@ -142,13 +142,13 @@ fn maps_are_written_once_and_then_read() {
 #[test]
 fn many_points_are_answered_in_order() {
     let input = "# the first two\n-33.5,-70\n\n 10 , 20\r\n90,0";
-    let (status, out, err) = run(&["sample", AUREL, "--points", "-"], input);
+    let (status, out, err) = run(&["sample", LAYERED, "--points", "-"], input);
     assert_eq!((status, err.as_str()), (0, ""));
     let answers = json_lines(&out);
     let places: Vec<[f64; 2]> =
         answers.iter().map(|answer| ["lat", "lon"].map(|key| answer[key].as_f64().unwrap())).collect();
     assert_eq!(places, [[-33.5, -70.0], [10.0, 20.0], [90.0, 0.0]]);
-    let (_, one, _) = run(&["sample", AUREL, "--lat", "-33.5", "--lon", "-70", "--json"], "");
+    let (_, one, _) = run(&["sample", LAYERED, "--lat", "-33.5", "--lon", "-70", "--json"], "");
     let one: Value = serde_json::from_str(&one).unwrap();
     for (key, value) in one.as_object().unwrap() {
         assert_eq!(answers[0][key], *value, "{key}");
@@ -157,24 +157,24 @@ fn many_points_are_answered_in_order() {
     let file = folder.path().join("points.csv");
     // Two batches, and a part of one.
     std::fs::write(&file, [input, &"\n1,2".repeat(9000)].concat()).unwrap();
-    let (status, again, _) = run(&["sample", AUREL, "--points", file.to_str().unwrap()], "");
+    let (status, again, _) = run(&["sample", LAYERED, "--points", file.to_str().unwrap()], "");
     assert_eq!((status, again.lines().count()), (0, 9003));
     assert!(again.starts_with(&out));
-    assert_eq!(run(&["sample", AUREL, "--points", "-"], "\n# nothing\n"), (0, String::new(), String::new()));
+    assert_eq!(run(&["sample", LAYERED, "--points", "-"], "\n# nothing\n"), (0, String::new(), String::new()));
 }
 
 #[test]
 fn a_wrong_line_is_named_and_what_stands_before_it_is_answered() {
-    let (status, out, err) = run(&["sample", AUREL, "--points", "-"], "1,2\n# 3\n91,5\n4,5\n");
+    let (status, out, err) = run(&["sample", LAYERED, "--points", "-"], "1,2\n# 3\n91,5\n4,5\n");
     assert_eq!((status, out.lines().count()), (1, 1));
     assert_eq!(err, "error: standard input:3: latitude: 91 is out of range; use -90 to 90\n");
-    let (status, _, err) = run(&["sample", AUREL, "--points", "-"], "north\n");
+    let (status, _, err) = run(&["sample", LAYERED, "--points", "-"], "north\n");
     assert!(status == 1 && err.contains(":1: this is not a location; write LAT,LON such as 20,-45"), "{err}");
-    let (status, _, err) = run(&["sample", AUREL, "--points", "-"], &"1".repeat(100_000));
+    let (status, _, err) = run(&["sample", LAYERED, "--points", "-"], &"1".repeat(100_000));
     assert!(status == 1 && err.contains("LAT,LON"), "{err}");
-    let (status, _, err) = run(&["sample", AUREL, "--points", "no.csv"], "");
+    let (status, _, err) = run(&["sample", LAYERED, "--points", "no.csv"], "");
     assert!(status == 1 && err.starts_with("error: no.csv: "), "{err}");
-    let (status, _, err) = run(&["sample", AUREL, "--points", "-", "--lat", "5"], "");
+    let (status, _, err) = run(&["sample", LAYERED, "--points", "-", "--lat", "5"], "");
     assert!(status == 2 && err.contains("cannot be used with"), "{err}");
 }
 

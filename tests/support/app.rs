@@ -1,5 +1,5 @@
 //! The real editor without a window, and the steps of its tests.
-#![allow(dead_code, unreachable_pub, clippy::panic)]
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::panic)]
 
 use eframe::egui;
 use eframe::egui::accesskit::Role;
@@ -50,12 +50,17 @@ pub fn open_drawn(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec:
 pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recovery: &Path) -> Editor {
     let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
     start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
-        EditorApp::new(cc, file, None).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
+        EditorApp::with_planet(cc, layered(), file, None).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
     })
 }
 
+/// The planet of all editors: it has no structure, so there are no world maps to solve.
+fn layered() -> Planet {
+    Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/layered.ron")).unwrap()
+}
+
 fn scripted(answers: Vec<Option<PathBuf>>) -> impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp {
-    move |cc| EditorApp::new(cc, None, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
+    move |cc| EditorApp::with_planet(cc, layered(), None, None).with_dialogs(Box::new(ScriptedDialogs::new(answers)))
 }
 
 fn start(

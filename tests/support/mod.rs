@@ -12,7 +12,7 @@ use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Biome, Clouds, Fbm, Layer, Planet, Shape, Table, Water, shipped};
 use tellus::render::{DebugView, FrameStats, Post, RenderError, Renderer, Scene, read_texture, texture};
 use tellus::sphere::LatLon;
-use tellus::terrain::{Revision, Terrain};
+use tellus::terrain::{MapStore, Revision, Terrain};
 use tellus::tiles::{Builder, Surface, add_detail, build_over};
 
 pub const SIZE_PX: [u32; 2] = [320, 180];
@@ -46,13 +46,19 @@ pub fn preset(file: &str) -> Planet {
     shipped.unwrap_or_else(|| panic!("no shipped preset {file}")).load().unwrap()
 }
 
-/// The terrain of a planet. The newest ones are kept for all tests of a binary: structures take seconds to solve.
+/// The terrain of a planet. The newest ones are kept for all tests of a binary, and solved world maps on disk:
+/// structures take seconds to solve.
 pub fn terrain(planet: &Arc<Planet>) -> Arc<Terrain> {
+    static MAPS: LazyLock<Arc<MapStore>> =
+        LazyLock::new(|| Arc::new(MapStore::new(Path::new(env!("CARGO_TARGET_TMPDIR")).join("maps"), 1 << 29)));
     const KEPT: usize = 6;
     static TERRAINS: Mutex<Vec<Arc<Terrain>>> = Mutex::new(Vec::new());
     let mut terrains = TERRAINS.lock().unwrap_or_else(PoisonError::into_inner);
     let known = terrains.iter().position(|terrain| terrain.planet() == planet).map(|at| terrains.remove(at));
-    let terrain = known.unwrap_or_else(|| Arc::new(Terrain::try_new(planet.clone()).unwrap()));
+    let terrain = known.unwrap_or_else(|| {
+        let solved = Terrain::load(planet.clone(), Some(MAPS.clone()), &|_| true);
+        Arc::new(solved.unwrap().expect("nobody stops the solvers"))
+    });
     terrains.insert(0, terrain.clone());
     terrains.truncate(KEPT);
     terrain
