@@ -146,18 +146,18 @@ fn compare_biomes(presets: &[&str]) {
             let counts = compared(&mut gpu, &terrain, place, pose, POINTS.div_ceil(POSES.len()).min(POINTS - all));
             (same, near, all) = (same + counts[0], near + counts[1], all + counts[2]);
         }
-        println!("{}: {same} of {all} the same, {near} within a pixel of it", name);
+        println!("{name}: {same} of {all} the same, {near} within a pixel of it");
         assert_eq!(all, POINTS);
         if same * 100 < 99 * all || near < all {
-            problems.push(format!("{}: {same} of {all} the same, {near} within a pixel", name));
+            problems.push(format!("{name}: {same} of {all} the same, {near} within a pixel"));
         }
         // Features finer than a pixel show as the mean height around them.
         let place = LatLon::from_degrees(17.0, 54.0);
         let orbit = Pose { pixel_m: ORBIT.pixel_m * planet.radius_km / 6371.0, ..ORBIT };
         let [same, near, all] = compared(&mut gpu, &terrain, place, &orbit, 200);
-        println!("{} from orbit: {same} of {all} the same, {near} within a pixel of it", name);
+        println!("{name} from orbit: {same} of {all} the same, {near} within a pixel of it");
         if same * 100 < 85 * all || near * 100 < 95 * all {
-            problems.push(format!("{} from orbit: {same} of {all} the same, {near} within a pixel", name));
+            problems.push(format!("{name} from orbit: {same} of {all} the same, {near} within a pixel"));
         }
     }
     assert!(problems.is_empty(), "{problems:#?}");

@@ -100,7 +100,7 @@ fn look_at_regions(presets: &[&str], finest_m: &[f64]) {
                 let (far, near) = (mean(&coarse, SIDE_PX / FINER), mean(&fine, SIDE_PX));
                 brighter = std::array::from_fn(|c| brighter[c] * near[c] / far[c]);
                 off = brighter.iter().fold(off, |off, brighter| off.max((brighter - 1.0).abs()));
-                println!("{} {pixel_m:.2} m: {far:.4?} {near:.4?}, of the first {brighter:.3?}", name);
+                println!("{name} {pixel_m:.2} m: {far:.4?} {near:.4?}, of the first {brighter:.3?}");
                 coarse = fine;
             }
             let told = format!(

@@ -1,7 +1,7 @@
 //! The cost of a structure: its solvers level by level, the tiles of the opening view, and points among its rivers.
 
 use super::{median, opening_view, repeat};
-use crate::planet::{Planet, Structure};
+use crate::planet::Planet;
 use crate::sphere::spread;
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Scratch, Terrain};
@@ -19,15 +19,15 @@ const PATCH_STEP_M: f64 = 15.0;
 /// Patches on land, far from each other.
 const PATCHES: usize = 24;
 
-/// The `structure` object of the report: the default planet with a structure of default parameters, median run.
+/// The `structure` object of the report: a planet with a structure, median run.
 ///
 /// - `first_ms`, `finest_ms`: time until the coarsest and the finest rivers serve
 /// - `levels`: each solver's share, with nanoseconds for each land cell and pass of the river solver
 /// - `view_first_ms`, `view_ms`: the whole opening view with maps at hand, the first time and again
 /// - `cold_mps`, `warm_mps`: million heights a second on one core with all levels of rivers, where no river has been
 ///   asked for, and again
-pub(super) fn measure(default: &Planet) -> Result<Value, String> {
-    let planet = Arc::new(Planet { structure: Some(Structure::default()), ..default.clone() });
+pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
+    let planet = Arc::new(planet.clone());
     let draft = Terrain::try_draft(planet.clone(), &World::default()).map_err(|error| error.to_string())?;
     let mut runs = Vec::new();
     repeat(|| runs.push(solve(&draft)));
