@@ -122,7 +122,7 @@ fn a_climb_to_space_has_no_jump() {
     let planet = Arc::new(planet);
     // Looks at the sky above the horizon, away from the star. The ground is smooth, so that no relief appears or
     // disappears.
-    const STEPS: usize = 40;
+    const STEPS: usize = 80;
     let mut last: Option<Vec<[f32; 3]>> = None;
     let mut changes: Vec<(f64, f64)> = Vec::new();
     for step in 0..STEPS {
