@@ -1,13 +1,12 @@
 //! The command line, run as a process: answers, messages, exit status.
 
+use crate::LAYERED;
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
 use tellus::lod::{Camera, opening};
 use tellus::planet::{Planet, random};
 
 const AUREL: &str = "planets/aurel.ron";
-/// A planet without a structure: there are no maps to solve.
-const LAYERED: &str = "tests/fixtures/layered.ron";
 
 fn tellus(args: &[&str]) -> Command {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");

@@ -13,3 +13,6 @@ mod hostile;
 mod house;
 mod readme;
 mod rivers;
+
+/// A planet without a structure: there are no maps to solve.
+const LAYERED: &str = "tests/fixtures/layered.ron";

@@ -1,9 +1,8 @@
 //! `tellus rivers`, and `tellus sample` at many points.
 
+use crate::LAYERED;
 use serde_json::Value;
 use std::path::PathBuf;
-
-const LAYERED: &str = "tests/fixtures/layered.ron";
 
 fn run(args: &[&str], input: &str) -> (i32, String, String) {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");

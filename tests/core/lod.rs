@@ -2,6 +2,7 @@
 //! millimetre.
 
 use crate::support::dice::Dice;
+use crate::support::layered::layered;
 use glam::{DVec3, Mat4, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -278,7 +279,7 @@ fn steps_of_a_millimetre_move_every_vertex_as_they_should() {
 fn a_view_never_shows_more_triangles_than_its_quality_allows() {
     let place = LatLon::from_degrees(35.0, -5.0);
     let window = [1280, 720];
-    let planet = Arc::new(Planet::load("tests/fixtures/layered.ron").unwrap());
+    let planet = Arc::new(layered());
     let ground_m = Terrain::try_new(planet.clone())
         .unwrap()
         .height_m(place.direction())

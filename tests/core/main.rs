@@ -27,4 +27,5 @@ mod water;
 mod support {
     pub mod dice;
     pub mod edits;
+    pub mod layered;
 }

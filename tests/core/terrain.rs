@@ -1,6 +1,7 @@
 //! The evaluator and the tiles: exactness, determinism, seams, incremental rebuilds.
 
 use crate::support::dice::directions;
+use crate::support::layered::layered;
 use glam::DVec3;
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -102,7 +103,7 @@ fn one_point_and_a_batch_agree_to_the_bit() {
 /// Whatever is asked for, alone or in a batch, in fresh or used memory, the answers are the same.
 #[test]
 fn all_queries_of_a_point_agree() {
-    let terrain = Terrain::try_new(Arc::new(Planet::load("tests/fixtures/layered.ron").unwrap())).unwrap();
+    let terrain = Terrain::try_new(Arc::new(layered())).unwrap();
     let dirs = directions(1, 700);
     let samples = terrain.samples(&dirs, Wanted::ALL);
     let (mut heights_m, mut scratch) = (vec![0.0; dirs.len()], Scratch::default());

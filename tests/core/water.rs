@@ -1,5 +1,6 @@
 //! Rivers, lakes, basins and weather of a planet with a structure: as a description, and at points.
 
+use crate::support::layered::layered;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
@@ -160,7 +161,7 @@ fn a_layer_over_the_structure_may_lift_the_ground_out_of_the_water() {
 
 #[test]
 fn without_a_structure_there_is_the_sea_and_the_rain_of_the_climate() {
-    let planet = Arc::new(Planet::load("tests/fixtures/layered.ron").unwrap());
+    let planet = Arc::new(layered());
     let terrain = Terrain::try_new(planet.clone()).unwrap();
     assert_eq!(terrain.rivers(0.0), Rivers::default());
     let sea_m = planet.sea_level_m().unwrap();

@@ -12,6 +12,8 @@ mod app;
 mod disk;
 mod files;
 mod input;
+#[path = "../support/layered.rs"]
+mod layered;
 mod painter;
 mod viewport;
 

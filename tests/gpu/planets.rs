@@ -33,7 +33,7 @@ fn view(planet: &Arc<Planet>, altitude_m: f64) -> View {
 }
 
 /// A view from 10 km above dry land, near the opening location.
-fn view_of_land(planet: &Arc<Planet>) -> View {
+fn view_of_land(planet: &Arc<Planet>, pitch_rad: f64) -> View {
     let (terrain, opening) = (terrain(planet), opening_place(planet).direction());
     let least_m = planet.sea_level_m().map_or(f64::MIN, |level_m| level_m + 300.0);
     // Nearest first: where rivers are not yet known, each height takes milliseconds.
@@ -41,8 +41,6 @@ fn view_of_land(planet: &Arc<Planet>) -> View {
     dirs.sort_by(|a, b| b.dot(opening).total_cmp(&a.dot(opening)));
     let nearest = dirs.into_iter().find(|dir| terrain.height_m(*dir) > least_m);
     let place = LatLon::from_direction(nearest.expect("land"));
-    // The horizon is in the picture of one planet only: tiles as far as the horizon take most of the time.
-    let pitch_rad = if *planet.name == *shipped::ALL[0].load().unwrap().name { -0.5 } else { -0.9 };
     let camera = camera_over(&terrain, place, 10_000.0, [0.8, pitch_rad]);
     View { camera, size_px: NEAR_PX, quality: Quality::Low }
 }
@@ -104,7 +102,8 @@ fn every_planet_looks_as_it_did() {
     for (file, planet) in planets() {
         let orbit = opening_view(&planet, SIZE_PX, Quality::Medium);
         let star = LatLon::from_degrees(planet.star.latitude_deg, planet.star.longitude_deg).direction();
-        let low = view_of_land(&planet);
+        // The horizon is in one picture only: tiles as far as the horizon take most of the time.
+        let low = view_of_land(&planet, if file == shipped::ALL[0].file { -0.5 } else { -0.9 });
         let up = low.camera.position_planet_m.normalize();
         // Over land the star is 35 degrees high, to the east.
         let low_star = (up + DVec3::Z.cross(up).normalize() * 1.4).normalize();

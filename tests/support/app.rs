@@ -1,6 +1,7 @@
 //! The real editor without a window, and the steps of its tests.
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::panic)]
+#![allow(dead_code, unreachable_pub, clippy::panic)]
 
+use crate::layered::layered;
 use eframe::egui;
 use eframe::egui::accesskit::Role;
 use eframe::egui_wgpu::{self, RenderState, RendererOptions};
@@ -52,11 +53,6 @@ pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recov
     start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
         EditorApp::with_planet(cc, layered(), file, None).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
     })
-}
-
-/// The planet of all editors: it has no structure, so there are no world maps to solve.
-fn layered() -> Planet {
-    Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/layered.ron")).unwrap()
 }
 
 fn scripted(answers: Vec<Option<PathBuf>>) -> impl FnOnce(&mut eframe::CreationContext<'_>) -> EditorApp {

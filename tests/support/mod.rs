@@ -3,8 +3,10 @@
 
 pub mod dice;
 pub mod edits;
+pub mod layered;
 
 use glam::DVec3;
+pub use layered::{LAYERED, layered};
 use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -29,9 +31,6 @@ pub fn surface_of(planet: &Arc<Planet>, view: &View) -> Surface {
     surface
 }
 
-/// A preset without a structure: continents, mountains, canyons and dunes are layers, with sea, air and clouds.
-pub const LAYERED: &str = "layered.ron";
-
 /// File names of [`LAYERED`] and of all shipped presets.
 pub fn files() -> Vec<&'static str> {
     std::iter::once(LAYERED).chain(shipped::ALL.iter().map(|shipped| shipped.file)).collect()
@@ -40,7 +39,7 @@ pub fn files() -> Vec<&'static str> {
 /// A shipped preset or [`LAYERED`], by its file name.
 pub fn preset(file: &str) -> Planet {
     if file == LAYERED {
-        return Planet::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(file)).unwrap();
+        return layered();
     }
     let shipped = shipped::ALL.iter().find(|shipped| shipped.file == file);
     shipped.unwrap_or_else(|| panic!("no shipped preset {file}")).load().unwrap()

@@ -77,6 +77,8 @@ struct Ground<'a> {
     /// Share of land within some hundred km.
     land: Vec<f64>,
     temperature_c: Vec<f64>,
+    /// The neighbours of each cell in its tangent plane: to the east and to the north, on the unit sphere.
+    around: Vec<[DVec2; 8]>,
 }
 
 impl Weather {
@@ -186,7 +188,8 @@ impl<'a> Ground<'a> {
         // The same distance on every grid: a random walk goes as far as the root of its steps.
         let rounds = (inputs.side * inputs.side / 340).clamp(1, 48);
         let land = smoothed(cells, &share, rounds);
-        let mut ground = Self { inputs, cells, is_sea, height_km, land, temperature_c: Vec::new() };
+        let around = (0..cells.dirs.len()).into_par_iter().map(|cell| around(cells, cell)).collect();
+        let mut ground = Self { inputs, cells, is_sea, height_km, land, temperature_c: Vec::new(), around };
         ground.temperature_c = (0..cells.dirs.len()).into_par_iter().map(|cell| ground.temperature_c(cell)).collect();
         ground
     }
@@ -211,27 +214,11 @@ impl<'a> Ground<'a> {
         -params.currents * 6.0 * west_coast.clamp(-1.0, 1.0) * (flat2 - 0.55) / 0.45
     }
 
-    /// The neighbours of a cell in its tangent plane: to the east and to the north, on the unit sphere.
-    fn around(&self, cell: usize) -> [DVec2; 8] {
-        let here = self.cells.dirs[cell];
-        let (east, north) = east_north(here);
-        self.cells.neighbours[cell].map(|other| {
-            let way = self.cells.dirs[other as usize] - here;
-            DVec2::new(way.dot(east), way.dot(north))
-        })
-    }
-
-    /// A vector of the planet frame in the tangent plane of a cell.
-    fn tangent(&self, cell: usize, vector: DVec3) -> DVec2 {
-        let (east, north) = east_north(self.cells.dirs[cell]);
-        DVec2::new(vector.dot(east), vector.dot(north))
-    }
-
     /// The gradient of values by the direction: of the plane that fits the neighbours of a cell best.
     fn slope(&self, values: &[f64], cell: usize) -> DVec3 {
         let [mut sum, mut squares] = [DVec2::ZERO; 2];
         let mut across = 0.0;
-        for (way, &other) in self.around(cell).iter().zip(&self.cells.neighbours[cell]) {
+        for (way, &other) in self.around[cell].iter().zip(&self.cells.neighbours[cell]) {
             sum += *way * (values[other as usize] - values[cell]);
             squares += *way * *way;
             across += way.x * way.y;
@@ -241,6 +228,18 @@ impl<'a> Ground<'a> {
         let slope = DVec2::new(sum.x * squares.y - sum.y * across, sum.y * squares.x - sum.x * across) / scale;
         east * slope.x + north * slope.y
     }
+}
+
+/// [`Ground::around`] of a cell.
+fn around(cells: &Cells, cell: usize) -> [DVec2; 8] {
+    let here = cells.dirs[cell];
+    cells.neighbours[cell].map(|other| tangent(here, cells.dirs[other as usize] - here))
+}
+
+/// A vector of the planet frame in the tangent plane at a direction: to the east and to the north.
+fn tangent(here: DVec3, vector: DVec3) -> DVec2 {
+    let (east, north) = east_north(here);
+    DVec2::new(vector.dot(east), vector.dot(north))
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 //! Each round gives every cell the moisture of the cells from which its wind comes, less what has rained out on the
 //! way. After as many rounds as it takes to cross a continent the moisture is steady.
 
-use super::Ground;
 use super::winds::Season;
+use super::{Ground, tangent};
 use crate::world::EARTH_KM;
 use crate::world::map::KeepGoing;
 use crate::world::noise::ramp;
@@ -86,7 +86,7 @@ impl Step {
         let params = ground.inputs.params;
         let wind = season.wind_m_s[cell];
         let speed = wind.length() / params.wind_m_s.max(1e-6);
-        let (from, away) = upwind(&ground.around(cell), ground.tangent(cell, wind));
+        let (from, away) = upwind(&ground.around[cell], tangent(ground.cells.dirs[cell], wind));
         let km = away * EARTH_KM;
         let others = from.iter().zip(&ground.cells.neighbours[cell]);
         let climb_km: f64 =
@@ -99,8 +99,8 @@ impl Step {
         let lost = 1.0 - libm::exp(-(km / params.reach_km * rising * downhill + uphill));
         Self {
             from,
-            km: km.max(1.0),
-            taken: 1.0 - libm::exp(-km.max(1.0) / UPTAKE_KM),
+            km,
+            taken: 1.0 - libm::exp(-km / UPTAKE_KM),
             lost,
             recycled: RECYCLED[0] + RECYCLED[1] * lift,
             most: saturated(ground.temperature_c[cell]),
@@ -123,7 +123,9 @@ fn upwind(around: &[DVec2; 8], wind: DVec2) -> ([f64; 8], f64) {
     });
     // In a square grid the mean square of the distances to the eight neighbours is 1.5 cells.
     let cell = libm::sqrt(around.iter().map(|way| way.length_squared()).sum::<f64>() / 12.0);
-    let mean = ahead * -0.9 * cell;
+    // Nearer than the nearest neighbours, or some shares would have to be negative.
+    let away = 0.9 * cell;
+    let mean = ahead * -away;
     // Shares (1 + turn . way) have this mean: two linear equations.
     let (mut sum, mut first, mut squares, mut across) = (0.0, DVec2::ZERO, DVec2::ZERO, 0.0);
     for (way, share) in around.iter().zip(shares) {
@@ -142,5 +144,5 @@ fn upwind(around: &[DVec2; 8], wind: DVec2) -> ([f64; 8], f64) {
         *from = share * (1.0 + turn.dot(*way)).max(0.0);
     }
     let all: f64 = from.iter().sum();
-    (from.map(|share| share / all), 0.9 * cell)
+    (from.map(|share| share / all), away)
 }

@@ -96,7 +96,7 @@ fn equal_bits_on_any_number_of_threads_and_an_end_when_told() {
     assert!(Weather::solve(&inputs(&params, &heights_m), &|| false).is_none());
 }
 
-/// Nor do the edges of the cube show.
+/// The edges of the cube do not show.
 #[test]
 fn rain_is_the_same_along_a_parallel_where_the_ground_is() {
     let is_land = |place: LatLon| (-5.0..35.0).contains(&place.to_degrees().0);
