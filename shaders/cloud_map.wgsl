@@ -1,7 +1,11 @@
-// The weather map: cloudiness over the whole globe as six faces of a cube, distributed evenly over 0..1. Fractal noise,
-// advected along the curl of a potential, so that it swirls without bunching up.
+// The weather map: cloudiness over the whole globe as six faces of a cube. Fractal noise, advected along the curl of a
+// potential, so that it swirls without bunching up.
+//
+// Without a structure, r is distributed evenly over 0..1. With one, r is the noise alone, and g is what the rain of the
+// structure adds to it; the wind carries r, and g stays over the ground.
 #include "screen.wgsl"
 #include "math.wgsl"
+#include "cloud_cover.wgsl"
 
 struct Face {
     // The face's axes in the planet frame
@@ -10,6 +14,10 @@ struct Face {
     down: vec4f,
 }
 @group(1) @binding(0) var<uniform> face: Face;
+// Wetness of the sky, 0.5 at its median
+@group(1) @binding(1) var wetness_map: texture_cube<f32>;
+// Noise that one octave of rain beyond the median is worth, for each unit of the wetness: chosen by eye.
+const WETNESS: f32 = 0.9;
 
 fn lattice(cell: vec3i, seed: u32) -> vec3f {
     let bits = hash3(bitcast<vec3u>(cell) + vec3u(body.cloud_seed, seed, body.cloud_seed ^ 0x9e3779b9u));
@@ -74,6 +82,9 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let s = dir.z * dir.z;
     let wet = CLIMATE_BELTS.x + s * (CLIMATE_BELTS.y + s * (CLIMATE_BELTS.z + s * CLIMATE_BELTS.w));
     let belt = body.cloud_belts * wet;
-    let evenly = 0.5 + 0.5 * tanh((sum + belt) * 1.9);
-    return vec4f(evenly, 0.0, 0.0, 1.0);
+    if body.cloud_wetness > 0.0 {
+        let wetness = textureSampleLevel(wetness_map, clamped, dir, 0.0).r - 0.5;
+        return vec4f(sum + belt, body.cloud_wetness * WETNESS * wetness, 0.0, 1.0);
+    }
+    return vec4f(evenly(sum + belt), 0.0, 0.0, 1.0);
 }

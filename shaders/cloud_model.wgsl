@@ -1,5 +1,6 @@
 // Density of the clouds: the weather map gives the cover, and a tiling noise carves single clouds out of it.
 #include "light.wgsl"
+#include "cloud_cover.wgsl"
 
 // Rotates a position about the pole: the wind carries the cloud layer.
 fn drifted(p: vec3f) -> vec3f {
@@ -8,10 +9,13 @@ fn drifted(p: vec3f) -> vec3f {
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
-// Cover (0 clear, 1 overcast) in a direction from the centre. The weather map is distributed evenly over 0..1, so a
-// threshold at 1 - coverage leaves that share of the sky clouded.
+// Cover (0 clear, 1 overcast) in a direction from the centre. Cloudiness is distributed evenly over 0..1, so a threshold
+// at 1 - coverage leaves that share of the sky clouded.
 fn cover_over(dir: vec3f) -> f32 {
-    let weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
+    var weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
+    if body.cloud_wetness > 0.0 {
+        weather = evenly(weather + textureSampleLevel(weather_map, clamped, dir, 0.0).g);
+    }
     const SOFT: f32 = 0.7;
     let cover = saturate1((weather - 1.0 + body.cloud_coverage * (1.0 + SOFT)) / SOFT);
     return cover * cover * (3.0 - 2.0 * cover);

@@ -178,7 +178,7 @@ impl EditorApp {
         });
         if let Some((click, under)) = state.viewport.take_click() {
             let mut planet = (**state.document.planet()).clone();
-            let label = self.panels.biomes.clicked(&mut planet, click, &under);
+            let label = self.panels.clicked(&mut planet, click, &under);
             state.edit(planet, label);
             ui.ctx().request_repaint();
         }
@@ -240,9 +240,9 @@ impl eframe::App for EditorApp {
         // The panels come before the picture, so that it shows an edit in the very frame in which it was made.
         if self.state.shows.panel {
             self.show_panels(ui);
-            self.state.viewport.painter = self.panels.painter_link();
+            self.state.viewport.tab = self.panels.tab_link();
         } else {
-            self.state.viewport.painter = Default::default();
+            self.state.viewport.tab = Default::default();
         }
         problems::show(ui, &self.state);
         self.show_picture(ui);

@@ -60,7 +60,7 @@ pub use shapes::{
     Terraces, Warped,
 };
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
-pub use structure::{Plates, Rivers, Rotation, Structure, Weather};
+pub use structure::{PlateByHand, PlateKind, Plates, Rivers, Rotation, Structure, Weather};
 pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
 pub use validate::InvalidPlanet;

@@ -7,6 +7,8 @@ use super::param::{Domain, Stage, Unit, choice, count, linear, log, params};
 
 /// Most grids of a structure.
 pub const MAX_GRIDS: u32 = 5;
+/// Most plates of a structure.
+pub const MAX_PLATES: u32 = 60;
 
 params! {
     /// Large-scale structure of a planet.
@@ -14,9 +16,9 @@ params! {
         /// Number of grids on which rivers are solved, coarse to fine. The first has 64 cells along the side of each of
         /// six squares; each further one has twice as many. All grids have the same great rivers.
         grids: u32 = 4, "Grids", Unit::None, count(1, MAX_GRIDS), Stage::Field;
-        /// Share of the solved weather in the climate of the biome table; the rest is the climate's own belts and
-        /// coasts.
-        weather_share: f64 = 1.0, "Weather share", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        /// Share of the solved weather in the climate of the biome table and in the cover of the clouds; the rest is the
+        /// climate's own belts and coasts.
+        weather_share: f64 = 1.0, "Weather share", Unit::None, linear(0.0, 1.0), Stage::Climate | Stage::CloudMap;
     } with {
         /// Plates of the crust: continents, mountain belts, island arcs, ridges of the ocean floor.
         plates: Plates = Plates::default();
@@ -33,7 +35,7 @@ params! {
         /// Seed of the layout: plates, their motion, continents and hot spots.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field;
         /// Number of plates. A third of them are large.
-        count: u32 = 15, "Plates", Unit::None, count(2, 60), Stage::Field;
+        count: u32 = 15, "Plates", Unit::None, count(2, MAX_PLATES), Stage::Field;
         /// How much plates differ in size: 0 is all alike, 1 is a few giants and many small ones.
         size_variation: f64 = 0.6, "Difference in size", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How ragged boundaries between plates are: 0 is straight lines.
@@ -70,6 +72,54 @@ params! {
         hot_spots: u32 = 9, "Hot spots", Unit::None, count(0, 40), Stage::Field;
         /// Height of the youngest volcano of a hot spot above the ground.
         hot_spots_m: f64 = 6500.0, "Hot-spot volcanoes", Unit::Metres, linear(0.0, 30_000.0), Stage::Field;
+    } with {
+        /// Plates that were changed by hand. All others stay as they were laid out.
+        by_hand: Vec<PlateByHand> = Vec::new();
+    }
+}
+
+impl Plates {
+    /// Adds the entry of a plate, or replaces it.
+    pub fn set_by_hand(&mut self, entry: PlateByHand) {
+        match self.by_hand.iter_mut().find(|other| other.plate == entry.plate) {
+            Some(other) => *other = entry,
+            None => self.by_hand.push(entry),
+        }
+    }
+}
+
+choice! {
+    /// What a plate carries.
+    pub enum PlateKind {
+        /// As it was laid out.
+        AsLaidOut = "As laid out",
+        /// A continent.
+        Continental = "Continental",
+        /// An ocean floor alone.
+        Oceanic = "Oceanic",
+    }
+}
+
+params! {
+    /// A plate that was changed by hand.
+    pub struct PlateByHand {
+        /// Number of the plate. A number that the layout does not have has no effect.
+        plate: u32 = 0, "Number", Unit::None, count(0, MAX_PLATES - 1), Stage::Field;
+        /// Latitude to which the middle of the plate is moved. Its continents go with it.
+        latitude_deg: f64 = 0.0, "Latitude", Unit::Degrees, linear(-90.0, 90.0), Stage::Field;
+        /// Longitude to which the middle of the plate is moved.
+        longitude_deg: f64 = 0.0, "Longitude", Unit::Degrees, linear(-180.0, 180.0), Stage::Field;
+        /// Angle by which the plate is turned about its middle, with its continents; positive is anticlockwise, seen
+        /// from above.
+        turn_deg: f64 = 0.0, "Turn", Unit::Degrees, linear(-180.0, 180.0), Stage::Field;
+        /// Growth: its boundaries move outwards; below 0 inwards. 1 is about half the distance between two plates.
+        growth: f64 = 0.0, "Growth", Unit::None, linear(-1.0, 1.0), Stage::Field;
+        /// Heading of its motion at its middle: 0 is north, 90 east.
+        heading_deg: f64 = 0.0, "Heading", Unit::Degrees, linear(-180.0, 360.0), Stage::Field;
+        /// Speed of its motion at its middle.
+        drift_mm_yr: f64 = 50.0, "Drift", Unit::MillimetresPerYear, linear(0.0, 1000.0), Stage::Field;
+        /// Whether it carries a continent.
+        kind: PlateKind = PlateKind::AsLaidOut, "Kind", Unit::None, Domain::Choice, Stage::Field;
     }
 }
 

@@ -4,6 +4,7 @@
 
 use super::notes::MAX_BOOKMARKS;
 use super::param::{ParamPath, Segment};
+use super::structure::MAX_PLATES;
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
 use std::collections::HashSet;
 
@@ -53,6 +54,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
         masks(&planet.layers, index, layer, &mut found);
     }
     slope_distances(&planet.layers, &mut found);
+    plates(planet, &mut found);
     biomes(&planet.biomes, &mut found);
     found.0
 }
@@ -87,6 +89,8 @@ fn limits(planet: &Planet, found: &mut Found) {
     let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
     let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
     limit(path, "bookmarks", bookmarks, MAX_BOOKMARKS);
+    let by_hand = planet.structure.as_ref().map_or(0, |structure| structure.plates.by_hand.len());
+    limit(by_hand_path(), "plates", by_hand, MAX_PLATES as usize);
     for (index, layer) in planet.layers.iter().enumerate().take(MAX_LAYERS) {
         limit(layers::layer_path(index).join("masks"), "masks", layer.masks.len(), MAX_MASKS);
     }
@@ -135,6 +139,21 @@ fn stranger(layers: &[Layer], own: usize, name: &str) -> Option<String> {
         [] => format!("{wrong}; there is no other layer: remove the mask or add a layer"),
         some => format!("{wrong}; use {}", one_of(some)),
     })
+}
+
+fn by_hand_path() -> ParamPath {
+    ParamPath::from(vec![Segment::Field("structure"), Segment::Field("plates"), Segment::Field("by_hand")])
+}
+
+fn plates(planet: &Planet, found: &mut Found) {
+    let by_hand = planet.structure.iter().flat_map(|structure| &structure.plates.by_hand);
+    let mut seen = HashSet::new();
+    for (index, plate) in by_hand.enumerate() {
+        if !seen.insert(plate.plate) {
+            let message = format!("another entry changes plate {} too; use one entry for each plate", plate.plate);
+            found.add(item(&by_hand_path(), index, Some("plate")), message);
+        }
+    }
 }
 
 /// Each distance over which a slope is measured costs a gradient of every earlier layer.

@@ -4,7 +4,7 @@ use super::shared::WEATHER_SIDE;
 use super::{RenderError, gpu, shaders};
 use wgpu::util::DeviceExt;
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 
 /// Centre, right and down of each face, in the order and orientation of cube textures.
 const FACES: [[[f32; 4]; 3]; 6] = [
@@ -54,12 +54,13 @@ impl WeatherMap {
 /// The pipeline and the orientation of each face.
 pub(crate) struct CloudMapPass {
     pipeline: wgpu::RenderPipeline,
-    faces: Vec<wgpu::BindGroup>,
+    layout: wgpu::BindGroupLayout,
+    faces: Vec<wgpu::Buffer>,
 }
 
 impl CloudMapPass {
     pub(crate) fn new(device: &wgpu::Device, uniforms: &wgpu::BindGroupLayout) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "cube face", &[gpu::Slot::Uniform]);
+        let layout = gpu::layout(device, "cube face", &[gpu::Slot::Uniform, gpu::Slot::Cube]);
         let entry = "cloud_map.wgsl";
         let description = gpu::ScreenPipelineDescriptor {
             entry,
@@ -73,25 +74,29 @@ impl CloudMapPass {
         let faces = FACES
             .iter()
             .map(|face| {
-                let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                     label: Some("cube face"),
                     contents: bytemuck::cast_slice(face),
                     usage: wgpu::BufferUsages::UNIFORM,
-                });
-                device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some("cube face"),
-                    layout: &layout,
-                    entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
                 })
             })
             .collect();
-        Ok(Self { pipeline, faces })
+        Ok(Self { pipeline, layout, faces })
     }
 
-    /// Draws the six faces of the map.
-    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, uniforms: &wgpu::BindGroup, map: &WeatherMap) {
+    /// Draws the six faces of the map. `wetness`: a cube; see the shader.
+    pub(crate) fn draw(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        uniforms: &wgpu::BindGroup,
+        wetness: &wgpu::TextureView,
+        map: &WeatherMap,
+    ) {
         for (view, face) in map.faces.iter().zip(&self.faces) {
-            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[uniforms, face], &[view]);
+            let resources = [face.as_entire_binding(), wgpu::BindingResource::TextureView(wetness)];
+            let face = gpu::group(device, "cube face", &self.layout, resources);
+            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[uniforms, &face], &[view]);
         }
     }
 }

@@ -102,7 +102,8 @@ pub(crate) struct Luts {
     groups: Groups,
     /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
     air_key: Option<(Key, u32)>,
-    weather_key: Option<Key>,
+    /// The planet's key, and those of the structure's weather.
+    weather_key: Option<(Key, [Option<Key>; 2])>,
     biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
@@ -151,14 +152,14 @@ impl Luts {
     }
 
     /// Updates everything that a revision has made stale. `uniforms`: those of the body, already written.
-    /// `sun_radius_rad`: angular radius of the widest sun in them.
+    /// `sun_radius_rad`: angular radius of the widest sun in them. `terrain`: whose rain makes clouds.
     pub(crate) fn update(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         (patterns, pipelines): (&Patterns, &LutPipelines),
         (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
-        revision: &Revision,
+        (revision, terrain): (&Revision, Option<&Terrain>),
         marked: Option<&Arc<MarkedCells>>,
     ) {
         let (planet, keys) = (revision.planet(), revision.keys());
@@ -175,9 +176,13 @@ impl Luts {
             self.runs.air += 1;
         }
         let has_clouds = planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && marked.is_none();
-        let weather_key = Some(keys.cloud_map());
+        let rain_key = terrain.map(|terrain| terrain.map_picture_key(MapView::Wetness));
+        let weather_key = Some((keys.cloud_map(), rain_key.unwrap_or_default()));
         if has_clouds && self.weather_key != weather_key {
-            pipelines.cloud_map.draw(encoder, uniforms, &self.weather);
+            let wetness =
+                terrain.and_then(|terrain| terrain.map_picture(MapView::Wetness)).unwrap_or_else(even_wetness);
+            let wetness = write_map(device, queue, &wetness);
+            pipelines.cloud_map.draw(device, encoder, uniforms, &wetness, &self.weather);
             self.weather_key = weather_key;
             self.runs.weather += 1;
         }
@@ -235,6 +240,11 @@ impl Luts {
 /// An even grey, for planets without the map.
 fn no_map() -> MapPicture {
     MapPicture { side: 1, texels: vec![[46, 46, 46, 255]; 6] }
+}
+
+/// For planets without weather.
+fn even_wetness() -> MapPicture {
+    MapPicture { side: 1, texels: vec![[128; 4]; 6] }
 }
 
 /// Uploads the picture of a world map.

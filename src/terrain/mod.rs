@@ -11,7 +11,7 @@
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `query`, `raycast`: the queries of [`Terrain`]; `water`: water, wind and rain at points
-//! - `network`: rivers from source to mouth, lakes, basins
+//! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
 //! - `kept`: the fields that a tile keeps from one edit to the next
 //! - `coarse`: the heights that world maps read
 //! - [`revision`]: what changed between two revisions of a planet
@@ -24,6 +24,7 @@ mod approx;
 pub mod bench;
 pub(crate) mod biome;
 pub(crate) mod border;
+mod by_hand;
 pub(crate) mod climate;
 pub(crate) mod coarse;
 pub(crate) mod evaluate;
@@ -216,10 +217,23 @@ impl Terrain {
         if self.has_final_maps() {
             return None;
         }
-        let (stack, under) = (&self.stack, self.under.as_deref());
-        let ground = LayerGround { inputs: &self.map_inputs, stack, under, simd: self.simd, fields };
-        let world = self.world().step(&ground, keep_going, work)?;
+        let world = self.world().step(&self.ground(fields), keep_going, work)?;
         Some(self.clone().over(world))
+    }
+
+    /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be solved.
+    pub(crate) fn with_draft_maps(&self, fields: &CellFields, work: &mut MapWork) -> Option<Self> {
+        if !self.world().wants_draft(&self.map_inputs) {
+            return None;
+        }
+        let world = self.world().draft(&self.ground(fields), work)?;
+        Some(self.clone().over(world))
+    }
+
+    /// The layers as world maps read them.
+    fn ground<'a>(&'a self, fields: &'a CellFields) -> LayerGround<'a> {
+        let (stack, under) = (&self.stack, self.under.as_deref());
+        LayerGround { inputs: &self.map_inputs, stack, under, simd: self.simd, fields }
     }
 
     /// Content keys of the tiles that the terrain makes, with the world maps that serve.

@@ -9,7 +9,8 @@
 //! however heavy the planet is. Stale work is dropped, and no surface mixes two revisions.
 //!
 //! World maps are solved after the first slice. Until then the maps of the revision before serve; then the climate of
-//! the tiles is computed again.
+//! the tiles is computed again. A structure that changed has a slice with drafts of its maps first, which has the grace
+//! period, too.
 
 use super::cache::{Cache, DEFAULT_BUDGET_BYTES};
 use super::horizon::HorizonFinder;
@@ -332,15 +333,20 @@ impl Worker {
             before
         };
         let planet_wanted = || shared.is_newest_planet(request.number);
+        let (mut begun, mut limits) = (begun, [Duration::ZERO, NEXT_SLICE]);
         if is_first {
             work.stats.compile_secs = begun.elapsed().as_secs_f64();
+            limits = [GRACE, FIRST_SLICE];
+        } else if let Some(draft) = terrain.with_draft_maps(&self.cell_fields, &mut work.stats.maps) {
+            // A draft is short work, and is shown even if a newer request is waiting.
+            terrain = self.serve(draft);
+            (begun, limits) = (Instant::now(), [GRACE, NEXT_SLICE]);
         } else {
             terrain = self.solve_maps(terrain, &planet_wanted, &mut work.stats);
         }
         let keep_going = || {
-            let elapsed = begun.elapsed();
-            let wanted = shared.is_newest(request.number);
-            if is_first { elapsed < GRACE || (elapsed < FIRST_SLICE && wanted) } else { elapsed < NEXT_SLICE && wanted }
+            let (elapsed, [grace, limit]) = (begun.elapsed(), limits);
+            elapsed < grace || (elapsed < limit && shared.is_newest(request.number))
         };
         let view = &request.views[index];
         // Once all tiles are built, only their detail is missing.

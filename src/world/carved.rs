@@ -55,9 +55,7 @@ impl WorldMap for Weather {
     fn solve(job: &Job<'_>, side: usize, _coarser: Option<&Self>) -> Option<Self> {
         let rock = rock(job, None)?;
         // Rivers need rain, and rain needs the relief that rivers leave.
-        let risen_m: Vec<f64> =
-            rock.base_m.iter().zip(&rock.uplift_m).map(|(base_m, uplift_m)| base_m + 0.5 * uplift_m).collect();
-        let first = weather_over(job, side, &risen_m)?;
+        let first = weather_over(job, side, &rock.risen_m())?;
         let drainage = drainage_of(job, &rock, &first, None)?;
         let carved_m: Vec<f64> = drainage.height_m.iter().map(|height_m| f64::from(*height_m)).collect();
         weather_over(job, side, &carved_m)
@@ -84,7 +82,7 @@ pub(crate) struct Carved {
 }
 
 impl Carved {
-    fn new(drainage: Arc<Drainage>, sea_level_m: Option<f64>, radius_km: f64, rock: Option<Rock>) -> Self {
+    pub(super) fn new(drainage: Arc<Drainage>, sea_level_m: Option<f64>, radius_km: f64, rock: Option<Rock>) -> Self {
         let rivers = Arc::new(Rivers::new(drainage.clone(), sea_level_m, radius_km));
         Self { drainage, rivers, rock, basins: OnceLock::new() }
     }
@@ -144,7 +142,7 @@ fn rock(job: &Job<'_>, coarser: Option<&Rock>) -> Option<Rock> {
     (job.keep_going)().then_some(rock)
 }
 
-fn weather_over(job: &Job<'_>, side: usize, heights_m: &[f64]) -> Option<Weather> {
+pub(super) fn weather_over(job: &Job<'_>, side: usize, heights_m: &[f64]) -> Option<Weather> {
     let Inputs { sea_level_m, structure, .. } = job.inputs();
     let structure = structure.as_ref()?;
     let inputs = weather::Inputs {
@@ -159,7 +157,12 @@ fn weather_over(job: &Job<'_>, side: usize, heights_m: &[f64]) -> Option<Weather
     Weather::solve(&inputs, job.keep_going)
 }
 
-fn drainage_of(job: &Job<'_>, rock: &Rock, weather: &Weather, coarser: Option<&Drainage>) -> Option<Drainage> {
+pub(super) fn drainage_of(
+    job: &Job<'_>,
+    rock: &Rock,
+    weather: &Weather,
+    coarser: Option<&Drainage>,
+) -> Option<Drainage> {
     let Inputs { sea_level_m, structure, .. } = job.inputs();
     let structure = structure.as_ref()?;
     let [runoff_mm, dryness_mm] =

@@ -10,6 +10,7 @@
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
 //! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
 //!   rivers carve (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
+//! - `draft`: quick answers on coarse grids while a slider is dragged
 //! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
 //! - `store`: maps on disk; `bytes`: their numbers
 //!
@@ -20,6 +21,7 @@ mod bytes;
 pub(crate) mod carved;
 pub(crate) mod cells;
 pub(crate) mod coast;
+mod draft;
 pub(crate) mod drainage;
 pub(crate) mod grid;
 mod map;

@@ -20,6 +20,8 @@ pub(crate) enum MapView {
     Rain,
     /// Basins in their colours, with rivers and lakes.
     Rivers,
+    /// How wet the sky is, for the clouds: 0.5 is the median of the globe, the rest as [`wetness`] says. No debug view.
+    Wetness,
 }
 
 /// The picture of a map.
@@ -33,6 +35,8 @@ pub(crate) struct MapPicture {
 /// Texels along the side of a face where the map is smooth, and the most for rivers.
 const SIDE: usize = 256;
 const MOST: usize = 512;
+/// The same for the wetness: a few texels for each cell of the weather.
+const WETNESS_SIDE: usize = 128;
 /// Number of darts on the globe.
 const DARTS: usize = 500;
 /// Half the width of a dart at its tail, and its greatest length, radians.
@@ -56,6 +60,7 @@ impl World {
         match view {
             MapView::Plates => [self.plates.key(), None],
             MapView::Rain => [self.weather.key(), self.carved.key()],
+            MapView::Wetness => [self.weather.key(), None],
             MapView::Rivers => [self.carved.key(), None],
         }
     }
@@ -65,6 +70,7 @@ impl World {
         let (plates, weather, carved) = (self.plates.map()?, self.weather.map(), self.carved.map());
         match view {
             MapView::Plates => Some(plates_picture(plates)),
+            MapView::Wetness => Some(wetness_picture(weather?)),
             MapView::Rain => Some(rain_picture(weather?, carved.map(|carved| &**carved))),
             MapView::Rivers => Some(rivers_picture(carved?)),
         }
@@ -126,6 +132,22 @@ fn rain_picture(weather: &Weather, carved: Option<&Carved>) -> MapPicture {
         let is_sea = carved.is_some_and(|Carved { drainage, .. }| drainage.is_sea[cell_at(dir, drainage.side)]);
         darts.over(dir, rain_color(rain_mm).map(|c| if is_sea { 0.3 * c } else { c }))
     })
+}
+
+fn wetness_picture(weather: &Weather) -> MapPicture {
+    let mut sorted = weather.rain_mm.clone();
+    sorted.sort_by(f64::total_cmp);
+    let median_mm = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    MapPicture::new(WETNESS_SIDE, |dir| [wetness(weather.rain_and_wind(dir).0, median_mm); 3])
+}
+
+/// How wet the sky is where it rains this much, 0 to 1: the logarithm of the rain relative to the median.
+fn wetness(rain_mm: f64, median_mm: f64) -> f64 {
+    /// Even a desert has a little cloud.
+    const LEAST_MM: f64 = 80.0;
+    /// Octaves of rain from the median to either end.
+    const OCTAVES: f64 = 4.0;
+    0.5 + 0.5 * libm::log2((rain_mm + LEAST_MM) / (median_mm + LEAST_MM)) / OCTAVES
 }
 
 fn rivers_picture(carved: &Carved) -> MapPicture {
@@ -239,6 +261,12 @@ mod tests {
         assert!((0.005..0.1).contains(&share), "{share}");
         let hues: std::collections::HashSet<_> = (0..15).map(|id| hue(id).map(|c| (c * 100.0) as u8)).collect();
         assert!(hues.len() >= 14, "{hues:?}");
+    }
+
+    #[test]
+    fn wetness_is_a_half_at_the_median_and_never_outside_its_range() {
+        assert!((wetness(700.0, 700.0) - 0.5).abs() < 1e-12);
+        assert!(wetness(0.0, 700.0) > 0.05 && wetness(6000.0, 700.0) < 0.95 && wetness(100.0, 700.0) < 0.3);
     }
 
     #[test]

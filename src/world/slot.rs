@@ -1,6 +1,7 @@
 //! One world map that serves, the key of what it was solved from, and its next level.
 
 use super::map::{Inputs, Job, WorldMap};
+use super::store::MapStore;
 use crate::planet::Key;
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,6 +13,8 @@ pub struct MapWork {
     pub runs: usize,
     /// Maps that were read from disk.
     pub reads: usize,
+    /// Drafts of the structure.
+    pub drafts: usize,
     /// Seconds it took.
     pub busy_secs: f64,
     /// The level that was solved last.
@@ -32,8 +35,12 @@ pub struct MapLevel {
 /// A map, if there is one.
 pub(crate) struct Slot<M>(Option<Served<M>>);
 
+/// The level of a draft, from which nothing is refined.
+const DRAFT: usize = usize::MAX;
+
 struct Served<M> {
     key: Key,
+    /// Index of its side in the sides of the map, or [`DRAFT`].
     level: usize,
     map: Arc<M>,
 }
@@ -51,6 +58,21 @@ impl<M> Default for Slot<M> {
 }
 
 impl<M: WorldMap> Slot<M> {
+    /// A draft of a planet's own map. None if nothing reads the map.
+    pub(super) fn draft(inputs: &Inputs, map: M) -> Option<Self> {
+        Some(Self(Some(Served { key: M::key(inputs)?, level: DRAFT, map: Arc::new(map) })))
+    }
+
+    /// Whether the map that serves is the planet's own, at any level.
+    pub(super) fn is_of(&self, inputs: &Inputs) -> bool {
+        self.0.as_ref().is_some_and(|served| M::key(inputs) == Some(served.key))
+    }
+
+    /// Whether a store has the planet's own finest map.
+    pub(super) fn is_stored(&self, store: Option<&MapStore>, inputs: &Inputs) -> bool {
+        store.zip(M::key(inputs)).is_some_and(|(store, key)| store.has::<M>(M::SIDES[Self::finest(inputs)], key))
+    }
+
     fn finest(inputs: &Inputs) -> usize {
         M::levels(inputs).clamp(1, M::SIDES.len()) - 1
     }
@@ -82,7 +104,8 @@ impl<M: WorldMap> Slot<M> {
     pub(super) fn cells(&self, inputs: &Inputs) -> [usize; 2] {
         let Some(key) = M::key(inputs) else { return [0, 0] };
         let up_to = |levels: usize| M::SIDES[..levels].iter().map(|side| 6 * side * side).sum();
-        let solved = self.0.as_ref().filter(|served| served.key == key).map_or(0, |served| served.level + 1);
+        let own = self.0.as_ref().filter(|served| served.key == key && served.level != DRAFT);
+        let solved = own.map_or(0, |served| served.level + 1);
         let all = Self::finest(inputs) + 1;
         [up_to(solved.min(all)), up_to(all)]
     }

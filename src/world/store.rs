@@ -59,6 +59,11 @@ impl MapStore {
         self.folder.join(format!("{name}_{side}_{:032x}.{EXTENSION}", key.bits()))
     }
 
+    /// Whether there is a file for the map of a key.
+    pub(super) fn has<M: WorldMap>(&self, side: usize, key: Key) -> bool {
+        self.path(M::NAME, side, key).is_file()
+    }
+
     /// The map of a key, if it is there and whole.
     pub(super) fn read<M: WorldMap>(&self, inputs: &Inputs, side: usize, key: Key) -> Option<M> {
         profiling::scope!("read a world map");

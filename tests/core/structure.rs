@@ -2,16 +2,17 @@
 
 use glam::DVec3;
 use std::sync::Arc;
-use tellus::lod::{Camera, Quality, View};
+use std::sync::mpsc::sync_channel;
+use tellus::lod::{Camera, Quality, Vertex, View};
 use tellus::planet::param::{Stage, Stages};
 use tellus::planet::{Fbm, Layer, Planet, Shape, Structure, Water};
 use tellus::simd::Simd;
 use tellus::sphere::{LatLon, spread};
 use tellus::terrain::{Revision, Terrain, Wanted};
-use tellus::tiles::{Builder, build_now};
+use tellus::tiles::{Builder, Surface, build_now};
 
 /// Points over the globe: each is among rivers that nobody has asked for.
-const POINTS: usize = 500;
+const POINTS: usize = 250;
 
 /// A planet of the coarsest grid: quick to solve.
 fn planet() -> Planet {
@@ -97,7 +98,7 @@ fn an_edit_reaches_heights_and_climate_and_no_texture() {
         structure.weather_share = 0.5;
     }
     let changes = Revision::try_new(Arc::new(edited)).unwrap().changes_since(&before);
-    assert_eq!(changes, Stages::of(&[Stage::Climate]), "the solved weather stays");
+    assert_eq!(changes, Stages::of(&[Stage::Climate, Stage::CloudMap]), "the solved weather stays");
 }
 
 #[test]
@@ -123,6 +124,48 @@ fn the_builder_ends_with_the_surface_that_a_build_from_nothing_gives() {
             assert!(a.tile.id == b.tile.id && a.tile.vertices == b.tile.vertices, "{:?}", a.tile.id);
         }
     }
+}
+
+/// While a slider is dragged, drafts show what it does; in the end there is nothing left of them.
+#[test]
+fn an_edit_of_the_structure_shows_a_draft_first() {
+    let camera = Camera::over(LatLon::from_degrees(10.0, 20.0), 2.2 * 6.371e6, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
+    let view = View { camera, size_px: [240, 160], quality: Quality::Low };
+    // After each surface the builder waits for the test to look at it.
+    let (bell, surfaces) = sync_channel(0);
+    let builder = Builder::new(move || {
+        let _ = bell.send(()).and_then(|()| bell.send(()));
+    });
+    let mut planet = planet();
+    let mut all_surfaces = |edit: &dyn Fn(&mut Structure)| {
+        planet.structure.iter_mut().for_each(edit);
+        let planet = Arc::new(planet.clone());
+        builder.request(&planet, &view);
+        let mut seen = Vec::new();
+        while !builder.has_all_tiles() {
+            surfaces.recv().unwrap();
+            seen.extend(builder.surface());
+            surfaces.recv().unwrap();
+        }
+        seen.retain(|surface| *surface.terrain.planet() == planet);
+        (seen, build_now(&planet, &view).unwrap())
+    };
+    let (first, _) = all_surfaces(&|_| ());
+    assert!(first.iter().any(|surface| surface.stats.maps.drafts == 1 && surface.stats.maps.runs == 0), "from nothing");
+    let bits = |surface: &Surface| -> Vec<Vec<Vertex>> {
+        surface.leaves.iter().map(|leaf| leaf.tile.vertices.clone()).collect()
+    };
+    let before = bits(&first[first.len() - 1]);
+    for edit in [|s: &mut Structure| s.rivers.erodibility *= 3.0, |s: &mut Structure| s.plates.seed += 1] {
+        let (seen, alone) = all_surfaces(&edit);
+        assert_eq!(seen[0].stats.maps.drafts, 0, "the first surface waits for nothing");
+        let draft = seen.iter().find(|surface| surface.stats.maps.drafts == 1).unwrap();
+        assert!(draft.stats.maps.runs == 0 && !draft.complete && bits(draft) != before);
+        let last = &seen[seen.len() - 1];
+        assert_eq!((last.stats.maps.drafts, last.complete), (1, true));
+        assert!(bits(last) == bits(&alone) && bits(draft) != bits(last));
+    }
+    drop(surfaces);
 }
 
 #[test]

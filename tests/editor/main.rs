@@ -3,7 +3,7 @@
 //! - `files`: opening and saving without losing work
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
-//! - `painter`: the painter of the biome table
+//! - `painter`: the painter of the biome table; `plates`: plates of the structure
 //! - `viewport`: the camera and the picture
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -15,6 +15,7 @@ mod input;
 #[path = "../support/layered.rs"]
 mod layered;
 mod painter;
+mod plates;
 mod viewport;
 
 use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, undo_label, undo_len};

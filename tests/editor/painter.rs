@@ -166,7 +166,7 @@ fn painting_rebuilds_no_vertex_and_shows_in_the_next_frame() {
 #[test]
 fn after_an_undo_no_preview_covers_what_came_back() {
     let mut harness = drawn_editor();
-    let marked = |harness: &Editor| harness.state().viewport().painter.marked.clone();
+    let marked = |harness: &Editor| harness.state().viewport().tab.marked.clone();
     choose(&mut harness, 3);
     for tool in ["Fill", "Brush"] {
         click(&mut harness, tool);
@@ -193,7 +193,7 @@ fn after_an_undo_no_preview_covers_what_came_back() {
 #[test]
 fn the_planet_and_the_table_point_at_each_other() {
     let mut harness = drawn_editor();
-    let marked = |harness: &Editor| harness.state().viewport().painter.marked.clone();
+    let marked = |harness: &Editor| harness.state().viewport().tab.marked.clone();
     assert!(marked(&harness).is_none());
     harness.hover_at(cell(&harness, 7, 5));
     harness.run_steps(2);

@@ -81,11 +81,11 @@ fn keys_change_the_way_to_move_and_the_status_says_so() {
     assert!((eye_height_m(&harness) - 1.7).abs() < 1e-3, "{}", eye_height_m(&harness));
     let start = harness.state().viewport().pose(&planet(&harness)).position_planet_m;
     harness.key_down(egui::Key::W);
-    run_secs(&mut harness, 1.0);
+    run_secs(&mut harness, 0.5);
     harness.key_up(egui::Key::W);
     wait_for_camera(&mut harness);
     let way_m = start.distance(harness.state().viewport().pose(&planet(&harness)).position_planet_m);
-    assert!((0.2..20.0).contains(&way_m), "a second's walk is {way_m} m");
+    assert!((0.1..10.0).contains(&way_m), "half a second's walk is {way_m} m");
     assert!((eye_height_m(&harness) - 1.7).abs() < 1e-3);
     harness.key_press(egui::Key::Space);
     run_secs(&mut harness, 0.2);
@@ -130,7 +130,7 @@ fn frozen_detail_stays_while_the_camera_goes_on() {
     assert!(harness.query_by_label_contains("detail frozen").is_some());
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
     harness.key_down(egui::Key::W);
-    run_secs(&mut harness, 1.0);
+    run_secs(&mut harness, 0.3);
     harness.key_up(egui::Key::W);
     wait_for_picture(&mut harness);
     let viewport = harness.state().viewport();

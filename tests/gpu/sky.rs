@@ -41,7 +41,7 @@ fn rays(planet: &Planet, count: u64) -> Vec<SkyRay> {
 
 #[test]
 fn the_shaders_agree_with_the_physics() {
-    compare_with_the_physics(80);
+    compare_with_the_physics(40);
 }
 
 #[test]

@@ -82,6 +82,13 @@ fn render_state() -> RenderState {
     RenderState { renderer: Arc::new(egui::mutex::RwLock::new(egui)), ..state.clone() }
 }
 
+/// An editor with a picture of a planet.
+pub fn open_planet_with_picture(size: [f32; 2], planet: Planet) -> Editor {
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 60.0);
+    let builder = builder.with_pixels_per_point(COARSE).renderer(WgpuTestRenderer::from_render_state(render_state()));
+    start(builder, move |cc| EditorApp::with_planet(cc, planet, None, None))
+}
+
 /// Steps until a condition holds.
 pub fn until(harness: &mut Editor, what: &str, holds: impl Fn(&Editor) -> bool) {
     const PATIENCE: Duration = Duration::from_secs(120);

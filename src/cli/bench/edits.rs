@@ -5,7 +5,7 @@
 use super::{median, opening_view, p95};
 use crate::lod::View;
 use crate::lod::tile::TILE_VERTICES;
-use crate::planet::param::{Domain, Param, ParamPath, Stages, Value, ValueRef};
+use crate::planet::param::{Domain, Param, ParamPath, Segment, Stages, Value, ValueRef};
 use crate::planet::{Planet, validate};
 use crate::tiles::{BuildStats, Builder, BuilderOptions, DEFAULT_BUDGET_BYTES, Surface};
 use serde_json::json;
@@ -20,10 +20,13 @@ const UNCACHED_RUNS: usize = 3;
 /// An edit that takes longer is given up.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// The `edits` list of the report: with the cache that the editor has, and without any.
-pub(super) fn measure(planet: &Arc<Planet>) -> Vec<serde_json::Value> {
+/// The `edits` list of the report: with the cache that the editor has, and without any. `part`: the only part whose
+/// parameters are edited.
+pub(super) fn measure(planet: &Arc<Planet>, part: Option<&'static str>) -> Vec<serde_json::Value> {
     let view = opening_view(planet);
-    let edits = one_of_every_kind(planet);
+    let mut edits = one_of_every_kind(planet);
+    let is_wanted = |path: &ParamPath| part.is_none_or(|part| path.segments().first() == Some(&Segment::Field(part)));
+    edits.retain(|(path, _)| is_wanted(path));
     // One builder after the other, because the background work of one would take time from the other.
     let all = |budget_bytes: usize, runs: usize| -> Vec<_> {
         let bench = Bench::new(budget_bytes);

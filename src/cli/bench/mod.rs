@@ -89,11 +89,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         report["queries"] = queries::measure(first)?;
     }
     if wants(Part::Edits) {
-        report["edits"] = json!(edits::measure(first));
+        report["edits"] = json!(edits::measure(first, None));
         let full_ms = |i: &usize| report["rebuild"][*i]["full_ms"].as_f64().unwrap_or(0.0);
         let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
         report["heaviest"] = json!(planets[heaviest].0);
-        report["heaviest_edits"] = json!(edits::measure(&planets[heaviest].1));
+        report["heaviest_edits"] = json!(edits::measure(&planets[heaviest].1, None));
     }
     if wants(Part::Structure) {
         report["structure"] = structure::measure(&shipped::default_planet())?;

@@ -1,7 +1,7 @@
 //! The cost of a structure: its solvers level by level, the tiles of the opening view, and points among its rivers.
 
-use super::{median, opening_view, repeat};
-use crate::planet::Planet;
+use super::{edits, median, opening_view, repeat};
+use crate::planet::{Planet, Structure};
 use crate::sphere::spread;
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Scratch, Terrain};
@@ -21,11 +21,13 @@ const PATCHES: usize = 24;
 
 /// The `structure` object of the report: a planet with a structure, median run.
 ///
+/// - `draft_ms`, `draft_rivers_ms`: time until a draft serves after an edit of the plates, and of the rivers alone
 /// - `first_ms`, `finest_ms`: time until the coarsest and the finest rivers serve
 /// - `levels`: each solver's share, with nanoseconds for each land cell and pass of the river solver
 /// - `view_first_ms`, `view_ms`: the whole opening view with maps at hand, the first time and again
 /// - `cold_mps`, `warm_mps`: million heights a second on one core with all levels of rivers, where no river has been
 ///   asked for, and again
+/// - `edits`: edits of the layers over the structure
 pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
     let planet = Arc::new(planet.clone());
     let draft = Terrain::try_draft(planet.clone(), &World::default()).map_err(|error| error.to_string())?;
@@ -47,6 +49,8 @@ pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
     }));
     let [cold_mps, warm_mps] = patches_mps(&terrain);
     Ok(json!({
+        "draft_ms": draft_ms(&draft, &planet, |_| ())?,
+        "draft_rivers_ms": draft_ms(&terrain, &planet, |structure| structure.rivers.erodibility *= 1.1)?,
         "first_ms": first_ms,
         "finest_ms": finest_ms,
         "levels": levels,
@@ -54,7 +58,17 @@ pub(super) fn measure(planet: &Planet) -> Result<Value, String> {
         "view_ms": view_ms,
         "cold_mps": cold_mps,
         "warm_mps": warm_mps,
+        "edits": edits::measure(&planet, Some("layers")),
     }))
+}
+
+/// Time of a draft after an edit, with the maps of a terrain at hand.
+fn draft_ms(before: &Terrain, planet: &Planet, edit: impl Fn(&mut Structure)) -> Result<Option<f64>, String> {
+    let mut edited = planet.clone();
+    edited.structure.iter_mut().for_each(edit);
+    let draft = Terrain::try_draft(Arc::new(edited), before.world()).map_err(|error| error.to_string())?;
+    let fields = CellFields::default();
+    Ok(median(&repeat(|| drop(draft.with_draft_maps(&fields, &mut MapWork::default())))))
 }
 
 struct Run {

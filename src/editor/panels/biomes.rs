@@ -7,7 +7,7 @@ use crate::editor::command::Command;
 use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
 use crate::editor::viewport::pointer::UnderPointer;
-use crate::editor::viewport::{Click, PainterLink};
+use crate::editor::viewport::{Click, TabLink};
 use crate::editor::widgets::menu_button;
 use crate::editor::widgets::param_row::{Row, param_row};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
@@ -53,8 +53,8 @@ pub fn has_keys(ctx: &egui::Context) -> bool {
 
 impl BiomesState {
     /// What the tab shows on the planet, and which clicks it takes.
-    pub fn link(&self) -> PainterLink {
-        PainterLink { marked: self.marked.clone(), paints: true, picks: self.painter.tool == Tool::Pick }
+    pub fn link(&self) -> TabLink {
+        TabLink { marked: self.marked.clone(), paints: true, picks: self.painter.tool == Tool::Pick, plates: false }
     }
 
     /// A click on the planet: chooses the biome there, or paints the cell of the climate there. Gives the name of the
@@ -71,6 +71,7 @@ impl BiomesState {
                 planet.biomes.table.set_key(column, row, key);
                 Some("Paint climate of location".to_owned())
             }
+            Click::Plate => None,
         }
     }
 

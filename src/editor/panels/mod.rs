@@ -3,7 +3,7 @@
 //! Panels change a draft of the planet; the application makes an undo step of a changed draft. [`PANELS`] lists the
 //! tabs: a new panel is a file and a row there.
 //!
-//! - [`parts`]: planet, star, climate, and the optional parts
+//! - [`parts`]: planet, star, climate, and the optional parts; [`structure`]: plates, weather, rivers
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
 //! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
 //!   table under the pointer, its picture, the palette, edits of both
@@ -17,11 +17,12 @@ pub mod layer_edit;
 pub mod layers;
 pub mod masks;
 pub mod parts;
+pub mod structure;
 
 use crate::editor::command::Commands;
 use crate::editor::painter::survey::Survey;
-use crate::editor::viewport::PainterLink;
 use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::{Click, TabLink};
 use crate::planet::Planet;
 use crate::planet::param::ParamPath;
 use eframe::egui;
@@ -32,16 +33,22 @@ pub struct Panel {
     pub label: &'static str,
     /// Whether the tab paints the biome table.
     pub paints: bool,
+    /// Whether the tab changes plates.
+    plates: bool,
     show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
 }
 
 impl Panel {
     const fn new(label: &'static str, show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>)) -> Self {
-        Self { label, paints: false, show }
+        Self { label, paints: false, plates: false, show }
     }
 
     const fn painting(self) -> Self {
         Self { paints: true, ..self }
+    }
+
+    const fn of_plates(self) -> Self {
+        Self { plates: true, ..self }
     }
 }
 
@@ -49,7 +56,10 @@ impl Panel {
 pub static PANELS: [Panel; 9] = [
     Panel::new("Planet", |ui, _, draft| parts::planet(ui, draft)),
     Panel::new("Terrain", |ui, state, draft| layers::show(ui, &mut state.layers, draft)),
-    Panel::new("Structure", |ui, state, draft| parts::structure(ui, &mut state.turned_off, draft)),
+    Panel::new("Structure", |ui, state, draft| {
+        structure::show(ui, &mut state.structure, &mut state.turned_off, draft);
+    })
+    .of_plates(),
     Panel::new("Climate", |ui, _, draft| parts::climate(ui, draft)),
     Panel::new("Biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft)).painting(),
     Panel::new("Water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
@@ -95,6 +105,7 @@ pub struct PanelState {
     layers: layers::LayersState,
     /// The biomes tab.
     pub biomes: biomes::BiomesState,
+    structure: structure::StructureState,
     turned_off: parts::TurnedOff,
 }
 
@@ -105,6 +116,7 @@ impl Default for PanelState {
             document_number: 0,
             layers: layers::LayersState::default(),
             biomes: biomes::BiomesState::default(),
+            structure: structure::StructureState::default(),
             turned_off: parts::TurnedOff::default(),
         }
     }
@@ -123,9 +135,22 @@ impl PanelState {
         PANELS.get(self.tab).is_some_and(|panel| panel.paints)
     }
 
-    /// What the open tab shows on the planet, and which clicks it takes.
-    pub fn painter_link(&self) -> PainterLink {
-        if self.paints() { self.biomes.link() } else { PainterLink::default() }
+    /// What the open tab shows on the planet, and which clicks and drags it takes.
+    pub fn tab_link(&self) -> TabLink {
+        match PANELS.get(self.tab) {
+            Some(Panel { paints: true, .. }) => self.biomes.link(),
+            Some(Panel { plates: true, .. }) => self.structure.link(),
+            _ => TabLink::default(),
+        }
+    }
+
+    /// A click on the planet. Gives the name of the edit.
+    pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
+        if click == Click::Plate {
+            self.structure.clicked(under);
+            return None;
+        }
+        self.biomes.clicked(planet, click, under)
     }
 
     /// Shows the tabs and the open one.

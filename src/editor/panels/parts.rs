@@ -1,4 +1,5 @@
-//! The panels of the parts that are lists of parameters: planet, star, climate, and the optional parts.
+//! The panels of the parts that are lists of parameters: planet, star, climate, and the optional parts but the
+//! structure.
 
 use super::Draft;
 use crate::editor::widgets::menu_button;
@@ -14,7 +15,7 @@ use eframe::egui;
 /// Optional parts that were turned off, with their last values.
 #[derive(Default)]
 pub struct TurnedOff {
-    structure: Option<Structure>,
+    pub(super) structure: Option<Structure>,
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
@@ -94,35 +95,6 @@ pub fn climate(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     whole(ui, "climate", &mut draft.planet.climate, &mut Climate::default(), draft.problems);
 }
 
-/// The structure, if the planet has one.
-pub fn structure(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
-    ui.weak("Plates push up land, winds rain on it, rivers carve it. Layers lie over it, or under it.");
-    ui.add_space(4.0);
-    let label = switch(ui, "structure", &mut draft.planet.structure, &mut turned_off.structure);
-    draft.label = label.or(draft.label.take());
-    let Some(Structure { plates, weather, rivers, .. }) = &mut draft.planet.structure else { return };
-    let mut defaults = Structure::default();
-    let parts: [(&str, &str, &mut dyn Params, &mut dyn Params); 3] = [
-        ("Plates", "plates", plates, &mut defaults.plates),
-        ("Weather", "weather", weather, &mut defaults.weather),
-        ("Rivers", "rivers", rivers, &mut defaults.rivers),
-    ];
-    for (title, field, part, default) in parts {
-        egui::CollapsingHeader::new(title).default_open(field == "plates").show(ui, |ui| {
-            let base = ParamPath::from(vec![Segment::Field("structure"), Segment::Field(field)]);
-            let grid = Grid { base, owner: field, skip: &[], problems: draft.problems, biomes: &[] };
-            params_grid(ui, &grid, part, default);
-        });
-    }
-    ui.add_space(4.0);
-    let base = ParamPath::from(vec![Segment::Field("structure")]);
-    let skip = ["plates", "weather", "rivers"];
-    let grid = Grid { base, owner: "structure", skip: &skip, problems: draft.problems, biomes: &[] };
-    if let Some(structure) = &mut draft.planet.structure {
-        params_grid(ui, &grid, structure, &mut Structure::default());
-    }
-}
-
 /// The sea, if the planet has one.
 pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
     let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.problems);
@@ -184,7 +156,7 @@ fn optional<T: Params + Default + Clone>(
 }
 
 /// The switch of such a part.
-fn switch<T: Default + Clone>(
+pub(super) fn switch<T: Default + Clone>(
     ui: &mut egui::Ui,
     field: &'static str,
     part: &mut Option<T>,

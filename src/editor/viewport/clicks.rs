@@ -1,4 +1,4 @@
-//! Clicks on the planet that are for the painter of the biome table.
+//! Clicks on the planet that are for the open tab.
 
 use super::pointer::{Probe, UnderPointer, in_view};
 use crate::editor::painter::is_chord;
@@ -15,20 +15,24 @@ pub enum Click {
     Pick,
     /// Paint the cell of the biome table that the climate there falls into.
     Paint,
+    /// Choose the plate there.
+    Plate,
 }
 
-/// What the painter of the biome table shows on the planet, and which clicks it takes.
+/// What the open tab shows on the planet, and which clicks and drags it takes.
 #[derive(Clone, Debug, Default)]
-pub struct PainterLink {
+pub struct TabLink {
     /// Cells whose ground lights up.
     pub marked: Option<Arc<MarkedCells>>,
     /// Whether a click with Ctrl paints.
     pub paints: bool,
-    /// Whether a plain click picks.
+    /// Whether a plain click picks a biome.
     pub picks: bool,
+    /// Whether a plain click picks a plate, and a drag with Ctrl moves it.
+    pub plates: bool,
 }
 
-/// The newest click for the painter. The ground there is found on another thread.
+/// The newest click for the open tab. The ground there is found on another thread.
 pub(super) struct Clicks {
     probe: Probe,
     clicked: Option<Click>,
@@ -40,21 +44,22 @@ impl Clicks {
         Self { probe: Probe::new(wake), clicked: None }
     }
 
-    /// Takes a click of this frame, if the painter wants it.
+    /// Takes a click of this frame, if the open tab wants it.
     pub(super) fn look(
         &mut self,
         (ui, response): (&egui::Ui, &egui::Response),
-        link: &PainterLink,
+        link: &TabLink,
         view: &View,
         surface: Option<&Arc<Surface>>,
     ) {
         let chord = ui.input(|i| is_chord(i.modifiers));
         let click = match (chord, link) {
-            (true, PainterLink { paints: true, .. }) => Click::Paint,
-            (false, PainterLink { picks: true, .. }) => Click::Pick,
+            (true, TabLink { paints: true, .. }) => Click::Paint,
+            (false, TabLink { picks: true, .. }) => Click::Pick,
+            (false, TabLink { plates: true, .. }) => Click::Plate,
             _ => return,
         };
-        if response.hovered() {
+        if response.hovered() && click != Click::Plate {
             ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
         }
         if response.clicked()

@@ -2,17 +2,19 @@
 
 use super::camera::orbit::turn_sun;
 use super::camera::{Cameras, Controls, Ground, Mode};
+use super::plate_drag::{PLATE_STEP, PlateDrag};
 use super::pointer::in_view;
 use crate::editor::painter::is_chord;
 use crate::editor::widgets::keys_are_taken;
 use crate::planet::Planet;
+use crate::terrain::Terrain;
 use eframe::egui;
 
 /// Name of the undo step of a drag of the sun.
 pub const SUN_STEP: &str = "Turn the sun";
 
 /// The effect of a drag, decided when it starts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Drag {
     /// No drag.
     #[default]
@@ -23,17 +25,30 @@ pub enum Drag {
     View,
     /// Turns the sun.
     Sun,
+    /// Moves a plate of the structure.
+    Plate(PlateDrag),
 }
 
-/// Moves the cameras and the sun of `planet` by the input of this frame.
+/// What drags may change of the planet.
+pub struct Edited<'a> {
+    /// The planet.
+    pub planet: &'a mut Planet,
+    /// Seconds since time zero.
+    pub time_secs: f64,
+    /// The terrain on screen, if a drag with Ctrl moves its plates.
+    pub plates: Option<&'a Terrain>,
+}
+
+/// Moves the cameras, and the sun or a plate of the planet, by the input of this frame.
 pub fn handle(
     ui: &egui::Ui,
     response: &egui::Response,
     drag: &mut Drag,
     cameras: &mut Cameras,
     ground: &dyn Ground,
-    (planet, time_secs): (&mut Planet, f64),
+    edited: Edited<'_>,
 ) -> Moved {
+    let Edited { planet, time_secs, plates } = edited;
     let rect = response.rect;
     let aspect = f64::from(rect.width() / rect.height());
     let to_view = |pos: egui::Pos2| in_view(rect, pos);
@@ -43,15 +58,19 @@ pub fn handle(
         response.request_focus();
     }
     if response.drag_started() {
-        let (shift, origin) = ui.input(|i| (i.modifiers.shift, i.pointer.press_origin()));
+        let (modifiers, origin) = ui.input(|i| (i.modifiers, i.pointer.press_origin()));
+        let shift = modifiers.shift;
+        let held = plates.zip(origin).filter(|_| is_chord(modifiers)).and_then(|(terrain, origin)| {
+            PlateDrag::start(terrain, planet, &cameras.camera(ground), to_view(origin), aspect)
+        });
         *drag = if response.drag_started_by(egui::PointerButton::Secondary) {
             Drag::View
         } else if response.drag_started_by(egui::PointerButton::Middle) || shift {
             Drag::Sun
         } else {
-            Drag::Globe
+            held.map_or(Drag::Globe, Drag::Plate)
         };
-        if let (Drag::Globe, Some(origin)) = (*drag, origin) {
+        if let (Drag::Globe, Some(origin)) = (&*drag, origin) {
             let (x, y) = to_view(origin);
             cameras.grab(x, y, aspect, ground);
         }
@@ -59,7 +78,7 @@ pub fn handle(
     if response.dragged() {
         let delta = response.drag_delta() / rect.height();
         let (right, up) = (f64::from(delta.x), f64::from(-delta.y));
-        match *drag {
+        match &*drag {
             Drag::None => {}
             Drag::Globe => {
                 if let Some(pos) = response.interact_pointer_pos() {
@@ -71,9 +90,16 @@ pub fn handle(
                 let sun = planet.star.place(time_secs).direction();
                 let (lat_deg, lon_deg) = turn_sun(sun, &cameras.camera(ground), right, up).to_degrees();
                 planet.star.set_place(lat_deg, lon_deg, time_secs);
-                moved.sun = true;
+                moved.edit = Some(SUN_STEP);
             }
-            Drag::View | Drag::Sun => {}
+            Drag::Plate(held) if delta != egui::Vec2::ZERO => {
+                if let (Some(pos), Some(terrain)) = (response.interact_pointer_pos(), plates)
+                    && held.drag(terrain, planet, &cameras.camera(ground), to_view(pos), aspect)
+                {
+                    moved.edit = Some(PLATE_STEP);
+                }
+            }
+            Drag::View | Drag::Sun | Drag::Plate(_) => {}
         }
     }
     if response.drag_stopped() {
@@ -112,8 +138,8 @@ pub fn handle(
 pub struct Moved {
     /// The camera goes on moving: another frame is due.
     pub animating: bool,
-    /// The sun was turned, which is an edit of the planet.
-    pub sun: bool,
+    /// The name of the edit, if the planet was changed.
+    pub edit: Option<&'static str>,
 }
 
 /// The movement that the keys ask for. In orbit the arrow keys travel like WASD, and turn the view with Shift; in the

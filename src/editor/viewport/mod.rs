@@ -7,7 +7,8 @@
 //! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
 //!   upload
 //! - `outline`: the frustum of a frozen view
-//! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the painter
+//! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
+//!   dragged
 //! - [`adaptation`]: exposure that adapts gradually
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, its parts, the time of each frame
 
@@ -20,13 +21,14 @@ pub mod ground;
 pub mod input;
 mod outline;
 mod picture;
+mod plate_drag;
 pub mod pointer;
 pub mod settings;
 pub mod swap;
 pub mod target;
 pub mod timeline;
 
-pub use clicks::{Click, PainterLink};
+pub use clicks::{Click, TabLink};
 pub use settings::ViewSettings;
 
 use crate::lod::View;
@@ -62,8 +64,8 @@ pub struct Viewport {
     pub frame_meter: FrameMeter,
     /// How long each frame took.
     pub frames: FrameLog,
-    /// What the painter of the biome table shows on the planet, and which clicks it takes.
-    pub painter: PainterLink,
+    /// What the open tab shows on the planet, and which clicks and drags it takes.
+    pub tab: TabLink,
     builder: Builder,
     /// The newest valid planet.
     newest: Option<Revision>,
@@ -98,7 +100,7 @@ impl Viewport {
             edit_clock: EditClock::default(),
             frame_meter: FrameMeter::default(),
             frames: FrameLog::default(),
-            painter: PainterLink::default(),
+            tab: TabLink::default(),
             builder: Builder::with_options(BuilderOptions::default().maps(maps), waker()),
             newest: None,
             picture: Picture::new(render_state),
@@ -145,7 +147,7 @@ impl Viewport {
         self.pointer.answer()
     }
 
-    /// The newest click for the painter and the ground there, once, when the ground is known.
+    /// The newest click for the open tab and the ground there, once, when the ground is known.
     pub fn take_click(&mut self) -> Option<(Click, UnderPointer)> {
         self.clicks.take()
     }
@@ -212,8 +214,8 @@ impl Viewport {
         self.picture.error().map(str::to_owned).or_else(|| self.builder.error())
     }
 
-    /// Shows the picture in all of the room there is. `valid` is the planet that is drawn. A drag of the sun changes
-    /// `draft`, and gives the name of that edit.
+    /// Shows the picture in all of the room there is. `valid` is the planet that is drawn. A drag of the sun or of a
+    /// plate changes `draft`, and gives the name of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
         if std::mem::take(&mut self.wants_focus) {
@@ -230,8 +232,12 @@ impl Viewport {
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
         self.follow_ground(&ground);
-        let moved =
-            input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, (draft, self.settings.time_secs));
+        let edited = input::Edited {
+            planet: draft,
+            time_secs: self.settings.time_secs,
+            plates: terrain.filter(|_| self.tab.plates),
+        };
+        let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, edited);
         self.moving = moved.animating;
         self.advance_time(ui);
 
@@ -243,7 +249,7 @@ impl Viewport {
         wanted.camera.position_planet_m *= valid.radius_m() / self.ground_radius_m;
         self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
-        self.clicks.look((ui, &response), &self.painter, &view, surface.as_ref());
+        self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
         if let Some(surface) = surface {
             self.draw(surface, valid, view);
         }
@@ -254,7 +260,7 @@ impl Viewport {
         if let Some(frozen) = &self.frozen {
             outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);
         }
-        moved.sun.then_some(input::SUN_STEP)
+        moved.edit
     }
 
     /// Keeps the cameras above the ground, and at the same distance in radii when the planet's radius has changed.
@@ -300,7 +306,7 @@ impl Viewport {
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
         let newest = self.newest.clone().filter(|newest| same_tiles(&surface.terrain, newest));
         let revision = newest.unwrap_or_else(|| surface.terrain.revision());
-        let (settings, marked) = (&self.settings, self.painter.marked.clone());
+        let (settings, marked) = (&self.settings, self.tab.marked.clone());
         let subject = Subject { surface, revision, view, frozen: self.frozen, settings, marked };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });

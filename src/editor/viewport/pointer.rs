@@ -2,6 +2,7 @@
 //! frame.
 
 use crate::lod::View;
+use crate::planet::PlateByHand;
 use crate::sphere::LatLon;
 use crate::tiles::Surface;
 use eframe::egui;
@@ -25,6 +26,8 @@ pub struct UnderPointer {
     pub slope_deg: f64,
     /// Change of the height by each layer, in metres.
     pub layers_m: Vec<f64>,
+    /// The plate of the structure, as an entry that leaves it as it was laid out.
+    pub plate: Option<PlateByHand>,
 }
 
 /// A question: a point of the picture (`x`, `y` from -1 to 1, right and up), the view, and its surface.
@@ -133,5 +136,6 @@ fn look(question: &Question) -> Option<UnderPointer> {
         biome_index: sample.biome,
         slope_deg: sample.slope_rad.to_degrees(),
         layers_m: surface.terrain.layers_m(dir),
+        plate: surface.terrain.plate_entry(dir),
     })
 }

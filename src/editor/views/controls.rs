@@ -6,7 +6,7 @@ use crate::editor::state::State;
 use eframe::egui;
 
 /// Held keys and the mouse, which are no commands.
-const GROUPS: [(&str, &[(&str, &str)]); 5] = [
+const GROUPS: [(&str, &[(&str, &str)]); 6] = [
     (
         "Mouse",
         &[
@@ -45,6 +45,10 @@ const GROUPS: [(&str, &[(&str, &str)]); 5] = [
             ("Ctrl and click on the planet", "Paint the climate there"),
             ("Escape", "End the selection"),
         ],
+    ),
+    (
+        "Plates, in the Structure tab",
+        &[("Click", "Choose the plate"), ("Ctrl and drag", "Move the plate, with its continents")],
     ),
     ("Walk", &[("W A S D", "Walk; slower uphill"), ("Shift", "Run"), ("Space", "Jump"), ("Arrow keys", "Look around")]),
 ];

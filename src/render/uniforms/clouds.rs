@@ -56,7 +56,9 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
     out.cloud_drift = Vec2::new(c as f32, s as f32);
     out.cloud_systems_per_radius = (planet.radius_km / clouds.scale_km) as f32;
     out.cloud_curl = clouds.curl as f32;
-    out.cloud_belts = (planet.climate.belts * BELTS) as f32;
+    let wetness = planet.structure.as_ref().map_or(0.0, |structure| structure.weather_share);
+    out.cloud_wetness = wetness as f32;
+    out.cloud_belts = (planet.climate.belts * BELTS * (1.0 - wetness)) as f32;
     out.cloud_seed = clouds.seed ^ planet.seed.rotate_left(16);
 }
 

@@ -88,9 +88,11 @@ impl Side {
 }
 
 impl Layout {
-    /// The effects of all boundaries of a plate at a bent direction. `along` varies along them, about -1 to 1.
-    pub(super) fn edges(&self, params: &Params, plate: usize, bent: DVec3, along: f64) -> Edges {
+    /// The effects of all boundaries of a plate at a direction, which is given as it is, bent, and bent in the home of
+    /// the plate. `along` varies along them, about -1 to 1.
+    pub(super) fn edges(&self, params: &Params, plate: usize, place: [DVec3; 3], along: f64) -> Edges {
         const BLEND_KM: f64 = 500.0;
+        let [_, bent, _] = place;
         let sides = &self.sides[plate];
         let nearest_km = sides.iter().map(|side| side.km(bent)).fold(f64::MAX, f64::min);
         let nearest_km = if sides.is_empty() { NO_EDGE_KM } else { nearest_km };
@@ -112,7 +114,7 @@ impl Layout {
                 continue;
             }
             let weight = near * near;
-            let effect = self.effect(params, plate, bent, &border, along);
+            let effect = self.effect(params, plate, place, &border, along);
             total += weight;
             sum.uplift_m += weight * effect.uplift_m;
             sum.ground_m += weight * effect.ground_m;
@@ -133,12 +135,17 @@ impl Layout {
     }
 
     /// The effect of one boundary. `along` varies along it, about -1 to 1.
-    fn effect(&self, params: &Params, plate: usize, bent: DVec3, border: &Border, along: f64) -> Edges {
+    fn effect(&self, params: &Params, plate: usize, place: [DVec3; 3], border: &Border, along: f64) -> Edges {
         let Border { other, km, inward, opening, shear } = *border;
-        let at = (bent - inward * (km / EARTH_KM)).normalize();
-        let coast_rad = self.coast_rad(at, 2);
-        let is_land = |plate: usize| ramp(-0.03, 0.05, self.even_crust_rad(plate, at) + coast_rad);
-        let (mine, theirs) = (is_land(plate), is_land(other));
+        // Whether there is land at the boundary, on this side and on the other.
+        let [dir, bent, home] = place;
+        let way = inward * (km / EARTH_KM);
+        let at = |plate: usize, home: DVec3| (home - self.way_home(plate, way)).normalize();
+        let (my_at, their_at) = (at(plate, home), at(other, self.home(other, dir, bent)));
+        let my_coast_rad = self.coast_rad(my_at, 2);
+        let their_coast_rad = if their_at == my_at { my_coast_rad } else { self.coast_rad(their_at, 2) };
+        let is_land = |plate, at, coast_rad| ramp(-0.03, 0.05, self.even_crust_rad(plate, at) + coast_rad);
+        let (mine, theirs) = (is_land(plate, my_at, my_coast_rad), is_land(other, their_at, their_coast_rad));
         let drift = params.drift_mm_yr;
         let (meets, parts) = (ramp(0.06, 0.7, -opening / drift), ramp(0.06, 0.7, opening / drift));
         let slides = ramp(0.2, 1.2, shear / drift) * (1.0 - meets) * (1.0 - parts);

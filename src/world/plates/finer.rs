@@ -33,6 +33,11 @@ impl Rock {
         }
     }
 
+    /// Height of the ground halfway through its rise, if no river had carved it.
+    pub(crate) fn risen_m(&self) -> Vec<f64> {
+        self.base_m.iter().zip(&self.uplift_m).map(|(base_m, uplift_m)| base_m + 0.5 * uplift_m).collect()
+    }
+
     /// The crust on the grid of twice the side. Detail is added that the coarser grid could not hold: places are moved
     /// sideways, which makes steep coasts as ragged as flat ones, and heights up and down.
     pub(crate) fn finer(&self, layout: &Layout) -> Self {

@@ -2,8 +2,9 @@
 //!
 //! Nothing here depends on a grid: the plate at a direction is a function of the direction and the seed.
 
+use super::by_hand::Moved;
 use super::edges::Side;
-use crate::planet::Plates as Params;
+use crate::planet::{PlateKind, Plates as Params};
 use crate::sphere::spread;
 use crate::world::EARTH_KM;
 use crate::world::noise::{fbm, fbm_row, fbm3, fbm3_row, hash, unit};
@@ -22,8 +23,10 @@ pub(crate) struct Plate {
     pub(crate) pole: DVec3,
     /// Whether it carries a continent.
     pub(crate) is_continental: bool,
-    /// Old cores of its continents.
+    /// Old cores of its continents, at home.
     pub(crate) cratons: Vec<Craton>,
+    /// Set by hand.
+    pub(super) moved: Option<Moved>,
 }
 
 /// The old core of a continent.
@@ -105,10 +108,11 @@ impl Layout {
                 pole: pole * (pace * params.drift_mm_yr / EARTH_KM),
                 is_continental: false,
                 cratons: Vec::new(),
+                moved: None,
             });
         }
         let mut layout = Self {
-            sides: (0..plates.len()).map(|plate| Side::all(&plates, plate)).collect(),
+            sides: Vec::new(),
             plates,
             volcanoes: Vec::new(),
             seed,
@@ -117,12 +121,14 @@ impl Layout {
             crust_rad: 0.0,
         };
         layout.add_continents(params, &mut dice);
+        layout.change(&params.by_hand, spacing);
+        layout.sides = (0..layout.plates.len()).map(|plate| Side::all(&layout.plates, plate)).collect();
         layout.add_volcanoes(params, &mut dice);
         layout
     }
 
     /// The direction by which plates and continents are found: bent, so that boundaries are ragged.
-    fn bent(&self, dir: DVec3) -> DVec3 {
+    pub(super) fn bent(&self, dir: DVec3) -> DVec3 {
         self.bent_by(dir, fbm3(dir, BEND.0, BEND.1, BEND.2, self.seed))
     }
 
@@ -154,30 +160,30 @@ impl Layout {
         best.1
     }
 
-    /// How far inside the continents of a plate a bent direction lies, in radians; below zero outside. `octaves` says
-    /// how fine the coast is.
-    pub(super) fn crust_rad(&self, plate: usize, bent: DVec3, octaves: u32) -> f64 {
-        self.even_crust_rad(plate, bent) + self.coast_rad(bent, octaves)
+    /// How far inside the continents of a plate a bent direction lies, in radians; below zero outside. `home`: the
+    /// direction in the home of the plate; `octaves` says how fine the coast is.
+    fn crust_rad(&self, plate: usize, home: DVec3, octaves: u32) -> f64 {
+        self.even_crust_rad(plate, home) + self.coast_rad(home, octaves)
     }
 
     /// How far noise moves the coast outwards.
-    pub(super) fn coast_rad(&self, bent: DVec3, octaves: u32) -> f64 {
-        self.coast_rad * fbm(bent, COAST.0, octaves, COAST.1, hash(self.seed, 11))
+    pub(super) fn coast_rad(&self, home: DVec3, octaves: u32) -> f64 {
+        self.coast_rad * fbm(home, COAST.0, octaves, COAST.1, hash(self.seed, 11))
     }
 
     /// The same of a row of directions.
-    pub(super) fn coast_rad_row(&self, bent: &[DVec3], octaves: u32) -> Vec<f64> {
-        let mut coast = fbm_row(bent, COAST.0, octaves, COAST.1, hash(self.seed, 11));
+    pub(super) fn coast_rad_row(&self, homes: &[DVec3], octaves: u32) -> Vec<f64> {
+        let mut coast = fbm_row(homes, COAST.0, octaves, COAST.1, hash(self.seed, 11));
         coast.iter_mut().for_each(|coast| *coast *= self.coast_rad);
         coast
     }
 
     /// The crust without the noise of the coast.
-    pub(super) fn even_crust_rad(&self, plate: usize, bent: DVec3) -> f64 {
+    pub(super) fn even_crust_rad(&self, plate: usize, home: DVec3) -> f64 {
         const SOFT: f64 = 0.16;
         let mut most = -0.6;
         for craton in &self.plates[plate].cratons {
-            let (reach, away2) = (craton.radius_rad - most + SOFT, bent.distance_squared(craton.center));
+            let (reach, away2) = (craton.radius_rad - most + SOFT, home.distance_squared(craton.center));
             // Too far to raise the maximum.
             if reach <= 0.0 || away2 >= reach * reach {
                 continue;
@@ -219,11 +225,20 @@ impl Layout {
             self.plates[id].is_continental = true;
             self.plates[id].cratons = self.cratons(id, &mine, params.fragments, dice);
         }
-        // The level at which continents have their share of the globe.
+        // The level at which continents have their share of the globe. Edits of single plates do not change it.
         let mut inside: Vec<f64> = survey.iter().map(|(plate, bent)| self.crust_rad(*plate, *bent, 4)).collect();
         inside.sort_by(|a, b| b.total_cmp(a));
         let wanted = (params.continents * SURVEY as f64) as usize;
         self.crust_rad = inside.get(wanted.min(SURVEY - 1)).map_or(0.0, |level| -level).clamp(-0.6, 0.45);
+        for edit in &params.by_hand {
+            let id = edit.plate as usize;
+            let is_bare = self.plates.get(id).is_some_and(|plate| plate.cratons.is_empty());
+            if is_bare && edit.kind == PlateKind::Continental {
+                let mine: Vec<DVec3> = survey.iter().filter(|(p, _)| *p == id).map(|(_, dir)| *dir).collect();
+                self.plates[id].cratons =
+                    self.cratons(id, &mine, params.fragments, &mut Dice(hash(self.seed, 0x4A4D), edit.plate << 16));
+            }
+        }
     }
 
     /// Places cores of continents in a plate: towards the edge to which it moves, so that one coast is young and
@@ -294,7 +309,7 @@ fn far_from(plates: &[Plate], dice: &mut Dice) -> DVec3 {
 }
 
 /// A direction rotated about a pole whose length is an angular speed (Rodrigues' formula).
-fn rotated(dir: DVec3, pole: DVec3, time: f64) -> DVec3 {
+pub(super) fn rotated(dir: DVec3, pole: DVec3, time: f64) -> DVec3 {
     let speed = pole.length();
     if speed <= 0.0 {
         return dir;

@@ -5,8 +5,10 @@
 //! once. Methods and figures: plates as a power diagram with bent boundaries and Euler poles; ocean floors that sink
 //! with the square root of their age (Parsons and Sclater 1977); belts, arcs and trenches after Cortial et al. 2019.
 //!
-//! - `layout`: plates, their motion, cores of continents, hot spots; `edges`: what boundaries do to a point
+//! - `layout`: plates, their motion, cores of continents, hot spots; `by_hand`: plates that are changed by hand
+//! - `edges`: what boundaries do to a point; `finer`: the crust on finer grids
 
+mod by_hand;
 mod edges;
 mod finer;
 mod layout;
@@ -135,11 +137,17 @@ impl Layout {
     pub(crate) fn crusts(&self, params: &Params, dirs: &[DVec3]) -> Vec<Crust> {
         let seed = |k: u32| hash(self.seed, k);
         let bent = self.bent_row(dirs);
-        let coast_rad = self.coast_rad_row(&bent, 6);
+        let homes = if self.any_moved() {
+            let home = |(dir, bent): (&DVec3, &DVec3)| self.home(self.plate_at(*bent), *dir, *bent);
+            dirs.iter().zip(&bent).map(home).collect()
+        } else {
+            bent.clone()
+        };
+        let coast_rad = self.coast_rad_row(&homes, 6);
         let broad = fbm_row(dirs, 3.1, 3, 0.55, seed(31));
         let hills = fbm_row(dirs, 11.0, 4, 0.55, seed(32));
         let rises = fbm_row(dirs, 2.2, 2, 0.5, seed(33));
-        let worn = fbm_row(&bent, 3.4, 1, 1.0, seed(34));
+        let worn = fbm_row(&homes, 3.4, 1, 1.0, seed(34));
         let [long, short] = [(6.3, 21), (15.0, 22)].map(|(frequency, k)| fbm_row(&bent, frequency, 1, 1.0, seed(k)));
         let at = |i: usize| {
             let noise = Noise {
@@ -150,16 +158,17 @@ impl Layout {
                 worn: worn[i],
                 along: long[i] + 0.5 * short[i],
             };
-            self.crust(params, dirs[i], bent[i], &noise)
+            self.crust(params, [dirs[i], bent[i], homes[i]], &noise)
         };
         (0..dirs.len()).map(at).collect()
     }
 
-    fn crust(&self, params: &Params, dir: DVec3, bent: DVec3, noise: &Noise) -> Crust {
+    /// The crust at a direction, which is given as it is, bent, and bent in the home of its plate.
+    fn crust(&self, params: &Params, [dir, bent, home]: [DVec3; 3], noise: &Noise) -> Crust {
         let &Noise { coast_rad, broad, hills, .. } = noise;
         let plate = self.plate_at(bent);
-        let edges = self.edges(params, plate, bent, noise.along);
-        let inside_km = (self.even_crust_rad(plate, bent) + coast_rad) * EARTH_KM;
+        let edges = self.edges(params, plate, [dir, bent, home], noise.along);
+        let inside_km = (self.even_crust_rad(plate, home) + coast_rad) * EARTH_KM;
         // A boundary that cuts a continent off makes its coast.
         // The crust reaches under the sea as far as the shelf.
         let coast_km = smooth_min(inside_km - params.shelf_km - 60.0, edges.coast_km, 120.0);
@@ -175,7 +184,7 @@ impl Layout {
 
         // Inside continents: gentle rises and basins, old belts between old cores, what boundaries push up.
         let on_land = ramp(-70.0, 60.0, coast_km);
-        let (suture_km, core) = self.cores(plate, bent);
+        let (suture_km, core) = self.cores(plate, home);
         let inland = 0.3 * ramp(0.0, 500.0, coast_km) + 0.7 * ramp(150.0, 1700.0, coast_km);
         let rises = (1.0 + 1.5 * noise.rises).clamp(0.12, 2.4);
         let worn = (1.0 - ramp(0.0, 170.0, suture_km)) * ramp(-0.15, 0.45, noise.worn);
@@ -208,10 +217,10 @@ impl Layout {
 
     /// The distance in km to the line where two old cores of a plate's continent grew together, and how near the
     /// middle of a core the direction lies, 0 to 1.
-    fn cores(&self, plate: usize, bent: DVec3) -> (f64, f64) {
+    fn cores(&self, plate: usize, home: DVec3) -> (f64, f64) {
         let (mut first, mut second) = (f64::MAX, f64::MAX);
         for craton in &self.plates[plate].cratons {
-            let away = bent.distance(craton.center) - 0.5 * craton.radius_rad;
+            let away = home.distance(craton.center) - 0.5 * craton.radius_rad;
             if away < first {
                 second = std::mem::replace(&mut first, away);
             } else if away < second {

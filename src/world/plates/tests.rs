@@ -1,4 +1,7 @@
 use super::*;
+use crate::planet::{PlateByHand, PlateKind};
+use crate::sphere::geo::east_north;
+use crate::sphere::spread;
 use crate::world::grid::areas_sr;
 
 fn solved(seed: u32, side: usize) -> Plates {
@@ -106,4 +109,103 @@ fn extreme_parameters_give_finite_heights() {
         let plates = Plates::solve(&params, 9, 12, &|| true).unwrap();
         assert!(plates.rock.base_m.iter().chain(&plates.rock.uplift_m).all(|m| m.is_finite() && m.abs() < 60_000.0));
     }
+}
+
+/// The entry that leaves the plate of most land as it is, and that plate.
+fn entry_of_land(layout: &Layout) -> PlateByHand {
+    let land = |plate: &usize| spread(2000).filter(|dir| layout.plate_under(*dir) == *plate).count();
+    let continental = (0..layout.plates.len()).filter(|&plate| layout.plates[plate].is_continental);
+    layout.entry(continental.max_by_key(land).unwrap()).unwrap()
+}
+
+fn with(entry: &PlateByHand) -> (Params, Layout) {
+    let params = Params { by_hand: vec![entry.clone()], ..Params::default() };
+    let layout = Layout::new(&params, 3);
+    (params, layout)
+}
+
+fn heights_m(layout: &Layout, params: &Params, dirs: &[DVec3]) -> Vec<f64> {
+    layout.crusts(params, dirs).iter().map(|crust| crust.base_m + crust.uplift_m).collect()
+}
+
+#[test]
+fn an_entry_as_it_was_laid_out_changes_next_to_nothing_and_one_of_no_plate_nothing() {
+    let (params, layout) = (Params::default(), Layout::new(&Params::default(), 3));
+    let dirs: Vec<DVec3> = spread(4000).collect();
+    let before = heights_m(&layout, &params, &dirs);
+    let (edited, same) = with(&entry_of_land(&layout));
+    let after = heights_m(&same, &edited, &dirs);
+    let far = before.iter().zip(&after).filter(|(a, b)| (*a - *b).abs() > 60.0).count();
+    assert!(far < dirs.len() / 50, "{far}");
+    let (_, none) = with(&PlateByHand { plate: 59, kind: PlateKind::Oceanic, ..PlateByHand::default() });
+    assert_eq!(none, layout);
+}
+
+#[test]
+fn a_plate_that_is_dragged_takes_its_continents_along_and_leaves_others_where_they_are() {
+    let (params, layout) = (Params::default(), Layout::new(&Params::default(), 3));
+    let entry = entry_of_land(&layout);
+    let id = entry.plate as usize;
+    let center = layout.plates[id].center;
+    let (east, north) = east_north(center);
+    let from = (center + east * 0.2).normalize();
+    let to = (center + east * 0.35 + north * 0.3).normalize();
+    // In two steps, the second from where the first ended: as a pointer drags it.
+    let half = from.lerp(to, 0.5).normalize();
+    let first = layout.dragged(&entry, from, half).unwrap();
+    let (_, halfway) = with(&first);
+    let moved = halfway.dragged(&first, half, to).unwrap();
+    let (edited, after) = with(&moved);
+    // As laid out the plate is at home.
+    let carry = |dir: DVec3| after.from_home(id, dir);
+    assert!(carry(from).distance(to) < 3e-4, "{} {}", carry(from), to);
+    // Well inside the plate, before and after.
+    let inside = |layout: &Layout, dir: DVec3| {
+        let (east, north) = east_north(dir);
+        [east, -east, north, -north].iter().all(|way| layout.plate_under((dir + *way * 0.2).normalize()) == id)
+    };
+    let (mut there, mut same) = (0, 0);
+    for dir in spread(6000).filter(|dir| inside(&layout, *dir) && inside(&after, carry(*dir))) {
+        let land = heights_m(&layout, &params, &[dir])[0] > 0.0;
+        there += 1;
+        same += usize::from(land == (heights_m(&after, &edited, &[carry(dir)])[0] > 0.0));
+    }
+    assert!(there > 100 && same * 100 > there * 88, "{same} of {there}");
+    // Far away only the age of ocean floors changes.
+    let far: Vec<DVec3> = spread(6000).filter(|dir| dir.dot(center) < -0.9 && dir.dot(to) < -0.9).collect();
+    let land = |layout, params| -> Vec<bool> {
+        heights_m(layout, params, &far).iter().map(|height_m| *height_m > 0.0).collect()
+    };
+    let (before, after) = (land(&layout, &params), land(&after, &edited));
+    let differ = before.iter().zip(&after).filter(|(before, after)| before != after).count();
+    assert!(far.len() > 100 && differ * 50 < far.len(), "{differ} of {}", far.len());
+}
+
+#[test]
+fn a_plate_becomes_an_ocean_or_a_continent_and_moves_as_it_is_told() {
+    let layout = Layout::new(&Params::default(), 3);
+    let entry = entry_of_land(&layout);
+    let land = |layout: &Layout, params: &Params, plate: u32| {
+        let dirs: Vec<DVec3> = spread(4000).filter(|dir| layout.plate_under(*dir) == plate as usize).collect();
+        let heights_m = heights_m(layout, params, &dirs);
+        heights_m.iter().filter(|height_m| **height_m > 0.0).count() as f64 / heights_m.len() as f64
+    };
+    let (params, drowned) = with(&PlateByHand { kind: PlateKind::Oceanic, ..entry.clone() });
+    assert!(land(&layout, &Params::default(), entry.plate) > 0.25 && land(&drowned, &params, entry.plate) < 0.1);
+    let bare = (0..layout.plates.len()).filter(|&plate| !layout.plates[plate].is_continental);
+    let size = |plate: &usize| spread(2000).filter(|dir| layout.plate_under(*dir) == *plate).count();
+    let bare = layout.entry(bare.max_by_key(size).unwrap()).unwrap();
+    let (params, risen) = with(&PlateByHand { kind: PlateKind::Continental, ..bare.clone() });
+    let (before, after) = (land(&layout, &Params::default(), bare.plate), land(&risen, &params, bare.plate));
+    assert!(after > before + 0.15, "{before} {after}");
+    // To the east at 80 mm a year, which is what an entry says again.
+    let (_, east) = with(&PlateByHand { heading_deg: 90.0, drift_mm_yr: 80.0, ..entry.clone() });
+    let plate = &east.plates[entry.plate as usize];
+    let motion = plate.pole.cross(plate.center) * EARTH_KM;
+    let (to_east, to_north) = east_north(plate.center);
+    assert!((motion.dot(to_east) - 80.0).abs() < 1e-9 && motion.dot(to_north).abs() < 1e-9);
+    assert_eq!(east.entry(entry.plate as usize), Some(entry.clone()), "as it was laid out");
+    let (_, grown) = with(&PlateByHand { growth: 0.6, ..entry.clone() });
+    let size = |layout: &Layout| spread(4000).filter(|dir| layout.plate_under(*dir) == entry.plate as usize).count();
+    assert!(size(&grown) as f64 > 1.15 * size(&layout) as f64);
 }

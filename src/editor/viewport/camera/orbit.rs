@@ -287,7 +287,7 @@ fn auto_pitch(altitude_m: f64, planet_radius_m: f64) -> f64 {
 
 /// Direction of the first intersection of a ray with a sphere about the origin. A ray that misses gives the direction
 /// of its point nearest to the origin.
-fn sphere_point(eye: DVec3, ray: DVec3, radius_m: f64) -> DVec3 {
+pub(in crate::editor::viewport) fn sphere_point(eye: DVec3, ray: DVec3, radius_m: f64) -> DVec3 {
     let along = -eye.dot(ray);
     let nearest = eye + ray * along.max(0.0);
     let half_chord_sq = radius_m * radius_m - (eye + ray * along).length_squared();

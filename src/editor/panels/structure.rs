@@ -1,0 +1,123 @@
+//! The structure tab: plates, weather, rivers, and the plates that are changed by hand.
+
+use super::Draft;
+use super::parts::{TurnedOff, switch};
+use crate::editor::command::Command;
+use crate::editor::viewport::TabLink;
+use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::params_grid::{Grid, params_grid};
+use crate::planet::param::{ParamPath, Params, Segment};
+use crate::planet::{PlateByHand, Structure};
+use crate::render::DebugView;
+use eframe::egui;
+
+/// The plate that is chosen.
+#[derive(Default)]
+pub struct StructureState {
+    /// As it was laid out.
+    picked: Option<PlateByHand>,
+}
+
+impl StructureState {
+    /// Which clicks and drags the tab takes.
+    pub fn link(&self) -> TabLink {
+        TabLink { plates: true, ..TabLink::default() }
+    }
+
+    /// A click on the planet: chooses the plate there.
+    pub fn clicked(&mut self, under: &UnderPointer) {
+        self.picked.clone_from(&under.plate);
+    }
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, state: &mut StructureState, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    ui.weak("Plates push up land, winds rain on it, rivers carve it. Layers lie over it, or under it.");
+    ui.add_space(4.0);
+    let label = switch(ui, "structure", &mut draft.planet.structure, &mut turned_off.structure);
+    draft.label = label.or(draft.label.take());
+    if draft.planet.structure.is_none() {
+        return;
+    }
+    for (title, field) in [("Plates", "plates"), ("Weather", "weather"), ("Rivers", "rivers")] {
+        egui::CollapsingHeader::new(title).default_open(field == "plates").show(ui, |ui| {
+            part(ui, field, draft);
+            if field == "plates" {
+                ui.add_space(4.0);
+                by_hand(ui, state, draft);
+            }
+        });
+    }
+    ui.add_space(4.0);
+    let base = ParamPath::from(vec![Segment::Field("structure")]);
+    let skip: Vec<&str> = Structure::PARTS.iter().map(|part| part.name).collect();
+    let grid = Grid { base, owner: "structure", skip: &skip, problems: draft.problems, biomes: &[] };
+    if let Some(structure) = &mut draft.planet.structure {
+        params_grid(ui, &grid, structure, &mut Structure::default());
+    }
+}
+
+fn part(ui: &mut egui::Ui, field: &'static str, draft: &mut Draft<'_>) {
+    let (Some(structure), mut defaults) = (&mut draft.planet.structure, Structure::default()) else { return };
+    let (part, default): (&mut dyn Params, &mut dyn Params) = match field {
+        "plates" => (&mut structure.plates, &mut defaults.plates),
+        "weather" => (&mut structure.weather, &mut defaults.weather),
+        _ => (&mut structure.rivers, &mut defaults.rivers),
+    };
+    let base = ParamPath::from(vec![Segment::Field("structure"), Segment::Field(field)]);
+    let grid = Grid { base, owner: field, skip: &["by_hand"], problems: draft.problems, biomes: &[] };
+    params_grid(ui, &grid, part, default);
+}
+
+/// The plates that are changed by hand, and the one that is chosen.
+fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>) {
+    ui.horizontal(|ui| {
+        ui.strong("By hand");
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.button("Show plates").on_hover_text("Show the plates and their motion on the planet").clicked() {
+                draft.commands.send(Command::Show(DebugView::Plates));
+            }
+        });
+    });
+    ui.weak("Click a plate on the planet to choose it. Ctrl and drag moves it, with its continents.");
+    let Some(structure) = &mut draft.planet.structure else { return };
+    let plates = &mut structure.plates;
+    let picked = state.picked.as_ref().map(|picked| picked.plate);
+    let mut removed = None;
+    for (index, entry) in plates.by_hand.iter().enumerate() {
+        ui.horizontal(|ui| {
+            let name = format!("Plate {}", entry.plate);
+            if ui.selectable_label(picked == Some(entry.plate), &name).clicked() {
+                state.picked = Some(entry.clone());
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if icon_button(ui, Icon::Remove, &format!("Lay out {name}"), "Back to the layout").clicked() {
+                    removed = Some(index);
+                }
+            });
+        });
+    }
+    if let Some(index) = removed {
+        let entry = plates.by_hand.remove(index);
+        draft.label = Some(format!("Lay out plate {}", entry.plate));
+        return;
+    }
+    let Some(laid_out) = &state.picked else { return };
+    let found = plates.by_hand.iter().position(|entry| entry.plate == laid_out.plate);
+    let index = found.unwrap_or(plates.by_hand.len());
+    let before = found.map_or_else(|| laid_out.clone(), |index| plates.by_hand[index].clone());
+    let mut entry = before.clone();
+    let owner = format!("plate {}", entry.plate);
+    if found.is_none() {
+        ui.strong(format!("Plate {}", entry.plate));
+    }
+    let path = ["structure", "plates", "by_hand"].map(Segment::Field).into_iter().chain([Segment::Index(index)]);
+    let base = ParamPath::from(path.collect::<Vec<_>>());
+    let grid = Grid { base, owner: &owner, skip: &["plate"], problems: draft.problems, biomes: &[] };
+    params_grid(ui, &grid, &mut entry, &mut laid_out.clone());
+    if entry != before {
+        draft.label = Some(format!("Change {owner}"));
+        plates.set_by_hand(entry);
+    }
+}
