@@ -61,15 +61,25 @@ fn detail_slopes_at(footprint: DetailFootprint) -> vec4f {
 // `parent`: share to which the parent has taken over.
 fn water_cover(footprint: DetailFootprint, parent: f32) -> vec2f {
     if body.has_rivers == 0u || footprint.layer < 0 { return vec2f(0.0); }
-    let apron = f32(DETAIL_APRON);
+    let side = DETAIL_SIDE + 2.0 * f32(DETAIL_APRON);
     var sum = vec4f(0.0);
     for (var number = 0; number < footprint.parts; number++) {
-        let at = (part_of(footprint, number).at + apron + 0.5) / (DETAIL_SIDE + 2.0 * apron);
+        let at = (part_of(footprint, number).at + f32(DETAIL_APRON) + 0.5) / side;
         sum += textureSampleLevel(detail_water, clamped, at, footprint.layer, 0.0) / f32(footprint.parts);
+    }
+    let texel_px = f32(footprint.parts) / max(length(footprint.along), 1e-6);
+    if texel_px > 1.0 && sum.x + sum.z > 0.0 {
+        // Magnified bilinear samples would show a row of beads along a river: four of them make a smoother kernel.
+        let away = 0.5 * min(texel_px - 1.0, 1.0) / side;
+        let at = (footprint.at + f32(DETAIL_APRON) + 0.5) / side;
+        sum = vec4f(0.0);
+        for (var corner = 0; corner < 4; corner++) {
+            let aside = away * (vec2f(vec2i(corner & 1, corner >> 1)) * 2.0 - 1.0);
+            sum += 0.25 * textureSampleLevel(detail_water, clamped, at + aside, footprint.layer, 0.0);
+        }
     }
     let share = mix(sum.x, sum.z, parent);
     // Where texels are wider than pixels, a shore is as sharp as pixels.
-    let texel_px = f32(footprint.parts) / max(length(footprint.along), 1e-6);
     let sharp = saturate1(0.5 + (share - 0.5) * max(texel_px, 1.0));
     // A river much narrower than a pixel is drawn stronger than its share, as maps do: else none is seen from orbit.
     let line = pow(share, 0.65);

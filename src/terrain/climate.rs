@@ -5,6 +5,7 @@ use super::landform::Landform;
 use super::points::Points;
 use crate::planet::{CLIMATE_BELTS, Key, Planet, TableRows};
 use crate::simd::Simd;
+use crate::world::carved::Carved;
 use crate::world::coast::Coast;
 use crate::world::weather::{WARMEST_C, Weather};
 use crate::world::{Inputs, Slot, World};
@@ -73,9 +74,11 @@ impl CompiledClimate {
     /// What world maps say at each point; empty if the climate reads none, or if none serves yet.
     pub(crate) fn climates_of_maps<'a>(&'a self, dirs_planet: &'a [DVec3]) -> impl Iterator<Item = MapClimate> + 'a {
         let (coast, weather) = (self.world.coast.map(), self.world.weather.map());
+        let carved = self.world.carved.map();
         let at = move |&dir: &DVec3| {
             let inland_rad = coast.map_or(MapClimate::NONE.inland_rad, |coast| coast.inland_rad(dir));
             let [warmer_c, humidity] = weather.map_or([0.0; 2], |weather| weather.at(dir));
+            let humidity = carved.map_or(humidity, |carved| carved.floodplains.humidity(dir, humidity));
             MapClimate { inland_rad, warmer_c, humidity }
         };
         let dirs = if coast.is_some() || weather.is_some() { dirs_planet } else { &[] };
@@ -84,7 +87,7 @@ impl CompiledClimate {
 
     /// Keys of the maps that [`CompiledClimate::climates_of_maps`] reads.
     pub(crate) fn map_keys(&self) -> MapKeys {
-        [self.world.coast.key(), self.world.weather.key()]
+        [self.world.coast.key(), self.world.weather.key(), self.world.carved.key()]
     }
 }
 
@@ -106,12 +109,12 @@ impl ClimateInputs<'_> {
     }
 }
 
-/// Keys of the maps of coast and weather.
-pub(crate) type MapKeys = [Option<Key>; 2];
+/// Keys of the maps of coast, weather and carved ground.
+pub(crate) type MapKeys = [Option<Key>; 3];
 
 /// The [`CompiledClimate::map_keys`] of a planet whose own maps serve.
 pub(crate) fn final_map_keys(inputs: &Inputs) -> MapKeys {
-    [Slot::<Coast>::final_key(inputs), Slot::<Weather>::final_key(inputs)]
+    [Slot::<Coast>::final_key(inputs), Slot::<Weather>::final_key(inputs), Slot::<Carved>::final_key(inputs)]
 }
 
 /// What world maps say about the climate of a point.
@@ -121,7 +124,8 @@ pub(crate) struct MapClimate {
     pub(crate) inland_rad: f64,
     /// How much warmer currents of the sea make it, in °C.
     pub(crate) warmer_c: f64,
-    /// Share of the air's demand for water that rain meets, 0 to 1; see [`crate::world::weather::Weather::at`].
+    /// Share of the air's demand for water that rain meets, 0 to 1, or more on floodplains; see
+    /// [`crate::world::weather::Weather::at`] and `world/floodplain.rs`.
     pub(crate) humidity: f64,
 }
 

@@ -238,7 +238,7 @@ impl Terrain {
 
     /// Content keys of the tiles that the terrain makes, with the world maps that serve.
     pub(crate) fn tile_keys(&self) -> TileKeys {
-        self.content.keys(self.world().carved.key(), self.climate.map_keys())
+        self.content.keys(self.climate.map_keys())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.

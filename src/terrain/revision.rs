@@ -118,11 +118,12 @@ pub(super) struct TileContent {
 }
 
 impl TileContent {
-    /// The keys of tiles that read the carved ground with this key, and these maps of the climate.
-    pub(super) fn keys(&self, carved: Option<Key>, maps: MapKeys) -> TileKeys {
+    /// The keys of tiles that read maps with these keys.
+    pub(super) fn keys(&self, maps: MapKeys) -> TileKeys {
+        let [_, _, carved] = maps;
         // Biome relief follows the climate.
         let relief = self.relief.map(|relief| (relief, maps));
-        TileKeys { heights: Key::of(&(self.stack, carved, relief)), climate: Key::of(&(self.climate, carved, maps)) }
+        TileKeys { heights: Key::of(&(self.stack, carved, relief)), climate: Key::of(&(self.climate, maps)) }
     }
 }
 
@@ -165,7 +166,7 @@ impl Compiled {
             relief: relief.as_ref().map(Key::of),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
-        let tiles = content.keys(carved, final_map_keys(&map_inputs));
+        let tiles = content.keys(final_map_keys(&map_inputs));
         let [materials, cloud_map, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
@@ -222,15 +223,15 @@ mod tests {
         let planet = Planet { structure, ..shipped::layered() };
         let content = Compiled::new(&planet).content;
         let map = |n: u32| Some(Key::of(&n));
-        let own = content.keys(map(1), [map(2), map(3)]);
+        let own = content.keys([map(2), map(3), map(1)]);
         assert!(content.relief.is_some());
         for (carved, coast, weather) in [(9, 2, 3), (1, 9, 3), (1, 2, 9)] {
-            let other = content.keys(map(carved), [map(coast), map(weather)]);
+            let other = content.keys([map(coast), map(weather), map(carved)]);
             assert!(other.climate != own.climate && other.heights != own.heights, "{carved} {coast} {weather}");
         }
         let smooth = TileContent { relief: None, ..content.clone() };
-        let own = smooth.keys(map(1), [map(2), map(3)]);
-        let other = smooth.keys(map(1), [map(2), map(9)]);
+        let own = smooth.keys([map(2), map(3), map(1)]);
+        let other = smooth.keys([map(2), map(9), map(1)]);
         assert!(other.climate != own.climate && other.heights == own.heights, "heights read no weather");
     }
 

@@ -8,7 +8,7 @@
 use crate::world::rivers::{Flow, RiverPoint};
 
 /// Widths of a river, in spacings, from which a grid begins to show its banks, and from which it shows them fully.
-const WIDE: [f64; 2] = [1.0, 2.0];
+const WIDE: [f64; 2] = [1.5, 3.0];
 /// Mean depth of a river by the depth in its middle.
 const MEAN_DEPTH: f64 = 0.6;
 /// Least change of the ground from one point to the next that counts at a shore, metres.

@@ -6,6 +6,7 @@
 use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use super::drainage::{self, Basins, Drainage};
+use super::floodplain::Floodplains;
 use super::grid::refined;
 use super::map::{Inputs, Job, WorldMap};
 use super::plates::{Plates, Rock};
@@ -76,6 +77,7 @@ impl WorldMap for Weather {
 pub(crate) struct Carved {
     pub(crate) drainage: Arc<Drainage>,
     pub(crate) rivers: Arc<Rivers>,
+    pub(crate) floodplains: Floodplains,
     /// What the next level is solved from; none if the map was read from disk.
     rock: Option<Rock>,
     basins: OnceLock<Basins>,
@@ -84,7 +86,8 @@ pub(crate) struct Carved {
 impl Carved {
     pub(super) fn new(drainage: Arc<Drainage>, sea_level_m: Option<f64>, radius_km: f64, rock: Option<Rock>) -> Self {
         let rivers = Arc::new(Rivers::new(drainage.clone(), sea_level_m, radius_km));
-        Self { drainage, rivers, rock, basins: OnceLock::new() }
+        let floodplains = Floodplains::new(&drainage);
+        Self { drainage, rivers, floodplains, rock, basins: OnceLock::new() }
     }
 
     /// The basins, found when they are first asked for.

@@ -11,6 +11,7 @@
 //! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
 //!   rivers carve (`drainage` solves rivers; `rivers` evaluates them at a point; `grid`, `noise` serve all)
 //! - `draft`: quick answers on coarse grids while a slider is dragged
+//! - `floodplain`: land that rivers and lakes keep wet
 //! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
 //! - `store`: maps on disk; `bytes`: their numbers
 //!
@@ -23,6 +24,7 @@ pub(crate) mod cells;
 pub(crate) mod coast;
 mod draft;
 pub(crate) mod drainage;
+mod floodplain;
 pub(crate) mod grid;
 mod map;
 pub(crate) mod noise;
