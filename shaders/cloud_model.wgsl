@@ -9,8 +9,8 @@ fn drifted(p: vec3f) -> vec3f {
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
-// Cover (0 clear, 1 overcast) in a direction from the centre. Cloudiness is distributed evenly over 0..1, so a threshold
-// at 1 - coverage leaves that share of the sky clouded.
+// Cover (0 clear, 1 overcast) in a direction from the centre. Cloudiness is distributed evenly over 0..1, so that a
+// threshold at 1 - coverage leaves that share of the sky clouded.
 fn cover_over(dir: vec3f) -> f32 {
     var weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
     if body.cloud_wetness > 0.0 {

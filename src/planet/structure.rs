@@ -16,7 +16,7 @@ params! {
         /// Number of grids on which rivers are solved, coarse to fine. The first has 64 cells along the side of each of
         /// six squares; each further one has twice as many. All grids have the same great rivers.
         grids: u32 = 4, "Grids", Unit::None, count(1, MAX_GRIDS), Stage::Field;
-        /// Share of the solved weather in the climate of the biome table and in the cover of the clouds; the rest is the
+        /// Share of the solved weather in the climate of the biome table and in the cover of clouds; the rest is the
         /// climate's own belts and coasts.
         weather_share: f64 = 1.0, "Weather share", Unit::None, linear(0.0, 1.0), Stage::Climate | Stage::CloudMap;
     } with {
