@@ -40,8 +40,8 @@ impl PlateByHand {
         LatLon::from_degrees(self.latitude_deg, self.longitude_deg).direction()
     }
 
-    /// From a home with this middle.
-    fn from_home(&self, home_center: DVec3) -> DMat3 {
+    /// The rotation from a home with this middle.
+    fn rotation(&self, home_center: DVec3) -> DMat3 {
         let center = self.center();
         turned(center, self.turn_deg.to_radians()) * shortest(home_center, center)
     }
@@ -60,7 +60,7 @@ impl Layout {
     pub(super) fn change(&mut self, edits: &[PlateByHand], spacing_rad: f64) {
         for edit in edits {
             let Some(plate) = self.plates.get_mut(edit.plate as usize) else { continue };
-            let (center, from_home) = (edit.center(), edit.from_home(plate.center));
+            let (center, from_home) = (edit.center(), edit.rotation(plate.center));
             let spin = plate.pole.dot(plate.center);
             plate.moved = Some(Moved { to_home: from_home.transpose(), home_pole: plate.pole });
             plate.center = center;
@@ -86,7 +86,7 @@ impl Layout {
 
     /// Where a direction at the home of a plate has gone.
     #[cfg(test)]
-    pub(super) fn from_home(&self, plate: usize, home: DVec3) -> DVec3 {
+    pub(super) fn moved_dir(&self, plate: usize, home: DVec3) -> DVec3 {
         self.plates[plate].moved.map_or(home, |moved| moved.to_home.transpose() * home)
     }
 
@@ -120,7 +120,7 @@ impl Layout {
     /// under the second.
     pub(crate) fn dragged(&self, entry: &PlateByHand, from: DVec3, to: DVec3) -> Option<PlateByHand> {
         let (home, _) = self.plates.get(entry.plate as usize)?.at_home();
-        let end = shortest(from, to) * entry.from_home(home);
+        let end = shortest(from, to) * entry.rotation(home);
         let center = (end * home).normalize();
         // What is left after the shortest way is the turn about the middle.
         let left = end * shortest(home, center).transpose();

@@ -157,7 +157,7 @@ fn a_plate_that_is_dragged_takes_its_continents_along_and_leaves_others_where_th
     let moved = halfway.dragged(&first, half, to).unwrap();
     let (edited, after) = with(&moved);
     // As laid out the plate is at home.
-    let carry = |dir: DVec3| after.from_home(id, dir);
+    let carry = |dir: DVec3| after.moved_dir(id, dir);
     assert!(carry(from).distance(to) < 3e-4, "{} {}", carry(from), to);
     // Well inside the plate, before and after.
     let inside = |layout: &Layout, dir: DVec3| {
