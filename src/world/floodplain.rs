@@ -33,10 +33,11 @@ impl Floodplains {
             let lake = (drainage.lake[cell] as usize).checked_sub(1).and_then(|lake| drainage.lakes.get(lake));
             let wet = match lake {
                 Some(lake) => f64::from(SHORE[usize::from(lake.outlet.is_none())]),
-                None => {
-                    let discharge_m3_s = f64::from(drainage.discharge_m3_s[cell]).max(1e-3);
-                    ramp(from_to[0], from_to[1], libm::log10(discharge_m3_s))
-                }
+                None => match f64::from(drainage.discharge_m3_s[cell]) {
+                    // Most cells.
+                    small if small <= DISCHARGE_M3_S[0] => 0.0,
+                    discharge_m3_s => ramp(from_to[0], from_to[1], libm::log10(discharge_m3_s)),
+                },
             };
             (MOST * (wet * share).min(1.0)) as u16
         };

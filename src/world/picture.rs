@@ -35,8 +35,8 @@ pub(crate) struct MapPicture {
 /// Texels along the side of a face where the map is smooth, and the most for rivers.
 const SIDE: usize = 256;
 const MOST: usize = 512;
-/// The same for the wetness: a few texels for each cell of the weather.
-const WETNESS_SIDE: usize = 128;
+/// The same for the wetness: as many as the weather has cells. It is computed while a frame is drawn.
+const WETNESS_SIDE: usize = 64;
 /// Number of darts on the globe.
 const DARTS: usize = 500;
 /// Half the width of a dart at its tail, and its greatest length, radians.
