@@ -16,7 +16,7 @@ struct Face {
 @group(1) @binding(0) var<uniform> face: Face;
 // Wetness of the sky, 0.5 at its median
 @group(1) @binding(1) var wetness_map: texture_cube<f32>;
-// Noise that one octave of rain beyond the median is worth, for each unit of the wetness: chosen by eye.
+// Noise for each unit of wetness, which is eight octaves of rain: chosen by eye.
 const WETNESS: f32 = 0.9;
 
 fn lattice(cell: vec3i, seed: u32) -> vec3f {

@@ -62,20 +62,21 @@ fn detail_slopes_at(footprint: DetailFootprint) -> vec4f {
 fn water_cover(footprint: DetailFootprint, parent: f32) -> vec2f {
     if body.has_rivers == 0u || footprint.layer < 0 { return vec2f(0.0); }
     let side = DETAIL_SIDE + 2.0 * f32(DETAIL_APRON);
+    let length_texels = max(length(footprint.along), 1e-6);
+    let texel_px = f32(footprint.parts) / length_texels;
     var sum = vec4f(0.0);
-    for (var number = 0; number < footprint.parts; number++) {
-        let at = (part_of(footprint, number).at + f32(DETAIL_APRON) + 0.5) / side;
-        sum += textureSampleLevel(detail_water, clamped, at, footprint.layer, 0.0) / f32(footprint.parts);
-    }
-    let texel_px = f32(footprint.parts) / max(length(footprint.along), 1e-6);
-    if texel_px > 1.0 && sum.x + sum.z > 0.0 {
+    if length_texels < 1.0 {
         // Magnified bilinear samples would show a row of beads along a river: four of them make a smoother kernel.
-        let away = 0.5 * min(texel_px - 1.0, 1.0) / side;
+        let away = 0.5 * min(1.0 / length_texels - 1.0, 1.0) / side;
         let at = (footprint.at + f32(DETAIL_APRON) + 0.5) / side;
-        sum = vec4f(0.0);
         for (var corner = 0; corner < 4; corner++) {
             let aside = away * (vec2f(vec2i(corner & 1, corner >> 1)) * 2.0 - 1.0);
             sum += 0.25 * textureSampleLevel(detail_water, clamped, at + aside, footprint.layer, 0.0);
+        }
+    } else {
+        for (var number = 0; number < footprint.parts; number++) {
+            let at = (part_of(footprint, number).at + f32(DETAIL_APRON) + 0.5) / side;
+            sum += textureSampleLevel(detail_water, clamped, at, footprint.layer, 0.0) / f32(footprint.parts);
         }
     }
     let share = mix(sum.x, sum.z, parent);

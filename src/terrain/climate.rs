@@ -124,7 +124,7 @@ pub(crate) struct MapClimate {
     pub(crate) inland_rad: f64,
     /// How much warmer currents of the sea make it, in °C.
     pub(crate) warmer_c: f64,
-    /// Share of the air's demand for water that rain meets, 0 to 1, or more on floodplains; see
+    /// Share of the air's demand for water that rain meets, 0 to 1, raised on floodplains; see
     /// [`crate::world::weather::Weather::at`] and `world/floodplain.rs`.
     pub(crate) humidity: f64,
 }

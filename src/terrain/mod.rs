@@ -221,9 +221,14 @@ impl Terrain {
         Some(self.clone().over(world))
     }
 
+    /// Whether [`Terrain::with_draft_maps`] has something to do.
+    pub(crate) fn wants_draft(&self) -> bool {
+        self.world().wants_draft(&self.map_inputs)
+    }
+
     /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be solved.
     pub(crate) fn with_draft_maps(&self, fields: &CellFields, work: &mut MapWork) -> Option<Self> {
-        if !self.world().wants_draft(&self.map_inputs) {
+        if !self.wants_draft() {
             return None;
         }
         let world = self.world().draft(&self.ground(fields), work)?;

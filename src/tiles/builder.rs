@@ -240,6 +240,8 @@ struct Worker {
     terrain: Option<Arc<Terrain>>,
     /// Layer fields at the cells of world maps, kept for the next revision.
     cell_fields: CellFields,
+    /// Whether the newest request had a first slice and still lacks a draft.
+    owes_draft: bool,
     /// Number of the request that the newest slice worked for.
     request: u64,
     views: Vec<ViewWork>,
@@ -262,7 +264,16 @@ struct ViewWork {
 impl Worker {
     fn new(options: BuilderOptions) -> Self {
         let (cache, maps) = (Cache::new(options.budget_bytes), options.maps);
-        Self { cache, maps, terrain: None, cell_fields: CellFields::default(), request: 0, views: Vec::new(), refine }
+        Self {
+            cache,
+            maps,
+            terrain: None,
+            cell_fields: CellFields::default(),
+            owes_draft: false,
+            request: 0,
+            views: Vec::new(),
+            refine,
+        }
     }
 
     fn work(&mut self, shared: &Shared, wake: &dyn Fn()) {
@@ -337,11 +348,16 @@ impl Worker {
         if is_first {
             work.stats.compile_secs = begun.elapsed().as_secs_f64();
             limits = [GRACE, FIRST_SLICE];
-        } else if let Some(draft) = terrain.with_draft_maps(&self.cell_fields, &mut work.stats.maps) {
-            // A draft is short work, and is shown even if a newer request is waiting.
+        }
+        // A draft is short work, and is shown even if a newer request is waiting. The first slice of a request has one
+        // if the request before was superseded before its draft.
+        let owed = std::mem::replace(&mut self.owes_draft, is_first && terrain.wants_draft());
+        let draft = (owed || !is_first).then(|| terrain.with_draft_maps(&self.cell_fields, &mut work.stats.maps));
+        if let Some(draft) = draft.flatten() {
+            self.owes_draft = false;
             terrain = self.serve(draft);
             (begun, limits) = (Instant::now(), [GRACE, NEXT_SLICE]);
-        } else {
+        } else if !is_first {
             terrain = self.solve_maps(terrain, &planet_wanted, &mut work.stats);
         }
         let keep_going = || {

@@ -12,7 +12,7 @@ use super::slot::{MapWork, Slot};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Cells along the side of a cube face of a draft.
+/// Cells along the side of a cube face of a draft. Rivers have as many as the plates, which may be final.
 pub(super) const SIDE: usize = 32;
 
 impl World {
@@ -32,7 +32,7 @@ impl World {
         let mut world = self.clone();
         if !world.plates.is_of(inputs) {
             let plates = Plates::solve(&structure.plates, structure.seed, SIDE, &|| true)?;
-            world.plates = Slot::draft(inputs, plates)?;
+            world.plates = Slot::draft(inputs, SIDE, plates)?;
         }
         let rock = world.plates.map()?.rock.clone();
         let mut risen_m = rock.risen_m();
@@ -47,8 +47,8 @@ impl World {
         let weather = weather_over(&job, side, &risen_m)?;
         let drainage = Arc::new(drainage_of(&job, &rock, &weather, None)?);
         let carved = Carved::new(drainage, inputs.sea_level_m, structure.radius_km, None);
-        world.weather = Slot::draft(inputs, weather)?;
-        world.carved = Slot::draft(inputs, carved)?;
+        world.weather = Slot::draft(inputs, rock.side, weather)?;
+        world.carved = Slot::draft(inputs, rock.side, carved)?;
         work.drafts += 1;
         work.busy_secs += begun.elapsed().as_secs_f64();
         Some(world)

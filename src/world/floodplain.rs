@@ -6,7 +6,7 @@ use crate::sphere::raster::Raster;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Discharge in m³/s at which a floodplain begins to show, and at which it fills its cells.
+/// Discharge in m³/s at which a floodplain begins to show, and at which it is wettest.
 const DISCHARGE_M3_S: [f64; 2] = [60.0, 2500.0];
 /// Wetness of the shore of a lake with an outlet, and of one without, which is salty.
 const SHORE: [f32; 2] = [0.8, 0.3];

@@ -126,6 +126,7 @@ fn plates_picture(plates: &Plates) -> MapPicture {
 }
 
 fn rain_picture(weather: &Weather, carved: Option<&Carved>) -> MapPicture {
+    weather.rain_and_wind(DVec3::X);
     let darts = Darts::new(WIND_SPEED, |dir| weather.rain_and_wind(dir).1);
     MapPicture::new(SIDE, |dir| {
         let (rain_mm, _) = weather.rain_and_wind(dir);
@@ -138,6 +139,8 @@ fn wetness_picture(weather: &Weather) -> MapPicture {
     let mut sorted = weather.rain_mm.clone();
     sorted.sort_by(f64::total_cmp);
     let median_mm = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    // Makes the rasters before all cores ask for them.
+    weather.rain_and_wind(DVec3::X);
     MapPicture::new(WETNESS_SIDE, |dir| [wetness(weather.rain_and_wind(dir).0, median_mm); 3])
 }
 

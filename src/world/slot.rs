@@ -35,12 +35,12 @@ pub struct MapLevel {
 /// A map, if there is one.
 pub(crate) struct Slot<M>(Option<Served<M>>);
 
-/// The level of a draft, from which nothing is refined.
-const DRAFT: usize = usize::MAX;
+/// Levels from here on are drafts, from which nothing is refined.
+const DRAFTS: usize = usize::MAX / 2;
 
 struct Served<M> {
     key: Key,
-    /// Index of its side in the sides of the map, or [`DRAFT`].
+    /// Index of its side in the sides of the map, or [`DRAFTS`] and the side of the crust that a draft was made from.
     level: usize,
     map: Arc<M>,
 }
@@ -58,9 +58,9 @@ impl<M> Default for Slot<M> {
 }
 
 impl<M: WorldMap> Slot<M> {
-    /// A draft of a planet's own map. None if nothing reads the map.
-    pub(super) fn draft(inputs: &Inputs, map: M) -> Option<Self> {
-        Some(Self(Some(Served { key: M::key(inputs)?, level: DRAFT, map: Arc::new(map) })))
+    /// A draft of a planet's own map, made from the crust on a grid of `side`. None if nothing reads the map.
+    pub(super) fn draft(inputs: &Inputs, side: usize, map: M) -> Option<Self> {
+        Some(Self(Some(Served { key: M::key(inputs)?, level: DRAFTS + side, map: Arc::new(map) })))
     }
 
     /// Whether the map that serves is the planet's own, at any level.
@@ -104,7 +104,7 @@ impl<M: WorldMap> Slot<M> {
     pub(super) fn cells(&self, inputs: &Inputs) -> [usize; 2] {
         let Some(key) = M::key(inputs) else { return [0, 0] };
         let up_to = |levels: usize| M::SIDES[..levels].iter().map(|side| 6 * side * side).sum();
-        let own = self.0.as_ref().filter(|served| served.key == key && served.level != DRAFT);
+        let own = self.0.as_ref().filter(|served| served.key == key && served.level < DRAFTS);
         let solved = own.map_or(0, |served| served.level + 1);
         let all = Self::finest(inputs) + 1;
         [up_to(solved.min(all)), up_to(all)]

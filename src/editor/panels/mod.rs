@@ -147,7 +147,7 @@ impl PanelState {
     /// A click on the planet. Gives the name of the edit.
     pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
         if click == Click::Plate {
-            self.structure.clicked(under);
+            self.structure.clicked(planet, under);
             return None;
         }
         self.biomes.clicked(planet, click, under)

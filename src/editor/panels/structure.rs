@@ -8,15 +8,28 @@ use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::param::{ParamPath, Params, Segment};
-use crate::planet::{PlateByHand, Structure};
+use crate::planet::{Planet, PlateByHand, Structure};
 use crate::render::DebugView;
 use eframe::egui;
 
 /// The plate that is chosen.
 #[derive(Default)]
 pub struct StructureState {
-    /// As it was laid out.
-    picked: Option<PlateByHand>,
+    picked: Option<Picked>,
+}
+
+struct Picked {
+    plate: u32,
+    /// As it was laid out, if it was chosen on the planet.
+    laid_out: Option<PlateByHand>,
+    /// See [`layout_of`].
+    layout: [u32; 3],
+}
+
+/// Numbers that decide which plate has which number.
+fn layout_of(planet: &Planet) -> [u32; 3] {
+    let plates = planet.structure.as_ref().map(|structure| &structure.plates);
+    plates.map_or([0; 3], |plates| [planet.seed, plates.seed, plates.count])
 }
 
 impl StructureState {
@@ -26,8 +39,10 @@ impl StructureState {
     }
 
     /// A click on the planet: chooses the plate there.
-    pub fn clicked(&mut self, under: &UnderPointer) {
-        self.picked.clone_from(&under.plate);
+    pub fn clicked(&mut self, planet: &Planet, under: &UnderPointer) {
+        let layout = layout_of(planet);
+        let picked = |entry: &PlateByHand| Picked { plate: entry.plate, laid_out: Some(entry.clone()), layout };
+        self.picked = under.plate.as_ref().map(picked);
     }
 }
 
@@ -81,6 +96,10 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
         });
     });
     ui.weak("Click a plate on the planet to choose it. Ctrl and drag moves it, with its continents.");
+    let layout = layout_of(draft.planet);
+    if state.picked.as_ref().is_some_and(|picked| picked.layout != layout) {
+        state.picked = None;
+    }
     let Some(structure) = &mut draft.planet.structure else { return };
     let plates = &mut structure.plates;
     let picked = state.picked.as_ref().map(|picked| picked.plate);
@@ -89,7 +108,7 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
         ui.horizontal(|ui| {
             let name = format!("Plate {}", entry.plate);
             if ui.selectable_label(picked == Some(entry.plate), &name).clicked() {
-                state.picked = Some(entry.clone());
+                state.picked = Some(Picked { plate: entry.plate, laid_out: None, layout });
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if icon_button(ui, Icon::Remove, &format!("Lay out {name}"), "Back to the layout").clicked() {
@@ -103,10 +122,13 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
         draft.label = Some(format!("Lay out plate {}", entry.plate));
         return;
     }
-    let Some(laid_out) = &state.picked else { return };
-    let found = plates.by_hand.iter().position(|entry| entry.plate == laid_out.plate);
+    let Some(picked) = &state.picked else { return };
+    let found = plates.by_hand.iter().position(|entry| entry.plate == picked.plate);
     let index = found.unwrap_or(plates.by_hand.len());
-    let before = found.map_or_else(|| laid_out.clone(), |index| plates.by_hand[index].clone());
+    let Some(before) = found.map(|index| plates.by_hand[index].clone()).or_else(|| picked.laid_out.clone()) else {
+        return;
+    };
+    let mut laid_out = picked.laid_out.clone().unwrap_or_else(|| before.clone());
     let mut entry = before.clone();
     let owner = format!("plate {}", entry.plate);
     if found.is_none() {
@@ -115,7 +137,7 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
     let path = ["structure", "plates", "by_hand"].map(Segment::Field).into_iter().chain([Segment::Index(index)]);
     let base = ParamPath::from(path.collect::<Vec<_>>());
     let grid = Grid { base, owner: &owner, skip: &["plate"], problems: draft.problems, biomes: &[] };
-    params_grid(ui, &grid, &mut entry, &mut laid_out.clone());
+    params_grid(ui, &grid, &mut entry, &mut laid_out);
     if entry != before {
         draft.label = Some(format!("Change {owner}"));
         plates.set_by_hand(entry);

@@ -27,6 +27,9 @@ impl PlateDrag {
         point: (f64, f64),
         aspect: f64,
     ) -> Option<Self> {
+        let ray = camera.ray_dir_planet(point.0, point.1, aspect);
+        // Not beside the globe.
+        terrain.raycast(camera.position_planet_m, ray)?;
         let from = under(terrain, camera, point, aspect);
         let laid_out = terrain.plate_entry(from)?;
         let by_hand = &planet.structure.as_ref()?.plates.by_hand;

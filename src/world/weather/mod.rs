@@ -137,9 +137,13 @@ impl Weather {
         self.rasters.each_ref().map(|raster| raster.value(&place, 0))
     }
 
-    /// Rain and snow in mm a year, and the mean wind in m/s, a tangent, at a unit direction.
-    pub(crate) fn rain_and_wind(&self, dir: DVec3) -> (f64, DVec3) {
-        let rasters = self.air.get_or_init(|| {
+    /// The rasters of [`Weather::rain_and_wind`]. They are made on all cores, so no lock may be held meanwhile: whoever
+    /// waits for it could be the one that a core must finish first.
+    fn air(&self) -> &[Raster<f32>; 4] {
+        if let Some(air) = self.air.get() {
+            return air;
+        }
+        let made = {
             let cells = Cells::of(self.side);
             let winds = cells.dirs.iter().zip(&self.wind_m_s).map(|(dir, [to_east, to_north])| {
                 let (east, north) = east_north(*dir);
@@ -149,7 +153,13 @@ impl Weather {
             let along = |axis: usize| winds.iter().map(|wind| wind[axis] as f32).collect();
             let rain = self.rain_mm.iter().map(|mm| *mm as f32).collect();
             [rain, along(0), along(1), along(2)].map(|texels| Raster::cube(self.side, texels))
-        });
+        };
+        self.air.get_or_init(|| made)
+    }
+
+    /// Rain and snow in mm a year, and the mean wind in m/s, a tangent, at a unit direction.
+    pub(crate) fn rain_and_wind(&self, dir: DVec3) -> (f64, DVec3) {
+        let rasters = self.air();
         let place = rasters[0].place(dir);
         let [rain_mm, x, y, z] = rasters.each_ref().map(|raster| raster.value(&place, 0));
         let wind = DVec3::new(x, y, z);
