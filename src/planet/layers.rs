@@ -32,6 +32,10 @@ params! {
         /// Whether the layer lies under the structure of the planet, which rivers carve. Without a structure it has no
         /// effect.
         under: bool = false, "Under the structure", Unit::None, Domain::Flag, Stage::Field;
+        /// How strongly belts of folded rock steer the layer: across a belt its features become narrower, about by this
+        /// factor and one, so that ridges run along the folds. Craters, dunes and pictures are not steered. Without a
+        /// structure it has no effect.
+        folding: f64 = 0.0, "Folding", Unit::None, linear(0.0, 4.0), Stage::Field;
     } with {
         /// Landform: the kind of terrain and its parameters.
         shape: Shape = Shape::default();

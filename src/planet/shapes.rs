@@ -225,6 +225,9 @@ params! {
         lacunarity: f64 = 4.0, "Lacunarity", Unit::None, linear(1.5, 10.0), Stage::Field;
         /// Heading towards which the wind blows: 0 is north, 90 east.
         wind_deg: f64 = 90.0, "Wind", Unit::Degrees, linear(-180.0, 360.0), Stage::Field;
+        /// Whether the dunes follow the wind of the planet's weather instead of that heading. It takes a structure, and
+        /// a layer that lies over it.
+        follow_wind: bool = false, "Follow the wind", Unit::None, Domain::Flag, Stage::Field;
         /// Steepness of the lee relative to the windward side: 0 is equal, 1 is a sharp crest with a steep lee.
         asymmetry: f64 = 0.8, "Asymmetry", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How far the crests bend.

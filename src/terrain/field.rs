@@ -114,6 +114,7 @@ impl Field {
                 point_spacing_rad: points.spacing_rad,
                 spacings_rad,
                 seen_only,
+                squeeze: 1.0,
             };
             landform.chunk(&chunk, scratch);
             self.value.extend_from_slice(&scratch.sums.value[..end - start]);

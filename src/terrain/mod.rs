@@ -58,7 +58,7 @@ use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
 use glam::DVec3;
 use height::LayerStack;
-use landform::Landform;
+use landform::{Landform, Maps};
 pub use network::{Basin, Course, CoursePoint, Lake, Mouth, Rivers};
 use points::unit;
 pub use query::{Sample, Scratch, Wanted};
@@ -169,6 +169,13 @@ impl Terrain {
     fn over(mut self, world: World) -> Self {
         let carved = world.carved.key().zip(world.carved.map());
         self.stack.set_structure(Landform::structure(carved.map(|(key, carved)| (key, &**carved))));
+        let plates = world.plates.key().zip(world.plates.map()).map(|(key, plates)| (key, &**plates));
+        let weather = world.weather.key().zip(world.weather.map());
+        self.stack.set_maps(&Maps { plates, weather });
+        if let Some(under) = &mut self.under {
+            // The weather is solved over these layers.
+            Arc::make_mut(under).set_maps(&Maps { plates, weather: None });
+        }
         self.climate.world = world;
         self.height_bounds_m = self.with_relief(self.stack.bounds_m());
         self
@@ -243,7 +250,7 @@ impl Terrain {
 
     /// Content keys of the tiles that the terrain makes, with the world maps that serve.
     pub(crate) fn tile_keys(&self) -> TileKeys {
-        self.content.keys(self.climate.map_keys())
+        self.content.keys(self.climate.map_keys(), self.world().plates.key())
     }
 
     /// The same terrain evaluated with a given instruction set, for tests and benches. The results are the same.

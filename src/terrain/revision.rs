@@ -7,10 +7,13 @@
 
 use super::climate::{CompiledClimate, MapKeys, SeaLevelClimate, final_map_keys};
 use super::height::LayerStack;
+use super::landform::Reads;
 use super::relief::Relief;
 use crate::planet::param::{ParamPath, Stage, Stages, Value};
 use crate::planet::{InvalidPlanet, Key, Planet, Structure};
 use crate::world::carved::Carved;
+use crate::world::plates::Plates;
+use crate::world::weather::Weather;
 use crate::world::{Inputs, Slot, StructureInputs};
 use std::sync::Arc;
 
@@ -109,8 +112,9 @@ pub(crate) struct TileKeys {
 /// Content keys of what tiles are made from, world maps apart.
 #[derive(Clone, Debug)]
 pub(super) struct TileContent {
-    /// The layer stack.
+    /// The layer stack, and the world maps that it reads.
     stack: Key,
+    reads: Reads,
     /// Biome relief.
     relief: Option<Key>,
     /// Climate at sea level, with its noise.
@@ -119,11 +123,12 @@ pub(super) struct TileContent {
 
 impl TileContent {
     /// The keys of tiles that read maps with these keys.
-    pub(super) fn keys(&self, maps: MapKeys) -> TileKeys {
-        let [_, _, carved] = maps;
+    pub(super) fn keys(&self, maps: MapKeys, plates: Option<Key>) -> TileKeys {
+        let [_, weather, carved] = maps;
+        let steered = (plates.filter(|_| self.reads.plates), weather.filter(|_| self.reads.weather));
         // Biome relief follows the climate.
         let relief = self.relief.map(|relief| (relief, maps));
-        TileKeys { heights: Key::of(&(self.stack, carved, relief)), climate: Key::of(&(self.climate, maps)) }
+        TileKeys { heights: Key::of(&(self.stack, carved, steered, relief)), climate: Key::of(&(self.climate, maps)) }
     }
 }
 
@@ -157,16 +162,20 @@ impl Compiled {
             structure: structure_inputs(planet),
             grids: planet.structure.as_ref().map_or(0, |structure| structure.grids as usize),
         };
-        let carved = Slot::<Carved>::final_key(&map_inputs);
+        let (carved, plates) = (Slot::<Carved>::final_key(&map_inputs), Slot::<Plates>::final_key(&map_inputs));
+        let (weather, reads) = (Slot::<Weather>::final_key(&map_inputs), stack.reads());
         fields.extend(carved);
+        fields.extend(plates.filter(|_| reads.plates));
+        fields.extend(weather.filter(|_| reads.weather));
         fields.sort_unstable();
         let climate_noise = Key::of(&climate.noises());
         let content = TileContent {
             stack: heights,
+            reads,
             relief: relief.as_ref().map(Key::of),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
-        let tiles = content.keys(final_map_keys(&map_inputs));
+        let tiles = content.keys(final_map_keys(&map_inputs), plates);
         let [materials, cloud_map, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
@@ -223,16 +232,23 @@ mod tests {
         let planet = Planet { structure, ..shipped::layered() };
         let content = Compiled::new(&planet).content;
         let map = |n: u32| Some(Key::of(&n));
-        let own = content.keys([map(2), map(3), map(1)]);
+        let own = content.keys([map(2), map(3), map(1)], map(4));
         assert!(content.relief.is_some());
         for (carved, coast, weather) in [(9, 2, 3), (1, 9, 3), (1, 2, 9)] {
-            let other = content.keys([map(coast), map(weather), map(carved)]);
+            let other = content.keys([map(coast), map(weather), map(carved)], map(4));
             assert!(other.climate != own.climate && other.heights != own.heights, "{carved} {coast} {weather}");
         }
         let smooth = TileContent { relief: None, ..content.clone() };
-        let own = smooth.keys([map(2), map(3), map(1)]);
-        let other = smooth.keys([map(2), map(9), map(1)]);
+        let own = smooth.keys([map(2), map(3), map(1)], map(4));
+        let other = smooth.keys([map(2), map(9), map(1)], map(9));
         assert!(other.climate != own.climate && other.heights == own.heights, "heights read no weather");
+        let steered = |plates, weather| TileContent { reads: Reads { plates, weather }, ..smooth.clone() };
+        for (plates, weather) in [(false, false), (true, false), (false, true)] {
+            let content = steered(plates, weather);
+            let heights = |weather, plates| content.keys([map(2), map(weather), map(1)], map(plates)).heights;
+            assert_eq!(heights(3, 4) != heights(3, 9), plates, "plates");
+            assert_eq!(heights(3, 4) != heights(9, 4), weather, "weather");
+        }
     }
 
     #[test]

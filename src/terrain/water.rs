@@ -39,7 +39,7 @@ impl Terrain {
             sample.water_level_m = sea_m.filter(|sea_m| sample.height_m < *sea_m);
             sample.rain_mm = sample.precipitation_mm;
             if let Some(weather) = world.weather.map() {
-                (sample.rain_mm, sample.wind_planet_m_s) = weather.rain_and_wind(dir);
+                (sample.rain_mm, sample.wind_planet_m_s) = (weather.rain_at(dir), weather.wind_at(dir));
             }
             sample.plate = world.plates.map().and_then(|plates| u16::try_from(plates.layout.plate_under(dir)).ok());
         }

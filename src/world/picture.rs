@@ -126,10 +126,12 @@ fn plates_picture(plates: &Plates) -> MapPicture {
 }
 
 fn rain_picture(weather: &Weather, carved: Option<&Carved>) -> MapPicture {
-    weather.rain_and_wind(DVec3::X);
-    let darts = Darts::new(WIND_SPEED, |dir| weather.rain_and_wind(dir).1);
+    // Makes the rasters before all cores ask for them.
+    weather.rain_at(DVec3::X);
+    weather.wind_at(DVec3::X);
+    let darts = Darts::new(WIND_SPEED, |dir| weather.wind_at(dir));
     MapPicture::new(SIDE, |dir| {
-        let (rain_mm, _) = weather.rain_and_wind(dir);
+        let rain_mm = weather.rain_at(dir);
         let is_sea = carved.is_some_and(|Carved { drainage, .. }| drainage.is_sea[cell_at(dir, drainage.side)]);
         darts.over(dir, rain_color(rain_mm).map(|c| if is_sea { 0.3 * c } else { c }))
     })
@@ -139,9 +141,9 @@ fn wetness_picture(weather: &Weather) -> MapPicture {
     let mut sorted = weather.rain_mm.clone();
     sorted.sort_by(f64::total_cmp);
     let median_mm = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-    // Makes the rasters before all cores ask for them.
-    weather.rain_and_wind(DVec3::X);
-    MapPicture::new(WETNESS_SIDE, |dir| [wetness(weather.rain_and_wind(dir).0, median_mm); 3])
+    // Makes the raster before all cores ask for it.
+    weather.rain_at(DVec3::X);
+    MapPicture::new(WETNESS_SIDE, |dir| [wetness(weather.rain_at(dir), median_mm); 3])
 }
 
 /// How wet the sky is where it rains this much, 0 to 1: the logarithm of the rain relative to the median.

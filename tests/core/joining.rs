@@ -262,6 +262,7 @@ fn any_layer(number: usize, names: usize) -> impl Strategy<Value = Layer> {
                 masks,
                 enabled: seed % 7 > 0,
                 under: false,
+                folding: 0.0,
             }
         },
     )

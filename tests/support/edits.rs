@@ -72,7 +72,7 @@ pub struct Edit {
 /// of its table go by temperature.
 pub fn is_idle(path: &str) -> bool {
     path.starts_with("biomes.palette[0].steep_")
-        || path.ends_with(".under")
+        || [".under", ".folding"].iter().any(|end| path.ends_with(end))
         || ["biomes.lowest_m", "biomes.highest_m"].contains(&path)
 }
 

@@ -136,7 +136,7 @@ fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let Some(layer) = draft.planet.layers.get_mut(index) else { return };
     let name = layer.name.clone();
     // What needs a structure is not shown without one.
-    let skip = ["name", "enabled", "masks", "under"];
+    let skip = ["name", "enabled", "masks", "under", "folding", "follow_wind"];
     let skip = if has_structure { &skip[..3] } else { &skip[..] };
     let grid = Grid { base: layer_path(index), owner: &name, skip, problems, biomes: &[] };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();

@@ -191,7 +191,7 @@ frozen! {
         softness_m: f64 = 100.0,
         masks: Vec<Mask> = Vec::new(),
     }
-    adding { under: false }
+    adding { under: false, folding: 0.0 }
 }
 
 frozen_choice! { Blend => planet::Blend { Add, Subtract, Multiply, Max, Min, Replace, SmoothMax, SmoothMin } }
@@ -351,6 +351,7 @@ frozen! {
         asymmetry: f64 = 0.8,
         waviness: f64 = 0.5,
     }
+    adding { follow_wind: false }
 }
 
 frozen! {

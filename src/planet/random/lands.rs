@@ -32,6 +32,11 @@ pub(super) fn steepness(radius_km: f64) -> f64 {
 /// The layers over a structure.
 pub(super) fn detail(radius_km: f64, dice: &mut Dice) -> Vec<Layer> {
     let mut lands = Lands { dice, radius_km, relief: 1.0, layers: Vec::new() };
+    let (wavelength_km, height_m) = (lands.km(36.0, 60.0), lands.metres(200.0, 420.0));
+    let ridges = Ridged { wavelength_km, octaves: 7, gain: 0.45, ..Ridged::default() };
+    let (low_m, high_m) = (lands.metres(60.0, 150.0), lands.metres(400.0, 800.0));
+    let layer = lands.add("Fold ridges", height_m, Shape::Ridged(ridges));
+    (layer.bias, layer.folding, layer.masks) = (0.3, 3.5, vec![where_height(low_m, high_m)]);
     lands.hills(6.0, 12.0, 35.0, 70.0);
     lands.layers
 }

@@ -19,7 +19,7 @@ pub use curve::curve_at;
 pub(crate) use join::{Batch, Heights, LayerFields, Scratch, combine};
 
 use super::field::Spacings;
-use super::landform::Landform;
+use super::landform::{Landform, Maps, Reads};
 use crate::planet::{self, Key, Layer, MAX_MASKS, Mask, Planet, Shape};
 use curve::CompiledCurve;
 use std::fmt;
@@ -165,6 +165,24 @@ impl LayerStack {
         }
     }
 
+    /// Hands world maps to the layers that read them.
+    pub(crate) fn set_maps(&mut self, maps: &Maps<'_>) {
+        for layer in &mut self.layers {
+            if let Some(landform) = layer.landform.with_maps(maps) {
+                layer.landform = Arc::new(landform);
+            }
+        }
+    }
+
+    /// Which world maps the layers that are needed read, besides those of the structure.
+    pub(crate) fn reads(&self) -> Reads {
+        let each = self.layers.iter().filter(|layer| layer.needed).map(|layer| layer.landform.reads());
+        each.fold(Reads::default(), |all, one| Reads {
+            plates: all.plates || one.plates,
+            weather: all.weather || one.weather,
+        })
+    }
+
     /// How many layers stand before those of the preset.
     pub(crate) fn layers_before(&self) -> usize {
         usize::from(self.has_structure)
@@ -237,8 +255,10 @@ impl CompiledLayer {
             }
             _ => None,
         };
+        let landform = Landform::new(&layer.shape, seed, planet.radius_km, planet.precision.into());
+        let folding = if planet.structure.is_some() { layer.folding } else { 0.0 };
         Self {
-            landform: Arc::new(Landform::new(&layer.shape, seed, planet.radius_km, planet.precision.into())),
+            landform: Arc::new(landform.folding(folding)),
             needed: false,
             masks_others: false,
             slope_spacings_rad: Vec::new(),

@@ -10,7 +10,6 @@ use crate::simd::{Simd, for_each_simd};
 use crate::terrain::jet::{Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
-use glam::DVec3;
 
 /// Noise value below which a crease is round.
 const CREASE: f32 = 0.05;
@@ -38,8 +37,8 @@ impl Evaluate for Billow {
         (-1.0 - 1e-5, 1.0 + 1e-5)
     }
 
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let point = Point::new(Around { dir_planet, angle_rad });
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
+        let point = Point::new(around);
         let crease = f64::from(CREASE);
         let hill = |noise: f64| {
             let fold = (noise * noise + crease * crease).sqrt() - crease;

@@ -82,7 +82,7 @@ impl Evaluate for Canyons {
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let Some(largest) = self.octaves.first() else { return self.bounds() };
-        let around = Around { dir_planet, angle_rad };
+        let around = Around::new(dir_planet, angle_rad);
         let (there, jacobian) = self.warp.near(around);
         let [px, py, pz] = Point::new(around).coordinates;
         let one = Varying::constant(around, 1.0);

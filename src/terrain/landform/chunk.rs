@@ -25,6 +25,8 @@ pub(crate) struct Chunk<'a> {
     pub(crate) spacings_rad: &'a [f64],
     /// Values may omit octaves that no band shows. For shading and coarse maps, never for heights.
     pub(crate) seen_only: bool,
+    /// How much narrower features may be than their landform says: folds displace the points.
+    pub(crate) squeeze: f64,
 }
 
 impl Chunk<'_> {
@@ -52,7 +54,7 @@ impl Chunk<'_> {
     pub(crate) fn fades(&self, feature_rad: f64, least: f64) -> Fades {
         let mut fades = Fades([0.0; MAX_BANDS]);
         for (share, spacing_rad) in fades.0.iter_mut().zip(self.spacings_rad) {
-            let points_per_feature = feature_rad / spacing_rad.max(1e-30);
+            let points_per_feature = feature_rad / (spacing_rad.max(1e-30) * self.squeeze);
             *share = (points_per_feature / least - 1.0).clamp(0.0, 1.0) as f32;
         }
         fades

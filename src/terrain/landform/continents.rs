@@ -73,6 +73,7 @@ impl Continents {
                 point_spacing_rad: 0.0,
                 spacings_rad: &[],
                 seen_only: false,
+                squeeze: 1.0,
             };
             scratch.sums.restart(&chunk);
             self.add_noise(&chunk, &mut scratch);
@@ -149,9 +150,8 @@ impl Evaluate for Continents {
         (-1.0, 1.0)
     }
 
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
         let (coarse, fine) = self.octaves.split_at(WARPED_OCTAVES.min(self.octaves.len()));
-        let around = Around { dir_planet, angle_rad };
         let (low, high) = (self.warp.near(around).0.sum(coarse) + Point::new(around).sum(fine)).range();
         // The curve rises everywhere.
         (self.curve.at(low).0 - 1e-9, self.curve.at(high).0 + 1e-9)

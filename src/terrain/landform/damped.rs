@@ -54,7 +54,7 @@ impl Evaluate for Damped {
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let Some(first) = self.octaves.first() else { return self.bounds() };
         let unit = 1.0 / (first.octave.frequency * f64::from(first.weight));
-        let around = Around { dir_planet, angle_rad };
+        let around = Around::new(dir_planet, angle_rad);
         let point = Point::new(around);
         let mut slope = [Varying::constant(around, 0.0); 3];
         let mut sum = Varying::between(around, -1e-5, 1e-5);

@@ -12,17 +12,20 @@ mod near;
 
 use super::octaves::series;
 use super::places::{CORNERS, Places, neighbour, unit};
+use super::scratch::Vectors;
 use super::varying::Around;
 use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
-use crate::planet;
+use crate::planet::{self, Key};
 use crate::simd::for_each_simd;
 use crate::terrain::approx;
 use crate::terrain::jet::{Jet, Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::scalar::Scalar;
+use crate::world::weather::Weather;
 use glam::DVec3;
 use std::f32::consts::TAU;
+use std::sync::{Arc, Weak};
 
 /// Greatest total weight of the octaves that are evaluated in f32.
 const REST: f64 = 0.2;
@@ -36,6 +39,8 @@ const JITTER: f32 = 0.25;
 const FAINT: f32 = 0.03;
 /// Wavelengths per cell of the noise that bends the crests.
 const BENDS: f64 = 3.0;
+/// Wind in m/s below which its direction steers dunes less.
+const CALM_M_S: f64 = 0.4;
 /// Points per wavelength at which dunes show in full.
 const LEAST_POINTS: f64 = 4.0;
 
@@ -45,6 +50,8 @@ pub(crate) struct Dunes {
     /// How many octaves, the coarsest, are evaluated in f64.
     f64_octaves: usize,
     wind: Wind,
+    /// The wind of the planet's weather, if the dunes follow it.
+    weather: Option<Solved>,
     profile: Profile,
     /// How far noise bends the crests, in wavelengths.
     waviness: f32,
@@ -77,9 +84,56 @@ impl Wind {
     }
 }
 
+/// The wind of a weather. Fields of earlier revisions must not keep it alive, so it is weak.
+#[derive(Clone, Debug, Default)]
+struct Solved {
+    key: Option<Key>,
+    weather: Weak<Weather>,
+}
+
+impl PartialEq for Solved {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+/// The wind at the points of a chunk.
+#[derive(Clone, Copy)]
+enum Winds<'a, S> {
+    /// The same heading everywhere.
+    Heading(Wind),
+    Solved(&'a Vectors<S>),
+}
+
+impl Solved {
+    /// Writes the direction of the wind at the points of a chunk; shorter where the air is calm, so that dunes grow
+    /// longer there instead of turning at once. None without a weather.
+    fn find(&self, chunk: &Chunk<'_>, wind: &mut Vectors<f64>) -> Option<()> {
+        let weather = self.weather.upgrade()?;
+        for (i, dir) in chunk.dirs.iter().enumerate() {
+            let speed = weather.wind_at(*dir);
+            let along = speed / (speed.length_squared() + CALM_M_S * CALM_M_S).sqrt();
+            wind.0.iter_mut().zip(along.to_array()).for_each(|(lane, along)| lane[i] = along);
+        }
+        Some(())
+    }
+}
+
 impl Dunes {
+    /// Whether they follow the wind of the planet's weather.
+    pub(super) fn follows_wind(&self) -> bool {
+        self.weather.is_some()
+    }
+
+    /// The same dunes under this weather.
+    pub(super) fn over(&self, weather: Option<(Key, &Arc<Weather>)>) -> Self {
+        let solved = weather.map(|(key, weather)| Solved { key: Some(key), weather: Arc::downgrade(weather) });
+        Self { weather: Some(solved.unwrap_or_default()), ..self.clone() }
+    }
+
     pub(super) fn new(params: &planet::Dunes, seed: u64, radius_km: f64, arithmetic: Arithmetic) -> Self {
-        let planet::Dunes { wavelength_km, octaves, gain, lacunarity, wind_deg, asymmetry, waviness } = *params;
+        let planet::Dunes { wavelength_km, octaves, gain, lacunarity, wind_deg, follow_wind, asymmetry, waviness } =
+            *params;
         let sizes: Vec<Size> = series(seed, radius_km / wavelength_km, octaves, gain, lacunarity)
             .into_iter()
             .map(|wave| {
@@ -103,6 +157,7 @@ impl Dunes {
             f64_octaves: arithmetic.f64_count(sizes.iter().map(|size| size.weight), REST),
             sizes,
             wind: Wind { east: east as f32, north: north as f32 },
+            weather: follow_wind.then(Solved::default),
             profile: Profile::new(asymmetry as f32),
             waviness: waviness as f32,
         }
@@ -119,7 +174,10 @@ impl Evaluate for Dunes {
     }
 
     fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let around = Around { dir_planet, angle_rad };
+        if self.follows_wind() {
+            return self.bounds();
+        }
+        let around = Around::new(dir_planet, angle_rad);
         self.sizes.iter().fold((-5e-5, 5e-5), |(lo, hi), size| {
             let (low, high) = size.near(around, self).range();
             (lo + low * f64::from(size.weight), hi + high * f64::from(size.weight))
@@ -127,7 +185,16 @@ impl Evaluate for Dunes {
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
-        let Scratch { sums, noise, jets, places, in_f64, .. } = scratch;
+        let Scratch { sums, noise, jets, places, wind, in_f64, .. } = scratch;
+        let Scratch64 { noise: noise64, jets: jets64, places: places64, wind: wind64, .. } = in_f64;
+        let solved = self.weather.as_ref().and_then(|solved| solved.find(chunk, wind64));
+        if solved.is_some() {
+            for (lane, exact) in wind.0.iter_mut().flatten().zip(wind64.0.iter().flatten()) {
+                *lane = *exact as f32;
+            }
+        }
+        let winds = solved.map_or(Winds::Heading(self.wind), |()| Winds::Solved(wind));
+        let winds64 = solved.map_or(Winds::Heading(self.wind), |()| Winds::Solved(wind64));
         for (k, size) in self.sizes.iter().enumerate() {
             let fades = chunk.fades(size.wavelength_rad, LEAST_POINTS);
             if chunk.skips(&fades) {
@@ -136,9 +203,8 @@ impl Evaluate for Dunes {
             let unseen = fades.is_unseen();
             let is_f64 = k < chunk.f64_octaves(self.f64_octaves);
             if is_f64 {
-                let Scratch64 { noise, jets, places, .. } = in_f64;
-                noise.values(chunk.simd, chunk.skewed, &size.bends);
-                let dunes = self.octave::<f64>(chunk, size, noise, places, jets);
+                noise64.values(chunk.simd, chunk.skewed, &size.bends);
+                let dunes = self.octave::<f64>(chunk, size, noise64, winds64, places64, jets64);
                 sums.add_f64(chunk, &dunes.value, f64::from(size.weight));
                 if unseen {
                     continue;
@@ -151,7 +217,7 @@ impl Evaluate for Dunes {
                 noise.gradients(chunk.simd, chunk.skewed, &size.bends);
                 Self::octave::<Jet>
             };
-            let dunes = evaluate(self, chunk, size, noise, places, jets);
+            let dunes = evaluate(self, chunk, size, noise, winds, places, jets);
             if is_f64 {
                 sums.add_gradients(chunk, &dunes.gradient, size.weight, &fades);
             } else {
@@ -168,6 +234,7 @@ impl Dunes {
         chunk: &Chunk<'_>,
         size: &Size,
         bends: &Noise<R::S>,
+        wind: Winds<'_, R::S>,
         places: &mut Places<R::S>,
         jets: &'j mut [Jets<R::S>; JETS],
     ) -> &'j Jets<R::S> {
@@ -178,7 +245,7 @@ impl Dunes {
         for octave in &size.lattices {
             places.find(simd, chunk.skewed, octave);
             for corner in CORNERS {
-                send::<R>(simd, n, places, corner, octave, self.wind, re, im);
+                send::<R>(simd, n, places, corner, octave, wind, re, im);
             }
         }
         pile::<R>(simd, n, re, im, bends, self.waviness, self.profile, dunes);
@@ -198,7 +265,13 @@ struct Wave<S> {
 
 /// The wave of one cell around the `i`th point.
 #[inline(always)]
-fn wave<S: Scalar>(places: &Places<S>, corner: [i32; 3], octave: &Octave, wind: Wind, i: usize) -> Wave<S> {
+fn wave<S: Scalar>(
+    places: &Places<S>,
+    corner: [i32; 3],
+    octave: &Octave,
+    wind: impl Fn([S; 3]) -> [S; 3],
+    i: usize,
+) -> Wave<S> {
     let (low, span) = (S::from_f32(0.5 - JITTER), S::from_f32(2.0 * JITTER));
     let (cell, step) = neighbour(places, corner, i);
     let random = noise::cell_hash(cell, octave.seed);
@@ -206,7 +279,7 @@ fn wave<S: Scalar>(places: &Places<S>, corner: [i32; 3], octave: &Octave, wind: 
     let to = [towards(0, random), towards(1, random >> 10), towards(2, random >> 20)];
     let cell_rad = S::of(1.0 / octave.frequency);
     let from = |axis: usize| places.dir[axis][i] + to[axis] * cell_rad;
-    let along = wind.at([from(0), from(1), from(2)]);
+    let along = wind([from(0), from(1), from(2)]);
     Wave { to, along, start: unit(noise::scramble(random)) }
 }
 
@@ -217,7 +290,27 @@ fn send_body<R: Real>(
     places: &Places<R::S>,
     corner: [i32; 3],
     octave: &Octave,
-    wind: Wind,
+    wind: Winds<'_, R::S>,
+    re: &mut Jets<R::S>,
+    im: &mut Jets<R::S>,
+) {
+    match wind {
+        Winds::Heading(wind) => send_along::<R>(n, places, corner, octave, |_, from| wind.at(from), re, im),
+        // It varies so slowly that it is the same where the waves come from.
+        Winds::Solved(Vectors([x, y, z])) => {
+            send_along::<R>(n, places, corner, octave, |i, _| [x[i], y[i], z[i]], re, im);
+        }
+    }
+}
+
+/// `wind`: its direction for the `i`th point and a wave from a place.
+#[inline(always)]
+fn send_along<R: Real>(
+    n: usize,
+    places: &Places<R::S>,
+    corner: [i32; 3],
+    octave: &Octave,
+    wind: impl Fn(usize, [R::S; 3]) -> [R::S; 3],
     re: &mut Jets<R::S>,
     im: &mut Jets<R::S>,
 ) {
@@ -225,7 +318,7 @@ fn send_body<R: Real>(
     let (one, scale) = (of(1.0), R::S::from_f32);
     let frequency = of(octave.frequency);
     for i in 0..n.min(CHUNK) {
-        let Wave { to, along, start } = wave(places, corner, octave, wind, i);
+        let Wave { to, along, start } = wave(places, corner, octave, |from| wind(i, from), i);
         let square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
         let near = (one - square * scale(1.0 / (REACH * REACH))).max(of(0.0));
         let weight = near * near * near;
@@ -242,7 +335,7 @@ fn send_body<R: Real>(
         (R::load(im, i) + part(sin, cos)).store(im, i);
     }
 }
-for_each_simd!(fn send<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, wind: Wind, re: &mut Jets<R::S>, im: &mut Jets<R::S>) = send_body);
+for_each_simd!(fn send<R: Real>(n: usize, places: &Places<R::S>, corner: [i32; 3], octave: &Octave, wind: Winds<'_, R::S>, re: &mut Jets<R::S>, im: &mut Jets<R::S>) = send_body);
 
 /// The height of dunes, from the sum of waves and the noise that bends them.
 #[inline(always)]

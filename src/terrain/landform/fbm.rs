@@ -5,7 +5,6 @@ use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Sums};
 use crate::planet;
 use crate::terrain::noise::{self, Noise};
-use glam::DVec3;
 
 /// Points per lattice cell at which an octave shows in full: a wave is about two cells long.
 pub(super) const LEAST_POINTS: f64 = 1.5;
@@ -44,8 +43,8 @@ impl Evaluate for Fbm {
         (-noise::BOUND, noise::BOUND)
     }
 
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        Point::new(Around { dir_planet, angle_rad }).sum(&self.octaves).range()
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
+        Point::new(around).sum(&self.octaves).range()
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

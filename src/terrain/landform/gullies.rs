@@ -12,7 +12,7 @@
 use super::fbm::LEAST_POINTS;
 use super::octaves::{Weighted, series};
 use super::places::{CORNERS, Places, neighbour, unit};
-use super::scratch::Carving;
+use super::scratch::{Carving, Folded};
 use super::varying::{Around, Point};
 use super::{Arithmetic, Chunk, Evaluate, Scratch, Scratch64};
 use crate::planet;
@@ -23,7 +23,6 @@ use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::{self, Noise, Octave};
 use crate::terrain::scalar::Scalar;
 use crate::world::noise::mix;
-use glam::DVec3;
 use std::f32::consts::TAU;
 
 /// Greatest total weight of the noise octaves, and greatest total height of the gullies, that are evaluated in f32.
@@ -119,17 +118,29 @@ impl Evaluate for Gullies {
     }
 
     /// The gullies may be anywhere in their range; only the noise has tighter bounds nearby.
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let (low, high) = Point::new(Around { dir_planet, angle_rad }).sum(&self.octaves).range();
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
+        let (low, high) = Point::new(around).sum(&self.octaves).range();
         let carved = self.gullies.iter().map(|gully| f64::from(gully.height)).sum::<f64>() * (1.0 + 1e-5);
         (low - carved, high + carved)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {
+        self.add_with(chunk, None, scratch);
+    }
+
+    /// Folds displace the base alone: gullies run down its slopes, whatever steers those.
+    fn add_folded(&self, chunk: &Chunk<'_>, folded: &Folded, scratch: &mut Scratch) {
+        self.add_with(chunk, Some(folded), scratch);
+    }
+}
+
+impl Gullies {
+    fn add_with(&self, chunk: &Chunk<'_>, folded: Option<&Folded>, scratch: &mut Scratch) {
         let Scratch { sums, noise, places, carving, in_f64, .. } = scratch;
         let Scratch64 { noise: noise64, places: places64, carving: carving64, .. } = in_f64;
         let [noise_in_f64, gullies_in_f64] = self.f64_octaves.map(|octaves| chunk.f64_octaves(octaves));
-        let (simd, n, skewed) = (chunk.simd, chunk.len(), chunk.skewed);
+        let (simd, n) = (chunk.simd, chunk.len());
+        let skewed = folded.map_or(chunk.skewed, |folded| folded.displaced.points(n));
         let fades_of = |octave: &Octave| chunk.fades(1.0 / octave.frequency, LEAST_GULLY_POINTS * f64::from(WAVES));
         let shaded = self.gullies.first().is_some_and(|gully| !fades_of(&gully.lattices[0]).is_unseen());
         // Gullies in f64 hand their state to the first in f32. Without gradients nothing reads the f32 state before.
@@ -146,6 +157,9 @@ impl Evaluate for Gullies {
             let is_f64 = i < noise_in_f64;
             if is_f64 {
                 noise64.gradients(simd, skewed, octave);
+                if let Some(folded) = folded {
+                    folded.jacobian.pull_back(chunk, noise64);
+                }
                 if is_leading {
                     lead::<f64>(simd, n, noise64, *weight, per_cell, carving64);
                 }
@@ -154,17 +168,19 @@ impl Evaluate for Gullies {
                     continue;
                 }
             }
-            match (is_leading, shaded) {
-                (true, true) => {
-                    noise.curvatures(simd, skewed, octave);
-                    lead::<Jet>(simd, n, noise, *weight, per_cell, carving);
-                }
-                (true, false) => {
-                    noise.gradients(simd, skewed, octave);
-                    lead::<f32>(simd, n, noise, *weight, per_cell, carving);
-                }
-                (false, _) if fades.is_unseen() => noise.values(simd, skewed, octave),
-                (false, _) => noise.gradients(simd, skewed, octave),
+            let is_curved = is_leading && shaded;
+            match is_curved {
+                true => noise.curvatures(simd, skewed, octave),
+                false if !is_leading && fades.is_unseen() => noise.values(simd, skewed, octave),
+                false => noise.gradients(simd, skewed, octave),
+            }
+            if let Some(folded) = folded {
+                folded.displaced.pull_back_noise(chunk, is_curved, noise);
+            }
+            match is_leading {
+                true if shaded => lead::<Jet>(simd, n, noise, *weight, per_cell, carving),
+                true => lead::<f32>(simd, n, noise, *weight, per_cell, carving),
+                false => {}
             }
             if is_f64 {
                 sums.add_gradients(chunk, &noise.gradient, *weight, &fades);

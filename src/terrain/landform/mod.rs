@@ -14,6 +14,7 @@
 //! - `cells`: plates, cracks and domes around scattered centres
 //! - `heightmap`: heights from a picture
 //! - `structure`: the ground that rivers carve, from world maps; it is no kind of layer
+//! - `folding`: a landform steered by belts of folded rock
 //! - `chunk`, `scratch`: the points, sums and memory that all kinds share
 //! - `octaves`: series of octaves; `folded`: octaves folded at zero
 //! - `warp`: displaced points
@@ -37,6 +38,7 @@ mod damped;
 mod dunes;
 mod fbm;
 mod folded;
+mod folding;
 mod gullies;
 mod heightmap;
 mod octaves;
@@ -57,13 +59,17 @@ mod warped;
 
 use crate::planet::{Key, Shape};
 use crate::world::carved::Carved;
+use crate::world::plates::Plates;
+use crate::world::weather::Weather;
 use chunk::Sums;
 pub(crate) use chunk::{Chunk, MAX_BANDS};
 use glam::DVec3;
 pub(crate) use octaves::Arithmetic;
 pub(crate) use scratch::Scratch;
-use scratch::{JETS, Scratch64};
+use scratch::{Folded, JETS, Scratch64};
+use std::sync::Arc;
 pub(crate) use structure::river_points;
+use varying::Around;
 
 /// Lists the kinds: `Kind in file`.
 macro_rules! landforms {
@@ -74,6 +80,7 @@ macro_rules! landforms {
         pub(crate) enum Landform {
             $($kind($file::$kind),)+
             Structure(structure::Structure),
+            Folding(Box<folding::Folding>),
         }
 
         impl Landform {
@@ -83,7 +90,11 @@ macro_rules! landforms {
             }
 
             fn evaluate(&self) -> &dyn Evaluate {
-                match self { $(Landform::$kind(kind) => kind,)+ Landform::Structure(structure) => structure }
+                match self {
+                    $(Landform::$kind(kind) => kind,)+
+                    Landform::Structure(structure) => structure,
+                    Landform::Folding(folding) => &**folding,
+                }
             }
         }
     };
@@ -109,6 +120,32 @@ impl Landform {
     /// Fractal noise with gain 0.5 and lacunarity 2.
     pub(crate) fn fbm(seed: u64, frequency: f64, octaves: u32) -> Self {
         Landform::Fbm(fbm::Fbm::plain(seed, frequency, octaves, Arithmetic::Classic))
+    }
+
+    /// The landform steered by folds, if it can be.
+    pub(crate) fn folding(self, strength: f64) -> Self {
+        match self {
+            Landform::Craters(_) | Landform::Dunes(_) | Landform::HeightMap(_) => self,
+            _ if strength <= 0.0 => self,
+            _ => Landform::Folding(Box::new(folding::Folding::new(self, strength))),
+        }
+    }
+
+    /// The world maps that it reads, besides those of the structure.
+    pub(crate) fn reads(&self) -> Reads {
+        Reads {
+            plates: matches!(self, Landform::Folding(_)),
+            weather: matches!(self, Landform::Dunes(dunes) if dunes.follows_wind()),
+        }
+    }
+
+    /// The same landform with the maps that it reads. None if it reads none.
+    pub(crate) fn with_maps(&self, maps: &Maps<'_>) -> Option<Self> {
+        match self {
+            Landform::Folding(folding) => Some(Landform::Folding(Box::new(folding.over(maps.plates)))),
+            Landform::Dunes(dunes) if dunes.follows_wind() => Some(Landform::Dunes(dunes.over(maps.weather))),
+            _ => None,
+        }
     }
 
     /// The carved ground of a planet; none until its world map is solved.
@@ -139,6 +176,20 @@ impl Landform {
     }
 }
 
+/// Which world maps a landform reads, besides those of the structure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Reads {
+    pub(crate) plates: bool,
+    pub(crate) weather: bool,
+}
+
+/// World maps that landforms read, with their keys.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Maps<'a> {
+    pub(crate) plates: Option<(Key, &'a Plates)>,
+    pub(crate) weather: Option<(Key, &'a Arc<Weather>)>,
+}
+
 /// What every kind implements.
 trait Evaluate {
     /// How many octaves of noise one point takes, for statistics.
@@ -148,7 +199,12 @@ trait Evaluate {
     fn bounds(&self) -> (f64, f64);
 
     /// Lowest and highest value within an angle of a direction. Conservative.
-    fn bounds_near(&self, _dir_planet: DVec3, _angle_rad: f64) -> (f64, f64) {
+    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
+        self.bounds_around(Around::new(dir_planet, angle_rad))
+    }
+
+    /// The same at points that folds displace.
+    fn bounds_around(&self, _around: Around) -> (f64, f64) {
         self.bounds()
     }
 
@@ -157,4 +213,10 @@ trait Evaluate {
     /// `chunk.skips` may be left out, with all finer ones. Without spacings only values are wanted; they must have
     /// the same bits.
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch);
+
+    /// The same with points that folds displace.
+    fn add_folded(&self, chunk: &Chunk<'_>, folded: &Folded, scratch: &mut Scratch) {
+        self.add_to(&Chunk { skewed: folded.displaced.points(chunk.len()), ..*chunk }, scratch);
+        folded.displaced.pull_back(chunk, &mut scratch.sums);
+    }
 }

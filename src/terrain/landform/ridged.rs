@@ -10,7 +10,6 @@ use crate::simd::{Simd, for_each_simd};
 use crate::terrain::jet::{Jets, Real};
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
-use glam::DVec3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ridged {
@@ -35,8 +34,8 @@ impl Evaluate for Ridged {
         (-1.0, 1.0)
     }
 
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        let point = Point::new(Around { dir_planet, angle_rad });
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
+        let point = Point::new(around);
         let feedback = f64::from(self.feedback);
         let (mut sum, mut feed) = ((0.0, 0.0), (1.0, 1.0));
         for Weighted { octave, weight } in &self.folded.octaves {

@@ -21,6 +21,10 @@ pub(crate) struct Scratch {
     pub(super) places: Places,
     pub(super) displaced: Displaced,
     pub(super) carving: Carving,
+    /// Points that folds displace. Taken out while a landform is evaluated there.
+    pub(super) folded: Option<Box<Folded>>,
+    /// The direction of the wind at each point.
+    pub(super) wind: Vectors,
     pub(super) in_f64: Scratch64,
 }
 
@@ -32,6 +36,24 @@ pub(super) struct Scratch64 {
     pub(super) places: Places<f64>,
     pub(super) jacobian: Jacobian64,
     pub(super) carving: Carving<f64>,
+    pub(super) wind: Vectors<f64>,
+}
+
+/// A vector at each point of a chunk.
+pub(super) struct Vectors<S = f32>(pub(super) [Lane<S>; 3]);
+
+impl<S: Scalar> Default for Vectors<S> {
+    fn default() -> Self {
+        Self([[S::default(); CHUNK]; 3])
+    }
+}
+
+/// The points of a chunk as folds displace them.
+#[derive(Default)]
+pub(super) struct Folded {
+    pub(super) displaced: Displaced,
+    /// The derivatives of the displaced points in f64.
+    pub(super) jacobian: Jacobian64,
 }
 
 /// The points of a chunk displaced by a warp.

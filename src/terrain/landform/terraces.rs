@@ -2,9 +2,9 @@
 //! are cut where layers are joined (`height::steps`).
 
 use super::fbm::Fbm;
+use super::varying::Around;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
-use glam::DVec3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Terraces {
@@ -26,8 +26,8 @@ impl Evaluate for Terraces {
         self.waves.bounds()
     }
 
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.waves.bounds_near(dir_planet, angle_rad)
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
+        self.waves.bounds_around(around)
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

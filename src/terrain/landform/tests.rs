@@ -6,7 +6,11 @@ use crate::planet::param::{Domain, ParamPath, Params, Unit, ValueMut};
 use crate::simd::Simd;
 use crate::terrain::field::{ALL_OCTAVES, Field};
 use crate::terrain::points::Points;
+use crate::world::cells::Cells;
+use crate::world::weather;
+use glam::DVec3;
 use proptest::prelude::*;
+use std::sync::LazyLock;
 
 const RADIUS_KM: f64 = 6371.0;
 
@@ -22,6 +26,45 @@ pub(super) fn directions(n: usize) -> Vec<DVec3> {
 
 fn values(landform: &Landform, dirs: Vec<DVec3>) -> Vec<f64> {
     Field::new(landform, Simd::detect(), &Points::new(dirs), &[]).value
+}
+
+/// The plates and the weather of a planet of its own, for landforms that they steer.
+struct Steering {
+    plates: Plates,
+    weather: Arc<Weather>,
+}
+
+static STEERING: LazyLock<Steering> = LazyLock::new(|| {
+    let [coarse, plates] = [32, 64].map(|side| Plates::solve(&planet::Plates::default(), 3, side, &|| true).unwrap());
+    let inputs = weather::Inputs {
+        params: &planet::Weather::default(),
+        side: 32,
+        heights_m: &coarse.rock.risen_m(),
+        sea_level_m: Some(0.0),
+        equator_c: 28.0,
+        pole_c: -26.0,
+        lapse_c_per_km: 6.0,
+    };
+    let weather = Arc::new(Weather::solve(&inputs, &|| true).unwrap());
+    Steering { plates, weather }
+});
+
+/// A landform with the world maps that it reads.
+fn steered(landform: Landform) -> Landform {
+    let Steering { plates, weather } = &*STEERING;
+    let maps = Maps { plates: Some((Key::of(&1), plates)), weather: Some((Key::of(&2), weather)) };
+    landform.with_maps(&maps).unwrap_or(landform)
+}
+
+/// Landforms that world maps steer.
+fn steered_shapes() -> [(&'static str, Shape, f64); 4] {
+    let dunes = planet::Dunes { follow_wind: true, ..Default::default() };
+    [
+        ("Folded ridges", Shape::Ridged(planet::Ridged::default()), 3.0),
+        ("Folded swirls", Shape::Warped(planet::Warped::default()), 2.0),
+        ("Folded mountains", Shape::Gullies(planet::Gullies::default()), 2.0),
+        ("Dunes in the wind", Shape::Dunes(dunes), 0.0),
+    ]
 }
 
 /// Gradients with every octave.
@@ -75,7 +118,11 @@ fn kinds(most_octaves: u32) -> Vec<(&'static str, Landform, f64)> {
         let smallest_rad = smallest_km / RADIUS_KM * 0.5_f64.powi(octave_count as i32 - 1);
         (name, Landform::new(&shape, 7, RADIUS_KM, Arithmetic::Fine), smallest_rad)
     };
-    shapes().into_iter().map(kind).collect()
+    let steered = steered_shapes().map(|(name, shape, folding)| {
+        let (name, landform, smallest_rad) = kind((name, shape));
+        (name, steered(landform.folding(folding)), smallest_rad / (1.0 + folding))
+    });
+    shapes().into_iter().map(kind).chain(steered).collect()
 }
 
 #[test]
@@ -138,6 +185,42 @@ fn heights_have_the_same_bits_with_and_without_gradients_on_every_instruction_se
     }
 }
 
+/// Ridges on folded rock are longer along the folds than across; elsewhere they have no direction.
+#[test]
+fn folds_draw_ridges_out_along_them() {
+    let (plates, dirs) = (&STEERING.plates, &Cells::of(64).dirs);
+    let shape = Shape::Ridged(planet::Ridged { wavelength_km: 60.0, octaves: 2, ..Default::default() });
+    let landform = steered(Landform::new(&shape, 1, RADIUS_KM, Arithmetic::Fine).folding(3.0));
+    let gradients = gradients(&landform, dirs);
+    let ratio = |is_chosen: &dyn Fn(f64) -> bool| {
+        let chosen = (0..dirs.len()).filter(|&cell| is_chosen(plates.folds[cell].1));
+        let [along, across] = chosen.fold([0.0; 2], |[a, b], cell| {
+            let fold = plates.folds[cell].0;
+            let aside = dirs[cell].cross(fold);
+            [a + gradients[cell].dot(fold).powi(2), b + gradients[cell].dot(aside).powi(2)]
+        });
+        (across / along).sqrt()
+    };
+    let (folded, plain) = (ratio(&|share| share > 0.5), ratio(&|share| share < 0.02));
+    assert!(folded > 1.4 && (0.8..1.2).contains(&plain), "{folded} {plain}");
+}
+
+/// Dunes rise and fall with the wind of the weather.
+#[test]
+fn dunes_lie_across_the_wind() {
+    let dirs = directions(4000);
+    let params =
+        planet::Dunes { wavelength_km: 50.0, octaves: 1, waviness: 0.0, follow_wind: true, ..Default::default() };
+    let landform = steered(Landform::new(&Shape::Dunes(params), 7, RADIUS_KM, Arithmetic::Fine));
+    let [mut with, mut across] = [0.0; 2];
+    for (dir, gradient) in dirs.iter().zip(gradients(&landform, &dirs)) {
+        let wind = STEERING.weather.wind_at(*dir).normalize();
+        with += gradient.dot(wind).powi(2);
+        across += gradient.dot(dir.cross(wind)).powi(2);
+    }
+    assert!(with > 9.0 * across, "{with} {across}");
+}
+
 /// Prints million octave samples a second for each instruction set, on one core.
 #[test]
 #[ignore = "prints figures"]
@@ -176,8 +259,9 @@ proptest! {
             (dir + (a * turn.cos() + b * turn.sin()) * (angle_rad * share * 0.99).tan()).normalize()
         });
         let points = Points::new(around.collect());
-        for (_, shape) in shapes() {
-            let landform = Landform::new(&shape, seed, RADIUS_KM, Arithmetic::Fine);
+        let plain = shapes().into_iter().map(|(_, shape)| (shape, 0.0));
+        for (shape, folding) in plain.chain(steered_shapes().map(|(_, shape, folding)| (shape, folding))) {
+            let landform = steered(Landform::new(&shape, seed, RADIUS_KM, Arithmetic::Fine).folding(folding));
             let (lo, hi) = landform.bounds_near(dir, angle_rad);
             for v in Field::new(&landform, Simd::detect(), &points, &[]).value {
                 prop_assert!(lo <= v && v <= hi, "{shape:?}: {v} not in {lo}..{hi} within {angle_rad}");

@@ -9,11 +9,28 @@ use crate::terrain::noise::{self, Octave};
 use glam::DVec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// All directions within an angle of one.
+/// All directions within an angle of one, or points near a point above or below that direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around {
     pub(super) dir_planet: DVec3,
+    /// How far the points lie aside at most, in radii.
     pub(super) angle_rad: f64,
+    /// Distance of the middle from the centre of the planet, in radii, and how far the points lie above and below a
+    /// sphere through it.
+    pub(super) from_centre: f64,
+    pub(super) rise: f64,
+}
+
+impl Around {
+    /// The directions within an angle of one.
+    pub(super) fn new(dir_planet: DVec3, angle_rad: f64) -> Self {
+        Self { dir_planet, angle_rad, from_centre: 1.0, rise: 0.0 }
+    }
+
+    /// Greatest distance along the central direction.
+    fn upward(&self) -> f64 {
+        0.5 * self.angle_rad * self.angle_rad + self.rise
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -62,10 +79,10 @@ impl Varying {
 
     /// Greatest rise or fall of the line and its error: steps follow the ground, which curves down a little.
     fn reach(self) -> f64 {
-        let Around { dir_planet, angle_rad } = self.around;
+        let Around { dir_planet, angle_rad, .. } = self.around;
         let up = self.gradient.dot(dir_planet);
         let along = (self.gradient.length_squared() - up * up).max(0.0).sqrt();
-        along * angle_rad + 0.5 * up.abs() * angle_rad * angle_rad + self.error
+        along * angle_rad + up.abs() * self.around.upward() + self.error
     }
 
     /// Times a number.
@@ -176,24 +193,17 @@ pub(super) struct Point {
 impl Point {
     /// The directions themselves.
     pub(super) fn new(around: Around) -> Self {
-        let Around { dir_planet, angle_rad } = around;
+        let reach = around.angle_rad + around.rise;
         let coordinate = |axis: usize| {
-            let at = dir_planet[axis];
-            Varying {
-                around,
-                value: at,
-                gradient: DVec3::AXES[axis],
-                error: 0.0,
-                lo: at - angle_rad,
-                hi: at + angle_rad,
-            }
+            let at = around.dir_planet[axis] * around.from_centre;
+            Varying { around, value: at, gradient: DVec3::AXES[axis], error: 0.0, lo: at - reach, hi: at + reach }
         };
-        Self { around, coordinates: [0, 1, 2].map(coordinate), distance: angle_rad * (1.0 + 1e-9) + 1e-15 }
+        Self { around, coordinates: [0, 1, 2].map(coordinate), distance: reach * (1.0 + 1e-9) + 1e-15 }
     }
 
     /// The directions displaced.
     pub(super) fn displaced(around: Around, coordinates: [Varying; 3]) -> Self {
-        let Around { dir_planet, angle_rad } = around;
+        let Around { dir_planet, angle_rad, .. } = around;
         let (s, t) = dir_planet.any_orthonormal_pair();
         let along = |axis: DVec3| DVec3::from_array(coordinates.map(|c| c.gradient.dot(axis)));
         let (s, t, up) = (along(s), along(t), along(dir_planet));
@@ -201,7 +211,7 @@ impl Point {
         let (mean, half) = (0.5 * (s.dot(s) + t.dot(t)), 0.5 * (s.dot(s) - t.dot(t)));
         let stretch = (mean + libm::hypot(half, s.dot(t))).sqrt();
         let error = DVec3::from_array(coordinates.map(|c| c.error)).length();
-        let distance = stretch * angle_rad + 0.5 * up.length() * angle_rad * angle_rad + error;
+        let distance = stretch * angle_rad + up.length() * around.upward() + error;
         Self { around, coordinates, distance: distance * (1.0 + 1e-9) + 1e-13 }
     }
 

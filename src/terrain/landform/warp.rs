@@ -157,7 +157,7 @@ fn identity<S: Scalar>(n: usize, jacobian: &mut [[Lane<S>; 3]; 3]) {
 
 impl Displaced {
     /// Points without displacement.
-    fn restart(&mut self, n: usize, bands: usize, curved: bool) {
+    pub(super) fn restart(&mut self, n: usize, bands: usize, curved: bool) {
         self.skewed.iter_mut().for_each(|lane| lane[..n].fill(0.0));
         self.bands = bands;
         if self.jacobians.len() < bands {
@@ -185,7 +185,7 @@ impl Displaced {
     }
 
     /// Turns gradients by the displaced points into gradients by the points.
-    fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
+    pub(super) fn pull_back(&self, chunk: &Chunk<'_>, sums: &mut Sums) {
         for (jacobian, gradient) in self.jacobians[..self.bands].iter().zip(sums.gradients_mut()) {
             multiply::<f32>(chunk.simd, chunk.len(), jacobian, gradient);
         }

@@ -7,7 +7,6 @@ use super::warp::Warp;
 use super::{Arithmetic, Chunk, Evaluate, Scratch};
 use crate::planet;
 use crate::terrain::noise;
-use glam::DVec3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Warped {
@@ -39,8 +38,8 @@ impl Evaluate for Warped {
         (-noise::BOUND, noise::BOUND)
     }
 
-    fn bounds_near(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
-        self.warp.near(Around { dir_planet, angle_rad }).0.sum(&self.octaves).range()
+    fn bounds_around(&self, around: Around) -> (f64, f64) {
+        self.warp.near(around).0.sum(&self.octaves).range()
     }
 
     fn add_to(&self, chunk: &Chunk<'_>, scratch: &mut Scratch) {

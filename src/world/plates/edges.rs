@@ -22,6 +22,8 @@ pub(super) struct Edges {
     pub(super) folded: f64,
     /// Unit tangent along the folds.
     pub(super) fold: DVec3,
+    /// How strongly the boundary folds rock, at any distance, 0 to 1.
+    pub(super) folds: f64,
     /// Distance to the nearest boundary.
     pub(super) edge_km: f64,
     /// Age of an ocean floor here, in million years.
@@ -120,6 +122,7 @@ impl Layout {
             sum.ground_m += weight * effect.ground_m;
             sum.coast_km += weight * effect.coast_km;
             sum.folded += weight * effect.folded;
+            sum.folds += weight * effect.folds;
             if weight * (0.01 + effect.folded) > strongest {
                 strongest = weight * (0.01 + effect.folded);
                 sum.fold = effect.fold;
@@ -130,6 +133,7 @@ impl Layout {
         sum.ground_m *= share;
         sum.coast_km = if total > 0.0 { sum.coast_km * share } else { NO_EDGE_KM };
         sum.folded *= share;
+        sum.folds *= share;
         sum.floor_myr = 1.0 / libm::cbrt(youngest);
         sum
     }
@@ -195,6 +199,7 @@ impl Layout {
                 - coast * (NO_EDGE_KM - (km - 95.0)).max(0.0)
                 - (1.0 - coast) * opens * (NO_EDGE_KM - (km - open_km)).max(0.0),
             folded: (coast * belt_at + collision * collided + 0.5 * sheared + arc * arc_at).min(1.0),
+            folds: (coast + collision + 0.5 * slides * mine * theirs + arc).min(1.0),
             fold: bent.cross(inward).normalize_or(bent.any_orthonormal_vector()),
             ..Edges::default()
         }

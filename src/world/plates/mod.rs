@@ -19,12 +19,13 @@ use super::cells::Cells;
 use super::map::KeepGoing;
 use super::noise::{fbm_row, hash, noise as one_octave, ramp};
 use crate::planet::Plates as Params;
+use crate::sphere::raster::Raster;
 use edges::NO_EDGE_KM;
 pub(crate) use finer::Rock;
 use glam::DVec3;
 pub(crate) use layout::Layout;
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// The crust at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,9 @@ pub(crate) struct Crust {
     pub(crate) fold: DVec3,
     /// Share of folded rock, 0 to 1.
     pub(crate) folded: f64,
+    /// A distance across belts of folded rock, radians: it changes by up to 1 for a step of 1 across the folds, and not
+    /// along them. Far from belts it is 0.
+    pub(crate) across_rad: f64,
     /// Age of the crust in million years.
     pub(crate) age_myr: f64,
     /// Kind of rock as the logarithm of how easily it is carved, about -1.5 (hard) to 1.5 (soft).
@@ -57,6 +61,16 @@ pub(crate) struct Plates {
     pub(crate) plate: Vec<u16>,
     /// Unit tangent along the folds, and the share of folded rock.
     pub(crate) folds: Vec<(DVec3, f64)>,
+    /// See [`Crust::across_rad`].
+    across_rad: Vec<f32>,
+    across: OnceLock<Arc<Across>>,
+}
+
+/// [`Crust::across_rad`] at any point.
+pub(crate) struct Across {
+    pub(crate) raster: Raster<f32>,
+    /// Greatest gradient.
+    pub(crate) steepest: f64,
 }
 
 impl Plates {
@@ -64,7 +78,10 @@ impl Plates {
     pub(crate) fn solve(params: &Params, planet_seed: u32, side: usize, keep_going: &KeepGoing<'_>) -> Option<Self> {
         let layout = Layout::new(params, planet_seed);
         let all = layout.crust_of(params, side, keep_going)?;
+        let across_rad: Vec<f32> = all.iter().map(|crust| crust.across_rad as f32).collect();
         Some(Self {
+            across: OnceLock::new(),
+            across_rad,
             rock: Rock::new(side, &all),
             plate: all.iter().map(|crust| crust.plate).collect(),
             folds: all.iter().map(|crust| (crust.fold, crust.folded)).collect(),
@@ -81,6 +98,7 @@ impl Plates {
         }
         to.bytes(self.plate.iter().flat_map(|plate| plate.to_le_bytes()));
         to.f64s(self.folds.iter().flat_map(|(along, share)| [along.x, along.y, along.z, *share]));
+        to.f32s(self.across_rad.iter().copied());
     }
 
     /// Plates with these parameters on a grid that was written.
@@ -90,13 +108,32 @@ impl Plates {
         let plate: Vec<u16> =
             from.bytes(2 * count)?.as_chunks().0.iter().map(|bytes| u16::from_le_bytes(*bytes)).collect();
         let folds = from.f64s(4 * count)?;
+        let across_rad = from.f32s(count)?;
         Some(Self {
+            across: OnceLock::new(),
+            across_rad,
             rock: Rock { side, base_m, uplift_m, softness },
             plate: plate.iter().all(|plate| usize::from(*plate) < layout.plates.len()).then_some(plate)?,
             folds: folds.as_chunks().0.iter().map(|&[x, y, z, share]| (DVec3::new(x, y, z), share)).collect(),
             params: params.clone(),
             finer: OnceLock::new(),
             layout,
+        })
+    }
+
+    /// [`Crust::across_rad`] as a raster, made when it is first asked for.
+    pub(crate) fn across(&self) -> &Arc<Across> {
+        /// The greatest gradient by the greatest of those at the cells. The spline is smooth over two cells.
+        const BETWEEN: f64 = 1.5;
+        self.across.get_or_init(|| {
+            let side = self.rock.side;
+            let raster = Raster::cube(side, self.across_rad.clone());
+            let slope = |dir: &DVec3| {
+                let (_, gradient) = raster.sample(&raster.place(*dir), 0);
+                (gradient - *dir * gradient.dot(*dir)).length()
+            };
+            let steepest = BETWEEN * Cells::of(side).dirs.iter().map(slope).fold(0.0, f64::max);
+            Arc::new(Across { raster, steepest })
         })
     }
 
@@ -210,6 +247,8 @@ impl Layout {
             plate: plate as u16,
             fold: (edges.fold - dir * edges.fold.dot(dir)).normalize_or(dir.any_orthonormal_vector()),
             folded,
+            across_rad: (edges.folds * across_km(edges.edge_km) + 0.7 * worn * on_land * across_km(suture_km))
+                / EARTH_KM,
             age_myr: if coast_km > 0.0 { land_myr } else { edges.floor_myr },
             softness: softness.clamp(-1.8, 1.8),
         }
@@ -247,6 +286,13 @@ impl Layout {
         let share = 1.0 - 0.6 * on_land;
         (share * (most_m + swell_m), ramp(0.0, 300.0, most_m))
     }
+}
+
+/// A distance across a belt of folds, by the distance from the line where it was pushed together: it rises for some
+/// hundred km, then returns to 0.
+fn across_km(km: f64) -> f64 {
+    let left = (1.0 - km * (1.0 / 2000.0)).max(0.0);
+    1.4 * km * (left * left)
 }
 
 /// Depth of an ocean floor of an age in million years: it grows with the square root of the age, and ends at 120.

@@ -50,9 +50,10 @@ pub(crate) struct Weather {
     warmer_c: Vec<f32>,
     /// How much warmer currents of the sea make it in °C, and the humidity, as [`Weather::at`] gives them.
     rasters: [Raster<f32>; 2],
-    /// Rain in mm a year and the wind in m/s along the axes of the planet frame, as [`Weather::rain_and_wind`] gives
-    /// them.
-    air: OnceLock<[Raster<f32>; 4]>,
+    /// Rain in mm a year, as [`Weather::rain_at`] gives it, and the wind in m/s along the axes of the planet frame, as
+    /// [`Weather::wind_at`] gives it.
+    rain: OnceLock<Raster<f32>>,
+    wind: OnceLock<[Raster<f32>; 3]>,
 }
 
 /// Values of [`Weather`] by cell.
@@ -110,7 +111,8 @@ impl Weather {
         let humid = |(rain, potential): (&f64, &f64)| humidity(*rain, *potential) as f32;
         let humid = rain_mm.iter().zip(&evaporation_mm).map(humid).collect();
         let rasters = [Raster::cube(side, warmer_c.clone()), Raster::cube(side, humid)];
-        Self { side, wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c, rasters, air: OnceLock::new() }
+        let (rain, wind) = (OnceLock::new(), OnceLock::new());
+        Self { side, wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c, rasters, rain, wind }
     }
 
     /// Writes what [`Weather::read_from`] needs.
@@ -137,13 +139,15 @@ impl Weather {
         self.rasters.each_ref().map(|raster| raster.value(&place, 0))
     }
 
-    /// The rasters of [`Weather::rain_and_wind`]. They are made on all cores, so no lock may be held meanwhile: whoever
-    /// waits for it could be the one that a core must finish first.
-    fn air(&self) -> &[Raster<f32>; 4] {
-        if let Some(air) = self.air.get() {
-            return air;
-        }
-        let made = {
+    /// Rain and snow in mm a year at a unit direction.
+    pub(crate) fn rain_at(&self, dir: DVec3) -> f64 {
+        let raster = made(&self.rain, || Raster::cube(self.side, self.rain_mm.iter().map(|mm| *mm as f32).collect()));
+        raster.value(&raster.place(dir), 0).max(0.0)
+    }
+
+    /// The mean wind in m/s at a unit direction: a tangent.
+    pub(crate) fn wind_at(&self, dir: DVec3) -> DVec3 {
+        let rasters = made(&self.wind, || {
             let cells = Cells::of(self.side);
             let winds = cells.dirs.iter().zip(&self.wind_m_s).map(|(dir, [to_east, to_north])| {
                 let (east, north) = east_north(*dir);
@@ -151,19 +155,11 @@ impl Weather {
             });
             let winds: Vec<DVec3> = winds.collect();
             let along = |axis: usize| winds.iter().map(|wind| wind[axis] as f32).collect();
-            let rain = self.rain_mm.iter().map(|mm| *mm as f32).collect();
-            [rain, along(0), along(1), along(2)].map(|texels| Raster::cube(self.side, texels))
-        };
-        self.air.get_or_init(|| made)
-    }
-
-    /// Rain and snow in mm a year, and the mean wind in m/s, a tangent, at a unit direction.
-    pub(crate) fn rain_and_wind(&self, dir: DVec3) -> (f64, DVec3) {
-        let rasters = self.air();
+            [0, 1, 2].map(|axis| Raster::cube(self.side, along(axis)))
+        });
         let place = rasters[0].place(dir);
-        let [rain_mm, x, y, z] = rasters.each_ref().map(|raster| raster.value(&place, 0));
-        let wind = DVec3::new(x, y, z);
-        (rain_mm.max(0.0), wind - dir * wind.dot(dir))
+        let wind = DVec3::from_array(rasters.each_ref().map(|raster| raster.value(&place, 0)));
+        wind - dir * wind.dot(dir)
     }
 
     /// Water that runs off in mm a year: what is left of the rain after evaporation (Schreiber 1904).
@@ -175,6 +171,18 @@ impl Weather {
     /// What a lake loses beyond the rain that falls on it, in mm a year.
     pub(crate) fn dryness_mm(&self) -> Vec<f64> {
         self.evaporation_mm.iter().zip(&self.rain_mm).map(|(potential, rain)| potential - rain).collect()
+    }
+}
+
+/// What a lock holds, made if it is not there. It is made on all cores, so no lock may be held meanwhile: whoever waits
+/// for it could be the one that a core must finish first.
+fn made<T>(lock: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
+    match lock.get() {
+        Some(made) => made,
+        None => {
+            let made = make();
+            lock.get_or_init(|| made)
+        }
     }
 }
 

@@ -54,7 +54,7 @@ impl Size {
         for octave in &self.lattices {
             places.find(Simd::detect(), skewed.each_ref().map(std::slice::from_ref), octave);
             for corner in (0..27).map(|k| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1]) {
-                let wave = wave(&places, corner, octave, dunes.wind, 0);
+                let wave = wave(&places, corner, octave, |from| dunes.wind.at(from), 0);
                 let (to, waves) = (DVec3::from_array(wave.to), wave_vector(wave.along));
                 let distance = to.length();
                 let (nearest, farthest) = ((distance - reach).max(0.0), (distance + reach).min(f64::from(REACH)));
