@@ -2,7 +2,7 @@
 // potential, so that it swirls without bunching up.
 //
 // Without a structure, r is distributed evenly over 0..1. With one, r is the noise alone, and g is what the rain of the
-// structure adds to it; the wind carries r, and g stays over the ground.
+// structure adds to it; the wind carries r, and g stays over the ground. b: speed of the wind by its mean, for the sea.
 #include "screen.wgsl"
 #include "math.wgsl"
 #include "cloud_cover.wgsl"
@@ -14,8 +14,8 @@ struct Face {
     down: vec4f,
 }
 @group(1) @binding(0) var<uniform> face: Face;
-// Wetness of the sky, 0.5 at its median
-@group(1) @binding(1) var wetness_map: texture_cube<f32>;
+// Wetness of the sky, 0.5 at its median; speed of the wind by FASTEST_WIND times its mean
+@group(1) @binding(1) var solved_map: texture_cube<f32>;
 // Noise for each unit of wetness, which is eight octaves of rain: chosen by eye.
 const WETNESS: f32 = 0.9;
 
@@ -82,9 +82,10 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let s = dir.z * dir.z;
     let wet = CLIMATE_BELTS.x + s * (CLIMATE_BELTS.y + s * (CLIMATE_BELTS.z + s * CLIMATE_BELTS.w));
     let belt = body.cloud_belts * wet;
-    if body.cloud_wetness > 0.0 {
-        let wetness = textureSampleLevel(wetness_map, clamped, dir, 0.0).r - 0.5;
-        return vec4f(sum + belt, body.cloud_wetness * WETNESS * wetness, 0.0, 1.0);
+    if body.weather_share > 0.0 {
+        let solved = textureSampleLevel(solved_map, clamped, dir, 0.0);
+        let wind = mix(1.0, solved.g * FASTEST_WIND, body.weather_share);
+        return vec4f(sum + belt, body.weather_share * WETNESS * (solved.r - 0.5), wind, 1.0);
     }
     return vec4f(evenly(sum + belt), 0.0, 0.0, 1.0);
 }

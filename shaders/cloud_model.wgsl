@@ -13,7 +13,7 @@ fn drifted(p: vec3f) -> vec3f {
 // threshold at 1 - coverage leaves that share of the sky clouded.
 fn cover_over(dir: vec3f) -> f32 {
     var weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
-    if body.cloud_wetness > 0.0 {
+    if body.weather_share > 0.0 {
         weather = evenly(weather + textureSampleLevel(weather_map, clamped, dir, 0.0).g);
     }
     const SOFT: f32 = 0.7;

@@ -6,12 +6,19 @@
 // within the pixel, metres.
 @group(2) @binding(2) var surface: texture_2d<f32>;
 
+// Variance of the slope of all waves at a direction: the part that the wind raises varies with its speed.
+fn slope_variance(up: vec3f) -> f32 {
+    if body.weather_share <= 0.0 { return body.wave_slope_variance; }
+    let wind = textureSampleLevel(weather_map, clamped, up, 0.0).b;
+    return CALM_SLOPE_VARIANCE + (body.wave_slope_variance - CALM_SLOPE_VARIANCE) * wind;
+}
+
 // `depths_m`: least and greatest depth in the wet part of the pixel. Foam and shallows along the shore would sparkle if
 // only the middle of the pixel counted.
 fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temperature_c: f32, star: f32) -> vec3f {
     return water_radiance(Water(
         rel_km, dir, floor, depths_m, temperature_c, Visibility(star, 1.0), max(body.sea_level_km, 0.0),
-        body.water_absorption_per_m, body.water_color, body.wave_slope_variance, 1.0,
+        body.water_absorption_per_m, body.water_color, slope_variance(normalize(body.eye_km + rel_km)), 1.0,
     ));
 }
 

@@ -1,10 +1,11 @@
-//! The weather map (`cloud_map.wgsl`): six faces of a cube map, drawn again when scale, curl or seed changes.
+//! The weather map (`cloud_map.wgsl`): six faces of a cube map, drawn again when scale, curl, seed or the solved
+//! weather changes.
 
 use super::shared::WEATHER_SIDE;
 use super::{RenderError, gpu, shaders};
 use wgpu::util::DeviceExt;
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Centre, right and down of each face, in the order and orientation of cube textures.
 const FACES: [[[f32; 4]; 3]; 6] = [
@@ -84,17 +85,17 @@ impl CloudMapPass {
         Ok(Self { pipeline, layout, faces })
     }
 
-    /// Draws the six faces of the map. `wetness`: a cube; see the shader.
+    /// Draws the six faces of the map. `solved`: a cube; see the shader.
     pub(crate) fn draw(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         uniforms: &wgpu::BindGroup,
-        wetness: &wgpu::TextureView,
+        solved: &wgpu::TextureView,
         map: &WeatherMap,
     ) {
         for (view, face) in map.faces.iter().zip(&self.faces) {
-            let resources = [face.as_entire_binding(), wgpu::BindingResource::TextureView(wetness)];
+            let resources = [face.as_entire_binding(), wgpu::BindingResource::TextureView(solved)];
             let face = gpu::group(device, "cube face", &self.layout, resources);
             gpu::draw_screen(encoder, "weather map", &self.pipeline, &[uniforms, &face], &[view]);
         }

@@ -16,7 +16,7 @@ use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Biomes, Key};
 use crate::terrain::{Revision, Terrain};
-use crate::world::{MapPicture, MapView};
+use crate::world::{FASTEST, MapPicture, MapView};
 use std::sync::Arc;
 
 /// The LUTs of the air in order of dependence: name, shader, size.
@@ -176,13 +176,13 @@ impl Luts {
             self.runs.air += 1;
         }
         let has_clouds = planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && marked.is_none();
-        let rain_key = terrain.map(|terrain| terrain.map_picture_key(MapView::Wetness));
-        let weather_key = Some((keys.cloud_map(), rain_key.unwrap_or_default()));
-        if has_clouds && self.weather_key != weather_key {
-            let wetness =
-                terrain.and_then(|terrain| terrain.map_picture(MapView::Wetness)).unwrap_or_else(even_wetness);
-            let wetness = write_map(device, queue, &wetness);
-            pipelines.cloud_map.draw(device, encoder, uniforms, &wetness, &self.weather);
+        let has_winds = planet.structure.is_some() && planet.water.is_some();
+        let solved_key = terrain.map(|terrain| terrain.map_picture_key(MapView::Weather));
+        let weather_key = Some((keys.cloud_map(), solved_key.unwrap_or_default()));
+        if (has_clouds || has_winds) && self.weather_key != weather_key {
+            let solved = terrain.and_then(|terrain| terrain.map_picture(MapView::Weather)).unwrap_or_else(even_weather);
+            let solved = write_map(device, queue, &solved);
+            pipelines.cloud_map.draw(device, encoder, uniforms, &solved, &self.weather);
             self.weather_key = weather_key;
             self.runs.weather += 1;
         }
@@ -243,8 +243,8 @@ fn no_map() -> MapPicture {
 }
 
 /// For planets without weather.
-fn even_wetness() -> MapPicture {
-    MapPicture { side: 1, texels: vec![[128; 4]; 6] }
+fn even_weather() -> MapPicture {
+    MapPicture { side: 1, texels: vec![[128, (255.0 / FASTEST) as u8, 0, 255]; 6] }
 }
 
 /// Uploads the picture of a world map.

@@ -20,8 +20,9 @@ pub(crate) enum MapView {
     Rain,
     /// Basins in their colours, with rivers and lakes.
     Rivers,
-    /// How wet the sky is, for the clouds: 0.5 is the median of the globe, the rest as [`wetness`] says. No debug view.
-    Wetness,
+    /// Red: how wet the sky is, for the clouds; 0.5 is the median of the globe, the rest as [`wetness`] says. Green:
+    /// speed of the wind, for the sea, by [`FASTEST`] times its mean. No debug view.
+    Weather,
 }
 
 /// The picture of a map.
@@ -35,8 +36,10 @@ pub(crate) struct MapPicture {
 /// Texels along the side of a face where the map is smooth, and the most for rivers.
 const SIDE: usize = 256;
 const MOST: usize = 512;
-/// The same for the wetness: as many as the weather has cells. It is computed while a frame is drawn.
-const WETNESS_SIDE: usize = 64;
+/// The same for clouds and sea: as many as the weather has cells. It is computed while a frame is drawn.
+const WEATHER_SIDE: usize = 64;
+/// The fastest wind of the picture for clouds and sea, by the mean.
+pub(crate) const FASTEST: f64 = 4.0;
 /// Number of darts on the globe.
 const DARTS: usize = 500;
 /// Half the width of a dart at its tail, and its greatest length, radians.
@@ -60,7 +63,7 @@ impl World {
         match view {
             MapView::Plates => [self.plates.key(), None],
             MapView::Rain => [self.weather.key(), self.carved.key()],
-            MapView::Wetness => [self.weather.key(), None],
+            MapView::Weather => [self.weather.key(), None],
             MapView::Rivers => [self.carved.key(), None],
         }
     }
@@ -70,7 +73,7 @@ impl World {
         let (plates, weather, carved) = (self.plates.map()?, self.weather.map(), self.carved.map());
         match view {
             MapView::Plates => Some(plates_picture(plates)),
-            MapView::Wetness => Some(wetness_picture(weather?)),
+            MapView::Weather => Some(weather_picture(weather?)),
             MapView::Rain => Some(rain_picture(weather?, carved.map(|carved| &**carved))),
             MapView::Rivers => Some(rivers_picture(carved?)),
         }
@@ -137,13 +140,19 @@ fn rain_picture(weather: &Weather, carved: Option<&Carved>) -> MapPicture {
     })
 }
 
-fn wetness_picture(weather: &Weather) -> MapPicture {
+fn weather_picture(weather: &Weather) -> MapPicture {
     let mut sorted = weather.rain_mm.clone();
     sorted.sort_by(f64::total_cmp);
     let median_mm = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-    // Makes the raster before all cores ask for it.
+    let speeds_m_s = weather.wind_m_s.iter().map(|[to_east, to_north]| libm::hypot(*to_east, *to_north));
+    let mean_m_s = speeds_m_s.sum::<f64>() / weather.wind_m_s.len().max(1) as f64;
+    // Makes the rasters before all cores ask for them.
     weather.rain_at(DVec3::X);
-    MapPicture::new(WETNESS_SIDE, |dir| [wetness(weather.rain_at(dir), median_mm); 3])
+    weather.wind_at(DVec3::X);
+    MapPicture::new(WEATHER_SIDE, |dir| {
+        let wind = weather.wind_at(dir).length() / (FASTEST * mean_m_s.max(1e-9));
+        [wetness(weather.rain_at(dir), median_mm), wind, 0.0]
+    })
 }
 
 /// How wet the sky is where it rains this much, 0 to 1: the logarithm of the rain relative to the median.

@@ -28,6 +28,8 @@ pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 /// Texels along a face of the weather map.
 pub(crate) const WEATHER_SIDE: u32 = 512;
+/// Variance of the slope of a sea without wind (Cox and Munk 1954).
+pub(crate) const CALM_SLOPE_VARIANCE: f64 = 0.003;
 /// Bins of the exposure's histogram.
 pub(crate) const METER_BINS: u32 = 128;
 /// Spacing of counted pixels in each direction, in pixels.

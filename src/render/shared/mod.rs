@@ -23,6 +23,7 @@ use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VE
 use crate::planet::CLIMATE_BELTS;
 use crate::sphere::cube::C_SQUARED;
 use crate::terrain::border::{self, OCTAVE_TURN};
+use crate::world::FASTEST;
 use std::mem::offset_of;
 
 /// The text of `shared.wgsl`.
@@ -73,6 +74,8 @@ pub(crate) fn text() -> String {
         ("IRRADIANCE_SIZE", &size(IRRADIANCE_SIZE)),
         ("SKY_SIZE", &size(SKY_SIZE)),
         ("WEATHER_SIDE", &WEATHER_SIDE),
+        ("FASTEST_WIND", &FASTEST),
+        ("CALM_SLOPE_VARIANCE", &CALM_SLOPE_VARIANCE),
         // Climate belts as a cubic in the squared sine of latitude
         ("CLIMATE_BELTS", &CLIMATE_BELTS),
         // Exposure

@@ -165,8 +165,8 @@ uniform_struct! {
         cloud_curl: f32,
         /// Strength of the climate belts in the weather map.
         cloud_belts: f32,
-        /// Share of the structure's rain in the cover; 0 without a structure.
-        cloud_wetness: f32,
+        /// Share of the solved weather in the cover of the clouds and in the wind over the sea; 0 without a structure.
+        weather_share: f32,
         cloud_seed: u32,
         /// Octaves of the macro variation; periods in metres.
         variation: [Octave; VARIATION_OCTAVES],

@@ -22,6 +22,7 @@ const FAR_STEPS: f64 = 3.0;
 
 /// Sets the clouds around an eye; without clouds the coverage stays 0.
 pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Scene<'_>, pixel_rad: f32) {
+    out.weather_share = planet.structure.as_ref().map_or(0.0, |structure| structure.weather_share as f32);
     let Some(clouds) = &planet.clouds else { return };
     let steps = match scene.quality {
         Quality::Low => 7.0,
@@ -56,9 +57,7 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
     out.cloud_drift = Vec2::new(c as f32, s as f32);
     out.cloud_systems_per_radius = (planet.radius_km / clouds.scale_km) as f32;
     out.cloud_curl = clouds.curl as f32;
-    let wetness = planet.structure.as_ref().map_or(0.0, |structure| structure.weather_share);
-    out.cloud_wetness = wetness as f32;
-    out.cloud_belts = (planet.climate.belts * BELTS * (1.0 - wetness)) as f32;
+    out.cloud_belts = (planet.climate.belts * BELTS) as f32 * (1.0 - out.weather_share);
     out.cloud_seed = clouds.seed ^ planet.seed.rotate_left(16);
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Body, rgb};
 use crate::planet::{Planet, Water};
-use crate::render::shared::{WAVES, Wave};
+use crate::render::shared::{CALM_SLOPE_VARIANCE, WAVES, Wave};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
     let none = Water::default();
     let water = planet.water.as_ref().unwrap_or(&none);
     // Cox and Munk 1954: variance of the slope, up- and crosswind together.
-    let variance = 0.003 + 0.00512 * water.wind_m_s;
+    let variance = CALM_SLOPE_VARIANCE + 0.00512 * water.wind_m_s;
     out.has_sea = u32::from(planet.water.is_some());
     out.has_rivers = u32::from(planet.structure.is_some());
     out.water_absorption_per_m = rgb(water.absorption_per_m);
