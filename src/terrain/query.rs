@@ -193,9 +193,21 @@ impl Terrain {
     /// As [`Terrain::samples`], on the calling thread and without allocating. `samples` has one for each direction;
     /// where the lengths differ, the shorter counts.
     pub fn samples_into(&self, dirs_planet: &[DVec3], wanted: Wanted, samples: &mut [Sample], scratch: &mut Scratch) {
+        self.samples_spaced_into(dirs_planet, 0.0, wanted, samples, scratch);
+    }
+
+    /// As [`Terrain::samples_into`], without valleys of a structure that points `spacing_rad` apart would not show.
+    pub(crate) fn samples_spaced_into(
+        &self,
+        dirs_planet: &[DVec3],
+        spacing_rad: f64,
+        wanted: Wanted,
+        samples: &mut [Sample],
+        scratch: &mut Scratch,
+    ) {
         let spacings_rad = if wanted.slope() { ALL_OCTAVES } else { &[] };
         for (dirs, samples) in dirs_planet.chunks(CHUNK).zip(samples.chunks_mut(CHUNK)) {
-            self.evaluate_at(dirs, 0.0, spacings_rad, scratch);
+            self.evaluate_at(dirs, spacing_rad, spacings_rad, scratch);
             let BatchScratch { points, heights, .. } = &*scratch.0;
             for (i, (sample, &dir)) in samples.iter_mut().zip(&points.dirs).enumerate() {
                 *sample = Sample { height_m: heights.height_m[i], ..Sample::default() };

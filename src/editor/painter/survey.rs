@@ -5,6 +5,7 @@ use crate::planet::Planet;
 use crate::sphere::spread;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
+use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -36,7 +37,10 @@ impl Survey {
         let mut cells = vec![0.0; columns * planet.biomes.table.rows().len()];
         let mut biomes = vec![0.0; planet.biomes.palette.len()];
         let mut grounds = vec![Sample::default(); DIRECTIONS];
-        terrain.samples_into(&dirs, Wanted::HEIGHT.and_biome(), &mut grounds, &mut Scratch::default());
+        // Single valleys do not count, and finding rivers that nothing has drawn would take a minute.
+        let spacing_rad = (4.0 * PI / DIRECTIONS as f64).sqrt();
+        let wanted = Wanted::HEIGHT.and_biome();
+        terrain.samples_spaced_into(&dirs, spacing_rad, wanted, &mut grounds, &mut Scratch::default());
         let land = grounds.iter().filter(|ground| ground.height_m >= sea_m);
         let count = land.clone().count();
         let share = 1.0 / count.max(1) as f64;
@@ -119,7 +123,19 @@ fn same_ground(a: &Arc<Terrain>, b: &Arc<Terrain>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Table, shipped};
+    use crate::planet::{Structure, Table, Water, shipped};
+
+    /// A survey of a planet with rivers builds no block of them: it would take a minute.
+    #[test]
+    fn rivers_are_left_out() {
+        let structure = Some(Structure { grids: 1, ..Structure::default() });
+        let planet = Planet { structure, water: Some(Water::default()), ..shipped::layered() };
+        let terrain = Terrain::try_new(Arc::new(Planet { layers: Vec::new(), ..planet })).unwrap();
+        let survey = Survey::of(&terrain);
+        assert!((survey.cells.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+        assert!((0.4..0.9).contains(&survey.sea), "{}", survey.sea);
+        assert_eq!(terrain.world().carved.map().unwrap().rivers.blocks(), 0);
+    }
 
     #[test]
     fn shares_add_up_and_the_sea_is_left_out() {

@@ -37,6 +37,12 @@ impl Blocks {
         shelf().keep(level, number, &block);
         block
     }
+
+    /// How many are kept.
+    #[cfg(all(test, feature = "editor"))]
+    pub(super) fn count(&self) -> usize {
+        self.shelves.iter().map(|shelf| shelf.lock().unwrap_or_else(PoisonError::into_inner).blocks.len()).sum()
+    }
 }
 
 impl Shelf {

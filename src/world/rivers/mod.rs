@@ -121,6 +121,12 @@ impl Rivers {
         }
     }
 
+    /// How many blocks are kept.
+    #[cfg(all(test, feature = "editor"))]
+    pub(crate) fn blocks(&self) -> usize {
+        self.blocks.count()
+    }
+
     /// Lowest and greatest height of the ground within an angle of a unit direction. Conservative, at every level.
     pub(crate) fn bounds_near(&self, dir: DVec3, angle_rad: f64) -> (f64, f64) {
         self.bounds.near(dir, angle_rad)

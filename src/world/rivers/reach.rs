@@ -175,9 +175,9 @@ impl Reach {
 }
 
 impl Piece {
-    /// Cuts the piece into `count` pieces of a curve through its ends, bent to one side by `bend` of its length. Their
-    /// influence is `finer` times less.
-    pub(super) fn refined(&self, count: usize, finer: f64, bend: f64, each: &mut impl FnMut(Piece)) {
+    /// Cuts the piece into `count` pieces of a curve through its ends, bent to one side by `bend` of its length, and in
+    /// the middle wider by `swell` of its width. Their influence is `finer` times less.
+    pub(super) fn refined(&self, count: usize, finer: f64, [bend, swell]: [f64; 2], each: &mut impl FnMut(Piece)) {
         let Piece { line: whole, stream } = self;
         let end = whole.start + whole.along;
         let curve = Curve { ends: [whole.start, end], tangents: stream.tangents };
@@ -191,13 +191,18 @@ impl Piece {
             let p = if k == 0 || k == count { p } else { unit(p + aside * (t * t * u * u)) };
             (p, (tangent * count as f64 + aside * (2.0 * t * u * (u - t))) * step)
         };
+        let bank_rad = |t: f64| {
+            let Channel { bank_rad, bank_change_rad, .. } = stream.channel;
+            (bank_rad + bank_change_rad * t) * (1.0 + swell * (4.0 * t * (1.0 - t)))
+        };
         for k in 0..count {
             let ((a, first), (b, last)) = (point(k), point(k + 1));
             let (share, along) = (k as f64 * step, b - a);
-            let Channel { bank_change_rad, depth_change_m, discharge_change_m3_s, .. } = stream.channel;
+            let Channel { depth_change_m, discharge_change_m3_s, .. } = stream.channel;
+            let (bank_rad, next_rad) = (bank_rad(share), bank_rad(share + step));
             let channel = Channel {
-                bank_rad: stream.channel.bank_rad + bank_change_rad * share,
-                bank_change_rad: bank_change_rad * step,
+                bank_rad,
+                bank_change_rad: next_rad - bank_rad,
                 depth_m: stream.channel.depth_m + depth_change_m * share,
                 depth_change_m: depth_change_m * step,
                 discharge_m3_s: stream.channel.discharge_m3_s + discharge_change_m3_s * share,

@@ -1,4 +1,4 @@
-//! Rivers wind: on each finer level the pieces of coarser reaches are cut anew and bent a little.
+//! Rivers wind: on each finer level the pieces of coarser reaches are cut anew, bent a little, and their width varies.
 
 use super::grid::RATIO;
 use super::reach::Piece;
@@ -10,18 +10,23 @@ pub(super) const REFINED: usize = 4;
 /// which it does: rivers wind at about eleven widths (Leopold and Wolman 1960).
 const BEND: f64 = 0.09;
 const BENDS_FROM: f64 = 4.0;
+/// How much wider or narrower a river is between the ends of a piece than at them, by its width.
+const SWELL: f64 = 0.3;
 
-/// Cuts a piece of the level before into those of the next level, bent to one side as rivers wind.
+/// Cuts a piece of the level before into those of the next level, bent to one side as rivers wind. Its ends keep their
+/// places and widths.
 pub(super) fn refine(piece: &Piece, each: &mut impl FnMut(Piece)) {
     let length = 1.0 / piece.line.per_length2.sqrt();
     let widths = length / (2.0 * piece.stream.channel.bank_rad + 1e-30);
-    let bend = BEND * bend_of(piece) * ((widths - BENDS_FROM) / BENDS_FROM).clamp(0.0, 1.0);
-    piece.refined(REFINED, RATIO as f64, bend, each);
+    // The banks of a piece shorter than the river is wide would be ragged.
+    let free = ((widths - BENDS_FROM) / BENDS_FROM).clamp(0.0, 1.0);
+    let [aside, swelling] = numbers_of(piece);
+    piece.refined(REFINED, RATIO as f64, [BEND * free * aside, SWELL * free * swelling], each);
 }
 
-/// How far a piece bends, from -1 to 1: a pure function of its start.
-fn bend_of(piece: &Piece) -> f64 {
+/// Two numbers from -1 to 1: a pure function of the start of a piece.
+fn numbers_of(piece: &Piece) -> [f64; 2] {
     let [x, y, z] = piece.line.start.to_array().map(f64::to_bits);
     let bits = mix(mix(mix(x) ^ y) ^ z);
-    (bits >> 11) as f64 * (2.0 / (1_u64 << 53) as f64) - 1.0
+    [bits, mix(bits)].map(|bits| (bits >> 11) as f64 * (2.0 / (1_u64 << 53) as f64) - 1.0)
 }
