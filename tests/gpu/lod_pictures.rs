@@ -66,7 +66,10 @@ fn look_for_holes(planet: Planet, poses: usize, dice: &mut Dice) {
     let terrain = terrain(&planet);
     for _ in 0..poses {
         let place = dice.place();
-        let altitude_m = 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
+        // Rivers and lakes are drawn over the ground: a camera below their surface sees through it.
+        let ground = terrain.sample(place.direction());
+        let water_m = ground.water_level_m.map_or(0.0, |level_m| (level_m - ground.height_m).max(0.0));
+        let altitude_m = water_m + 2.0 * (1.5 * planet.radius_m()).powf(dice.roll());
         // Mostly looks down.
         let (heading, pitch) = (dice.roll() * std::f64::consts::TAU, (dice.roll() - 0.8) * 1.8);
         let camera = camera_over(&terrain, place, altitude_m, [heading, pitch.max(-1.55)]);
