@@ -42,7 +42,9 @@ fn beds_never_rise_and_discharge_never_falls_towards_the_mouth() {
             let [a, b] = [pair[0], pair[1]];
             assert!(a.height_m >= b.height_m, "{}: {a:?} {b:?}", course.id);
             assert!(a.discharge_m3_s <= b.discharge_m3_s, "{}: {a:?} {b:?}", course.id);
-            assert!(a.width_m > 0.0 && a.width_m <= b.width_m, "{}: {a:?} {b:?}", course.id);
+            // Around the width of the discharge (see `world/rivers/reach.rs`) it varies by up to 30%.
+            let usual = a.width_m / (7.2 * a.discharge_m3_s.sqrt());
+            assert!((0.69..1.31).contains(&usual), "{}: {a:?}", course.id);
         }
     }
     let order: Vec<(f64, u64)> =
