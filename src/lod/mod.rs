@@ -3,8 +3,8 @@
 //! - [`view`]: camera, viewport, quality
 //! - [`tile`]: a tile: vertices and bounds; [`horizon`]: horizon angles
 //! - [`stitch`]: index permutations for coarser neighbours
-//! - [`opening`]: the camera when a planet is opened
-//! - [`chords`]: the line that a vertex replaces
+//! - [`opening`]: the camera when a planet is opened; [`scout`]: random planets that open on a good view
+//! - [`chords`]: the edges of the coarser mesh that the vertices of a finer level divide
 //! - [`range`]: the distance at which each level splits
 //! - [`morph`]: vertices between the coarser mesh and their exact position
 //! - [`select`]: which nodes must be split for a view
@@ -16,6 +16,7 @@ pub mod horizon;
 pub mod morph;
 pub mod opening;
 pub mod range;
+pub mod scout;
 pub mod select;
 pub mod stitch;
 pub mod tile;

@@ -1,4 +1,4 @@
-//! What a planet is: plain data, its description, its file.
+//! The preset: its data, the descriptions of its parameters, loading and saving.
 //!
 //! - [`param`]: one description for each parameter and each part, and the visitors of all parameters
 //! - [`layers`], [`shapes`] (landforms), [`masks`], [`parts`] (climate to star), [`biome`], [`table`] (the biome

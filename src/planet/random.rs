@@ -162,24 +162,33 @@ fn climate(kind: Kind, radius_km: f64, dice: &mut Dice) -> Climate {
 
 fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
     let earth = Atmosphere::default();
-    // Thin on cold worlds, thick on hot ones; dust turns the sky yellow and red.
+    // Thin on cold worlds, thick on wet ones; dust turns the sky yellow and red. Thicker air than on the Earth would
+    // veil the ground from orbit.
     let thickness = match kind {
-        Kind::Hot => dice.between(0.6, 1.6),
-        Kind::Dry => dice.between(0.1, 0.7),
-        Kind::Cold => dice.between(0.3, 1.0),
-        _ => dice.between(0.7, 1.5),
+        Kind::Hot => dice.between(0.2, 0.7),
+        Kind::Dry => dice.between(0.05, 0.4),
+        Kind::Cold => dice.between(0.3, 0.8),
+        _ => dice.between(0.5, 0.95),
     };
-    let dust = if kind == Kind::Temperate { dice.between(0.5, 2.0) } else { dice.between(0.3, 1.4) };
-    let tint = dice.color([0.7, 0.7, 0.7], [1.3, 1.3, 1.3]);
+    let dust = if kind == Kind::Temperate { dice.between(0.3, 1.2) } else { dice.between(0.3, 1.4) };
+    // Red and violet skies were many, and all their planets looked alike: blue stays the strongest.
+    let tint = dice.color([0.75, 0.85, 0.95], [1.05, 1.2, 1.1]);
+    // Dust of deserts and fumes of hot worlds swallow blue: the air is butterscotch instead of blue.
+    let dusty = matches!(kind, Kind::Dry | Kind::Hot) && dice.chance(0.75);
+    let (tint, dust_absorbs) = if dusty { (tint.map(|t| t * 0.35), [0.4, 2.0, 5.0]) } else { (tint, [1.0; 3]) };
     let scaled = |color: [f64; 3], factor: f64| color.map(|c| three_digits(c * factor));
     let mut rayleigh_per_km = scaled(earth.rayleigh_per_km, thickness);
     for (component, tint) in rayleigh_per_km.iter_mut().zip(tint) {
         *component = three_digits(*component * tint);
     }
+    let mut mie_absorption_per_km = scaled(earth.mie_absorption_per_km, dust);
+    for (component, share) in mie_absorption_per_km.iter_mut().zip(dust_absorbs) {
+        *component = three_digits(*component * share);
+    }
     Atmosphere {
         rayleigh_per_km,
         mie_scattering_per_km: scaled(earth.mie_scattering_per_km, dust),
-        mie_absorption_per_km: scaled(earth.mie_absorption_per_km, dust),
+        mie_absorption_per_km,
         ..earth
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! A world map is a raster over the sphere. Its value at one point may depend on the planet everywhere, so no query can
 //! evaluate it on the spot: it is solved once for each revision that changes what it reads, in the background, and then
-//! sampled. The maps of the revision before serve until the new ones are whole.
+//! sampled. Queries use the maps of the previous revision until the new ones are complete.
 //!
-//! - `map`: [`map::WorldMap`], what a map reads and how it is solved; [`Ground`], the planet as maps read it, which the
-//!   terrain implements
+//! - `map`: [`map::WorldMap`], the inputs and the solver of a map; [`Ground`], the heights and layers that solvers read,
+//!   which the terrain implements
 //! - [`World`]: the maps that serve. A new map is one file and one line of `world_maps!` below
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
 //! - `plates`, `weather`, `carved`: the structure of a planet: its crust, its winds and rain, and the ground that
@@ -13,10 +13,10 @@
 //! - `draft`: quick answers on coarse grids while a slider is dragged
 //! - `floodplain`: land that rivers and lakes keep wet
 //! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
-//! - `store`: maps on disk; `bytes`: their numbers
+//! - `store`: map files; `bytes`: their binary encoding
 //!
 //! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
-//! the terrain's climate. The finest answer depends on the planet alone, never on the maps that served before.
+//! the terrain's climate. The finest maps depend on the preset alone, never on drafts or earlier maps.
 
 mod bytes;
 pub(crate) mod carved;

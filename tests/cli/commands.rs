@@ -3,8 +3,8 @@
 use crate::LAYERED;
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
-use tellus::lod::{Camera, opening};
-use tellus::planet::{Planet, random};
+use tellus::lod::{Camera, opening, scout};
+use tellus::planet::Planet;
 
 const AUREL: &str = "planets/aurel.ron";
 
@@ -187,7 +187,7 @@ fn new_writes_valid_planets_that_their_seed_repeats() {
     assert_eq!(run(&["new", "-o", a, "--seed", "7"]).0, 0);
     assert_eq!(run(&["new", "-o", b, "--seed", "7"]).0, 0);
     assert_eq!(read(a), read(b));
-    assert_eq!(Planet::load(a).unwrap(), random::random(7));
+    assert_eq!(Planet::load(a).unwrap(), scout::random_planet(7));
 
     assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", LAYERED]).0, 0);
     assert_ne!(read(a), read(b));

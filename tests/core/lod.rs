@@ -180,7 +180,7 @@ fn cast_rays(randoms: u64, fewer: usize) -> usize {
     };
     let randoms = (0..randoms).map(|seed| (coarse(random::random(seed)), 5));
     // Rays among rivers take longer.
-    let poses = |planet: &Planet| if planet.structure.is_some() { 10 / fewer.min(5) } else { 100 / fewer };
+    let poses = |planet: &Planet| if planet.structure.is_some() { 10 / fewer.min(5) } else { 120 / fewer };
     let shipped = shipped::ALL.iter().map(|shipped| coarse(shipped.load().unwrap()));
     let planets = shipped.map(|planet| (planet.clone(), poses(&planet))).chain(randoms);
     for (planet, poses) in planets {

@@ -6,9 +6,10 @@ use crate::editor::state::document::Document;
 use crate::editor::state::questions::{Asking, Goal};
 use crate::editor::state::{State, recovery};
 use crate::editor::widgets::random_seed;
+use crate::lod::scout;
 use crate::planet::file::read_text;
 use crate::planet::picture::folder_of;
-use crate::planet::{LoadError, Planet, random, shipped};
+use crate::planet::{LoadError, Planet, shipped};
 use eframe::egui;
 use std::path::Path;
 
@@ -96,7 +97,7 @@ fn show(state: &mut State, path: &Path, document: Result<Document, LoadError>) {
 
 /// Replaces the planet by a random one: one undo step.
 pub fn roll(state: &mut State) {
-    state.roll(random::random(random_seed()), "Random planet");
+    state.roll(scout::random_planet(random_seed()), "Random planet");
 }
 
 /// Opens the first working copy that a crash left behind, or deletes it.
