@@ -49,7 +49,7 @@ fn glare(dir: vec3f) -> vec3f {
         let length_at = length(ray);
         if surface_distance(vec2i(pixel), length_at) >= NOTHING_KM {
             var through = 1.0;
-            if body.cloud_coverage > 0.0 { through = textureLoad(cloud_light, vec2i(pixel), 0).a; }
+            if has_clouds() { through = textureLoad(cloud_light, vec2i(pixel), 0).a; }
             open += through / 9.0;
         }
     }
@@ -58,6 +58,9 @@ fn glare(dir: vec3f) -> vec3f {
     if altitude_km < body.air_height_km { clear = sun_transmittance(altitude_km, dot(body.eye_up, sun)); }
     return active_sun.irradiance / PI * clear * (shape * open);
 }
+
+// Whether the pass of the clouds has run.
+fn has_clouds() -> bool { return max(body.cloud_coverage, body.veil_coverage) > 0.0; }
 
 struct Clouds {
     // rgb: radiance; a: transmittance
@@ -221,7 +224,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
     var cloud_at = NOTHING_KM;
-    if body.cloud_coverage > 0.0 {
+    if has_clouds() {
         let around = clouds_around(pixel);
         clouds = around.light;
         cloud_at = around.at_km;

@@ -1,6 +1,5 @@
-// Density of the clouds: the weather map gives the cover, and a tiling noise carves single clouds out of it.
+// Density of the clouds: the cloud maps give the cover, and a tiling noise carves single clouds out of it.
 #include "light.wgsl"
-#include "cloud_cover.wgsl"
 
 // Rotates a position about the pole: the wind carries the cloud layer.
 fn drifted(p: vec3f) -> vec3f {
@@ -9,38 +8,60 @@ fn drifted(p: vec3f) -> vec3f {
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
-// Cover (0 clear, 1 overcast) in a direction from the centre. Cloudiness is distributed evenly over 0..1, so that a
-// threshold at 1 - coverage leaves that share of the sky clouded.
-fn cover_over(dir: vec3f) -> f32 {
-    var weather = textureSampleLevel(weather_map, clamped, drifted(dir), 0.0).r;
-    if body.weather_share > 0.0 {
-        weather = evenly(weather + textureSampleLevel(weather_map, clamped, dir, 0.0).g);
-    }
-    const SOFT: f32 = 0.7;
-    let cover = saturate1((weather - 1.0 + body.cloud_coverage * (1.0 + SOFT)) / SOFT);
-    return cover * cover * (3.0 - 2.0 * cover);
+// The cloud maps at a direction from the centre.
+struct Sky {
+    // 0 clear, 1 overcast
+    cover: f32,
+    // Share of layered cloud; the rest is heaped up
+    layered: f32,
+    veil: f32,
 }
 
-// Density (0..1) at a point relative to the eye (km) and at a height in the layer (0..1), where the weather map gives
-// `wide_cover`. `footprint`: size in km below which nothing is resolved; finer noise is replaced by its mean, and the
-// edge widens.
-fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f32 {
-    if wide_cover <= 0.0 { return 0.0; }
+// Cover where the rank of the noise is `rank` and the target cover has log-odds `odds`: `clouds/cover.rs`.
+fn cover_of(rank: f32, odds: f32) -> f32 {
+    let share = 1.0 / (1.0 + exp(-odds));
+    let width = min(share, 1.0 - share);
+    return saturate1((rank - 1.0 + share + width) / (2.0 * width + 1e-6));
+}
+
+fn sky_over(dir: vec3f) -> Sky {
+    let odds = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0).r;
+    let carried = drifted(dir);
+    var ranks = vec4f(0.0);
+    if body.cloud_odd_share < 1.0 {
+        ranks = textureSampleLevel(cloud_maps, clamped, carried, 1, 0.0) * (1.0 - body.cloud_odd_share);
+    }
+    if body.cloud_odd_share > 0.0 {
+        ranks += textureSampleLevel(cloud_maps, clamped, carried, 2, 0.0) * body.cloud_odd_share;
+    }
+    var sky = Sky(0.0, ranks.g, 0.0);
+    if body.cloud_coverage > 0.0 { sky.cover = cover_of(ranks.r, odds + body.cloud_offset); }
+    if body.veil_coverage > 0.0 { sky.veil = cover_of(ranks.a, odds + body.veil_offset); }
+    return sky;
+}
+
+// Density (0..1) at a point relative to the eye (km) and at a height in the layer (0..1), under the sky of its
+// direction. `footprint`: size in km below which nothing is resolved; finer noise is replaced by its mean, and the edge
+// widens.
+fn cloud_density(rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
+    if sky.cover <= 0.0 { return 0.0; }
     var position = drifted(rel);
     // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
     var bend = 0.0;
     var carve = 0.5;
-    var strength = 1.0;
+    var strength = mix(1.0, 0.45, sky.layered);
     var blurred = 1.0;
     for (var i = 0; i < CLOUD_BANDS; i++) {
         let band = body.cloud_bands[i];
         let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
         // A band fades out before its tile is small enough on screen for the repetition to show.
-        let share = 1.0 - smoothstep(-1.0, 2.0, lod);
+        var share = 1.0 - smoothstep(-1.0, 2.0, lod);
         if share <= 0.0 { break; }
         let n = textureSampleLevel(noise_tile, repeated, band.offset + position / band.period, lod);
         if i < CLOUD_PUFF_BAND {
-            bend += (n.g - 0.5) * share * (0.9 - 0.1 * f32(i));
+            // The maps resolve coarser bands.
+            share *= 1.0 - smoothstep(0.03, 0.08, band.period / body.radius_km);
+            bend += (n.g - 0.5) * share * (0.9 - 0.1 * f32(i)) * mix(1.0, 0.6, sky.layered);
         } else {
             carve += (n.r - 0.5) * share * strength;
             strength *= 0.42;
@@ -49,12 +70,12 @@ fn cloud_density(rel: vec3f, wide_cover: f32, height: f32, footprint: f32) -> f3
         position = OCTAVE_TURN * position;
     }
     // The bend has no effect where the cover is 0 or 1.
-    let cover = saturate1(wide_cover + 4.0 * bend * wide_cover * (1.0 - wide_cover));
+    let cover = saturate1(sky.cover + 4.0 * bend * sky.cover * (1.0 - sky.cover));
     let n = clamp(carve - (1.0 - cover) * 0.55 * max(height - 0.25, 0.0), 0.0, 1.0);
-    const WIDTH: f32 = 0.3;
+    let width = mix(0.3, 0.55, sky.layered);
     // Even overcast cloud varies in thickness.
     let bulk = 0.5 + n + 2.0 * bend * cover;
-    let sharp = saturate1((n - 1.0 + cover) / WIDTH + cover * cover * cover) * max(bulk, 0.25);
+    let sharp = saturate1((n - 1.0 + cover) / width + cover * cover * cover) * max(bulk, 0.25);
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-body.cloud_optical_depth);
     let mean = -log(1.0 - cover * opaque) / body.cloud_optical_depth;
@@ -71,7 +92,7 @@ fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     let path_km = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
     let point = rel + active_sun.dir * path_km;
     let up = normalize(body.eye_km + point);
-    let density = cloud_density(point, cover_over(up), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
+    let density = cloud_density(point, sky_over(up), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
     let left = saturate1((body.cloud_top_km - h) / (body.cloud_top_km - body.cloud_bottom_km));
     return exp(-body.cloud_optical_depth * density * left / max(dot(up, active_sun.dir), 0.05));
 }

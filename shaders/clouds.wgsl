@@ -20,6 +20,27 @@ fn grown_km(number: f32) -> f32 {
     return body.cloud_first_step_km * (pow(ratio, number) - 1.0) / (ratio - 1.0);
 }
 
+// Height of cloud tops over the bottom of the layer, by the layer's thickness: closed cover towers.
+const TOWER: f32 = 2.0;
+// Distances to the sun's side at which tops may cast shade, radians along the ground.
+const SHADE_RAD: vec4f = vec4f(0.002, 0.005, 0.01, 0.02);
+
+// Share of sunlight that neighbouring tops leave, from afar, where the march does not resolve them: a short march in
+// the cloud map, towards the sun.
+fn shade(rel: vec3f, cover: f32, sun_mu: f32) -> f32 {
+    if body.cloud_is_far == 0u || sun_mu < -0.1 || sun_mu > 0.7 { return 1.0; }
+    let thickness = TOWER * (body.cloud_top_km - body.cloud_bottom_km);
+    var covered = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let away_km = SHADE_RAD[i] * body.radius_km;
+        let there = normalize(body.eye_km + rel + active_sun.dir * away_km);
+        // How much higher tops are there than the ray from here to the sun.
+        let rise = away_km * max(sun_mu, 0.0) + 0.5 * away_km * SHADE_RAD[i];
+        covered = max(covered, saturate1((sky_over(there).cover - cover - rise / thickness) * 2.5));
+    }
+    return 1.0 - 0.8 * covered * (1.0 - smoothstep(0.3, 0.7, sun_mu));
+}
+
 struct March {
     light: vec3f,
     transmittance: f32,
@@ -71,14 +92,16 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         if length_km <= 0.0 { break; }
         let rel = dir * t;
         let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
-        let cover = cover_over(normalize(body.eye_km + rel));
+        let above = normalize(body.eye_km + rel);
+        let sky_here = sky_over(above);
+        if sky_here.cover <= 0.0 { continue; }
         let footprint = max(t * frame.pixel_rad, length_km * 0.3);
-        let density = cloud_density(rel, cover, height, footprint);
+        let density = cloud_density(rel, sky_here, height, footprint);
         if density <= 0.002 { continue; }
         // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
         let reach = max(thickness * 0.4, t * frame.pixel_rad * 1.2);
         let ahead_height = saturate1(height + reach * sun_mu / thickness);
-        let ahead = cloud_density(rel + sun * reach, cover, ahead_height, footprint);
+        let ahead = cloud_density(rel + sun * reach, sky_here, ahead_height, footprint);
         let room = (1.0 - height) * thickness * to_sun;
         let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * max(room - reach * 0.5, 0.0) * 0.55);
         // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The Great
@@ -86,7 +109,9 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
             + 1.5 * phases.z * exp(-0.07 * sun_depth);
         let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
-        let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * grazed) + ambient);
+        // Thin cloud sends back less light; by eye.
+        let lit = shade(rel, sky_here.cover, sun_mu) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
+        let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * grazed * lit) + ambient);
         let passed = exp(-extinction * density * length_km);
         let seen = out.transmittance * (1.0 - passed);
         out.light += seen * shine;
@@ -94,6 +119,52 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         out.weight += seen;
         out.transmittance *= passed;
         if out.transmittance < 0.004 { out.transmittance = 0.0; break; }
+    }
+    return out;
+}
+
+// Optical depth of the veil where it is closed.
+const VEIL_DEPTH: f32 = 0.6;
+
+struct Sheet {
+    light: vec3f,
+    transmittance: f32,
+    at_km: f32,
+}
+
+// The veil where a ray meets it first: a thin sheet of ice, brightest towards the sun.
+fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
+    var out = Sheet(vec3f(0.0), 1.0, 0.0);
+    if body.veil_coverage <= 0.0 { return out; }
+    let radius = body.radius_km;
+    let h = body.eye_altitude_km;
+    let sheet = body.veil_km;
+    let hits = ray_sphere((radius + h) * mu, (h - sheet) * (2.0 * radius + h + sheet));
+    if hits.y < hits.x { return out; }
+    let t = select(hits.y, hits.x, h > sheet);
+    if t <= 0.0 || t > far { return out; }
+    let rel = dir * t;
+    let up = normalize(body.eye_km + rel);
+    let cover = sky_over(up).veil;
+    if cover <= 0.0 { return out; }
+    // Streaks where the map is too coarse for them.
+    let band = body.cloud_bands[1];
+    let footprint = t * frame.pixel_rad;
+    let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
+    let carried = drifted(rel);
+    let streak = textureSampleLevel(noise_tile, repeated, band.offset + carried / band.period, lod).g;
+    let fine = textureSampleLevel(noise_tile, repeated, (band.offset + carried / band.period) * vec3f(4.0, 4.0, 4.0), lod + 2.0).g;
+    let depth = VEIL_DEPTH * cover * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
+    out.transmittance = exp(-depth);
+    out.at_km = t;
+    for (var i = 0u; i < body.sun_count; i++) {
+        use_sun(i);
+        let sun_mu = dot(up, active_sun.dir);
+        let sunlight = active_sun.irradiance * sun_transmittance(sheet, sun_mu);
+        let cosine = dot(dir, active_sun.dir);
+        // From above, a thin sheet sends back less than it lets through.
+        let direct = sunlight * (0.5 * lobe(cosine, 0.7) + 1.5 * lobe(cosine, 0.0));
+        out.light += (1.0 - out.transmittance) * body.cloud_color * (direct + sky_irradiance(sheet, sun_mu) / PI);
     }
     return out;
 }
@@ -149,8 +220,21 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         }
         light += state.light;
     }
+    var transmittance = state.transmittance;
+    let sheet = veil(dir, mu, far);
+    if sheet.transmittance < 1.0 {
+        if h > body.veil_km {
+            light = sheet.light + sheet.transmittance * light;
+        } else {
+            light += transmittance * sheet.light;
+        }
+        let seen = select(transmittance, 1.0, h > body.veil_km) * (1.0 - sheet.transmittance);
+        state.distance += seen * sheet.at_km;
+        state.weight += seen;
+        transmittance *= sheet.transmittance;
+    }
     var out: Output;
-    out.light = vec4f(min(light, vec3f(60000.0)), state.transmittance);
+    out.light = vec4f(min(light, vec3f(60000.0)), transmittance);
     out.distance = vec4f(select(NOTHING_KM, state.distance / state.weight, state.weight > 0.0), 0.0, 0.0, 0.0);
     return out;
 }

@@ -4,7 +4,9 @@
 @group(1) @binding(1) var multiscatter_lut: texture_2d<f32>;
 @group(1) @binding(2) var irradiance_lut: texture_2d<f32>;
 @group(1) @binding(3) var sky_lut: texture_2d<f32>;
-@group(1) @binding(4) var weather_map: texture_cube<f32>;
+// Cube 0: r log-odds of the target cover without the offset, g wind by its mean. Cubes 1 and 2, the even and the odd
+// keyframe: r rank of the clouds, g share of layered cloud, a rank of the veil
+@group(1) @binding(4) var cloud_maps: texture_cube_array<f32>;
 @group(1) @binding(5) var noise_tile: texture_3d<f32>;
 // r: index into the palette; g: 1 if the cell is marked in the editor
 @group(1) @binding(6) var biome_ids: texture_2d<f32>;

@@ -8,8 +8,8 @@
 
 // Variance of the slope of all waves at a direction: the part that the wind raises varies with its speed.
 fn slope_variance(up: vec3f) -> f32 {
-    if body.weather_share <= 0.0 { return body.wave_slope_variance; }
-    let wind = textureSampleLevel(weather_map, clamped, up, 0.0).b;
+    if body.has_wind == 0u { return body.wave_slope_variance; }
+    let wind = textureSampleLevel(cloud_maps, clamped, up, 0, 0.0).g;
     return CALM_SLOPE_VARIANCE + (body.wave_slope_variance - CALM_SLOPE_VARIANCE) * wind;
 }
 

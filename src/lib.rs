@@ -31,6 +31,7 @@
 //! - `world`: world maps: values for the whole globe, such as the distance to the coast
 //! - [`terrain`]: [`terrain::Terrain`], the evaluator of the ground
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
+//! - [`clouds`]: where clouds are, at any time
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
@@ -44,6 +45,7 @@
 pub use glam;
 
 pub mod atmosphere;
+pub mod clouds;
 pub mod lod;
 pub mod planet;
 pub mod simd;

@@ -3,6 +3,7 @@
 
 use super::points::Points;
 use super::{Failure, args, load, maps, print};
+use crate::clouds::{CloudCover, CloudField};
 use crate::sphere::LatLon;
 use crate::sphere::geo::east_north;
 use crate::terrain::{River, Sample, Terrain};
@@ -40,9 +41,12 @@ pub(super) struct Args {
     /// lon
     #[arg(long, value_name = "FILE", conflicts_with_all = ["lat", "lon"])]
     points: Option<PathBuf>,
+    /// Time in seconds, for the clouds
+    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    time: f64,
     /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
     /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, river, lake, basin, wind_m_s (to
-    /// the east and to the north), rain_mm (a year), plate
+    /// the east and to the north), rain_mm (a year), plate, cloud_cover and veil_cover (0 to 1)
     #[arg(long)]
     json: bool,
 }
@@ -53,17 +57,32 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(points) = &args.points {
         // A file that is not there is told before anything is solved.
         let points = Points::open(points)?;
-        return points.answer(&terrain()?);
+        let terrain = terrain()?;
+        return points.answer(&terrain, &Sky::over(&terrain, args.time));
     }
     let terrain = terrain()?;
     let dir = LatLon::from_degrees(args.lat.unwrap_or_default(), args.lon.unwrap_or_default()).direction();
     let (sample, layers_m) = (terrain.sample(dir), terrain.layers_m(dir));
+    let sky = Sky::over(&terrain, args.time);
     let answer = if args.json {
-        format!("{:#}", as_json(&terrain, dir, &sample, &layers_m))
+        format!("{:#}", as_json(&terrain, dir, &sample, &layers_m, &sky))
     } else {
-        as_text(&terrain, dir, &sample, &layers_m)
+        as_text(&terrain, dir, &sample, &layers_m, &sky)
     };
     print(&answer)
+}
+
+/// The clouds at a time, if the planet has some.
+pub(super) struct Sky(Option<(CloudField, f64)>);
+
+impl Sky {
+    fn over(terrain: &Terrain, time_secs: f64) -> Self {
+        Self(terrain.planet().clouds.as_ref().map(|_| (CloudField::new(terrain), time_secs)))
+    }
+
+    fn cover(&self, dir: DVec3) -> Option<CloudCover> {
+        self.0.as_ref().map(|(field, time_secs)| field.cover(dir, *time_secs))
+    }
 }
 
 fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
@@ -71,7 +90,8 @@ fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
 }
 
 /// All that is known of a point.
-pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64]) -> Value {
+pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], sky: &Sky) -> Value {
+    let clouds = sky.cover(dir);
     let river = sample.river.map(|river| {
         json!({
             "id": river.id,
@@ -101,6 +121,8 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "wind_m_s": to_east_and_north(dir, sample.wind_planet_m_s),
         "rain_mm": sample.rain_mm,
         "plate": sample.plate,
+        "cloud_cover": clouds.map(|cover| cover.low),
+        "veil_cover": clouds.map(|cover| cover.veil),
     })
 }
 
@@ -116,7 +138,7 @@ fn heading_deg(dir: DVec3, tangent: DVec3) -> f64 {
     east.atan2(north).to_degrees().rem_euclid(360.0)
 }
 
-fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64]) -> String {
+fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], sky: &Sky) -> String {
     let [x, y, z] = sample.normal_planet.to_array();
     let mut lines = vec![
         format!("height       {:.3} m", sample.height_m),
@@ -144,6 +166,9 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64]) -> 
         lines.push(format!("wind         {:.1} m/s to {:.0}°", wind_m_s.length(), heading_deg(dir, wind_m_s)));
         lines.push(format!("rain         {:.0} mm a year", sample.rain_mm));
     }
+    lines.extend(
+        sky.cover(dir).map(|cover| format!("clouds       {:.0}%, veil {:.0}%", cover.low * 100.0, cover.veil * 100.0)),
+    );
     lines.extend(sample.plate.map(|plate| format!("plate        {plate}")));
     let layers = terrain.planet().layers.iter().zip(layers_m);
     lines.extend(layers.map(|(layer, m)| format!("layer        {:.3} m  {}", m, layer.name)));

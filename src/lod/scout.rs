@@ -87,7 +87,7 @@ fn score(looks: &[Look], star_lat_deg: f64, star_lon_deg: f64) -> f64 {
         looks.iter().filter_map(move |look| {
             // Area on the screen, times light.
             let (seen, lit) = (look.dir_planet.dot(eye) - limb, look.dir_planet.dot(star));
-            (seen > 0.0 && lit > 0.0).then(|| (seen * lit, look))
+            (seen > 0.0 && lit > 0.0).then_some((seen * lit, look))
         })
     };
     let total: f64 = weighed().map(|(weight, _)| weight).sum();

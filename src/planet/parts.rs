@@ -173,6 +173,10 @@ params! {
         scale_km: f64 = 2500.0, "Scale", Unit::Kilometres, log(1.0, 50_000.0), Stage::CloudMap;
         /// How strongly wind curls the weather systems.
         curl: f64 = 0.6, "Curl", Unit::None, linear(0.0, 2.0), Stage::CloudMap;
+        /// Strength of cyclones: comma-shaped ones of middle latitudes, and tropical ones with an eye. 0 is none.
+        storms: f64 = 0.6, "Storms", Unit::None, linear(0.0, 1.0), Stage::CloudMap;
+        /// Share of the sky covered by a veil of high ice clouds.
+        veil: f64 = 0.1, "Veil", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Seed of the cloud noise.
         seed: u32 = 3, "Seed", Unit::None, Domain::Seed, Stage::CloudMap;
         /// Height of the bottom of the layer above the reference sphere.

@@ -1,103 +1,133 @@
-//! The weather map (`cloud_map.wgsl`): six faces of a cube map, drawn again when scale, curl, seed or the solved
-//! weather changes.
+//! The cloud maps of a body on the GPU: a cube array with the ground map and two keyframes of [`crate::clouds`]. The
+//! shaders blend the keyframes; see `cloud_model.wgsl`.
+//!
+//! A keyframe that is needed at once is solved at once. While time goes on, the one after is solved in the background.
 
-use super::shared::WEATHER_SIDE;
-use super::{RenderError, gpu, shaders};
-use wgpu::util::DeviceExt;
+use super::gpu;
+use super::shared::CLOUD_MAP_SIDE;
+use crate::clouds::{CloudField, Keyframe, ground_map, keyframe, keyframes};
+use crate::planet::Key;
+use crate::terrain::{Revision, Terrain};
+use half::f16;
+use std::sync::{Arc, Mutex};
+use std::sync::mpsc::{Receiver, channel};
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Layers of the cube array.
+const CUBES: u32 = 3;
+const SIDE: usize = CLOUD_MAP_SIDE as usize;
 
-/// Centre, right and down of each face, in the order and orientation of cube textures.
-const FACES: [[[f32; 4]; 3]; 6] = [
-    [[1., 0., 0., 0.], [0., 0., -1., 0.], [0., -1., 0., 0.]],
-    [[-1., 0., 0., 0.], [0., 0., 1., 0.], [0., -1., 0., 0.]],
-    [[0., 1., 0., 0.], [1., 0., 0., 0.], [0., 0., 1., 0.]],
-    [[0., -1., 0., 0.], [1., 0., 0., 0.], [0., 0., -1., 0.]],
-    [[0., 0., 1., 0.], [1., 0., 0., 0.], [0., -1., 0., 0.]],
-    [[0., 0., -1., 0.], [-1., 0., 0., 0.], [0., -1., 0., 0.]],
-];
-
-/// The weather map: the cube view for shaders, and a target for each face.
-pub(crate) struct WeatherMap {
-    pub(crate) cube: wgpu::TextureView,
-    faces: Vec<wgpu::TextureView>,
+/// See the module.
+pub(crate) struct CloudMaps {
+    texture: wgpu::Texture,
+    pub(crate) cubes: wgpu::TextureView,
+    /// What the field depends on: the planet's key, and that of the structure's weather.
+    key: Option<(Key, Option<Key>)>,
+    field: Option<Arc<CloudField>>,
+    /// Numbers of the keyframes in the cubes 1 and 2: the even one first.
+    held: [Option<i64>; 2],
+    /// The next keyframe. The mutex only makes it shareable: nobody else waits.
+    coming: Option<Mutex<Receiver<Keyframe>>>,
+    /// Number of times that the maps were made from another field.
+    pub(crate) runs: u64,
 }
 
-impl WeatherMap {
-    /// Creates a map without content.
+/// Uniforms of clouds at a time that take the whole field.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CloudFrame {
+    /// Offsets of the log-odds of cover and veil.
+    pub(crate) offset: f32,
+    pub(crate) veil_offset: f32,
+    /// Share of the odd keyframe.
+    pub(crate) odd_share: f32,
+}
+
+/// Solves a keyframe as a frame does, for benches.
+#[cfg(feature = "cli")]
+pub(crate) fn cloud_keyframe(field: &CloudField, number: i64) {
+    std::hint::black_box(keyframe(field, number, SIDE));
+}
+
+impl CloudMaps {
+    /// Creates maps without content.
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("weather map"),
-            size: wgpu::Extent3d { width: WEATHER_SIDE, height: WEATHER_SIDE, depth_or_array_layers: 6 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let cube = texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::Cube),
+        let size = wgpu::Extent3d { width: CLOUD_MAP_SIDE, height: CLOUD_MAP_SIDE, depth_or_array_layers: 6 * CUBES };
+        let texture = gpu::written_texture(device, "cloud maps", size, wgpu::TextureFormat::Rgba16Float);
+        let cubes = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::CubeArray),
             ..wgpu::TextureViewDescriptor::default()
         });
-        let face = |layer| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..wgpu::TextureViewDescriptor::default()
-            })
-        };
-        Self { cube, faces: (0..6).map(face).collect() }
-    }
-}
-
-/// The pipeline and the orientation of each face.
-pub(crate) struct CloudMapPass {
-    pipeline: wgpu::RenderPipeline,
-    layout: wgpu::BindGroupLayout,
-    faces: Vec<wgpu::Buffer>,
-}
-
-impl CloudMapPass {
-    pub(crate) fn new(device: &wgpu::Device, uniforms: &wgpu::BindGroupLayout) -> Result<Self, RenderError> {
-        let layout = gpu::layout(device, "cube face", &[gpu::Slot::Uniform, gpu::Slot::Cube]);
-        let entry = "cloud_map.wgsl";
-        let description = gpu::ScreenPipelineDescriptor {
-            entry,
-            layout: &gpu::pipeline_layout(device, entry, &[uniforms, &layout]),
-            module: &shaders::module(device, entry)?,
-            targets: &[Some(FORMAT.into())],
-            writes_depth: false,
-            encodes_srgb: false,
-        };
-        let pipeline = gpu::screen_pipeline(device, &description)?;
-        let faces = FACES
-            .iter()
-            .map(|face| {
-                device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some("cube face"),
-                    contents: bytemuck::cast_slice(face),
-                    usage: wgpu::BufferUsages::UNIFORM,
-                })
-            })
-            .collect();
-        Ok(Self { pipeline, layout, faces })
+        Self { texture, cubes, key: None, field: None, held: [None; 2], coming: None, runs: 0 }
     }
 
-    /// Draws the six faces of the map. `solved`: a cube; see the shader.
-    pub(crate) fn draw(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        uniforms: &wgpu::BindGroup,
-        solved: &wgpu::TextureView,
-        map: &WeatherMap,
-    ) {
-        for (view, face) in map.faces.iter().zip(&self.faces) {
-            let resources = [face.as_entire_binding(), wgpu::BindingResource::TextureView(solved)];
-            let face = gpu::group(device, "cube face", &self.layout, resources);
-            gpu::draw_screen(encoder, "weather map", &self.pipeline, &[uniforms, &face], &[view]);
+    /// Brings the maps to a time, for a planet with clouds, or with a sea over which the solved wind blows.
+    pub(crate) fn update(
+        &mut self,
+        queue: &wgpu::Queue,
+        revision: &Revision,
+        terrain: Option<&Terrain>,
+        time_secs: f64,
+    ) -> CloudFrame {
+        let planet = revision.planet();
+        let weather = terrain.and_then(Terrain::weather);
+        let key = (revision.keys().cloud_map(), terrain.and_then(Terrain::weather_key));
+        if self.key != Some(key) || self.field.is_none() {
+            let field = Arc::new(CloudField::with(planet, weather.cloned()));
+            self.write(queue, 0, &ground_map(&field, SIDE));
+            (self.key, self.held, self.coming) = (Some(key), [None; 2], None);
+            self.field = Some(field);
+            self.runs += 1;
         }
+        let Some(field) = &mut self.field else { return CloudFrame::default() };
+        let Some(clouds) = &planet.clouds else { return CloudFrame::default() };
+        if field.coverage() != [clouds.coverage, clouds.veil] {
+            Arc::make_mut(field).set_coverage([clouds.coverage, clouds.veil]);
+        }
+        let field = field.clone();
+        let (before, share) = keyframes(time_secs);
+        if clouds.coverage > 0.0 || clouds.veil > 0.0 {
+            self.bring(queue, &field, before);
+            if share > 0.0 {
+                self.bring(queue, &field, before + 1);
+            }
+        }
+        let is_odd = before.rem_euclid(2) == 1;
+        let odd_share = if is_odd { 1.0 - share } else { share } as f32;
+        let [offset, veil_offset] = field.offsets().map(|offset| offset as f32);
+        CloudFrame { offset, veil_offset, odd_share }
+    }
+
+    /// Makes sure that a keyframe is in its cube, and asks for the one after it.
+    fn bring(&mut self, queue: &wgpu::Queue, field: &Arc<CloudField>, number: i64) {
+        let slot = number.rem_euclid(2) as usize;
+        if self.held[slot] == Some(number) {
+            return;
+        }
+        let coming = self.coming.take().and_then(|coming| coming.into_inner().ok()?.recv().ok());
+        let is_next = coming.as_ref().is_some_and(|frame| frame.number == number);
+        let frame = coming.filter(|_| is_next).unwrap_or_else(|| keyframe(field, number, SIDE));
+        self.write(queue, 1 + slot as u32, &frame.texels);
+        self.held[slot] = Some(number);
+        // Time goes on: its neighbour is there already.
+        if self.held[1 - slot] == Some(number - 1) {
+            let (field, (send, coming)) = (field.clone(), channel());
+            rayon::spawn(move || {
+                // Nobody waits any more if the planet has changed.
+                let _ = send.send(keyframe(&field, number + 1, SIDE));
+            });
+            self.coming = Some(Mutex::new(coming));
+        }
+    }
+
+    fn write(&mut self, queue: &wgpu::Queue, cube: u32, texels: &[[f16; 4]]) {
+        let bytes: Vec<u8> = texels.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+        let size = wgpu::Extent3d { width: CLOUD_MAP_SIDE, height: CLOUD_MAP_SIDE, depth_or_array_layers: 6 };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(8 * CLOUD_MAP_SIDE),
+            rows_per_image: Some(CLOUD_MAP_SIDE),
+        };
+        let origin = wgpu::Origin3d { z: 6 * cube, ..wgpu::Origin3d::ZERO };
+        let to = wgpu::TexelCopyTextureInfo { origin, ..self.texture.as_image_copy() };
+        queue.write_texture(to, &bytes, layout, size);
     }
 }

@@ -15,6 +15,7 @@ pub(crate) enum Slot {
     Float2dArray,
     Float3d,
     Cube,
+    CubeArray,
     Depth,
     /// A float texture that is loaded without filtering.
     Unfiltered2d,
@@ -41,6 +42,7 @@ pub(crate) fn layout(device: &wgpu::Device, label: &str, slots: &[Slot]) -> wgpu
                 Slot::Float2dArray => texture(float, wgpu::TextureViewDimension::D2Array),
                 Slot::Float3d => texture(float, wgpu::TextureViewDimension::D3),
                 Slot::Cube => texture(float, wgpu::TextureViewDimension::Cube),
+                Slot::CubeArray => texture(float, wgpu::TextureViewDimension::CubeArray),
                 Slot::Depth => texture(wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2),
                 Slot::Unfiltered2d => {
                     texture(wgpu::TextureSampleType::Float { filterable: false }, wgpu::TextureViewDimension::D2)

@@ -1,5 +1,5 @@
 //! Textures that are reused from frame to frame. [`Patterns`]: noises and materials, one set for a device. [`Luts`]:
-//! the LUTs of the air, the weather map and the biome textures of a body; each is computed again when the content of
+//! the LUTs of the air, the cloud maps and the biome textures of a body; each is computed again when the content of
 //! its key has changed.
 //!
 //! Method of the LUTs of the air: Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique,
@@ -7,7 +7,7 @@
 
 use super::biome_table::{BiomeTexels, BiomeTextures, MarkedCells};
 use super::border_tile;
-use super::cloud_map::{CloudMapPass, WeatherMap};
+use super::cloud_map::{CloudFrame, CloudMaps};
 use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
 use super::screen_pass::Shared;
@@ -16,7 +16,7 @@ use super::targets::RADIANCE_FORMAT;
 use super::{RenderError, noise_tile, shaders};
 use crate::planet::{Biomes, Key};
 use crate::terrain::{Revision, Terrain};
-use crate::world::{FASTEST, MapPicture, MapView};
+use crate::world::{MapPicture, MapView};
 use std::sync::Arc;
 
 /// The LUTs of the air in order of dependence: name, shader, size.
@@ -35,7 +35,7 @@ const AIR_LUTS_READ: [usize; 4] = [0, 1, 2, 2];
 pub struct LutRuns {
     /// The biome textures.
     pub biomes: u64,
-    /// The weather map.
+    /// The cloud maps.
     pub weather: u64,
     /// The four LUTs of the air.
     pub air: u64,
@@ -54,9 +54,9 @@ pub(crate) struct Patterns {
 
 impl Patterns {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        use Slot::{Cube, Float2d, Float2dArray, Float3d, Unfiltered2d};
+        use Slot::{Cube, CubeArray, Float2d, Float2dArray, Float3d, Unfiltered2d};
         let air = [Float2d; 4];
-        let rest = [Cube, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d, Cube];
+        let rest = [CubeArray, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d, Cube];
         Self {
             noise: [noise_tile::upload(device, queue), border_tile::upload(device, queue)],
             materials: MaterialMaps::new(device, queue),
@@ -68,7 +68,6 @@ impl Patterns {
 /// The pipelines that draw LUTs.
 pub(crate) struct LutPipelines {
     air: Vec<wgpu::RenderPipeline>,
-    cloud_map: CloudMapPass,
 }
 
 impl LutPipelines {
@@ -87,14 +86,14 @@ impl LutPipelines {
             gpu::screen_pipeline(device, &description)
         };
         let air = AIR_LUTS.iter().enumerate().map(pipeline).collect::<Result<_, _>>()?;
-        Ok(Self { air, cloud_map: CloudMapPass::new(device, shared.uniforms)? })
+        Ok(Self { air })
     }
 }
 
 /// The LUTs of a body.
 pub(crate) struct Luts {
     air: Vec<wgpu::TextureView>,
-    weather: WeatherMap,
+    clouds: CloudMaps,
     biomes: BiomeTextures,
     /// The cube with the world map that a debug view shows, and what is in it.
     map_picture: wgpu::TextureView,
@@ -102,8 +101,6 @@ pub(crate) struct Luts {
     groups: Groups,
     /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
     air_key: Option<(Key, u32)>,
-    /// The planet's key, and those of the structure's weather.
-    weather_key: Option<(Key, [Option<Key>; 2])>,
     biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
@@ -120,20 +117,19 @@ impl Luts {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
         let texture = |(name, _, size): &(&str, &str, [u32; 2])| gpu::target(device, name, *size, RADIANCE_FORMAT);
         let air: Vec<_> = AIR_LUTS.iter().map(texture).collect();
-        let weather = WeatherMap::new(device);
+        let clouds = CloudMaps::new(device);
         let biome_texels = BiomeTexels::new(&Biomes::default(), None);
         let biomes = BiomeTextures::with(device, queue, &biome_texels);
         let map_picture = write_map(device, queue, &no_map());
-        let groups = Groups::new(device, patterns, &air, [&weather.cube, &map_picture], &biomes);
+        let groups = Groups::new(device, patterns, &air, [&clouds.cubes, &map_picture], &biomes);
         Self {
             air,
-            weather,
+            clouds,
             biomes,
             map_picture,
             shown_map: None,
             groups,
             air_key: None,
-            weather_key: None,
             biome_key: None,
             biome_texels,
             runs: LutRuns::default(),
@@ -148,18 +144,17 @@ impl Luts {
     /// Makes the next frame draw everything again, because shaders have changed.
     pub(crate) fn forget(&mut self) {
         self.air_key = None;
-        self.weather_key = None;
     }
 
     /// Updates everything that a revision has made stale. `uniforms`: those of the body, already written.
-    /// `sun_radius_rad`: angular radius of the widest sun in them. `terrain`: whose rain makes clouds.
+    /// `sun_radius_rad`: angular radius of the widest sun in them.
     pub(crate) fn update(
         &mut self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         (patterns, pipelines): (&Patterns, &LutPipelines),
         (uniforms, sun_radius_rad): (&wgpu::BindGroup, f32),
-        (revision, terrain): (&Revision, Option<&Terrain>),
+        revision: &Revision,
         marked: Option<&Arc<MarkedCells>>,
     ) {
         let (planet, keys) = (revision.planet(), revision.keys());
@@ -175,17 +170,23 @@ impl Luts {
             self.air_key = air_key;
             self.runs.air += 1;
         }
-        let has_clouds = planet.clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && marked.is_none();
+    }
+
+    /// Brings the cloud maps to a time. `terrain`: whose rain makes clouds.
+    pub(crate) fn update_clouds(
+        &mut self,
+        queue: &wgpu::Queue,
+        (revision, terrain): (&Revision, Option<&Terrain>),
+        time_secs: f64,
+    ) -> CloudFrame {
+        let planet = revision.planet();
         let has_winds = planet.structure.is_some() && planet.water.is_some();
-        let solved_key = terrain.map(|terrain| terrain.map_picture_key(MapView::Weather));
-        let weather_key = Some((keys.cloud_map(), solved_key.unwrap_or_default()));
-        if (has_clouds || has_winds) && self.weather_key != weather_key {
-            let solved = terrain.and_then(|terrain| terrain.map_picture(MapView::Weather)).unwrap_or_else(even_weather);
-            let solved = write_map(device, queue, &solved);
-            pipelines.cloud_map.draw(device, encoder, uniforms, &solved, &self.weather);
-            self.weather_key = weather_key;
-            self.runs.weather += 1;
+        if planet.clouds.is_none() && !has_winds {
+            return CloudFrame::default();
         }
+        let frame = self.clouds.update(queue, revision, terrain, time_secs);
+        self.runs.weather = self.clouds.runs;
+        frame
     }
 
     /// Draws a world map into the cube of the debug views, if it is not there already.
@@ -206,7 +207,7 @@ impl Luts {
     }
 
     fn bind(&mut self, device: &wgpu::Device, patterns: &Patterns) {
-        let cubes = [&self.weather.cube, &self.map_picture];
+        let cubes = [&self.clouds.cubes, &self.map_picture];
         self.groups = Groups::new(device, patterns, &self.air, cubes, &self.biomes);
     }
 
@@ -242,11 +243,6 @@ fn no_map() -> MapPicture {
     MapPicture { side: 1, texels: vec![[46, 46, 46, 255]; 6] }
 }
 
-/// For planets without weather.
-fn even_weather() -> MapPicture {
-    MapPicture { side: 1, texels: vec![[128, (255.0 / FASTEST) as u8, 0, 255]; 6] }
-}
-
 /// Uploads the picture of a world map.
 fn write_map(device: &wgpu::Device, queue: &wgpu::Queue, picture: &MapPicture) -> wgpu::TextureView {
     let side = picture.side as u32;
@@ -263,7 +259,7 @@ impl Groups {
         device: &wgpu::Device,
         patterns: &Patterns,
         air: &[wgpu::TextureView],
-        [weather, map_picture]: [&wgpu::TextureView; 2],
+        [clouds, map_picture]: [&wgpu::TextureView; 2],
         biomes: &BiomeTextures,
     ) -> Self {
         let (noise, materials) = (&patterns.noise, &patterns.materials);
@@ -271,7 +267,7 @@ impl Groups {
         let bind = |ready: usize| {
             let air = (0..air.len()).map(|i| &air[if i < ready { i } else { 0 }]);
             let (ids, params) = (&biomes.ids, &biomes.params);
-            let rest = [weather, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
+            let rest = [clouds, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
             gpu::group(device, "LUTs", &patterns.layout, views)
         };

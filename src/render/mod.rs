@@ -58,6 +58,8 @@ mod wgsl;
 mod white_balance;
 
 pub use biome_table::MarkedCells;
+#[cfg(feature = "cli")]
+pub(crate) use cloud_map::cloud_keyframe;
 pub use error::RenderError;
 pub use gpu::{read_texture, texture};
 pub use luts::LutRuns;

@@ -236,7 +236,11 @@ impl Renderer {
                 BodyView { uniforms, group, ground: GroundView::new(device) }
             });
             let order = [number == 0, plan.frontmost == Some(number)];
-            let values = uniforms::body(scene, body, drawn, order);
+            let mut values = uniforms::body(scene, body, drawn, order);
+            let terrain = &*body.surface.terrain;
+            let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene.time_secs);
+            (values.cloud_offset, values.veil_offset) = (clouds.offset, clouds.veil_offset);
+            values.cloud_odd_share = clouds.odd_share;
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
             resources.begin_view(scene.view_id);
@@ -248,7 +252,7 @@ impl Renderer {
                 encoder,
                 (&*self.patterns, &self.pipelines.luts),
                 (&body_view.group, values.lut_sun_radius_rad),
-                (&body.revision, Some(&*body.surface.terrain)),
+                &body.revision,
                 body.marked.as_ref(),
             );
             if let Some(map) = scene.debug_view.map() {
@@ -347,7 +351,8 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
     order.sort_by(|&a, &b| away_m(&scene.bodies[b]).total_cmp(&away_m(&scene.bodies[a])));
     let planned = |(number, index): (usize, usize)| {
         let body = &scene.bodies[index];
-        let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage > 0.0) && body.marked.is_none();
+        let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage.max(clouds.veil) > 0.0)
+            && body.marked.is_none();
         let sea = body.planet().water.is_some();
         let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges };
         // The farthest body brings the stars, whether it has air or not.

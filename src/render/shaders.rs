@@ -15,6 +15,8 @@ static EMBEDDED: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/shaders");
 
 /// Name of the include that `shared` generates; it is no file.
 const SHARED: &str = "shared.wgsl";
+/// Cube arrays hold the cloud maps. All adapters of WebGPU have them.
+const CAPABILITIES: naga::valid::Capabilities = naga::valid::Capabilities::CUBE_ARRAY_TEXTURES;
 
 /// The entry files, one for each pass. All other files are included by them.
 pub fn entries() -> Vec<&'static str> {
@@ -130,8 +132,7 @@ pub fn check_resolved(resolved: &Resolved) -> Result<(), RenderError> {
         let line = error.location(&resolved.text).map_or(0, |l| l.line_number as usize);
         RenderError::Shader(format!("{}: {}", resolved.origin(line), error.message()))
     })?;
-    let mut validator =
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), CAPABILITIES);
     validator.validate(&module).map_err(|error| {
         let line = error.location(&resolved.text).map_or(0, |l| l.line_number as usize);
         let mut message = format!("{}: {}", resolved.origin(line), error.as_inner());

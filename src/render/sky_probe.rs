@@ -83,7 +83,7 @@ impl Renderer {
         let group = self.uniform_group(&frame, &body);
         let mut luts = Luts::new(device, queue, &self.patterns);
         let pipelines = (&*self.patterns, &self.pipelines.luts);
-        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), (revision, None), None);
+        luts.update((device, queue), encoder, pipelines, (&group, values.lut_sun_radius_rad), revision, None);
         (group, luts)
     }
 }

@@ -94,6 +94,21 @@ pub fn face_point(dir: DVec3) -> (Face, f64, f64) {
     (face, unbend(dir[s_axis] / depth * s_sign as f64), unbend(dir[t_axis] / depth))
 }
 
+/// The direction at `x`, `y` of a face of a cube texture with `side` texels along each face, as WebGPU orders and turns
+/// its faces; the middles of texels are at halves. Faces are flat here, unlike those of the planet's squares.
+pub(crate) fn texture_direction(face: usize, side: usize, x: f64, y: f64) -> DVec3 {
+    let (u, v) = (2.0 * x / side as f64 - 1.0, 2.0 * y / side as f64 - 1.0);
+    let dir = match face {
+        0 => DVec3::new(1.0, -v, -u),
+        1 => DVec3::new(-1.0, -v, u),
+        2 => DVec3::new(u, 1.0, v),
+        3 => DVec3::new(u, -1.0, -v),
+        4 => DVec3::new(u, -v, 1.0),
+        _ => DVec3::new(-u, -v, -1.0),
+    };
+    dir.normalize()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,6 +165,19 @@ mod tests {
             let dir = direction(Face::ALL[face], s, t);
             let (face, s, t) = face_point(dir);
             prop_assert!((direction(face, s, t) - dir).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn texels_of_a_cube_texture_look_where_webgpu_looks() {
+        // The middle of each face, and a texel beside it to the right and below.
+        let middles = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];
+        let rights = [-DVec3::Z, DVec3::Z, DVec3::X, DVec3::X, DVec3::X, -DVec3::X];
+        let downs = [-DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z, -DVec3::Y, -DVec3::Y];
+        for (face, ((middle, right), down)) in middles.into_iter().zip(rights).zip(downs).enumerate() {
+            let at = |x, y| texture_direction(face, 5, f64::from(x) + 0.5, f64::from(y) + 0.5);
+            assert!(at(2, 2).distance(middle) < 1e-12, "{face}");
+            assert!(at(3, 2).dot(right) > 0.3 && at(2, 3).dot(down) > 0.3, "{face}");
         }
     }
 }

@@ -47,6 +47,7 @@ pub(crate) mod wet;
 
 use crate::planet::{InvalidPlanet, Planet};
 pub use crate::world::MapStore;
+use crate::world::weather::Weather;
 use crate::world::{Inputs, KeepGoing, MapWork, World};
 #[cfg(feature = "render")]
 use crate::world::{MapPicture, MapView};
@@ -194,6 +195,17 @@ impl Terrain {
     /// The world maps that serve.
     pub(crate) fn world(&self) -> &World {
         &self.climate.world
+    }
+
+    /// The weather of the structure, if it is solved.
+    pub(crate) fn weather(&self) -> Option<&Arc<Weather>> {
+        self.world().weather.map()
+    }
+
+    /// Key of [`Terrain::weather`].
+    #[cfg(feature = "render")]
+    pub(crate) fn weather_key(&self) -> Option<crate::planet::Key> {
+        self.world().weather.key()
     }
 
     /// The picture of a map of the structure, if it is solved.

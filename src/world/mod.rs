@@ -4,7 +4,7 @@
 //! evaluate it on the spot: it is solved once for each revision that changes what it reads, in the background, and then
 //! sampled. Queries use the maps of the previous revision until the new ones are complete.
 //!
-//! - `map`: [`map::WorldMap`], the inputs and the solver of a map; [`Ground`], the heights and layers that solvers read,
+//! - `map`: [`map::WorldMap`], inputs and solver of a map; [`Ground`], the heights and layers that solvers read,
 //!   which the terrain implements
 //! - [`World`]: the maps that serve. A new map is one file and one line of `world_maps!` below
 //! - `cells`: the grid on which maps are solved; `slot`: one map, and its key
@@ -41,7 +41,7 @@ use coast::Coast;
 use map::Job;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 #[cfg(feature = "render")]
-pub(crate) use picture::{FASTEST, MapPicture, MapView};
+pub(crate) use picture::{MapPicture, MapView};
 use plates::Plates;
 pub(crate) use slot::Slot;
 pub use slot::{MapLevel, MapWork};

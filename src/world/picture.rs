@@ -6,6 +6,7 @@ use super::noise::{hash, unit};
 use super::plates::Plates;
 use super::weather::Weather;
 use crate::planet::Key;
+use crate::sphere::cube::texture_direction;
 use crate::sphere::raster::{Raster, cube_direction, cube_point};
 use crate::sphere::spread;
 use glam::DVec3;
@@ -20,9 +21,6 @@ pub(crate) enum MapView {
     Rain,
     /// Basins in their colours, with rivers and lakes.
     Rivers,
-    /// Red: how wet the sky is, for the clouds; 0.5 is the median of the globe, the rest as [`wetness`] says. Green:
-    /// speed of the wind, for the sea, by [`FASTEST`] times its mean. No debug view.
-    Weather,
 }
 
 /// The picture of a map.
@@ -36,10 +34,6 @@ pub(crate) struct MapPicture {
 /// Texels along the side of a face where the map is smooth, and the most for rivers.
 const SIDE: usize = 256;
 const MOST: usize = 512;
-/// The same for clouds and sea: as many as the weather has cells. It is computed while a frame is drawn.
-const WEATHER_SIDE: usize = 64;
-/// The fastest wind of the picture for clouds and sea, by the mean.
-pub(crate) const FASTEST: f64 = 4.0;
 /// Number of darts on the globe.
 const DARTS: usize = 500;
 /// Half the width of a dart at its tail, and its greatest length, radians.
@@ -63,7 +57,6 @@ impl World {
         match view {
             MapView::Plates => [self.plates.key(), None],
             MapView::Rain => [self.weather.key(), self.carved.key()],
-            MapView::Weather => [self.weather.key(), None],
             MapView::Rivers => [self.carved.key(), None],
         }
     }
@@ -73,7 +66,6 @@ impl World {
         let (plates, weather, carved) = (self.plates.map()?, self.weather.map(), self.carved.map());
         match view {
             MapView::Plates => Some(plates_picture(plates)),
-            MapView::Weather => Some(weather_picture(weather?)),
             MapView::Rain => Some(rain_picture(weather?, carved.map(|carved| &**carved))),
             MapView::Rivers => Some(rivers_picture(carved?)),
         }
@@ -83,27 +75,13 @@ impl World {
 impl MapPicture {
     fn new(side: usize, color: impl Fn(DVec3) -> [f64; 3] + Sync) -> Self {
         let byte = |linear: f64| (linear.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        let direction = |face: usize, x: usize, y: usize| texture_direction(face, side, x as f64 + 0.5, y as f64 + 0.5);
         let texel = |at: usize| {
-            let [r, g, b] = color(face_direction(at / (side * side), side, at % side, at / side % side)).map(byte);
+            let [r, g, b] = color(direction(at / (side * side), at % side, at / side % side)).map(byte);
             [r, g, b, 255]
         };
         Self { side, texels: (0..6 * side * side).into_par_iter().with_min_len(side).map(texel).collect() }
     }
-}
-
-/// The direction of a texel of a cube texture, as WebGPU orders and turns its faces.
-fn face_direction(face: usize, side: usize, x: usize, y: usize) -> DVec3 {
-    let along = |at: usize| (2.0 * at as f64 + 1.0) / side as f64 - 1.0;
-    let (u, v) = (along(x), along(y));
-    let dir = match face {
-        0 => DVec3::new(1.0, -v, -u),
-        1 => DVec3::new(-1.0, -v, u),
-        2 => DVec3::new(u, 1.0, v),
-        3 => DVec3::new(u, -1.0, -v),
-        4 => DVec3::new(u, -v, 1.0),
-        _ => DVec3::new(-u, -v, -1.0),
-    };
-    dir.normalize()
 }
 
 /// The cell of a grid at a direction.
@@ -138,30 +116,6 @@ fn rain_picture(weather: &Weather, carved: Option<&Carved>) -> MapPicture {
         let is_sea = carved.is_some_and(|Carved { drainage, .. }| drainage.is_sea[cell_at(dir, drainage.side)]);
         darts.over(dir, rain_color(rain_mm).map(|c| if is_sea { 0.3 * c } else { c }))
     })
-}
-
-fn weather_picture(weather: &Weather) -> MapPicture {
-    let mut sorted = weather.rain_mm.clone();
-    sorted.sort_by(f64::total_cmp);
-    let median_mm = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-    let speeds_m_s = weather.wind_m_s.iter().map(|[to_east, to_north]| libm::hypot(*to_east, *to_north));
-    let mean_m_s = speeds_m_s.sum::<f64>() / weather.wind_m_s.len().max(1) as f64;
-    // Makes the rasters before all cores ask for them.
-    weather.rain_at(DVec3::X);
-    weather.wind_at(DVec3::X);
-    MapPicture::new(WEATHER_SIDE, |dir| {
-        let wind = weather.wind_at(dir).length() / (FASTEST * mean_m_s.max(1e-9));
-        [wetness(weather.rain_at(dir), median_mm), wind, 0.0]
-    })
-}
-
-/// How wet the sky is where it rains this much, 0 to 1: the logarithm of the rain relative to the median.
-fn wetness(rain_mm: f64, median_mm: f64) -> f64 {
-    /// Even a desert has a little cloud.
-    const LEAST_MM: f64 = 80.0;
-    /// Octaves of rain from the median to either end.
-    const OCTAVES: f64 = 4.0;
-    0.5 + 0.5 * libm::log2((rain_mm + LEAST_MM) / (median_mm + LEAST_MM)) / OCTAVES
 }
 
 fn rivers_picture(carved: &Carved) -> MapPicture {
@@ -253,19 +207,6 @@ mod tests {
     use crate::planet::Plates as Params;
 
     #[test]
-    fn texels_of_a_cube_texture_look_where_webgpu_looks() {
-        // The middle of each face, and a texel beside it to the right and below.
-        let middles = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];
-        let rights = [-DVec3::Z, DVec3::Z, DVec3::X, DVec3::X, DVec3::X, -DVec3::X];
-        let downs = [-DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z, -DVec3::Y, -DVec3::Y];
-        for (face, ((middle, right), down)) in middles.into_iter().zip(rights).zip(downs).enumerate() {
-            let at = |x, y| face_direction(face, 5, x, y);
-            assert!(at(2, 2).distance(middle) < 1e-12, "{face}");
-            assert!(at(3, 2).dot(right) > 0.3 && at(2, 3).dot(down) > 0.3, "{face}");
-        }
-    }
-
-    #[test]
     fn plates_have_colours_of_their_own_and_darts() {
         let plates = Plates::solve(&Params::default(), 3, 32, &|| true).unwrap();
         let picture = plates_picture(&plates);
@@ -275,12 +216,6 @@ mod tests {
         assert!((0.005..0.1).contains(&share), "{share}");
         let hues: std::collections::HashSet<_> = (0..15).map(|id| hue(id).map(|c| (c * 100.0) as u8)).collect();
         assert!(hues.len() >= 14, "{hues:?}");
-    }
-
-    #[test]
-    fn wetness_is_a_half_at_the_median_and_never_outside_its_range() {
-        assert!((wetness(700.0, 700.0) - 0.5).abs() < 1e-12);
-        assert!(wetness(0.0, 700.0) > 0.05 && wetness(6000.0, 700.0) < 0.95 && wetness(100.0, 700.0) < 0.3);
     }
 
     #[test]

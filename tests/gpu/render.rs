@@ -89,7 +89,7 @@ fn the_surface_has_no_holes() {
 #[test]
 fn clouds_that_cover_nothing_are_no_clouds() {
     let bare = Arc::new(Planet { clouds: None, ..earth() });
-    let clear = Planet { clouds: Some(Clouds { coverage: 0.0, ..Clouds::default() }), ..earth() };
+    let clear = Planet { clouds: Some(Clouds { coverage: 0.0, veil: 0.0, ..Clouds::default() }), ..earth() };
     let mut gpu = gpu();
     for (altitude_m, pitch, sun_lon) in POSES {
         let camera = camera(&bare, 10.0, 10.0, altitude_m, 40.0, pitch);
@@ -265,6 +265,10 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
             declared[1] = 0;
         }
         let drawn = draw(&edit.planet);
+        // Another field may have the same mean cover.
+        if edit.declared.contains(Stage::CloudMap) {
+            declared[0] = drawn[0];
+        }
         // New tiles may change uniforms that depend on them.
         if edit.declared.touches_tiles() && declared[0] == 0 {
             declared[0] = drawn[0];

@@ -4,9 +4,11 @@
 //! - [`edits`]: time from an edit to the finished tiles
 //! - [`queries`]: time of heights, samples and rays
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
+//! - [`clouds`]: time of cloud maps and queries
 //! - [`air`]: time that new LUTs of the air take on the GPU
 
 mod air;
+mod clouds;
 mod edits;
 mod noise;
 mod queries;
@@ -45,6 +47,8 @@ enum Part {
     Edits,
     /// Plates, weather and rivers
     Structure,
+    /// Cloud maps and queries of clouds
+    Clouds,
     /// LUTs of the air, on the GPU
     Air,
 }
@@ -97,6 +101,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Structure) {
         report["structure"] = structure::measure(&shipped::default_planet())?;
+    }
+    if wants(Part::Clouds) {
+        report["clouds"] = clouds::measure(first)?;
     }
     if wants(Part::Air) {
         report["adapter"] = json!(headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name));

@@ -157,7 +157,7 @@ frozen! {
         puff_km: f64 = 6.0,
         color: [f64; 3] = [0.98, 0.98, 0.98],
         wind_km_h: f64 = 60.0,
-    }
+    } adding { storms: 0.0, veil: 0.0 }
 }
 
 frozen! {

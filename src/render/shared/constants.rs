@@ -26,8 +26,8 @@ pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
 pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 32];
 pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
-/// Texels along a face of the weather map.
-pub(crate) const WEATHER_SIDE: u32 = 512;
+/// Texels along a face of a cloud map.
+pub(crate) const CLOUD_MAP_SIDE: u32 = 512;
 /// Variance of the slope of a sea without wind (Cox and Munk 1954).
 pub(crate) const CALM_SLOPE_VARIANCE: f64 = 0.003;
 /// Bins of the exposure's histogram.

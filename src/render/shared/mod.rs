@@ -20,10 +20,8 @@ use super::{horizon_pool, material_noise, noise_tile};
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
-use crate::planet::CLIMATE_BELTS;
 use crate::sphere::cube::C_SQUARED;
 use crate::terrain::border::{self, OCTAVE_TURN};
-use crate::world::FASTEST;
 use std::mem::offset_of;
 
 /// The text of `shared.wgsl`.
@@ -73,11 +71,7 @@ pub(crate) fn text() -> String {
         ("MULTISCATTER_SIZE", &size(MULTISCATTER_SIZE)),
         ("IRRADIANCE_SIZE", &size(IRRADIANCE_SIZE)),
         ("SKY_SIZE", &size(SKY_SIZE)),
-        ("WEATHER_SIDE", &WEATHER_SIDE),
-        ("FASTEST_WIND", &FASTEST),
         ("CALM_SLOPE_VARIANCE", &CALM_SLOPE_VARIANCE),
-        // Climate belts as a cubic in the squared sine of latitude
-        ("CLIMATE_BELTS", &CLIMATE_BELTS),
         // Exposure
         ("METER_BINS", &METER_BINS),
         ("METER_STRIDE", &METER_STRIDE),

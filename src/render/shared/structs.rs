@@ -155,19 +155,24 @@ uniform_struct! {
         /// Bands of the noise that shapes clouds, widest first; periods in km.
         cloud_bands: [Octave; CLOUD_BANDS],
         cloud_steps: f32,
+        /// 1 where the layer is thinner than a pixel.
+        cloud_is_far: u32,
         /// First step of a march that begins in the layer, and the ratio of each step to the one before.
         cloud_first_step_km: f32,
         cloud_step_growth: f32,
-        /// Weather systems along the radius.
-        cloud_systems_per_radius: f32,
+        /// Height of the veil, a thin sheet of ice clouds.
+        veil_km: f32,
         /// Cosine and sine of the drift about the pole.
         cloud_drift: Vec2,
-        cloud_curl: f32,
-        /// Strength of the climate belts in the weather map.
-        cloud_belts: f32,
-        /// Share of the solved weather in the cover of the clouds and in the wind over the sea; 0 without a structure.
-        weather_share: f32,
-        cloud_seed: u32,
+        /// Offset of the log-odds with which the mean cover is the coverage; the same for the veil.
+        cloud_offset: f32,
+        veil_offset: f32,
+        /// Share of the odd keyframe in the cloud maps.
+        cloud_odd_share: f32,
+        /// Share of the sky that the veil covers; 0 without clouds.
+        veil_coverage: f32,
+        /// 1 where a solved wind blows over the sea.
+        has_wind: u32,
         /// Octaves of the macro variation; periods in metres.
         variation: [Octave; VARIATION_OCTAVES],
         /// The eye's position modulo 1024 m, for patterns that repeat.

@@ -15,14 +15,12 @@ const BAND_RATIO: f64 = 3.3;
 const PUFFS_PER_TILE: f64 = 4.0;
 /// First step of a march that begins in the layer, in thicknesses of the layer.
 const FIRST_STEP: f64 = 0.06;
-/// Belts in the weather map for each unit of the climate's belts: chosen by eye.
-const BELTS: f64 = 1.0 / 3.0;
 /// Steps of a march through a layer that is thinner than a pixel.
 const FAR_STEPS: f64 = 3.0;
 
 /// Sets the clouds around an eye; without clouds the coverage stays 0.
 pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Scene<'_>, pixel_rad: f32) {
-    out.weather_share = planet.structure.as_ref().map_or(0.0, |structure| structure.weather_share as f32);
+    out.has_wind = u32::from(planet.structure.as_ref().is_some_and(|structure| structure.weather_share > 0.0));
     let Some(clouds) = &planet.clouds else { return };
     let steps = match scene.quality {
         Quality::Low => 7.0,
@@ -51,14 +49,13 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
     let longest_km = 2.0 * (2.0 * (planet.radius_km + top_km) * clouds.thickness_km).sqrt();
     let first_km = FIRST_STEP * clouds.thickness_km;
     let steps = if is_thin { FAR_STEPS } else { steps };
+    out.cloud_is_far = u32::from(is_thin);
     out.cloud_steps = steps as f32;
     out.cloud_first_step_km = first_km as f32;
     out.cloud_step_growth = step_growth(longest_km / first_km, steps) as f32;
     out.cloud_drift = Vec2::new(c as f32, s as f32);
-    out.cloud_systems_per_radius = (planet.radius_km / clouds.scale_km) as f32;
-    out.cloud_curl = clouds.curl as f32;
-    out.cloud_belts = (planet.climate.belts * BELTS) as f32 * (1.0 - out.weather_share);
-    out.cloud_seed = clouds.seed ^ planet.seed.rotate_left(16);
+    // Ice clouds lie well over the layer.
+    (out.veil_km, out.veil_coverage) = ((top_km + clouds.thickness_km) as f32, clouds.veil as f32);
 }
 
 /// Ratio of each of `steps` steps to the one before when their sum is `sum` first steps; above 1.

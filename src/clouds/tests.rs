@@ -1,0 +1,99 @@
+use super::*;
+use crate::planet::{Clouds, Planet, shipped};
+use crate::simd::Simd;
+use crate::sphere::spread;
+use glam::DVec3;
+
+fn planet(clouds: Clouds) -> Planet {
+    let planet = Planet { clouds: Some(clouds), ..shipped::layered() };
+    Planet { structure: None, ..planet }
+}
+
+fn mean_cover(field: &CloudField, time_secs: f64, within: impl Fn(DVec3) -> bool) -> f64 {
+    let dirs = spread(1500).filter(|dir| within(*dir));
+    let covers: Vec<f64> = dirs.map(|dir| field.cover(dir, time_secs).low).collect();
+    covers.iter().sum::<f64>() / covers.len() as f64
+}
+
+/// The cover that is asked for is the cover that is there, at any time.
+#[test]
+fn the_sky_is_as_covered_as_asked() {
+    for (coverage, storms) in [(0.15, 1.0), (0.4, 0.6), (0.67, 0.0), (0.9, 1.0)] {
+        let field = CloudField::with(&planet(Clouds { coverage, storms, ..Clouds::default() }), None);
+        for days in [0.0, 40.3] {
+            let mean = mean_cover(&field, days * 86_400.0, |_| true);
+            assert!((mean - coverage).abs() < 0.05, "{coverage} {storms} day {days}: {mean}");
+        }
+    }
+}
+
+#[test]
+fn nothing_and_everything_are_covered_exactly() {
+    for coverage in [0.0, 1.0] {
+        let field = CloudField::with(&planet(Clouds { coverage, veil: coverage, ..Clouds::default() }), None);
+        for dir in spread(60) {
+            let cover = field.cover(dir, 7000.0);
+            assert!((cover.low - coverage).abs() < 1e-3 && (cover.veil - coverage).abs() < 1e-3, "{cover:?}");
+        }
+    }
+}
+
+/// The equator and the storm tracks are cloudier than the subtropics.
+#[test]
+fn belts_are_where_the_climate_has_them() {
+    let mut planet = planet(Clouds { coverage: 0.5, ..Clouds::default() });
+    planet.climate.belts = 1.0;
+    let field = CloudField::with(&planet, None);
+    let belt = |low_deg: f64, high_deg: f64| {
+        let sines = [low_deg, high_deg].map(|deg| deg.to_radians().sin());
+        let times = (0..4).map(|i| f64::from(i) * 9.0 * 86_400.0);
+        times.map(|time| mean_cover(&field, time, |dir| (sines[0]..sines[1]).contains(&dir.z.abs()))).sum::<f64>() / 4.0
+    };
+    let (equator, subtropics, tracks) = (belt(0.0, 10.0), belt(20.0, 30.0), belt(45.0, 60.0));
+    assert!(equator > subtropics + 0.1 && tracks > subtropics + 0.1, "{equator} {subtropics} {tracks}");
+}
+
+/// Clouds change, but from one minute to the next no cover jumps; a keyframe is no seam in time.
+#[test]
+fn clouds_change_without_jumps() {
+    let field = CloudField::with(&planet(Clouds { storms: 1.0, ..Clouds::default() }), None);
+    let mut changed = 0.0_f64;
+    for dir in spread(80) {
+        let at = |minutes: f64| field.cover(dir, minutes * 60.0).low;
+        for minute in [29.0, 59.5, 60.5] {
+            assert!((at(minute) - at(minute + 1.0)).abs() < 0.12, "{dir} {minute}");
+        }
+        changed += (at(0.0) - at(5.0 * 1440.0)).abs() / 80.0;
+    }
+    assert!(changed > 0.1, "{changed}");
+}
+
+#[test]
+fn clouds_are_the_same_on_all_instruction_sets() {
+    let field = CloudField::with(&planet(Clouds::default()), None);
+    let covers =
+        |field: &CloudField| -> Vec<u64> { spread(40).map(|dir| field.cover(dir, 1e5).low.to_bits()).collect() };
+    let expected = covers(&field);
+    for simd in Simd::available() {
+        assert_eq!(covers(&field.clone().with_simd(simd)), expected, "{simd:?}");
+    }
+}
+
+/// A texel of the map is the field in its direction.
+#[cfg(feature = "render")]
+#[test]
+fn maps_are_the_field() {
+    use crate::sphere::cube::texture_direction;
+    let field = CloudField::with(&planet(Clouds { wind_km_h: 0.0, ..Clouds::default() }), None);
+    const SIDE: usize = 32;
+    let frame = keyframe(&field, 3, SIDE);
+    let ground = ground_map(&field, SIDE);
+    for i in (0..6 * SIDE * SIDE).step_by(37) {
+        let (face, x, y) = (i / (SIDE * SIDE), (i % SIDE) as f64 + 0.5, (i / SIDE % SIDE) as f64 + 0.5);
+        let dir = texture_direction(face, SIDE, x, y);
+        let odds = f64::from(ground[i][0].to_f32()) + field.offsets()[0];
+        let drawn = cover::cover(f64::from(frame.texels[i][0].to_f32()), odds);
+        let asked = field.cover(dir, 3.0 * field::KEYFRAME_SECS).low;
+        assert!((drawn - asked).abs() < 0.02, "{dir}: {drawn} {asked}");
+    }
+}
