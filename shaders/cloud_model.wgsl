@@ -24,15 +24,18 @@ fn cover_of(rank: f32, odds: f32) -> f32 {
     return saturate1((rank - 1.0 + share + width) / (2.0 * width + 1e-6));
 }
 
-fn sky_over(dir: vec3f) -> Sky {
+// `footprint`: size in km below which nothing is resolved.
+fn sky_over(dir: vec3f, footprint: f32) -> Sky {
+    let texel_km = 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE;
+    let level = clamp(log2(max(footprint / texel_km, 1e-3)), 0.0, CLOUD_MAP_LEVELS - 1.0);
     let odds = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0).r;
     let carried = drifted(dir);
     var ranks = vec4f(0.0);
     if body.cloud_odd_share < 1.0 {
-        ranks = textureSampleLevel(cloud_maps, clamped, carried, 1, 0.0) * (1.0 - body.cloud_odd_share);
+        ranks = textureSampleLevel(cloud_maps, clamped, carried, 1, level) * (1.0 - body.cloud_odd_share);
     }
     if body.cloud_odd_share > 0.0 {
-        ranks += textureSampleLevel(cloud_maps, clamped, carried, 2, 0.0) * body.cloud_odd_share;
+        ranks += textureSampleLevel(cloud_maps, clamped, carried, 2, level) * body.cloud_odd_share;
     }
     var sky = Sky(0.0, ranks.g, 0.0);
     if body.cloud_coverage > 0.0 { sky.cover = cover_of(ranks.r, odds + body.cloud_offset); }
@@ -92,7 +95,7 @@ fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     let path_km = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
     let point = rel + active_sun.dir * path_km;
     let up = normalize(body.eye_km + point);
-    let density = cloud_density(point, sky_over(up), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
+    let density = cloud_density(point, sky_over(up, footprint), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
     let left = saturate1((body.cloud_top_km - h) / (body.cloud_top_km - body.cloud_bottom_km));
     return exp(-body.cloud_optical_depth * density * left / max(dot(up, active_sun.dir), 0.05));
 }

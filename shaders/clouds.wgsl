@@ -27,7 +27,7 @@ const SHADE_RAD: vec4f = vec4f(0.002, 0.005, 0.01, 0.02);
 
 // Share of sunlight that neighbouring tops leave, from afar, where the march does not resolve them: a short march in
 // the cloud map, towards the sun.
-fn shade(rel: vec3f, cover: f32, sun_mu: f32) -> f32 {
+fn shade(rel: vec3f, cover: f32, sun_mu: f32, footprint: f32) -> f32 {
     if body.cloud_is_far == 0u || sun_mu < -0.1 || sun_mu > 0.7 { return 1.0; }
     let thickness = TOWER * (body.cloud_top_km - body.cloud_bottom_km);
     var covered = 0.0;
@@ -36,7 +36,7 @@ fn shade(rel: vec3f, cover: f32, sun_mu: f32) -> f32 {
         let there = normalize(body.eye_km + rel + active_sun.dir * away_km);
         // How much higher tops are there than the ray from here to the sun.
         let rise = away_km * max(sun_mu, 0.0) + 0.5 * away_km * SHADE_RAD[i];
-        covered = max(covered, saturate1((sky_over(there).cover - cover - rise / thickness) * 2.5));
+        covered = max(covered, saturate1((sky_over(there, footprint).cover - cover - rise / thickness) * 2.5));
     }
     return 1.0 - 0.8 * covered * (1.0 - smoothstep(0.3, 0.7, sun_mu));
 }
@@ -93,9 +93,9 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let rel = dir * t;
         let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
         let above = normalize(body.eye_km + rel);
-        let sky_here = sky_over(above);
-        if sky_here.cover <= 0.0 { continue; }
         let footprint = max(t * frame.pixel_rad, length_km * 0.3);
+        let sky_here = sky_over(above, t * frame.pixel_rad);
+        if sky_here.cover <= 0.0 { continue; }
         let density = cloud_density(rel, sky_here, height, footprint);
         if density <= 0.002 { continue; }
         // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
@@ -110,7 +110,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
             + 1.5 * phases.z * exp(-0.07 * sun_depth);
         let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
         // Thin cloud sends back less light; by eye.
-        let lit = shade(rel, sky_here.cover, sun_mu) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
+        let lit = shade(rel, sky_here.cover, sun_mu, footprint) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
         let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * grazed * lit) + ambient);
         let passed = exp(-extinction * density * length_km);
         let seen = out.transmittance * (1.0 - passed);
@@ -145,15 +145,15 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     if t <= 0.0 || t > far { return out; }
     let rel = dir * t;
     let up = normalize(body.eye_km + rel);
-    let cover = sky_over(up).veil;
+    let footprint = t * frame.pixel_rad;
+    let cover = sky_over(up, footprint).veil;
     if cover <= 0.0 { return out; }
     // Streaks where the map is too coarse for them.
     let band = body.cloud_bands[1];
-    let footprint = t * frame.pixel_rad;
     let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
     let carried = drifted(rel);
     let streak = textureSampleLevel(noise_tile, repeated, band.offset + carried / band.period, lod).g;
-    let fine = textureSampleLevel(noise_tile, repeated, (band.offset + carried / band.period) * vec3f(4.0, 4.0, 4.0), lod + 2.0).g;
+    let fine = textureSampleLevel(noise_tile, repeated, 4.0 * (band.offset + carried / band.period), lod + 2.0).g;
     let depth = VEIL_DEPTH * cover * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
     out.transmittance = exp(-depth);
     out.at_km = t;

@@ -40,10 +40,12 @@ pub fn random(seed: u64) -> Planet {
     let air = kind != Kind::Bare && (water.is_some() || dice.chance(0.7));
     let clouds = (air && dice.chance(if water.is_some() { 0.9 } else { 0.4 })).then(|| Clouds {
         // Over ice, clouds would hide white behind white; deserts have few.
-        // More than a third would hide the land.
-        coverage: if kind == Kind::Temperate { dice.rounded(0.14, 0.34) } else { dice.rounded(0.08, 0.25) },
-        scale_km: three_digits(radius_km * dice.between(0.25, 0.45)),
-        curl: dice.rounded(0.35, 0.7),
+        // More than a fifth would hide the land.
+        coverage: if kind == Kind::Temperate { dice.rounded(0.07, 0.18) } else { dice.rounded(0.03, 0.12) },
+        storms: if water.is_some() { dice.rounded(0.3, 1.0) } else { dice.rounded(0.0, 0.3) },
+        veil: dice.rounded(0.02, 0.15),
+        scale_km: three_digits(radius_km * dice.between(0.36, 0.6)),
+        curl: dice.rounded(0.3, 0.6),
         seed: dice.seed(),
         wind_km_h: dice.rounded(-120.0, 120.0),
         ..Clouds::default()

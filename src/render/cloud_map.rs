@@ -3,14 +3,14 @@
 //!
 //! A keyframe that is needed at once is solved at once. While time goes on, the one after is solved in the background.
 
-use super::gpu;
-use super::shared::CLOUD_MAP_SIDE;
+use super::shared::{CLOUD_MAP_LEVELS, CLOUD_MAP_SIDE};
 use crate::clouds::{CloudField, Keyframe, ground_map, keyframe, keyframes};
 use crate::planet::Key;
 use crate::terrain::{Revision, Terrain};
 use half::f16;
-use std::sync::{Arc, Mutex};
+use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex};
 
 /// Layers of the cube array.
 const CUBES: u32 = 3;
@@ -51,7 +51,16 @@ impl CloudMaps {
     /// Creates maps without content.
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         let size = wgpu::Extent3d { width: CLOUD_MAP_SIDE, height: CLOUD_MAP_SIDE, depth_or_array_layers: 6 * CUBES };
-        let texture = gpu::written_texture(device, "cloud maps", size, wgpu::TextureFormat::Rgba16Float);
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("cloud maps"),
+            size,
+            mip_level_count: CLOUD_MAP_LEVELS,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba16Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
         let cubes = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::CubeArray),
             ..wgpu::TextureViewDescriptor::default()
@@ -119,15 +128,28 @@ impl CloudMaps {
     }
 
     fn write(&mut self, queue: &wgpu::Queue, cube: u32, texels: &[[f16; 4]]) {
-        let bytes: Vec<u8> = texels.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
-        let size = wgpu::Extent3d { width: CLOUD_MAP_SIDE, height: CLOUD_MAP_SIDE, depth_or_array_layers: 6 };
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(8 * CLOUD_MAP_SIDE),
-            rows_per_image: Some(CLOUD_MAP_SIDE),
-        };
-        let origin = wgpu::Origin3d { z: 6 * cube, ..wgpu::Origin3d::ZERO };
-        let to = wgpu::TexelCopyTextureInfo { origin, ..self.texture.as_image_copy() };
-        queue.write_texture(to, &bytes, layout, size);
+        let mut level = texels.to_vec();
+        for mip_level in 0..CLOUD_MAP_LEVELS {
+            let side = CLOUD_MAP_SIDE >> mip_level;
+            let bytes: Vec<u8> = level.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+            let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 };
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * side), rows_per_image: Some(side) };
+            let origin = wgpu::Origin3d { z: 6 * cube, ..wgpu::Origin3d::ZERO };
+            let to = wgpu::TexelCopyTextureInfo { origin, mip_level, ..self.texture.as_image_copy() };
+            queue.write_texture(to, &bytes, layout, size);
+            level = halved(&level, side as usize);
+        }
     }
+}
+
+/// The means of blocks of two by two texels of faces with `side` texels along each side.
+fn halved(texels: &[[f16; 4]], side: usize) -> Vec<[f16; 4]> {
+    let half = side / 2;
+    let mean = |i: usize| {
+        let first = (i / half) * 2 * side + i % half * 2;
+        let block = [first, first + 1, first + side, first + side + 1].map(|at| texels[at]);
+        std::array::from_fn(|k| f16::from_f32(block.iter().map(|texel| texel[k].to_f32()).sum::<f32>() * 0.25))
+    };
+    (0..6 * half * half).into_par_iter().with_min_len(1024).map(mean).collect()
 }

@@ -28,6 +28,8 @@ pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 /// Texels along a face of a cloud map.
 pub(crate) const CLOUD_MAP_SIDE: u32 = 512;
+/// Mip levels of a cloud map. Coarser ones are not needed: a planet is hardly drawn smaller.
+pub(crate) const CLOUD_MAP_LEVELS: u32 = 5;
 /// Variance of the slope of a sea without wind (Cox and Munk 1954).
 pub(crate) const CALM_SLOPE_VARIANCE: f64 = 0.003;
 /// Bins of the exposure's histogram.

@@ -71,6 +71,8 @@ pub(crate) fn text() -> String {
         ("MULTISCATTER_SIZE", &size(MULTISCATTER_SIZE)),
         ("IRRADIANCE_SIZE", &size(IRRADIANCE_SIZE)),
         ("SKY_SIZE", &size(SKY_SIZE)),
+        ("CLOUD_MAP_SIDE", &f64::from(CLOUD_MAP_SIDE)),
+        ("CLOUD_MAP_LEVELS", &f64::from(CLOUD_MAP_LEVELS)),
         ("CALM_SLOPE_VARIANCE", &CALM_SLOPE_VARIANCE),
         // Exposure
         ("METER_BINS", &METER_BINS),
