@@ -136,6 +136,27 @@ fn foam_between(depths_m: vec2f) -> f32 {
     return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / max(depths_m.y - depths_m.x, 1e-3);
 }
 
+// How gusts and slicks vary the part of the slopes' variance that the wind raises, as the exponent of the noise: glints
+// show streaks on photographs from orbit. By eye.
+const GUSTS: f32 = 1.2;
+
+fn gusty(variance: f32, noise: f32) -> f32 {
+    let raised = max(variance - CALM_SLOPE_VARIANCE, 0.0);
+    return min(variance, CALM_SLOPE_VARIANCE) + raised * exp(GUSTS * noise);
+}
+
+// Share of the sea that breaking waves whiten (Monahan and Muircheartaigh 1980), from the variance of the slopes (Cox
+// and Munk 1954: 0.003 + 0.00512 times the wind in m/s).
+fn whitecaps(variance: f32) -> f32 {
+    let wind_m_s = max(variance - CALM_SLOPE_VARIANCE, 0.0) / 0.00512;
+    return min(2.95e-6 * pow(wind_m_s, 3.52), 0.12);
+}
+
+// Water is not the same everywhere: plankton makes it greener, its absence bluer.
+fn tinted(color: vec3f, noise: f32) -> vec3f {
+    return color * mix(vec3f(0.9, 0.8, 0.95), vec3f(1.1, 1.3, 1.05), saturate1(0.5 + 0.7 * noise));
+}
+
 // Radiance of water.
 fn water_radiance(water: Water) -> vec3f {
     let rel_km = water.rel_km;
@@ -147,10 +168,14 @@ fn water_radiance(water: Water) -> vec3f {
     let h = water.altitude_km;
     let rel_m = rel_km * 1000.0;
     let variation = macro_variation(rel_m, footprint_m);
-    let broad = border_jitter(rel_m, footprint_m).x;
+    let jitter = border_jitter(rel_m, footprint_m);
+    let broad = jitter.x;
     let ice = frozen(water.temperature_c, variation, broad);
     // Only the first sun determines the path of light down through the water.
     let first_mu = max(dot(up, body.suns[0].dir), 0.0);
+    // From near, single waves show the wind.
+    let gust = jitter.y * smoothstep(5.0, 50.0, distance_km);
+    let slope_variance = gusty(water.slope_variance, gust);
     var waves = Waves(up, 0.0);
     var fresnel = 0.0;
     var mirror_mu = 0.0;
@@ -158,7 +183,7 @@ fn water_radiance(water: Water) -> vec3f {
         let step_x = pixel_step(rel_m, up, body.pixel_right);
         let step_y = pixel_step(rel_m, up, body.pixel_up);
         let bend = border_jitter(rel_m, max(footprint_m, 15.0)).x;
-        waves = waves_at(rel_m, up, step_x, step_y, bend, water.slope_variance);
+        waves = waves_at(rel_m, up, step_x, step_y, bend, slope_variance);
         fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
         let mirrored = reflect(dir, waves.normal);
         // Rough water reflects a patch of sky above the mirror direction.
@@ -185,9 +210,12 @@ fn water_radiance(water: Water) -> vec3f {
     }
     var light = vec3f(0.0);
     if ice < 1.0 {
-        light = water_body(water, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
-        let foam = foam_between(water.depths_m) * smoothstep(0.1, 0.6, variation + 0.25);
-        light = mix(light, vec3f(0.7) * downwelling / PI, foam * 0.6 * water.foam);
+        var here = water;
+        here.color = tinted(water.color, variation);
+        light = water_body(here, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
+        let surf = foam_between(water.depths_m) * smoothstep(0.1, 0.6, variation + 0.25);
+        let foam = max(surf * 0.6, whitecaps(water.slope_variance)) * water.foam;
+        light = mix(light, vec3f(0.7) * downwelling / PI, foam);
     }
     let white = body.ice_color * (1.0 + 0.18 * variation) * downwelling / PI;
     return mix(light, white, ice);

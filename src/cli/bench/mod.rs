@@ -5,11 +5,13 @@
 //! - [`queries`]: time of heights, samples and rays
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
 //! - [`clouds`]: time of cloud maps and queries
+//! - [`frames`]: time of a frame and of its clouds, sea and air
 //! - [`air`]: time that new LUTs of the air take on the GPU
 
 mod air;
 mod clouds;
 mod edits;
+mod frames;
 mod noise;
 mod queries;
 mod structure;
@@ -49,6 +51,8 @@ enum Part {
     Structure,
     /// Cloud maps and queries of clouds
     Clouds,
+    /// Frames on the GPU, and what their parts take
+    Frames,
     /// LUTs of the air, on the GPU
     Air,
 }
@@ -104,6 +108,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Clouds) {
         report["clouds"] = clouds::measure(first)?;
+    }
+    if wants(Part::Frames) {
+        report["frames"] = json!(frames::measure(first));
     }
     if wants(Part::Air) {
         report["adapter"] = json!(headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name));
