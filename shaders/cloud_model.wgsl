@@ -27,7 +27,7 @@ fn cover_of(rank: f32, odds: f32) -> f32 {
 // `footprint`: size in km below which nothing is resolved.
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     let texel_km = 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE;
-    let level = clamp(log2(max(footprint / texel_km, 1e-3)), 0.0, CLOUD_MAP_LEVELS - 1.0);
+    let level = clamp(log2(max(footprint / texel_km, 1e-3)), body.cloud_least_level, CLOUD_MAP_LEVELS - 1.0);
     let odds = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0).r;
     let carried = drifted(dir);
     var ranks = vec4f(0.0);

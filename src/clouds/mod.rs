@@ -25,4 +25,4 @@ pub use field::CloudField;
 #[cfg(feature = "render")]
 pub(crate) use field::keyframes;
 #[cfg(feature = "render")]
-pub(crate) use maps::{Keyframe, ground_map, keyframe};
+pub(crate) use maps::{Keyframe, Texels, ground_map, keyframe};

@@ -4,7 +4,7 @@
 //! A keyframe that is needed at once is solved at once. While time goes on, the one after is solved in the background.
 
 use super::shared::{CLOUD_MAP_LEVELS, CLOUD_MAP_SIDE};
-use crate::clouds::{CloudField, Keyframe, ground_map, keyframe, keyframes};
+use crate::clouds::{CloudField, Keyframe, Texels, ground_map, keyframe, keyframes};
 use crate::planet::Key;
 use crate::terrain::{Revision, Terrain};
 use half::f16;
@@ -15,6 +15,8 @@ use std::sync::{Arc, Mutex};
 /// Layers of the cube array.
 const CUBES: u32 = 3;
 const SIDE: usize = CLOUD_MAP_SIDE as usize;
+/// The finest mip level of a draft: a sixteenth of the texels.
+const DRAFT_LEVEL: u32 = 2;
 
 /// See the module.
 pub(crate) struct CloudMaps {
@@ -25,6 +27,8 @@ pub(crate) struct CloudMaps {
     field: Option<Arc<CloudField>>,
     /// Numbers of the keyframes in the cubes 1 and 2: the even one first.
     held: [Option<i64>; 2],
+    /// The finest mip level that is there: 0, or [`DRAFT_LEVEL`].
+    least_level: u32,
     /// The next keyframe. The mutex only makes it shareable: nobody else waits.
     coming: Option<Mutex<Receiver<Keyframe>>>,
     /// Number of times that the maps were made from another field.
@@ -39,6 +43,8 @@ pub(crate) struct CloudFrame {
     pub(crate) veil_offset: f32,
     /// Share of the odd keyframe.
     pub(crate) odd_share: f32,
+    /// The finest mip level of the maps that is there.
+    pub(crate) least_level: f32,
 }
 
 /// Solves a keyframe as a frame does, for benches.
@@ -65,26 +71,34 @@ impl CloudMaps {
             dimension: Some(wgpu::TextureViewDimension::CubeArray),
             ..wgpu::TextureViewDescriptor::default()
         });
-        Self { texture, cubes, key: None, field: None, held: [None; 2], coming: None, runs: 0 }
+        Self { texture, cubes, key: None, field: None, held: [None; 2], least_level: 0, coming: None, runs: 0 }
     }
 
-    /// Brings the maps to a time, for a planet with clouds, or with a sea over which the solved wind blows.
+    /// Brings the maps to a time, for a planet with clouds, or with a sea over which the solved wind blows. `drafts`: maps
+    /// that must be made again may be coarse.
     pub(crate) fn update(
         &mut self,
         queue: &wgpu::Queue,
-        revision: &Revision,
-        terrain: Option<&Terrain>,
+        (revision, terrain): (&Revision, Option<&Terrain>),
         time_secs: f64,
+        drafts: bool,
     ) -> CloudFrame {
         let planet = revision.planet();
         let weather = terrain.and_then(Terrain::weather);
         let key = (revision.keys().cloud_map(), terrain.and_then(Terrain::weather_key));
-        if self.key != Some(key) || self.field.is_none() {
-            let field = Arc::new(CloudField::with(planet, weather.cloned()));
-            self.write(queue, 0, &ground_map(&field, SIDE));
+        let is_changed = self.key != Some(key) || self.field.is_none();
+        // The first maps are never drafts.
+        let is_draft = drafts && self.key.is_some() && (is_changed || self.least_level > 0);
+        if is_changed || (self.least_level > 0 && !is_draft) {
+            self.least_level = if is_draft { DRAFT_LEVEL } else { 0 };
+            let field = match self.field.take().filter(|_| !is_changed) {
+                Some(field) => field,
+                None => Arc::new(CloudField::with(planet, weather.cloned())),
+            };
+            self.write(queue, 0, ground_map(&field, SIDE >> self.least_level));
             (self.key, self.held, self.coming) = (Some(key), [None; 2], None);
             self.field = Some(field);
-            self.runs += 1;
+            self.runs += u64::from(is_changed);
         }
         let Some(field) = &mut self.field else { return CloudFrame::default() };
         let Some(clouds) = &planet.clouds else { return CloudFrame::default() };
@@ -102,7 +116,7 @@ impl CloudMaps {
         let is_odd = before.rem_euclid(2) == 1;
         let odd_share = if is_odd { 1.0 - share } else { share } as f32;
         let [offset, veil_offset] = field.offsets().map(|offset| offset as f32);
-        CloudFrame { offset, veil_offset, odd_share }
+        CloudFrame { offset, veil_offset, odd_share, least_level: self.least_level as f32 }
     }
 
     /// Makes sure that a keyframe is in its cube, and asks for the one after it.
@@ -113,11 +127,11 @@ impl CloudMaps {
         }
         let coming = self.coming.take().and_then(|coming| coming.into_inner().ok()?.recv().ok());
         let is_next = coming.as_ref().is_some_and(|frame| frame.number == number);
-        let frame = coming.filter(|_| is_next).unwrap_or_else(|| keyframe(field, number, SIDE));
-        self.write(queue, 1 + slot as u32, &frame.texels);
+        let frame = coming.filter(|_| is_next).unwrap_or_else(|| keyframe(field, number, SIDE >> self.least_level));
+        self.write(queue, 1 + slot as u32, frame.texels);
         self.held[slot] = Some(number);
         // Time goes on: its neighbour is there already.
-        if self.held[1 - slot] == Some(number - 1) {
+        if self.held[1 - slot] == Some(number - 1) && self.least_level == 0 {
             let (field, (send, coming)) = (field.clone(), channel());
             rayon::spawn(move || {
                 // Nobody waits any more if the planet has changed.
@@ -127,9 +141,9 @@ impl CloudMaps {
         }
     }
 
-    fn write(&mut self, queue: &wgpu::Queue, cube: u32, texels: &[[f16; 4]]) {
-        let mut level = texels.to_vec();
-        for mip_level in 0..CLOUD_MAP_LEVELS {
+    /// Writes a cube, from the finest level that is there to the coarsest.
+    fn write(&self, queue: &wgpu::Queue, cube: u32, mut level: Texels) {
+        for mip_level in self.least_level..CLOUD_MAP_LEVELS {
             let side = CLOUD_MAP_SIDE >> mip_level;
             let bytes: Vec<u8> = level.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
             let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 6 };

@@ -10,6 +10,7 @@ use super::border_tile;
 use super::cloud_map::{CloudFrame, CloudMaps};
 use super::gpu::{self, Slot};
 use super::material_maps::MaterialMaps;
+use super::scene::Scene;
 use super::screen_pass::Shared;
 use super::shared::{IRRADIANCE_SIZE, MULTISCATTER_SIZE, OPTICAL_DEPTH_SIZE, SKY_SIZE};
 use super::targets::RADIANCE_FORMAT;
@@ -172,19 +173,19 @@ impl Luts {
         }
     }
 
-    /// Brings the cloud maps to a time. `terrain`: whose rain makes clouds.
+    /// Brings the cloud maps to the time of a scene. `terrain`: whose rain makes clouds.
     pub(crate) fn update_clouds(
         &mut self,
         queue: &wgpu::Queue,
         (revision, terrain): (&Revision, Option<&Terrain>),
-        time_secs: f64,
+        scene: &Scene<'_>,
     ) -> CloudFrame {
         let planet = revision.planet();
         let has_winds = planet.structure.is_some() && planet.water.is_some();
         if planet.clouds.is_none() && !has_winds {
             return CloudFrame::default();
         }
-        let frame = self.clouds.update(queue, revision, terrain, time_secs);
+        let frame = self.clouds.update(queue, (revision, terrain), scene.time_secs, scene.drafts);
         self.runs.weather = self.clouds.runs;
         frame
     }

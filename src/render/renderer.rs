@@ -238,9 +238,9 @@ impl Renderer {
             let order = [number == 0, plan.frontmost == Some(number)];
             let mut values = uniforms::body(scene, body, drawn, order);
             let terrain = &*body.surface.terrain;
-            let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene.time_secs);
+            let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene);
             (values.cloud_offset, values.veil_offset) = (clouds.offset, clouds.veil_offset);
-            values.cloud_odd_share = clouds.odd_share;
+            (values.cloud_odd_share, values.cloud_least_level) = (clouds.odd_share, clouds.least_level);
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
             resources.begin_view(scene.view_id);

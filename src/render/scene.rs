@@ -185,6 +185,8 @@ pub struct Scene<'a> {
     pub time_secs: f64,
     /// The planets, or a debug view.
     pub debug_view: DebugView,
+    /// Whether cloud maps may be coarse for now: while a slider is dragged, an answer at once is worth more.
+    pub drafts: bool,
     /// How radiance becomes a picture.
     pub post: Post,
 }
@@ -202,6 +204,7 @@ impl<'a> Scene<'a> {
             bodies: Vec::new(),
             time_secs: 0.0,
             debug_view: DebugView::Shaded,
+            drafts: false,
             post: Post::default(),
         }
     }

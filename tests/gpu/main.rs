@@ -3,6 +3,7 @@
 //! - `shaders`: every WGSL file through naga
 //! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
 //! - `biomes`, `colours`, `materials`: the colours of the ground
+//! - `clouds`: clouds over time, drafts of their maps
 //! - `lakes`: water of planets with a structure
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
@@ -12,6 +13,7 @@
 
 mod air;
 mod biomes;
+mod clouds;
 mod colours;
 mod edges;
 mod lakes;

@@ -251,7 +251,7 @@ impl Viewport {
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
         if let Some(surface) = surface {
-            self.draw(surface, valid, view);
+            self.draw(surface, valid, view, ui.input(|input| input.pointer.any_down()));
         }
         if let Some(texture) = self.picture.texture() {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
@@ -299,7 +299,7 @@ impl Viewport {
         }
     }
 
-    fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View) {
+    fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View, drafts: bool) {
         if !self.newest.as_ref().is_some_and(|newest| Arc::ptr_eq(newest.planet(), valid)) {
             self.newest = Revision::try_new(valid.clone()).ok();
         }
@@ -307,7 +307,7 @@ impl Viewport {
         let newest = self.newest.clone().filter(|newest| same_tiles(&surface.terrain, newest));
         let revision = newest.unwrap_or_else(|| surface.terrain.revision());
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
-        let subject = Subject { surface, revision, view, frozen: self.frozen, settings, marked };
+        let subject = Subject { surface, revision, view, frozen: self.frozen, settings, marked, drafts };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });
     }

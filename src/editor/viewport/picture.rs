@@ -28,6 +28,8 @@ pub(super) struct Subject<'a> {
     pub(super) settings: &'a ViewSettings,
     /// Cells of the biome table whose ground lights up.
     pub(super) marked: Option<Arc<MarkedCells>>,
+    /// Whether cloud maps may be coarse: a button of the pointer is down.
+    pub(super) drafts: bool,
 }
 
 /// The measurements that drawing takes part in.
@@ -164,6 +166,7 @@ impl Picture {
         let mut scene = Scene::of_revision(revision.clone(), &key.surface, key.view, sun_dir_planet);
         scene.time_secs = key.time_secs;
         scene.debug_view = key.debug_view;
+        scene.drafts = key.drafts;
         scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
         scene.post.exposure_ev = key.exposure_ev;
         scene.post.tone = key.tone;
@@ -218,6 +221,7 @@ struct PictureKey {
     tone: Tone,
     debug_view: DebugView,
     marked: Option<Arc<MarkedCells>>,
+    drafts: bool,
 }
 
 impl PictureKey {
@@ -233,6 +237,7 @@ impl PictureKey {
             tone: subject.settings.tone,
             debug_view: subject.settings.debug_view,
             marked: subject.marked.clone(),
+            drafts: subject.drafts,
         }
     }
 
@@ -247,6 +252,8 @@ impl PictureKey {
             && self.tone == other.tone
             && self.debug_view == other.debug_view
             && self.marked == other.marked
+            // What was drawn with drafts is drawn again without.
+            && (!self.drafts || other.drafts)
     }
 }
 

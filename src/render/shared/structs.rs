@@ -169,6 +169,8 @@ uniform_struct! {
         veil_offset: f32,
         /// Share of the odd keyframe in the cloud maps.
         cloud_odd_share: f32,
+        /// The finest mip level of the cloud maps that is there.
+        cloud_least_level: f32,
         /// Share of the sky that the veil covers; 0 without clouds.
         veil_coverage: f32,
         /// 1 where a solved wind blows over the sea.

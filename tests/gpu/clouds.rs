@@ -1,0 +1,86 @@
+//! Clouds over time, drafts of their maps, and their cover against the field that queries answer from.
+
+use crate::support::{Gpu, camera, earth, frame, gpu, inside_disc, lights, surface};
+use std::sync::Arc;
+use tellus::clouds::CloudField;
+use tellus::planet::{Clouds, Planet};
+use tellus::sphere::spread;
+use tellus::terrain::Terrain;
+
+const HOUR_SECS: f64 = 3600.0;
+
+fn cloudy(clouds: Clouds) -> Arc<Planet> {
+    Arc::new(Planet { clouds: Some(clouds), ..earth() })
+}
+
+/// Mean difference of two pictures, of 255.
+fn difference(a: &[u8], b: &[u8]) -> f64 {
+    let sum: u64 = a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    sum as f64 / a.len() as f64
+}
+
+/// Clouds move, smoothly, also from one keyframe to the next; a renderer that has seen the time before draws what a new
+/// one draws.
+#[test]
+fn time_moves_clouds_without_a_jump() {
+    let planet = cloudy(Clouds { storms: 1.0, wind_km_h: 0.0, ..Clouds::default() });
+    let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
+    let surface = surface(&planet, &camera);
+    let mut gpu = gpu();
+    let draw = |gpu: &mut Gpu, hours: f64| {
+        let mut frame = frame(&surface, &planet, camera, (12.0, 0.0));
+        frame.time_secs = hours * HOUR_SECS;
+        gpu.draw(&frame)
+    };
+    let before = draw(&mut gpu, 1.99);
+    let after = draw(&mut gpu, 2.01);
+    let next = draw(&mut gpu, 3.01);
+    let day = draw(&mut gpu, 26.0);
+    assert!(difference(&before, &after) < 0.3, "{}", difference(&before, &after));
+    assert!(difference(&before, &day) > 2.0 * difference(&before, &after).max(0.5), "{}", difference(&before, &day));
+    assert_eq!(next, draw(&mut Gpu::new(), 3.01));
+}
+
+/// While a slider is dragged the maps are coarse; afterwards they are those of a new renderer.
+#[test]
+fn a_draft_becomes_the_picture_proper() {
+    let [old, new] = [2, 3].map(|seed| cloudy(Clouds { seed, ..Clouds::default() }));
+    let camera = camera(&old, 10.0, 10.0, 13e6, 40.0, -90.0);
+    let surface = surface(&old, &camera);
+    let mut gpu = gpu();
+    let draw = |gpu: &mut Gpu, planet: &Arc<Planet>, drafts: bool| {
+        let mut frame = frame(&surface, planet, camera, (12.0, 0.0));
+        frame.drafts = drafts;
+        gpu.draw(&frame)
+    };
+    let first = draw(&mut gpu, &old, true);
+    let draft = draw(&mut gpu, &new, true);
+    let proper = draw(&mut gpu, &new, false);
+    let fresh = draw(&mut Gpu::new(), &new, false);
+    assert_eq!(proper, fresh);
+    assert_eq!(proper, draw(&mut gpu, &new, true), "what is whole stays whole");
+    let [to_draft, to_old] = [&draft, &first].map(|picture| difference(&proper, picture));
+    assert!(to_draft > 0.0 && to_draft < 0.5 * to_old, "{to_draft} {to_old}");
+}
+
+/// The more cover queries report, the brighter the disc.
+#[test]
+fn pictures_show_the_cover_that_queries_report() {
+    let mut gpu = gpu();
+    let mut seen = Vec::new();
+    for coverage in [0.1, 0.4, 0.8] {
+        let planet = cloudy(Clouds { coverage, veil: 0.0, ..Clouds::default() });
+        let camera = camera(&planet, 10.0, 10.0, 13e6, 40.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let frame = frame(&surface, &planet, camera, (10.0, 10.0));
+        let picture = gpu.draw(&frame);
+        let disc = inside_disc(&frame, -0.2 * planet.radius_m());
+        let bright: Vec<_> = lights(&picture).into_iter().zip(disc).filter(|(_, inside)| *inside).collect();
+        let mean = bright.iter().map(|(light, _)| f64::from(*light)).sum::<f64>() / bright.len() as f64;
+        let field = CloudField::new(&Terrain::try_new(planet).unwrap());
+        let cover = spread(400).map(|dir| field.cover(dir, 0.0).low).sum::<f64>() / 400.0;
+        assert!((cover - coverage).abs() < 0.05, "{cover} {coverage}");
+        seen.push(mean);
+    }
+    assert!(seen[1] > seen[0] + 10.0 && seen[2] > seen[1] + 10.0, "{seen:?}");
+}
