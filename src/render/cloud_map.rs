@@ -47,10 +47,11 @@ pub(crate) struct CloudFrame {
     pub(crate) least_level: f32,
 }
 
-/// Solves a keyframe as a frame does, for benches.
+/// Solves a keyframe, or the draft of one, as a frame does, for benches.
 #[cfg(feature = "cli")]
-pub(crate) fn cloud_keyframe(field: &CloudField, number: i64) {
-    std::hint::black_box(keyframe(field, number, SIDE));
+pub(crate) fn cloud_keyframe(field: &CloudField, number: i64, is_draft: bool) {
+    let side = if is_draft { SIDE >> DRAFT_LEVEL } else { SIDE };
+    std::hint::black_box(keyframe(field, number, side));
 }
 
 impl CloudMaps {
@@ -74,8 +75,8 @@ impl CloudMaps {
         Self { texture, cubes, key: None, field: None, held: [None; 2], least_level: 0, coming: None, runs: 0 }
     }
 
-    /// Brings the maps to a time, for a planet with clouds, or with a sea over which the solved wind blows. `drafts`: maps
-    /// that must be made again may be coarse.
+    /// Brings the maps to a time, for a planet with clouds, or with a sea over which the solved wind blows. `drafts`:
+    /// maps that must be made again may be coarse.
     pub(crate) fn update(
         &mut self,
         queue: &wgpu::Queue,
