@@ -11,8 +11,6 @@ const BELTS: f64 = 1.3;
 const LEAST_MM: f64 = 80.0;
 /// Octaves of rain from the median to either end of the wetness.
 const OCTAVES: f64 = 4.0;
-/// The fastest wind of the ground map, by the mean.
-const FASTEST_WIND: f64 = 4.0;
 
 /// Clouds over a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,9 +26,8 @@ pub struct CloudCover {
 #[derive(Clone, Debug)]
 pub(super) struct Targets {
     belts: f64,
-    weather_share: f64,
+    pub(super) weather_share: f64,
     median_mm: f64,
-    mean_wind_m_s: f64,
 }
 
 impl Targets {
@@ -42,10 +39,7 @@ impl Targets {
         let mut sorted = weather.map_or_else(Vec::new, |weather| weather.rain_mm.clone());
         sorted.sort_by(f64::total_cmp);
         let median_mm = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-        let winds = weather.map_or(&[][..], |weather| &weather.wind_m_s);
-        let speeds_m_s = winds.iter().map(|[to_east, to_north]| libm::hypot(*to_east, *to_north));
-        let mean_wind_m_s = speeds_m_s.sum::<f64>() / winds.len().max(1) as f64;
-        Self { belts: planet.climate.belts * (1.0 - weather_share), weather_share, median_mm, mean_wind_m_s }
+        Self { belts: planet.climate.belts * (1.0 - weather_share), weather_share, median_mm }
     }
 
     /// Log-odds of the cover at a direction, relative to the mean of the globe.
@@ -59,13 +53,6 @@ impl Targets {
             (0.5 * libm::log2(ratio) / OCTAVES).clamp(-0.5, 0.5)
         });
         belts + WETNESS * self.weather_share * rain
-    }
-
-    /// Speed of the wind by its mean, for the sea.
-    pub(super) fn wind(&self, weather: Option<&Weather>, dir: DVec3) -> f64 {
-        let Some(weather) = weather.filter(|_| self.weather_share > 0.0) else { return 1.0 };
-        let wind = (weather.wind_at(dir).length() / self.mean_wind_m_s.max(1e-9)).min(FASTEST_WIND);
-        1.0 + (wind - 1.0) * self.weather_share
     }
 }
 

@@ -117,7 +117,7 @@ impl CloudField {
         };
         let (a, b) = (at(before), at(before + 1));
         let blend = |a: f32, b: f32| f64::from(a) + (f64::from(b) - f64::from(a)) * share;
-        let odds = self.targets.odds(self.weather.as_deref(), dir);
+        let odds = self.odds(dir);
         let covered = |k: usize, rank: f64| match self.coverage[k] > 0.0 {
             true => cover(rank, odds + self.offsets[k]),
             false => 0.0,
@@ -131,6 +131,7 @@ impl CloudField {
         (self.drift_rad_s * time_secs).rem_euclid(TAU)
     }
 
+    #[cfg(feature = "render")]
     /// Offsets of the log-odds of the target cover with which the mean covers of clouds and veil are those asked for.
     pub(crate) fn offsets(&self) -> [f64; 2] {
         self.offsets
@@ -150,10 +151,15 @@ impl CloudField {
         }
     }
 
-    /// Log-odds of the target cover without the offset, and the wind by its mean.
-    pub(super) fn ground(&self, dir: DVec3) -> [f64; 2] {
-        let weather = self.weather.as_deref();
-        [self.targets.odds(weather, dir), self.targets.wind(weather, dir)]
+    /// Log-odds of the target cover without the offset.
+    pub(super) fn odds(&self, dir: DVec3) -> f64 {
+        self.targets.odds(self.weather.as_deref(), dir)
+    }
+
+    /// The solved weather, and its share.
+    #[cfg(feature = "render")]
+    pub(super) fn weather(&self) -> Option<(&Weather, f64)> {
+        self.weather.as_deref().map(|weather| (weather, self.targets.weather_share))
     }
 
     /// The systems of a keyframe.

@@ -13,6 +13,7 @@
 
 mod cover;
 mod field;
+#[cfg(feature = "render")]
 mod maps;
 mod ranks;
 mod swirl;

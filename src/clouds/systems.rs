@@ -104,6 +104,7 @@ fn system(climate: &Climate, kind: usize, slot: u32, days: f64) -> Option<System
 }
 
 impl System {
+    #[cfg(feature = "render")]
     /// Whether it reaches into a cap around a direction.
     pub(super) fn reaches(&self, dir: DVec3, angle_rad: f64) -> bool {
         self.center.dot(dir) > libm::cos((REACH * self.radius_rad + angle_rad).min(PI))

@@ -94,6 +94,7 @@ pub fn face_point(dir: DVec3) -> (Face, f64, f64) {
     (face, unbend(dir[s_axis] / depth * s_sign as f64), unbend(dir[t_axis] / depth))
 }
 
+#[cfg(feature = "render")]
 /// The direction at `x`, `y` of a face of a cube texture with `side` texels along each face, as WebGPU orders and turns
 /// its faces; the middles of texels are at halves. Faces are flat here, unlike those of the planet's squares.
 pub(crate) fn texture_direction(face: usize, side: usize, x: f64, y: f64) -> DVec3 {
@@ -168,6 +169,7 @@ mod tests {
         }
     }
 
+    #[cfg(feature = "render")]
     #[test]
     fn texels_of_a_cube_texture_look_where_webgpu_looks() {
         // The middle of each face, and a texel beside it to the right and below.
