@@ -5,7 +5,7 @@
 //! there. So the cover that is asked for is the cover that is there, over the globe and in each zone.
 //!
 //! Everything is a function of the planet and the time. The renderer uploads the same numbers as cube maps, one
-//! [`Keyframe`] an hour, and blends two of them; [`CloudField::cover`] blends the same two.
+//! keyframe an hour, and blends two of them; [`CloudField::cover`] blends the same two.
 //!
 //! - `field`: ranks at directions; `swirl`: noise along the wind; `systems`: cyclones at a time
 //! - `cover`: target cover, and cover from rank and target
