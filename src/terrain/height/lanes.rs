@@ -75,7 +75,7 @@ fn each<const SLOPES: bool>(
 #[inline(always)]
 fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, noise: &[f64], output: &mut Output) {
     let (a, bias) = (blend.amplitude_m, blend.bias);
-    // Adding 0 makes the height of a layer without amplitude 0, never -0.
+    // Adding 0 turns -0 into 0: a layer that a mask leaves out could not make the same -0.
     let scaled = |v: f64| (v + bias) * a + 0.0;
     // Polynomial smooth maximum; beyond `soft` apart it is the maximum.
     let soft = blend.softness_m;
@@ -84,7 +84,7 @@ fn blend_body<const SLOPES: bool>(n: usize, blend: &Blend, height: &Lane<f64>, n
     match blend.kind {
         Kind::Add => each::<SLOPES>(n, height, noise, output, |h, v| (h + scaled(v), 1.0, a)),
         Kind::Subtract => each::<SLOPES>(n, height, noise, output, |h, v| (h - scaled(v), 1.0, -a)),
-        Kind::Multiply => each::<SLOPES>(n, height, noise, output, |h, v| (h * (v + bias), v + bias, h)),
+        Kind::Multiply => each::<SLOPES>(n, height, noise, output, |h, v| (h * (v + bias) + 0.0, v + bias, h)),
         Kind::Replace => each::<SLOPES>(n, height, noise, output, |_, v| (scaled(v), 0.0, a)),
         Kind::Max => each::<SLOPES>(n, height, noise, output, |h, v| {
             let y = scaled(v);
