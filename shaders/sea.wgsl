@@ -1,64 +1,8 @@
 // Water of the sea, of lakes and of rivers: its body, waves, reflection, foam, ice.
 #include "cloud_model.wgsl"
-#include "macro_variation.wgsl"
+#include "waves.wgsl"
+#include "floes.wgsl"
 #include "visibility.wgsl"
-
-// Amplitudes of three sets of wave groups, some hundred metres wide; their mean square is 1. `footprint_m`: width of a
-// pixel at the point.
-fn wave_groups(rel_m: vec3f, footprint_m: f32) -> vec3f {
-    let octave = body.variation[3];
-    let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
-    let at = octave.offset + rel_m / octave.period;
-    let first = textureSampleLevel(noise_tile, repeated, at.zxy * 4.0, lod + 2.0).rg;
-    let second = textureSampleLevel(noise_tile, repeated, at.yzx * 4.0, lod + 2.0).r;
-    return saturate(vec3f(first, second) * 3.0 - 1.0) * 1.5;
-}
-
-struct Waves {
-    normal: vec3f,
-    // Variance of the slope of all waves too small to be drawn
-    rest: f32,
-}
-
-// Sum of plane waves in the planet frame. A wave shorter than a few pixels fades into roughness (Bruneton, Neyret,
-// Holzschuch, Real-time Realistic Ocean Lighting, 2010), so that the mean stays and nothing shimmers. `step_x`,
-// `step_y`: steps to the next pixel along the water, metres. `broad`: slow noise that bends crests. It must change
-// little over a wavelength, or crests follow the contours of the noise like the grain of wood. `total`: variance of the
-// slope of all waves.
-fn waves_at(rel_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, broad: f32, total: f32) -> Waves {
-    var slope = vec3f(0.0);
-    var seen = 0.0;
-    if min(length(step_x), length(step_y)) < 20.0 {
-        // Three quarters of the variance belong to waves long enough to be drawn. Each wave bends the crests of the
-        // next; straight crests would cross in a pattern.
-        var twist = broad * 16.0;
-        // Gradient of `twist`. It changes the distance between crests; waves fade where crests are too close.
-        var twist_k = vec3f(0.0);
-        let each = 0.75 * total / f32(WAVES);
-        // Waves come in groups: a single long wave would be a grid of straight lines.
-        let groups = wave_groups(rel_m, min(length(step_x), length(step_y)));
-        for (var i = 0u; i < WAVES; i++) {
-            let wave = body.waves[i];
-            let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
-            let k = length(along);
-            let phase = dot(wave.vector_per_m, rel_m) + wave.phase + twist;
-            let bent_k = along + twist_k;
-            let bent_turn = max(abs(dot(bent_k, step_x)), abs(dot(bent_k, step_y)));
-            let straight_turn = max(abs(dot(along, step_x)), abs(dot(along, step_y)));
-            let cycles = max(bent_turn, straight_turn) / (2.0 * PI);
-            twist = 1.3 * sin(phase) + 0.4 * twist;
-            twist_k = 1.3 * cos(phase) * bent_k + 0.4 * twist_k;
-            let weight = 1.0 - smoothstep(0.08, 0.28, cycles);
-            if weight <= 0.0 { continue; }
-            slope += along / max(k, 1e-6) * (sqrt(2.0 * each) * weight * groups[i % 3u] * cos(phase));
-            seen += each * weight * weight;
-        }
-    }
-    var out: Waves;
-    out.normal = normalize(up - slope);
-    out.rest = max(total - seen, 0.0004);
-    return out;
-}
 
 // Mean Fresnel reflectance of a rough sea (Bruneton et al. 2010).
 fn fresnel_sea(cosine: f32, variance: f32) -> f32 {
@@ -81,12 +25,6 @@ fn glint(n: vec3f, v: vec3f, l: vec3f, variance: f32) -> f32 {
     return fresnel * slopes * hidden / (4.0 * n_v);
 }
 
-// Share of ice at a temperature, with an edge broken up by noise.
-fn frozen(temperature_c: f32, variation: f32, broad: f32) -> f32 {
-    let broken = temperature_c + broad * 3.0 + variation * 1.2;
-    return 1.0 - smoothstep(-0.4, 0.4, broken - body.freezing_c);
-}
-
 // Water at a pixel.
 struct Water {
     rel_km: vec3f,
@@ -105,8 +43,12 @@ struct Water {
     color: vec3f,
     // Variance of the slope of all waves
     slope_variance: f32,
-    // Strength of foam along the shore
+    // Strength of foam
     foam: f32,
+    // Height of the waves at the pixel, metres
+    lift_m: f32,
+    // 1 where ice breaks into floes
+    floes: f32,
 }
 
 // Light that leaves the water: light of the sea bed through the water, and light scattered by the water itself.
@@ -120,20 +62,6 @@ fn water_body(water: Water, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> ve
     let mean = (1.0 - exp(-deeper)) / max(deeper, vec3f(1e-3));
     let transmittance = exp(-shallow) * select(mean, 1.0 - 0.5 * deeper, deeper < vec3f(1e-3));
     return water.floor * transmittance + water.color * downwelling / PI * (1.0 - transmittance);
-}
-
-// Greatest depth of foam.
-const FOAM_M: f32 = 1.2;
-
-// Integral of the share of foam (1 - smoothstep) from the shore down to a depth.
-fn foam_down_to(depth_m: f32) -> f32 {
-    let x = saturate1(depth_m / FOAM_M);
-    return FOAM_M * x * (1.0 - x * x * (1.0 - 0.5 * x));
-}
-
-// Mean share of foam between two depths, where waves run up the shore.
-fn foam_between(depths_m: vec2f) -> f32 {
-    return (foam_down_to(depths_m.y) - foam_down_to(depths_m.x)) / max(depths_m.y - depths_m.x, 1e-3);
 }
 
 // How gusts and slicks vary the part of the slopes' variance that the wind raises, as the exponent of the noise: glints
@@ -157,6 +85,115 @@ fn tinted(color: vec3f, noise: f32) -> vec3f {
     return color * mix(vec3f(0.9, 0.8, 0.95), vec3f(1.1, 1.3, 1.05), saturate1(0.5 + 0.7 * noise));
 }
 
+// Waves at a pixel, as light sees them.
+struct Surface {
+    normal: vec3f,
+    // Variance of the slope of all waves too small to be drawn
+    rest: f32,
+    // Share that breaking crests whiten
+    foam: f32,
+}
+
+// Threshold of a normal distribution that a share of it exceeds (Abramowitz and Stegun 1964, 26.2.23 without its last
+// terms).
+fn exceeded_by(share: f32) -> f32 {
+    let t = sqrt(-2.0 * log(clamp(share, 1e-6, 0.5)));
+    return t - (2.30753 + 0.27061 * t) / (1.0 + 0.99229 * t + 0.04481 * t * t);
+}
+
+// Foam is lace: a share of a surface whitens where a fine noise exceeds it.
+fn lace(share: f32, rel_m: vec3f, footprint_m: f32) -> f32 {
+    if share <= 0.0 || footprint_m > 0.4 { return share; }
+    let octave = body.variation[VARIATION_OCTAVES - 1];
+    let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
+    let at = octave.offset + rel_m / octave.period;
+    let coarse = textureSampleLevel(noise_tile, repeated, at, lod).g;
+    let fine = textureSampleLevel(noise_tile, repeated, at.yzx * 4.0, lod + 2.0).r;
+    let pattern = 0.5 + 1.6 * (mix(coarse, fine, 0.5) - 0.5);
+    return mix(smoothstep(1.0 - share - 0.2, 1.0 - share + 0.25, pattern), share, smoothstep(0.1, 0.4, footprint_m));
+}
+
+// `variance`: of the slope of all waves at the place; the waves of the eye's place are scaled to it.
+fn water_surface(water: Water, calm_m: vec3f, up: vec3f, variance: f32, noise: f32) -> Surface {
+    let step_x = pixel_step(calm_m, up, body.pixel_right);
+    let step_y = pixel_step(calm_m, up, body.pixel_up);
+    let depth_m = 0.5 * (water.depths_m.x + water.depths_m.y);
+    var waves = waves_at(calm_m, up, step_x, step_y, depth_m, body.wave_count);
+    // From afar the few waves that are drawn would make a lattice: there they come in groups.
+    let groups = mix(1.0, saturate1(0.75 + 1.1 * noise) + 0.1, smoothstep(300.0, 1500.0, length(calm_m)));
+    let scale = sqrt(variance / max(body.wave_slope_variance, 1e-6)) * groups;
+    waves.slope *= scale;
+    waves.slope_variance *= scale * scale;
+    let steeper = skewed(waves).y;
+    var out: Surface;
+    out.normal = normalize(up - waves.slope * steeper);
+    out.rest = max(variance - waves.slope_variance, 0.0004);
+    // Crests break where they are steepest; of waves that are not drawn, their share is white.
+    let white = whitecaps(variance);
+    let deviation = sqrt(max(waves.steepness_variance, 1e-8));
+    let limit = exceeded_by(max(white * 1.5, 1e-5));
+    let patchy = 0.7 * noise;
+    let breaking = smoothstep(limit - 0.5, limit + 1.3, waves.steepness / deviation + patchy);
+    let drawn = smoothstep(0.1, 0.45, waves.slope_variance / variance);
+    out.foam = mix(white, breaking * saturate1(0.75 + noise), drawn);
+    return out;
+}
+
+// Waves that break along the shore: share of foam from the depth. The phase is the time that a wave takes from a depth
+// to the shore over a bed of that slope; crests so follow the lines of equal depth, and draw together towards land.
+const SURF_BED: f32 = 0.035;
+const SURF_SECS: f32 = 9.0;
+
+fn surf(depths_m: vec2f, noise: f32) -> f32 {
+    let depth_m = max(0.5 * (depths_m.x + depths_m.y), 0.0);
+    let breaks_m = clamp(4.5 * body.wave_deviation_m, 0.25, 4.0);
+    let zone = 1.0 - smoothstep(0.7 * breaks_m, 1.25 * breaks_m, depth_m * (1.0 + 0.5 * noise));
+    if zone <= 0.0 { return 0.0; }
+    let turn = 2.0 * PI / SURF_SECS;
+    let phase = body.shore_phase + turn * 2.0 * sqrt(depth_m / 9.81) / SURF_BED + 5.0 * noise;
+    let spread = 0.5 * (depths_m.y - depths_m.x);
+    let per_pixel = turn * spread / (SURF_BED * sqrt(9.81 * max(depth_m, 0.05)));
+    // A bore: a white front, and foam that dissolves behind it.
+    let behind = fract(phase / (2.0 * PI));
+    let bore = pow(behind, 5.0) + 0.35 * exp(-3.0 * (1.0 - behind));
+    let sharp = 1.0 - smoothstep(0.5, 2.5, per_pixel);
+    return zone * mix(0.3, bore, sharp);
+}
+
+// Share of sunlight that the waves above concentrate at a depth: 1 in the mean. The curvature of the surface is a lens
+// of focal length 4 over the curvature (refractive index 1.333).
+//
+// `first`, `last`: waves that count. The longest have too little curvature.
+const FIRST_LENS: u32 = 26u;
+const LAST_LENS: u32 = 56u;
+
+fn caustics(calm_m: vec3f, up: vec3f, depth_m: f32, footprint_m: f32, first: u32, last: u32) -> f32 {
+    if footprint_m > 0.6 || body.wave_count < first + 4u { return 1.0; }
+    var bend = 0.0;
+    var variance = 0.0;
+    for (var i = first; i < min(last, body.wave_count); i++) {
+        let wave = body.waves[i];
+        let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
+        let k2 = dot(along, along);
+        // Waves much shorter than the depth blur each other.
+        let kept = (1.0 - smoothstep(0.6, 1.9, sqrt(k2) * footprint_m)) * exp(-0.004 * k2 * depth_m);
+        bend += wave.amplitude_m * kept * k2 * cos(dot(wave.vector_per_m, calm_m) + wave.phase);
+        variance += 0.5 * pow(wave.amplitude_m * kept * k2, 2.0);
+    }
+    let deviation = 0.25 * depth_m * sqrt(variance);
+    let sharp = min(1.0, 0.55 / max(deviation, 1e-4));
+    let lens = 1.0 - 0.25 * depth_m * sharp * bend;
+    let focus = 1.0 / max(abs(lens), 0.18);
+    let fades = exp(-depth_m / 25.0) * min(deviation * 4.0, 1.0);
+    return mix(1.0, min(focus, 4.0) * 0.78, fades);
+}
+
+// The sky is brighter around a low sun than away from it; the LUT has the mean over all azimuths. Its mean is 1; by eye.
+fn glow_around(cosine: f32, sun_mu: f32) -> f32 {
+    let low = 1.0 - saturate1(abs(sun_mu));
+    return mix(1.0, 0.65 + 2.24 * pow(max(cosine, 0.0), 6.0), low * low);
+}
+
 // Radiance of water.
 fn water_radiance(water: Water) -> vec3f {
     let rel_km = water.rel_km;
@@ -169,27 +206,25 @@ fn water_radiance(water: Water) -> vec3f {
     let rel_m = rel_km * 1000.0;
     let variation = macro_variation(rel_m, footprint_m);
     let jitter = border_jitter(rel_m, footprint_m);
-    let broad = jitter.x;
-    let ice = frozen(water.temperature_c, variation, broad);
+    let ice = ice_at(water, rel_m, up, footprint_m, variation, jitter.x);
     // Only the first sun determines the path of light down through the water.
     let first_mu = max(dot(up, body.suns[0].dir), 0.0);
     // From near, single waves show the wind.
     let gust = jitter.y * smoothstep(5.0, 50.0, distance_km);
     let slope_variance = gusty(water.slope_variance, gust);
-    var waves = Waves(up, 0.0);
+    var surface = Surface(up, 0.0, 0.0);
     var fresnel = 0.0;
     var mirror_mu = 0.0;
-    if ice < 1.0 {
-        let step_x = pixel_step(rel_m, up, body.pixel_right);
-        let step_y = pixel_step(rel_m, up, body.pixel_up);
-        let bend = border_jitter(rel_m, max(footprint_m, 15.0)).x;
-        waves = waves_at(rel_m, up, step_x, step_y, bend, slope_variance);
-        fresnel = fresnel_sea(dot(waves.normal, -dir), waves.rest);
-        let mirrored = reflect(dir, waves.normal);
+    var mirrored = up;
+    if ice.share < 1.0 {
+        surface = water_surface(water, rel_m - up * water.lift_m, up, slope_variance, variation);
+        fresnel = fresnel_sea(dot(surface.normal, -dir), surface.rest);
+        mirrored = reflect(dir, surface.normal);
         // Rough water reflects a patch of sky above the mirror direction.
-        mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(waves.rest) * 0.5;
+        mirror_mu = max(dot(mirrored, up), 0.0) + sqrt(surface.rest) * 0.5;
     }
     var downwelling = vec3f(0.0);
+    var direct = vec3f(0.0);
     var mirrored_light = vec3f(0.0);
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun(i);
@@ -202,21 +237,30 @@ fn water_radiance(water: Water) -> vec3f {
         // The shadow of the ground is known for the first sun only.
         shadow *= select(1.0, water.visible.star, i == 0u);
         let diffused = sunlight * max(sun_mu, 0.0) * share.y;
-        downwelling += sunlight * shadow * max(sun_mu, 0.0) + sky_irradiance(h, sun_mu) * share.x + diffused;
-        if ice < 1.0 {
-            mirrored_light += (sky_radiance(mirror_mu, sun_mu) * share.x + diffused / PI) * fresnel * water.visible.sky;
-            mirrored_light += sunlight * shadow * glint(waves.normal, -dir, sun, waves.rest);
+        let straight = sunlight * shadow * max(sun_mu, 0.0);
+        direct += straight;
+        downwelling += straight + sky_irradiance(h, sun_mu) * share.x + diffused;
+        if ice.share < 1.0 {
+            let sky = sky_radiance(mirror_mu, sun_mu) * glow_around(dot(mirrored, sun), sun_mu) * share.x;
+            mirrored_light += (sky + diffused / PI) * fresnel * water.visible.sky;
+            mirrored_light += sunlight * shadow * glint(surface.normal, -dir, sun, surface.rest);
         }
     }
     var light = vec3f(0.0);
-    if ice < 1.0 {
+    if ice.share < 1.0 {
         var here = water;
         here.color = tinted(water.color, variation);
+        let depth_m = 0.5 * (water.depths_m.x + water.depths_m.y);
+        let lit = dot(direct, vec3f(0.333)) / max(dot(downwelling, vec3f(0.333)), 1e-6);
+        if depth_m < 30.0 {
+            let calm_m = rel_m - up * water.lift_m;
+            here.floor *= mix(1.0, caustics(calm_m, up, depth_m, footprint_m, FIRST_LENS, LAST_LENS), saturate1(lit));
+        }
         light = water_body(here, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
-        let surf = foam_between(water.depths_m) * smoothstep(0.1, 0.6, variation + 0.25);
-        let foam = max(surf * 0.6, whitecaps(water.slope_variance)) * water.foam;
-        light = mix(light, vec3f(0.7) * downwelling / PI, foam);
+        let white = saturate1(max(surf(water.depths_m, variation), surface.foam) * water.foam);
+        light = mix(light, vec3f(0.75) * downwelling / PI, lace(white, rel_m, footprint_m));
+        light += body.water_glow;
     }
-    let white = body.ice_color * (1.0 + 0.18 * variation) * downwelling / PI;
-    return mix(light, white, ice);
+    let white = ice.albedo * downwelling / PI;
+    return mix(light, white, ice.share);
 }

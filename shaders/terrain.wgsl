@@ -387,7 +387,7 @@ fn inland_radiance(facet: Facet, floor: vec3f, depth_m: f32, temperature_c: f32,
     let variance = body.wave_slope_variance * mix(0.1, 0.4, clear);
     return water_radiance(Water(
         facet.rel_km, -facet.v, floor, vec2f(depth_m), temperature_c, visible, facet.altitude_km, absorption_per_m,
-        color, variance, 0.0,
+        color, variance, 0.0, 0.0, 0.0,
     ));
 }
 
@@ -396,6 +396,15 @@ struct Shaded {
     radiance: vec3f,
     over_sea_m: f32,
     spread_m: f32,
+}
+
+// Factor on the albedo of ground that waves run up to: water in its pores makes it darker (Lekner and Dorf 1988).
+fn splashed(over_sea_m: f32, spread_m: f32, variation: f32) -> f32 {
+    if body.has_sea == 0u || over_sea_m < -spread_m { return 1.0; }
+    let reach_m = clamp(2.0 * body.wave_deviation_m, 0.15, 3.0) * (1.0 + 0.6 * variation);
+    // Where the pixel is wider than the wet ground, its share.
+    let share = (reach_m - over_sea_m) / max(2.0 * spread_m, 0.4 * reach_m);
+    return mix(1.0, 0.55, saturate1(share) * smoothstep(-0.3 - spread_m, 0.0, over_sea_m));
 }
 
 fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
@@ -429,7 +438,8 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let location = table_place(vec2f(climate.moisture, climate.row), in.rel_m, footprint_m);
     cells_per_pixel = (abs(dpdx(location)) + abs(dpdy(location))) * vec2f(textureDimensions(biome_ids));
     let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, variation);
-    let ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
+    var ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
+    ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     let wet = pixel_ground.water.x;
     if frame.debug_view == VIEW_ALBEDO {
         return Shaded(mix(ground.albedo, body.water_color, wet), over_sea_m, pixel_ground.spread_m);

@@ -1,6 +1,7 @@
 // Draws the sea over the terrain, pixel by pixel: an analytic sphere, with no mesh and so no depth fighting.
 #include "surface.wgsl"
 #include "sea.wgsl"
+#include "underwater.wgsl"
 
 // Temperature at sea level in °C; share of the sun's light that the surrounding ground hides; half the range of heights
 // within the pixel, metres.
@@ -15,10 +16,11 @@ fn slope_variance(up: vec3f) -> f32 {
 
 // `depths_m`: least and greatest depth in the wet part of the pixel. Foam and shallows along the shore would sparkle if
 // only the middle of the pixel counted.
-fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temperature_c: f32, star: f32) -> vec3f {
+fn sea_radiance(rel_km: vec3f, dir: vec3f, floor: vec3f, depths_m: vec2f, temperature_c: f32, star: f32, lift_m: f32)
+    -> vec3f {
     return water_radiance(Water(
         rel_km, dir, floor, depths_m, temperature_c, Visibility(star, 1.0), max(body.sea_level_km, 0.0),
-        body.water_absorption_per_m, body.water_color, slope_variance(normalize(body.eye_km + rel_km)), 1.0,
+        body.water_absorption_per_m, body.water_color, slope_variance(normalize(body.eye_km + rel_km)), 1.0, lift_m, 1.0,
     ));
 }
 
@@ -39,34 +41,31 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let terrain = surface_distance(pixel, ray_length);
     let hits = sea_hits(dir);
     let ground = Output(scene, textureLoad(scene_depth, pixel, 0));
+    let sine = dot(dir, body.eye_up);
 
-    if body.eye_over_sea_km < 0.0 {
-        // The eye is under water: the water's colour replaces distant light.
-        let path_m = min(terrain, hits.y) * 1000.0;
-        let transmittance = exp(-body.water_absorption_per_m * min(path_m, 1e5));
-        let h = max(body.sea_level_km, 0.0);
-        var light = vec3f(0.0);
-        for (var i = 0u; i < body.sun_count; i++) {
-            use_sun(i);
-            let sun_mu = max(dot(body.eye_up, active_sun.dir), 0.0);
-            light += active_sun.irradiance * sun_transmittance(h, sun_mu) * sun_mu + sky_irradiance(h, sun_mu);
-        }
-        let dimmed = exp(body.water_absorption_per_m * min(body.eye_over_sea_km * 1000.0, 0.0));
-        let water = body.water_color * light * dimmed / PI;
-        return Output(vec4f(scene.rgb * transmittance + water * (1.0 - transmittance), height_m), ground.depth);
+    if body.eye_is_under == 1u {
+        let surface_km = displaced_km(dir, select(-1.0, hits.y, hits.y > 0.0), sine, 1e4);
+        let light = underwater(dir, scene.rgb, terrain, surface_km);
+        // Water hides what is farther: the air's light must not cover it.
+        let nearest_km = min(select(terrain, min(surface_km, terrain), surface_km > 0.0), 0.2);
+        return Output(vec4f(min(light, vec3f(60000.0)), height_m), depth_at(nearest_km, ray_length));
     }
-    if hits.y < hits.x || hits.x <= 0.0 {
+    let flat_km = select(-1.0, hits.x, hits.y >= hits.x && hits.x > 0.0);
+    // The bed under the pixel tells the depth, which flattens waves along the shore.
+    let bed_m = select(1e4, max(-height_m, 0.0), terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01));
+    let surface_km = displaced_km(dir, flat_km, sine, bed_m);
+    if surface_km <= 0.0 {
         if terrain >= NOTHING_KM { discard; }
         return ground;
     }
-    let depth = max(ground.depth, depth_at(hits.x, ray_length));
+    let depth = max(ground.depth, depth_at(surface_km, ray_length));
     // Sea and land are told apart by the height of the ground, never by the depth of two close surfaces. The sea lies
     // in front of land only where the ray leaves the sea again before it meets land.
     var wet = 1.0;
     var depths_m = vec2f(1e4, 1.1e4);
     var star = 1.0;
     // Where there is no terrain, the climate of the latitude is used.
-    let sin_lat = normalize(body.eye_km + dir * hits.x).z;
+    let sin_lat = normalize(body.eye_km + dir * surface_km).z;
     var temperature_c = mix(body.equator_c, body.pole_c, sin_lat * sin_lat);
     if terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01) {
         let found = textureLoad(surface, pixel, 0);
@@ -76,11 +75,12 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         temperature_c = found.r;
         // The visible sea bed is offset sideways from the point on the sea; with a large offset, its shadow does not
         // apply there.
-        let mu = dot(dir, normalize(body.eye_km + dir * hits.x));
-        let aside_km = max(terrain - hits.x, 0.0) * sqrt(max(1.0 - mu * mu, 0.0));
+        let mu = dot(dir, normalize(body.eye_km + dir * surface_km));
+        let aside_km = max(terrain - surface_km, 0.0) * sqrt(max(1.0 - mu * mu, 0.0));
         star = 1.0 - found.g * (1.0 - smoothstep(1.0, 10.0, aside_km));
     }
     if wet <= 0.0 { return Output(scene, depth); }
-    let sea = sea_radiance(dir * hits.x, dir, scene.rgb, depths_m, temperature_c, star);
+    let lift_m = select(0.0, altitude_over_sea_m(dir, surface_km, sine), body.wave_steps > 0u);
+    let sea = sea_radiance(dir * surface_km, dir, scene.rgb, depths_m, temperature_c, star, lift_m);
     return Output(vec4f(min(mix(scene.rgb, sea, wet), vec3f(60000.0)), height_m), depth);
 }

@@ -31,6 +31,7 @@
 //! - `world`: world maps: values for the whole globe, such as the distance to the coast
 //! - [`terrain`]: [`terrain::Terrain`], the evaluator of the ground
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
+//! - [`sea`]: waves, and the height of the water at a time
 //! - [`clouds`]: where clouds are, at any time
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
@@ -48,6 +49,7 @@ pub mod atmosphere;
 pub mod clouds;
 pub mod lod;
 pub mod planet;
+pub mod sea;
 pub mod simd;
 pub mod sphere;
 pub mod terrain;

@@ -3,7 +3,7 @@
 //! Lines are answered in batches on all cores. A batch ends where the next line has not come yet, so that a program
 //! may write a line and wait for its answer.
 
-use super::sample::{Sky, as_json};
+use super::sample::{Moment, as_json};
 use super::{Failure, args, print_on};
 use crate::sphere::LatLon;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
@@ -55,7 +55,7 @@ impl Points {
     }
 
     /// Prints the answers. What stands before a wrong line is answered.
-    pub(super) fn answer(mut self, terrain: &Terrain, sky: &Sky) -> Result<(), Failure> {
+    pub(super) fn answer(mut self, terrain: &Terrain, moment: &Moment) -> Result<(), Failure> {
         let mut batch = Vec::with_capacity(BATCH);
         loop {
             let line = self.next();
@@ -65,7 +65,7 @@ impl Points {
             let goes_on = matches!(line, Ok(Line::Place { .. } | Line::Other));
             let has_line = goes_on && batch.len() < BATCH && self.lines.buffer().contains(&b'\n');
             if !has_line && !batch.is_empty() {
-                if !print_on(&answers(terrain, sky, &batch).join("\n"))? {
+                if !print_on(&answers(terrain, moment, &batch).join("\n"))? {
                     return Ok(());
                 }
                 batch.clear();
@@ -97,13 +97,13 @@ impl Points {
     }
 }
 
-fn answers(terrain: &Terrain, sky: &Sky, places: &[(f64, f64)]) -> Vec<String> {
+fn answers(terrain: &Terrain, moment: &Moment, places: &[(f64, f64)]) -> Vec<String> {
     let tasks = places.par_chunks(TASK).map_init(Scratch::default, |scratch, places| {
         let dirs: Vec<_> = places.iter().map(|&(lat, lon)| LatLon::from_degrees(lat, lon).direction()).collect();
         let mut samples = vec![Sample::default(); dirs.len()];
         terrain.samples_into(&dirs, Wanted::ALL, &mut samples, scratch);
         let answer = |((&(lat, lon), &dir), sample)| {
-            let mut answer = as_json(terrain, dir, sample, &terrain.layers_m(dir), sky);
+            let mut answer = as_json(terrain, dir, sample, &terrain.layers_m(dir), moment);
             answer["lat"] = json!(lat);
             answer["lon"] = json!(lon);
             answer.to_string()

@@ -4,6 +4,7 @@
 use super::points::Points;
 use super::{Failure, args, load, maps, print};
 use crate::clouds::{CloudCover, CloudField};
+use crate::sea::{WaterSurface, Waves};
 use crate::sphere::LatLon;
 use crate::sphere::geo::east_north;
 use crate::terrain::{River, Sample, Terrain};
@@ -41,11 +42,12 @@ pub(super) struct Args {
     /// lon
     #[arg(long, value_name = "FILE", conflicts_with_all = ["lat", "lon"])]
     points: Option<PathBuf>,
-    /// Time in seconds, for the clouds
+    /// Time in seconds, for clouds and waves
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
     time: f64,
     /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
-    /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, river, lake, basin, wind_m_s (to
+    /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, water_surface_m (of the sea, with
+    /// its waves), wave_height_m (significant), river, lake, basin, wind_m_s (to
     /// the east and to the north), rain_mm (a year), plate, cloud_cover and veil_cover (0 to 1)
     #[arg(long)]
     json: bool,
@@ -58,30 +60,41 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         // A file that is not there is told before anything is solved.
         let points = Points::open(points)?;
         let terrain = terrain()?;
-        return points.answer(&terrain, &Sky::over(&terrain, args.time));
+        return points.answer(&terrain, &Moment::new(&terrain, args.time));
     }
     let terrain = terrain()?;
     let dir = LatLon::from_degrees(args.lat.unwrap_or_default(), args.lon.unwrap_or_default()).direction();
     let (sample, layers_m) = (terrain.sample(dir), terrain.layers_m(dir));
-    let sky = Sky::over(&terrain, args.time);
+    let moment = Moment::new(&terrain, args.time);
     let answer = if args.json {
-        format!("{:#}", as_json(&terrain, dir, &sample, &layers_m, &sky))
+        format!("{:#}", as_json(&terrain, dir, &sample, &layers_m, &moment))
     } else {
-        as_text(&terrain, dir, &sample, &layers_m, &sky)
+        as_text(&terrain, dir, &sample, &layers_m, &moment)
     };
     print(&answer)
 }
 
-/// The clouds at a time, if the planet has some.
-pub(super) struct Sky(Option<(CloudField, f64)>);
+/// What changes with time: clouds and waves.
+pub(super) struct Moment {
+    time_secs: f64,
+    clouds: Option<CloudField>,
+}
 
-impl Sky {
-    fn over(terrain: &Terrain, time_secs: f64) -> Self {
-        Self(terrain.planet().clouds.as_ref().map(|_| (CloudField::new(terrain), time_secs)))
+impl Moment {
+    fn new(terrain: &Terrain, time_secs: f64) -> Self {
+        Self { time_secs, clouds: terrain.planet().clouds.as_ref().map(|_| CloudField::new(terrain)) }
     }
 
     fn cover(&self, dir: DVec3) -> Option<CloudCover> {
-        self.0.as_ref().map(|(field, time_secs)| field.cover(dir, *time_secs))
+        self.clouds.as_ref().map(|field| field.cover(dir, self.time_secs))
+    }
+
+    /// The surface of the sea, where the sample is of the sea, and the significant wave height.
+    fn sea(&self, terrain: &Terrain, dir: DVec3, sample: &Sample) -> Option<(WaterSurface, f64)> {
+        let level_m = terrain.planet().sea_level_m().filter(|level_m| sample.water_level_m == Some(*level_m))?;
+        let waves = Waves::near(terrain, dir);
+        let surface = waves.surface(dir, self.time_secs, level_m - sample.height_m);
+        Some((surface, waves.significant_height_m()))
     }
 }
 
@@ -90,8 +103,9 @@ fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
 }
 
 /// All that is known of a point.
-pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], sky: &Sky) -> Value {
-    let clouds = sky.cover(dir);
+pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> Value {
+    let clouds = moment.cover(dir);
+    let sea = moment.sea(terrain, dir, sample);
     let river = sample.river.map(|river| {
         json!({
             "id": river.id,
@@ -115,6 +129,8 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "biome": biome_name(terrain, sample),
         "layers": layers.map(|(layer, m)| json!({ "name": layer.name, "height_m": m })).collect::<Vec<_>>(),
         "water_level_m": sample.water_level_m,
+        "water_surface_m": sea.map(|(surface, _)| surface.height_m),
+        "wave_height_m": sea.map(|(_, height_m)| height_m),
         "river": river,
         "lake": sample.lake,
         "basin": sample.basin,
@@ -138,7 +154,7 @@ fn heading_deg(dir: DVec3, tangent: DVec3) -> f64 {
     east.atan2(north).to_degrees().rem_euclid(360.0)
 }
 
-fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], sky: &Sky) -> String {
+fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> String {
     let [x, y, z] = sample.normal_planet.to_array();
     let mut lines = vec![
         format!("height       {:.3} m", sample.height_m),
@@ -151,6 +167,9 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], sky
     lines.extend(sample.water_level_m.map(|level_m| {
         let lake = sample.lake.map_or(String::new(), |lake| format!(", lake {lake}"));
         format!("water        {level_m:.3} m ({:.3} m deep{lake})", level_m - sample.height_m)
+    }));
+    lines.extend(moment.sea(terrain, dir, sample).map(|(surface, height_m)| {
+        format!("waves        {height_m:.2} m high; the surface is at {:.3} m", surface.height_m)
     }));
     lines.extend(sample.river.map(|river| {
         let River { id, distance_m, width_m, depth_m, discharge_m3_s, flow_planet } = river;
@@ -167,7 +186,9 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], sky
         lines.push(format!("rain         {:.0} mm a year", sample.rain_mm));
     }
     lines.extend(
-        sky.cover(dir).map(|cover| format!("clouds       {:.0}%, veil {:.0}%", cover.low * 100.0, cover.veil * 100.0)),
+        moment
+            .cover(dir)
+            .map(|cover| format!("clouds       {:.0}%, veil {:.0}%", cover.low * 100.0, cover.veil * 100.0)),
     );
     lines.extend(sample.plate.map(|plate| format!("plate        {plate}")));
     let layers = terrain.planet().layers.iter().zip(layers_m);

@@ -158,8 +158,8 @@ impl CloudField {
 
     /// The solved weather, and its share.
     #[cfg(feature = "render")]
-    pub(super) fn weather(&self) -> Option<(&Weather, f64)> {
-        self.weather.as_deref().map(|weather| (weather, self.targets.weather_share))
+    pub(super) fn weather(&self) -> Option<&Weather> {
+        self.weather.as_deref()
     }
 
     /// The systems of a keyframe.

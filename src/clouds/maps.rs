@@ -1,19 +1,16 @@
 //! Cube maps for the renderer, as WebGPU orders and turns their faces.
 
 use super::field::{CloudField, Ranked};
+use crate::planet::Planet;
+use crate::sea::relative_wind;
 use crate::sphere::cube::texture_direction;
 use crate::terrain::lane::CHUNK;
 use crate::terrain::noise::Noise;
-use crate::world::weather::Weather;
-use glam::DVec3;
 use half::f16;
 use rayon::prelude::*;
 
 /// Cells of the grid on which the ground map is evaluated; between them it is linear. The weather is no finer.
 const GROUND_CELLS: usize = 128;
-
-/// The fastest wind, by the mean.
-const FASTEST_WIND: f64 = 4.0;
 
 /// The texels of six faces, rows from the top.
 pub(crate) type Texels = Vec<[f16; 4]>;
@@ -59,32 +56,8 @@ pub(crate) fn keyframe(field: &CloudField, number: i64, side: usize) -> Keyframe
     Keyframe { number, texels }
 }
 
-/// The solved wind, for the sea.
-struct Winds<'a> {
-    weather: Option<(&'a Weather, f64)>,
-    mean_m_s: f64,
-}
-
-impl<'a> Winds<'a> {
-    fn of(field: &'a CloudField) -> Self {
-        let weather = field.weather().filter(|(_, share)| *share > 0.0);
-        let winds = weather.map_or(&[][..], |(weather, _)| &weather.wind_m_s);
-        let speeds_m_s = winds.iter().map(|[to_east, to_north]| libm::hypot(*to_east, *to_north));
-        Self { weather, mean_m_s: speeds_m_s.sum::<f64>() / winds.len().max(1) as f64 }
-    }
-
-    /// Speed by the mean.
-    fn at(&self, dir: DVec3) -> f64 {
-        self.weather.map_or(1.0, |(weather, share)| {
-            let speed = (weather.wind_at(dir).length() / self.mean_m_s.max(1e-9)).min(FASTEST_WIND);
-            1.0 + (speed - 1.0) * share
-        })
-    }
-}
-
 /// Values that stay over the ground: red log-odds of the target cover without the offset, green the wind by its mean.
-pub(crate) fn ground_map(field: &CloudField, side: usize) -> Texels {
-    let winds = Winds::of(field);
+pub(crate) fn ground_map(planet: &Planet, field: &CloudField, side: usize) -> Texels {
     let cells = GROUND_CELLS.min(side);
     let along = cells + 1;
     let values: Vec<[f64; 2]> = (0..6 * along * along)
@@ -93,7 +66,7 @@ pub(crate) fn ground_map(field: &CloudField, side: usize) -> Texels {
         .map(|i| {
             let (x, y) = ((i % along) as f64, (i / along % along) as f64);
             let dir = texture_direction(i / (along * along), cells, x, y);
-            [field.odds(dir), winds.at(dir)]
+            [field.odds(dir), relative_wind(planet, field.weather(), dir).length()]
         })
         .collect();
     let step = cells as f64 / side as f64;

@@ -84,10 +84,11 @@ fn clouds_are_the_same_on_all_instruction_sets() {
 #[test]
 fn maps_are_the_field() {
     use crate::sphere::cube::texture_direction;
-    let field = CloudField::with(&planet(Clouds { wind_km_h: 0.0, ..Clouds::default() }), None);
+    let planet = planet(Clouds { wind_km_h: 0.0, ..Clouds::default() });
+    let field = CloudField::with(&planet, None);
     const SIDE: usize = 32;
     let frame = keyframe(&field, 3, SIDE);
-    let ground = ground_map(&field, SIDE);
+    let ground = ground_map(&planet, &field, SIDE);
     for i in (0..6 * SIDE * SIDE).step_by(37) {
         let (face, x, y) = (i / (SIDE * SIDE), (i % SIDE) as f64 + 0.5, (i / SIDE % SIDE) as f64 + 0.5);
         let dir = texture_direction(face, SIDE, x, y);

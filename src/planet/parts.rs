@@ -129,10 +129,20 @@ params! {
         color: [f64; 3] = [0.004, 0.028, 0.052], "Deep colour", Unit::None, Domain::Color, Stage::Uniform;
         /// Wind over the sea. More wind makes steeper waves and a wider glint.
         wind_m_s: f64 = 7.0, "Wind", Unit::MetresPerSecond, linear(0.0, 40.0), Stage::Uniform;
+        /// Length of open water that the wind blows over. Waves are highest from some hundred kilometres on.
+        fetch_km: f64 = 1000.0, "Fetch", Unit::Kilometres, log(0.1, 10_000.0), Stage::Uniform;
+        /// Height of the swell: long waves from storms far away.
+        swell_m: f64 = 0.5, "Swell", Unit::Metres, linear(0.0, 20.0), Stage::Uniform;
         /// Temperature below which the sea is frozen.
         freezing_c: f64 = -12.0, "Freezes at", Unit::Celsius, linear(-300.0, 1000.0), Stage::Uniform;
         /// Colour of the ice on a frozen sea.
         ice_color: [f64; 3] = [0.72, 0.78, 0.84], "Ice", Unit::None, Domain::Color, Stage::Uniform;
+        /// Width of the greatest ice floes. Between them is open water; 0 is ice without gaps.
+        floe_m: f64 = 3000.0, "Floes", Unit::Metres, log(0.0, 100_000.0), Stage::Uniform;
+        /// Light that the sea gives off by itself, as lava does: 1 is as bright as white ground in the sun.
+        glow: f64 = 0.0, "Glow", Unit::None, log(0.0, 100.0), Stage::Uniform;
+        /// Colour of that light.
+        glow_color: [f64; 3] = [1.0, 0.25, 0.03], "Glow colour", Unit::None, Domain::Color, Stage::Uniform;
     }
 }
 

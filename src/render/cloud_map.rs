@@ -96,7 +96,7 @@ impl CloudMaps {
                 Some(field) => field,
                 None => Arc::new(CloudField::with(planet, weather.cloned())),
             };
-            self.write(queue, 0, ground_map(&field, SIDE >> self.least_level));
+            self.write(queue, 0, ground_map(planet, &field, SIDE >> self.least_level));
             (self.key, self.held, self.coming) = (Some(key), [None; 2], None);
             self.field = Some(field);
             self.runs += u64::from(is_changed);

@@ -12,6 +12,7 @@ pub(crate) use super::shared::{Body, Frame};
 use super::shared::{MAX_SUNS, MIXTURE_ENTRIES, Octave, Sun};
 use super::{gpu, wgsl, white_balance};
 use crate::lod::Quality;
+use crate::sea::Waves;
 use glam::{DQuat, DVec3, Mat4, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;
 
@@ -91,7 +92,9 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, ord
     let marked = body.marked.is_some();
     out.marked = u32::from(marked);
     ground::from_eye(&mut out, planet, eye_m);
-    water::from_eye(&mut out, planet, eye_m, scene.time_secs);
+    let weather = body.surface.terrain.weather().map(|weather| &**weather);
+    let waves = Waves::of(planet, weather, eye_m.normalize_or(DVec3::Z));
+    water::from_eye(&mut out, planet, &waves, eye_m, (scene.time_secs, scene.quality));
     if !marked {
         clouds::from_eye(&mut out, planet, eye_m, scene, pixel_rad(scene, drawn));
     }

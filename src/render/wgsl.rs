@@ -13,6 +13,8 @@ pub(crate) trait Uniform {
     const SIZE: usize;
     /// Name of the type in WGSL.
     fn wgsl() -> String;
+    /// All zeros.
+    fn zero() -> Self;
     /// Writes the value to the first [`Uniform::SIZE`] bytes.
     fn write(&self, bytes: &mut [u8]);
 }
@@ -24,6 +26,9 @@ macro_rules! plain {
             const SIZE: usize = size_of::<$Type>();
             fn wgsl() -> String {
                 $name.to_owned()
+            }
+            fn zero() -> Self {
+                Self::default()
             }
             fn write(&self, bytes: &mut [u8]) {
                 bytes[..Self::SIZE].copy_from_slice(bytemuck::bytes_of(self));
@@ -52,6 +57,9 @@ impl<T: Uniform, const N: usize> Uniform for [T; N] {
     fn wgsl() -> String {
         format!("array<{}, {N}>", T::wgsl())
     }
+    fn zero() -> Self {
+        std::array::from_fn(|_| T::zero())
+    }
     fn write(&self, bytes: &mut [u8]) {
         for (item, bytes) in self.iter().zip(bytes.chunks_mut(T::SIZE)) {
             item.write(bytes);
@@ -76,9 +84,15 @@ macro_rules! uniform_struct {
         $Name:ident { $($(#[doc = $field_doc:literal])* $field:ident: $Type:ty,)* }
     ) => {
         $(#[doc = $doc])*
-        #[derive(Clone, Copy, Debug, Default)]
+        #[derive(Clone, Copy, Debug)]
         pub(crate) struct $Name {
             $($(#[doc = $field_doc])* pub(crate) $field: $Type,)*
+        }
+
+        impl Default for $Name {
+            fn default() -> Self {
+                Self { $($field: <$Type as $crate::render::wgsl::Uniform>::zero(),)* }
+            }
         }
 
         impl $Name {
@@ -104,6 +118,9 @@ macro_rules! uniform_struct {
             )),*]);
             fn wgsl() -> String {
                 stringify!($Name).to_owned()
+            }
+            fn zero() -> Self {
+                Self::default()
             }
             fn write(&self, bytes: &mut [u8]) {
                 let mut end = 0;

@@ -9,6 +9,7 @@
 //! - `planets`: the shipped presets, against goldens
 //! - `render`: passes, stages and errors of the renderer
 //! - `scene`: several bodies, the caller's targets, projections and viewports
+//! - `sea`: waves, the view from below, floes
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, missing_docs)]
 
 mod air;
@@ -22,6 +23,7 @@ mod materials;
 mod planets;
 mod render;
 mod scene;
+mod sea;
 mod shaders;
 mod shadows;
 mod shimmer;

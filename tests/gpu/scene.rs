@@ -129,7 +129,7 @@ fn two_suns_light_as_one_that_is_twice_as_bright() {
 }
 
 /// Radiance of stage by stage drawing in a viewport of the caller's targets.
-struct Stages {
+pub(super) struct Stages {
     radiance: wgpu::Texture,
     depth: wgpu::Texture,
     composite: wgpu::Texture,
@@ -137,13 +137,19 @@ struct Stages {
 }
 
 impl Stages {
-    fn new(gpu: &Gpu, size_px: [u32; 2]) -> Self {
+    pub(super) fn new(gpu: &Gpu, size_px: [u32; 2]) -> Self {
         let texture = |format| gpu.texture(size_px, format);
         let [radiance, composite] = [texture(RADIANCE_FORMAT), texture(RADIANCE_FORMAT)];
         Self { radiance, depth: texture(DEPTH_FORMAT), composite, output: texture(wgpu::TextureFormat::Rgba8UnormSrgb) }
     }
 
-    fn draw(&self, gpu: &mut Gpu, scene: &Scene<'_>, viewport_px: [u32; 4], load: bool) -> Result<(), RenderError> {
+    pub(super) fn draw(
+        &self,
+        gpu: &mut Gpu,
+        scene: &Scene<'_>,
+        viewport_px: [u32; 4],
+        load: bool,
+    ) -> Result<(), RenderError> {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let [radiance, depth, composite, output] =
             [&self.radiance, &self.depth, &self.composite, &self.output].map(view);
@@ -166,7 +172,7 @@ impl Stages {
     }
 
     /// Depths, row by row.
-    fn depths(&self, gpu: &Gpu) -> Vec<f32> {
+    pub(super) fn depths(&self, gpu: &Gpu) -> Vec<f32> {
         let bytes = read_texture(&gpu.device, &gpu.queue, &self.depth).unwrap();
         bytes.chunks_exact(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap())).collect()
     }

@@ -126,7 +126,7 @@ frozen! {
         wind_m_s: f64 = 7.0,
         freezing_c: f64 = -12.0,
         ice_color: [f64; 3] = [0.72, 0.78, 0.84],
-    }
+    } adding { fetch_km: 1000.0, swell_m: 0.5, floe_m: 3000.0, glow: 0.0, glow_color: [1.0, 0.25, 0.03] }
 }
 
 frozen! {

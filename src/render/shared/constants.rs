@@ -1,11 +1,15 @@
 //! Sizes and counts that belong to the CPU and the shaders alike.
 
+use crate::sea;
 use crate::terrain::border;
 
 /// The most suns of a scene.
 pub const MAX_SUNS: usize = 4;
-/// Plane waves of the sea near the eye.
-pub(crate) const WAVES: usize = 16;
+/// The most plane waves of the sea near the eye.
+pub(crate) const WAVES: usize = sea::MOST_WAVES;
+/// How much higher crests of the sea are than troughs are deep; the least factor on slopes that it leaves.
+pub(crate) const WAVE_SKEW: f64 = sea::SKEW;
+pub(crate) const LEAST_SKEWED: f64 = sea::LEAST_SKEWED;
 /// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
 pub(crate) const VARIATION_PERIODS_M: [f64; VARIATION_OCTAVES] = [2.6e6, 330e3, 41e3, 5100.0, 640.0, 80.0, 10.0, 1.25];
 /// Octaves of the macro variation.
@@ -30,6 +34,8 @@ pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 pub(crate) const CLOUD_MAP_SIDE: u32 = 512;
 /// Mip levels of a cloud map. Coarser ones are not needed: a planet is hardly drawn smaller.
 pub(crate) const CLOUD_MAP_LEVELS: u32 = 5;
+/// Cells after which the pattern of the greatest floes repeats.
+pub(crate) const FLOE_GRID: f64 = 256.0;
 /// Variance of the slope of a sea without wind (Cox and Munk 1954).
 pub(crate) const CALM_SLOPE_VARIANCE: f64 = 0.003;
 /// Bins of the exposure's histogram.

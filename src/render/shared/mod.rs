@@ -74,6 +74,9 @@ pub(crate) fn text() -> String {
         ("CLOUD_MAP_SIDE", &f64::from(CLOUD_MAP_SIDE)),
         ("CLOUD_MAP_LEVELS", &f64::from(CLOUD_MAP_LEVELS)),
         ("CALM_SLOPE_VARIANCE", &CALM_SLOPE_VARIANCE),
+        ("WAVE_SKEW", &WAVE_SKEW),
+        ("LEAST_SKEWED", &LEAST_SKEWED),
+        ("FLOE_GRID", &FLOE_GRID),
         // Exposure
         ("METER_BINS", &METER_BINS),
         ("METER_STRIDE", &METER_STRIDE),

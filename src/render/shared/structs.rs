@@ -70,6 +70,7 @@ uniform_struct! {
         vector_per_m: Vec3,
         /// Phase at the eye.
         phase: f32,
+        amplitude_m: f32,
     }
 }
 
@@ -142,7 +143,22 @@ uniform_struct! {
         /// Temperature at the level of the sea.
         equator_c: f32,
         pole_c: f32,
+        /// Waves that are not 0, longest first.
+        wave_count: u32,
         waves: [Wave; WAVES],
+        /// Steps of the march to the displaced surface of the sea; 0 where it is not displaced.
+        wave_steps: u32,
+        /// Standard deviation of the height of all waves.
+        wave_deviation_m: f32,
+        /// 1 where the eye is under the waves.
+        eye_is_under: u32,
+        /// Phase of the waves that break along the shore.
+        shore_phase: f32,
+        /// Radiance that the sea gives off.
+        water_glow: Vec3,
+        /// The eye in the grid of the greatest floes, modulo FLOE_GRID cells; 1 over the width of a cell.
+        floe_eye: Vec3,
+        floes_per_m: f32,
         cloud_color: Vec3,
         /// Of the layer from top to bottom.
         cloud_optical_depth: f32,

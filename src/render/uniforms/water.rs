@@ -1,17 +1,19 @@
 //! Uniforms of the sea, and of rivers and lakes.
 
-use super::{Body, rgb};
+use super::{Body, rgb, wrapped};
+use crate::lod::Quality;
 use crate::planet::{Planet, Water};
-use crate::render::shared::{CALM_SLOPE_VARIANCE, WAVES, Wave};
-use glam::DVec3;
+use crate::render::shared::{CALM_SLOPE_VARIANCE, FLOE_GRID, Wave};
+use crate::sea::Waves;
+use glam::{DVec3, Vec3};
 use std::f64::consts::TAU;
 
-/// Longest and shortest wave that is drawn, metres.
-const LENGTHS_M: (f64, f64) = (30.0, 0.2);
-/// The golden angle, radians: it spreads directions evenly.
-const GOLDEN_ANGLE_RAD: f64 = 2.399_963;
-/// Gravity that drives the waves, m/s².
-const GRAVITY_M_S2: f64 = 9.81;
+/// Period of the waves that break along the shore, seconds.
+const SHORE_PERIOD_SECS: f64 = 9.0;
+/// Altitude up to which the surface of the sea is displaced, in standard deviations of its height.
+const DISPLACED_UP_TO: f64 = 2000.0;
+/// Resolution in altitudes of the eye of the waves that are drawn: shorter ones are less than a pixel everywhere.
+const LEAST_ANGLE: f64 = 5e-4;
 
 /// Sets the water of a planet. Rivers and lakes of a planet with no sea have the default colours.
 pub(super) fn of(out: &mut Body, planet: &Planet) {
@@ -23,6 +25,7 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
     out.has_rivers = u32::from(planet.structure.is_some());
     out.water_absorption_per_m = rgb(water.absorption_per_m);
     out.water_color = rgb(water.color);
+    out.water_glow = rgb(water.glow_color) * water.glow as f32;
     out.wave_slope_variance = variance as f32;
     out.ice_color = rgb(water.ice_color);
     out.freezing_c = water.freezing_c as f32;
@@ -30,21 +33,44 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
     (out.equator_c, out.pole_c) = (planet.climate.equator_c as f32, planet.climate.pole_c as f32);
 }
 
-/// Sets the waves at a time around an eye.
-pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, time_secs: f64) {
-    let level_m = planet.water.as_ref().map_or(Water::default().level_m, |water| water.level_m);
-    let altitude_m = eye_m.length().max(1.0) - planet.radius_m();
-    out.eye_over_sea_km = ((altitude_m - level_m) * 1e-3) as f32;
-    for (i, slot) in out.waves.iter_mut().enumerate() {
-        let x = (i as f64 + 0.5) / WAVES as f64;
-        let length_m = LENGTHS_M.0 * (LENGTHS_M.1 / LENGTHS_M.0).powf(x);
-        let z = 1.0 - 2.0 * ((i * 7 % WAVES) as f64 + 0.5) / WAVES as f64;
-        let angle = i as f64 * GOLDEN_ANGLE_RAD;
-        let flat = (1.0 - z * z).sqrt();
-        let k = TAU / length_m;
-        let vector_per_m = DVec3::new(flat * angle.cos(), flat * angle.sin(), z) * k;
-        // Deep water: omega² = g k.
-        let phase = vector_per_m.dot(eye_m) - (GRAVITY_M_S2 * k).sqrt() * time_secs;
-        *slot = Wave { vector_per_m: vector_per_m.as_vec3(), phase: phase.rem_euclid(TAU) as f32 };
+/// Sets the waves at a time around an eye, from the waves of its place.
+pub(super) fn from_eye(
+    out: &mut Body,
+    planet: &Planet,
+    waves: &Waves,
+    eye_m: DVec3,
+    (time_secs, quality): (f64, Quality),
+) {
+    let none = Water::default();
+    let water = planet.water.as_ref().unwrap_or(&none);
+    let over_m = eye_m.length().max(1.0) - planet.radius_m() - water.level_m;
+    out.eye_over_sea_km = (over_m * 1e-3) as f32;
+    let up = eye_m.normalize_or(DVec3::Z);
+    let shown = waves.all().iter().filter(|wave| TAU / wave.vector_per_m.length() > LEAST_ANGLE * over_m.abs());
+    out.wave_count = 0;
+    for (slot, wave) in out.waves.iter_mut().zip(shown) {
+        *slot = Wave {
+            vector_per_m: wave.vector_per_m.as_vec3(),
+            phase: wave.phase_at(eye_m, time_secs) as f32,
+            amplitude_m: wave.amplitude_m as f32,
+        };
+        out.wave_count += 1;
     }
+    let is_near = planet.water.is_some() && over_m.abs() < DISPLACED_UP_TO * waves.deviation_m();
+    out.wave_steps = match quality {
+        _ if !is_near => 0,
+        Quality::Low => 0,
+        Quality::Medium => 6,
+        Quality::High => 12,
+    };
+    out.wave_deviation_m = waves.deviation_m() as f32;
+    let surface_m = if out.wave_steps > 0 { waves.surface(up, time_secs, f64::INFINITY).wave_m } else { 0.0 };
+    out.eye_is_under = u32::from(planet.water.is_some() && over_m < surface_m);
+    out.shore_phase = (TAU * (time_secs / SHORE_PERIOD_SECS).rem_euclid(1.0)) as f32;
+    out.floes_per_m = if water.floe_m > 0.0 { (1.0 / water.floe_m) as f32 } else { 0.0 };
+    out.floe_eye = if water.floe_m > 0.0 {
+        (wrapped(eye_m / (water.floe_m * FLOE_GRID)) * FLOE_GRID).as_vec3()
+    } else {
+        Vec3::ZERO
+    };
 }

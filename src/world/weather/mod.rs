@@ -54,6 +54,7 @@ pub(crate) struct Weather {
     /// [`Weather::wind_at`] gives it.
     rain: OnceLock<Raster<f32>>,
     wind: OnceLock<[Raster<f32>; 3]>,
+    mean_wind_m_s: OnceLock<f64>,
 }
 
 /// Values of [`Weather`] by cell.
@@ -111,8 +112,18 @@ impl Weather {
         let humid = |(rain, potential): (&f64, &f64)| humidity(*rain, *potential) as f32;
         let humid = rain_mm.iter().zip(&evaporation_mm).map(humid).collect();
         let rasters = [Raster::cube(side, warmer_c.clone()), Raster::cube(side, humid)];
-        let (rain, wind) = (OnceLock::new(), OnceLock::new());
-        Self { side, wind_m_s, rain_mm, evaporation_mm, temperature_c, warmer_c, rasters, rain, wind }
+        Self {
+            side,
+            wind_m_s,
+            rain_mm,
+            evaporation_mm,
+            temperature_c,
+            warmer_c,
+            rasters,
+            rain: OnceLock::new(),
+            wind: OnceLock::new(),
+            mean_wind_m_s: OnceLock::new(),
+        }
     }
 
     /// Writes what [`Weather::read_from`] needs.
@@ -160,6 +171,14 @@ impl Weather {
         let place = rasters[0].place(dir);
         let wind = DVec3::from_array(rasters.each_ref().map(|raster| raster.value(&place, 0)));
         wind - dir * wind.dot(dir)
+    }
+
+    /// The mean speed of the wind over the globe, m/s.
+    pub(crate) fn mean_wind_m_s(&self) -> f64 {
+        *self.mean_wind_m_s.get_or_init(|| {
+            let speeds = self.wind_m_s.iter().map(|[to_east, to_north]| libm::hypot(*to_east, *to_north));
+            speeds.sum::<f64>() / self.wind_m_s.len().max(1) as f64
+        })
     }
 
     /// Water that runs off in mm a year: what is left of the rain after evaporation (Schreiber 1904).

@@ -1,0 +1,119 @@
+// Waves of the sea: the plane waves of the eye's place (src/sea), filtered by the size of a pixel.
+#include "macro_variation.wgsl"
+
+// Sum of waves at a point.
+struct WaveSum {
+    height_m: f32,
+    // Gradient of the height, a tangent
+    slope: vec3f,
+    // Variance of the height, and of the slope, of the waves in the sum
+    height_variance: f32,
+    slope_variance: f32,
+    // Convergence of the horizontal displacement of the waves that break: it is greatest at their crests
+    steepness: f32,
+    // Variance of that
+    steepness_variance: f32,
+}
+
+// Phase differences from one pixel to the next, radians, between which a wave fades into roughness (Bruneton, Neyret,
+// Holzschuch, Real-time Realistic Ocean Lighting, 2010): the mean stays and nothing shimmers.
+const WAVE_SEEN: f32 = 0.6;
+const WAVE_LOST: f32 = 1.9;
+
+// Wave number of the shortest waves whose breaking makes foam, radians per metre: 1.5 m long.
+const BREAKING_PER_M: f32 = 4.2;
+
+// Sums the waves at a point of the calm sea. `step_x`, `step_y`: steps to the next pixel along the water, metres.
+// `depth_m`: of the water; waves longer than twice the depth are lower (Kitaigorodskii 1975). `count`: waves to sum up,
+// longest first.
+fn waves_at(calm_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, depth_m: f32, count: u32) -> WaveSum {
+    var out = WaveSum(0.0, vec3f(0.0), 0.0, 0.0, 0.0, 0.0);
+    let least_step = min(length(step_x), length(step_y));
+    for (var i = 0u; i < count; i++) {
+        let wave = body.waves[i];
+        let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
+        let k = length(along);
+        // All later waves are shorter.
+        if 0.7 * k * least_step > WAVE_LOST { break; }
+        let turn = max(abs(dot(along, step_x)), abs(dot(along, step_y)));
+        let seen = 1.0 - smoothstep(WAVE_SEEN, WAVE_LOST, turn);
+        if seen <= 0.0 { continue; }
+        let amplitude_m = wave.amplitude_m * seen * tanh(min(k * depth_m, 9.0));
+        let phase = dot(wave.vector_per_m, calm_m) + wave.phase;
+        let lift_m = amplitude_m * cos(phase);
+        out.height_m += lift_m;
+        out.slope -= along * (amplitude_m * sin(phase));
+        out.height_variance += 0.5 * amplitude_m * amplitude_m;
+        out.slope_variance += 0.5 * amplitude_m * amplitude_m * k * k;
+        if k < BREAKING_PER_M {
+            out.steepness += lift_m * k;
+            out.steepness_variance += 0.5 * amplitude_m * amplitude_m * k * k;
+        }
+    }
+    return out;
+}
+
+// Crests are sharp and troughs flat: height in metres and factor of the slope, as `skewed` of src/sea/waves.rs.
+fn skewed(waves: WaveSum) -> vec2f {
+    let deviation_m = sqrt(waves.height_variance);
+    if deviation_m < 1e-4 { return vec2f(0.0, 1.0); }
+    let x = waves.height_m / deviation_m;
+    let height_m = waves.height_m + WAVE_SKEW * deviation_m * (x * x - 1.0);
+    return vec2f(height_m, max(1.0 + 2.0 * WAVE_SKEW * x, LEAST_SKEWED));
+}
+
+// Longest waves that displace the surface; shorter ones only tilt it.
+const DISPLACING: u32 = 48u;
+
+// Where a ray meets the displaced sea, km; `flat_km` is where it meets the calm sea, a negative number if nowhere.
+// `sine`: of the ray over the horizon. Rays start at the eye, above the waves or below.
+fn displaced_km(dir: vec3f, flat_km: f32, sine: f32, depth_m: f32) -> f32 {
+    if body.wave_steps == 0u { return flat_km; }
+    let reach_m = 4.0 * body.wave_deviation_m;
+    let over_m = body.eye_over_sea_km * 1000.0;
+    let is_under = body.eye_is_under == 1u;
+    // Beyond this distance the displacement is less than a pixel.
+    let far_m = min(body.wave_deviation_m * 3.0 / frame.pixel_rad, 4000.0);
+    // The ray is in the slab of the waves from `near` to `to`, on a plane: curvature is felt beyond.
+    let slope = select(sine, min(sine, -1e-4), !is_under);
+    let rise = select(slope, max(sine, 1e-4), is_under);
+    let towards = select(-1.0, 1.0, is_under);
+    var near_m = (towards * -reach_m - over_m) / rise;
+    var to_m = (towards * reach_m - over_m) / rise;
+    near_m = max(near_m, 0.0);
+    if near_m > far_m || to_m <= 0.0 { return flat_km; }
+    to_m = min(to_m, far_m);
+    let count = min(body.wave_count, DISPLACING);
+    var before = vec2f(near_m, 1.0);
+    for (var i = 1u; i <= body.wave_steps; i++) {
+        // Steps grow with distance.
+        let share = f32(i) / f32(body.wave_steps);
+        let at_m = near_m + (to_m - near_m) * share * mix(share, 1.0, 0.5);
+        let over = wave_gap(dir, at_m, depth_m, count) * -towards;
+        if over <= 0.0 {
+            // Regula falsi between the last two steps.
+            var outer = before;
+            var inner = vec2f(at_m, over);
+            for (var j = 0u; j < 4u; j++) {
+                let between = mix(outer.x, inner.x, clamp(outer.y / max(outer.y - inner.y, 1e-6), 0.05, 0.95));
+                let gap = wave_gap(dir, between, depth_m, count) * -towards;
+                if gap > 0.0 { outer = vec2f(between, gap); } else { inner = vec2f(between, gap); }
+            }
+            return mix(outer.x, inner.x, clamp(outer.y / max(outer.y - inner.y, 1e-6), 0.0, 1.0)) * 0.001;
+        }
+        before = vec2f(at_m, over);
+    }
+    return select(flat_km, -1.0, to_m < far_m && flat_km < 0.0);
+}
+
+// Height of a point of a ray over the waves, metres.
+fn wave_gap(dir: vec3f, at_m: f32, depth_m: f32, count: u32) -> f32 {
+    let rel_m = dir * at_m;
+    let radius_m = (body.radius_km + body.sea_level_km) * 1000.0;
+    let sine = dot(dir, body.eye_up);
+    let over_m = body.eye_over_sea_km * 1000.0 + at_m * sine + at_m * at_m * (1.0 - sine * sine) / (2.0 * radius_m);
+    let up = normalize(body.eye_up * radius_m + rel_m);
+    let step = vec3f(at_m * frame.pixel_rad, 0.0, 0.0);
+    let waves = waves_at(rel_m - up * over_m, up, step, step, depth_m, count);
+    return over_m - skewed(waves).x;
+}

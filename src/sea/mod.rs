@@ -1,0 +1,17 @@
+//! Waves of the sea at a place and a time: the same numbers for the picture and for a boat that floats in it.
+//!
+//! The waves are plane waves in the planet frame. A place has those that lie in its tangent plane and run with its
+//! wind; their heights follow a spectrum of wind and fetch. The renderer draws the waves of the eye's place.
+//!
+//! - `spectrum`: variance of the waves' slope by wavelength
+//! - `wind`: wind over the sea
+//! - `waves`: the waves of a place, and the water's height
+
+mod spectrum;
+mod waves;
+mod wind;
+
+#[cfg(feature = "render")]
+pub(crate) use waves::{LEAST_SKEWED, MOST_WAVES, SKEW};
+pub use waves::{WaterSurface, Waves};
+pub(crate) use wind::relative_wind;

@@ -1,0 +1,108 @@
+//! The sea: waves where queries say they are, the view from under it, floes, glow.
+
+use crate::scene::Stages;
+use crate::support::{camera, earth, frame, frame_of, gpu, lights, surface, surface_of};
+use std::sync::Arc;
+use tellus::lod::{Quality, View};
+use tellus::planet::{Planet, Water};
+use tellus::sea::Waves;
+use tellus::sphere::LatLon;
+use tellus::terrain::Terrain;
+
+const SIZE_PX: [u32; 2] = [64, 64];
+
+/// A planet of water alone, without air or clouds.
+fn sea(water: Water) -> Arc<Planet> {
+    Arc::new(Planet { layers: Vec::new(), clouds: None, atmosphere: None, water: Some(water), ..earth() })
+}
+
+/// A boat floats on the water that is drawn.
+#[test]
+fn the_surface_is_drawn_where_queries_find_it() {
+    let planet = sea(Water { level_m: 100.0, wind_m_s: 14.0, swell_m: 3.0, ..Water::default() });
+    let terrain = Terrain::try_new(planet.clone()).unwrap();
+    let place = LatLon::from_degrees(31.0, 47.0);
+    let waves = Waves::near(&terrain, place.direction());
+    let camera = camera(&planet, 31.0, 47.0, 9.0, 20.0, -90.0);
+    let view = View { camera, size_px: SIZE_PX, quality: Quality::High };
+    let surface = surface_of(&planet, &view);
+    let mut gpu = gpu();
+    let stages = Stages::new(&gpu, SIZE_PX);
+    let (mut lowest_m, mut highest_m) = (f64::MAX, f64::MIN);
+    for step in 0..12 {
+        let mut scene = frame_of(&surface, &planet, view, LatLon::from_degrees(50.0, 20.0).direction());
+        scene.time_secs = f64::from(step) * 2.3;
+        scene.projection.near_m = Some(0.5);
+        stages.draw(&mut gpu, &scene, [0, 0, SIZE_PX[0], SIZE_PX[1]], false).unwrap();
+        let middle = (SIZE_PX[0] * (SIZE_PX[1] + 1) / 2) as usize;
+        let distance_m = 0.5 / f64::from(stages.depths(&gpu)[middle]);
+        let drawn_m = 9.0 - distance_m;
+        let asked_m = waves.surface(place.direction(), scene.time_secs, 100.0).wave_m;
+        assert!((drawn_m - asked_m).abs() < 0.12, "at {} s: {drawn_m} m drawn, {asked_m} m found", scene.time_secs);
+        (lowest_m, highest_m) = (lowest_m.min(asked_m), highest_m.max(asked_m));
+    }
+    assert!(highest_m - lowest_m > 1.0, "{lowest_m} to {highest_m} m");
+}
+
+/// From below, the sky is a bright window overhead; beyond it the surface mirrors dark water.
+#[test]
+fn snells_window_is_overhead() {
+    let planet = Arc::new(Planet {
+        layers: Vec::new(),
+        clouds: None,
+        water: Some(Water { level_m: 500.0, wind_m_s: 1.0, swell_m: 0.0, ..Water::default() }),
+        ..earth()
+    });
+    let mut gpu = gpu();
+    let mut mean = |pitch: f64| {
+        let camera = camera(&planet, 10.0, 10.0, -5.0, 0.0, pitch);
+        let surface = surface(&planet, &camera);
+        let mut frame = frame(&surface, &planet, camera, (12.0, 60.0));
+        frame.post.exposure_ev = 2.0;
+        let lights = lights(&gpu.draw(&frame));
+        // The middle of the picture alone: its rays are those of the pitch.
+        let (width, height) = (frame.size_px[0] as usize, frame.size_px[1] as usize);
+        let rows = height * 2 / 5..height * 3 / 5;
+        let middle = rows.flat_map(|y| (width * 2 / 5..width * 3 / 5).map(move |x| y * width + x));
+        let lights: Vec<u32> = middle.map(|i| lights[i]).collect();
+        f64::from(lights.iter().sum::<u32>()) / lights.len() as f64
+    };
+    // The window ends 48.6° from the zenith.
+    let (inside, outside, down) = (mean(60.0), mean(20.0), mean(-60.0));
+    assert!(inside > 1.5 * outside, "{inside} inside of the window, {outside} outside");
+    assert!(outside < 2.5 * down.max(1.0), "{outside} outside of the window, {down} below");
+}
+
+/// Near the temperature of freezing there is ice and open water; where it is colder, ice alone.
+#[test]
+fn floes_cover_more_where_it_is_colder() {
+    let mut gpu = gpu();
+    let mut whites = |freezing_c: f64| {
+        let mut planet = (*sea(Water { freezing_c, level_m: 500.0, ..Water::default() })).clone();
+        (planet.climate.equator_c, planet.climate.pole_c) = (-5.0, -5.0);
+        planet.climate.temperature_variation_c = 0.0;
+        let planet = Arc::new(planet);
+        let camera = camera(&planet, 10.0, 10.0, 9500.0, 0.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let lights = lights(&gpu.draw(&frame(&surface, &planet, camera, (30.0, 10.0))));
+        let white = lights.iter().filter(|light| **light > 3 * 110).count();
+        white as f64 / lights.len() as f64
+    };
+    let shares = [-15.0, -6.0, -4.0, 5.0].map(&mut whites);
+    assert!(shares[0] < 0.01 && shares[3] > 0.9, "{shares:?}");
+    assert!(shares[1] > 0.05 && shares[1] < shares[2] && shares[2] < 0.97, "{shares:?}");
+}
+
+/// A sea of lava shines at night.
+#[test]
+fn a_glowing_sea_shines_at_night() {
+    let mut gpu = gpu();
+    let mut light = |glow: f64| {
+        let planet = sea(Water { glow, freezing_c: -100.0, level_m: 500.0, ..Water::default() });
+        let camera = camera(&planet, 10.0, 10.0, 1e6, 0.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let lights = lights(&gpu.draw(&frame(&surface, &planet, camera, (-10.0, -170.0))));
+        lights[lights.len() / 2]
+    };
+    assert!(light(0.0) < 10 && light(1.0) > 150);
+}
