@@ -81,7 +81,8 @@ fn cloud_density(rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
     let sharp = saturate1((n - 1.0 + cover) / width + cover * cover * cover) * max(bulk, 0.25);
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-body.cloud_optical_depth);
-    let mean = -log(1.0 - cover * opaque) / body.cloud_optical_depth;
+    // Of a dense layer no light is left in 32 bits.
+    let mean = -log(max(1.0 - cover * opaque, 1e-7)) / body.cloud_optical_depth;
     return mix(sharp, mean, blurred);
 }
 

@@ -57,7 +57,7 @@ impl Targets {
 }
 
 /// The target cover of a direction.
-fn target(odds: f64) -> f64 {
+pub(super) fn target(odds: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-odds))
 }
 

@@ -53,6 +53,70 @@ fn belts_are_where_the_climate_has_them() {
     assert!(equator > subtropics + 0.1 && tracks > subtropics + 0.1, "{equator} {subtropics} {tracks}");
 }
 
+/// In the mean over time each zone has the cover that its climate asks for.
+#[test]
+fn each_zone_is_as_covered_as_its_climate_asks() {
+    let mut planet = planet(Clouds { coverage: 0.45, storms: 0.0, wind_km_h: 0.0, ..Clouds::default() });
+    planet.climate.belts = 1.0;
+    let field = CloudField::with(&planet, None);
+    let bounds = [-90.0, -50.0, -20.0, 20.0, 50.0, 90.0_f64].map(|deg| deg.to_radians().sin());
+    for zone in bounds.windows(2) {
+        let within = |dir: DVec3| (zone[0]..zone[1]).contains(&dir.z);
+        let times = (0..6).map(|i| f64::from(i) * 11.0 * 86_400.0);
+        let found = times.map(|time| mean_cover(&field, time, within)).sum::<f64>() / 6.0;
+        let dirs: Vec<DVec3> = spread(1500).filter(|dir| within(*dir)).collect();
+        let targets = dirs.iter().map(|dir| cover::target(field.odds(*dir) + field.offsets()[0]));
+        let asked = targets.sum::<f64>() / dirs.len() as f64;
+        assert!((found - asked).abs() < 0.05, "{zone:?}: {found} found, {asked} asked");
+    }
+}
+
+/// Clouds from orbit are as ragged as real ones: their perimeters grow with their areas as those of Lovejoy (1982), with
+/// an exponent of 1.35 and less for coarse pictures.
+#[test]
+fn clouds_are_as_ragged_as_real_ones() {
+    const SIDE: usize = 384;
+    let field = CloudField::with(&planet(Clouds { coverage: 0.35, wind_km_h: 0.0, ..Clouds::default() }), None);
+    let mut logs: Vec<[f64; 2]> = Vec::new();
+    for (face, time_secs) in [(DVec3::X, 0.0), (DVec3::Y, 4e6), (DVec3::NEG_X, 9e6)] {
+        let (east, north) = crate::sphere::geo::east_north(face);
+        let at = |i: usize| (i as f64 + 0.5) / SIDE as f64 - 0.5;
+        let dir = |i: usize| (face + east * at(i % SIDE) + north * at(i / SIDE)).normalize();
+        let mut cloudy: Vec<bool> = (0..SIDE * SIDE).map(|i| field.cover(dir(i), time_secs).low > 0.5).collect();
+        let mask = cloudy.clone();
+        for start in 0..cloudy.len() {
+            if !std::mem::take(&mut cloudy[start]) {
+                continue;
+            }
+            let (mut stack, mut area, mut perimeter, mut whole) = (vec![start], 0, 0, true);
+            while let Some(i) = stack.pop() {
+                area += 1;
+                let (x, y) = (i % SIDE, i / SIDE);
+                if x == 0 || y == 0 || x + 1 == SIDE || y + 1 == SIDE {
+                    whole = false;
+                    continue;
+                }
+                for j in [i - 1, i + 1, i - SIDE, i + SIDE] {
+                    perimeter += usize::from(!mask[j]);
+                    if std::mem::take(&mut cloudy[j]) {
+                        stack.push(j);
+                    }
+                }
+            }
+            if whole && area >= 12 {
+                logs.push([0.5 * (area as f64).ln(), (perimeter as f64).ln()]);
+            }
+        }
+    }
+    let n = logs.len() as f64;
+    let mean = |k: usize| logs.iter().map(|log| log[k]).sum::<f64>() / n;
+    let [mean_x, mean_y] = [0, 1].map(mean);
+    let rise: f64 = logs.iter().map(|[x, y]| (x - mean_x) * (y - mean_y)).sum();
+    let run: f64 = logs.iter().map(|[x, _]| (x - mean_x) * (x - mean_x)).sum();
+    let exponent = rise / run;
+    assert!(logs.len() > 40 && (exponent - 1.26).abs() < 0.1, "{exponent} of {} clouds", logs.len());
+}
+
 /// Clouds change, but from one minute to the next no cover jumps; a keyframe is no seam in time.
 #[test]
 fn clouds_change_without_jumps() {

@@ -2,31 +2,15 @@
 //! as they are known, rounded, then tuned by eye for three colours.
 
 use super::Atmosphere;
-
-/// A named atmosphere.
-#[derive(Clone, Copy, Debug)]
-pub struct StartingAir {
-    /// Display name.
-    pub name: &'static str,
-    /// A short description.
-    pub note: &'static str,
-    make: fn() -> Atmosphere,
-}
-
-impl StartingAir {
-    /// The atmosphere itself.
-    pub fn atmosphere(&self) -> Atmosphere {
-        (self.make)()
-    }
-}
+use super::starting::Starting;
 
 /// All of them, the Earth's first.
-pub const STARTING_AIRS: &[StartingAir] = &[
-    StartingAir { name: "Earth", note: "Blue by day, red at sunset", make: Atmosphere::default },
-    StartingAir { name: "Mars", note: "Thin and dusty: butterscotch by day, a blue sunset", make: mars },
-    StartingAir { name: "Titan", note: "Deep orange haze high above the ground", make: titan },
-    StartingAir { name: "Venus", note: "Dense and yellow; the ground lies in an orange dusk", make: venus },
-    StartingAir { name: "Alien green", note: "Green by day, a violet sunset", make: green },
+pub const STARTING_AIRS: &[Starting<Atmosphere>] = &[
+    Starting::new("Earth", "Blue by day, red at sunset", Atmosphere::default),
+    Starting::new("Mars", "Thin and dusty: butterscotch by day, a blue sunset", mars),
+    Starting::new("Titan", "Deep orange haze high above the ground", titan),
+    Starting::new("Venus", "Dense and yellow; the ground lies in an orange dusk", venus),
+    Starting::new("Alien green", "Green by day, a violet sunset", green),
 ];
 
 /// Dust scatters more red than blue and absorbs blue; around a low star, the light that remains is blue.
@@ -95,7 +79,7 @@ mod tests {
     #[test]
     fn every_starting_air_is_valid() {
         for air in STARTING_AIRS {
-            let planet = Planet { atmosphere: Some(air.atmosphere()), ..Planet::default() };
+            let planet = Planet { atmosphere: Some(air.make()), ..Planet::default() };
             assert_eq!(validate::problems(&planet), [], "{}", air.name);
         }
     }

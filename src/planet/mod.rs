@@ -3,8 +3,8 @@
 //! - [`param`]: one description for each parameter and each part, and the visitors of all parameters
 //! - [`layers`], [`shapes`] (landforms), [`masks`], [`parts`] (climate to star), [`biome`], [`table`] (the biome
 //!   table): the data of a preset; `kinds` writes enums whose variants carry parameters
-//! - `airs`, `tables`, `star_color`, `day`: starting atmospheres and biome tables; the colour of a star by temperature;
-//!   its position by hour and season
+//! - `airs`, `seas`, `skies`, `tables`: values to start from; `starting` is their type
+//! - `star_color`, `day`: the colour of a star by temperature; its position by hour and season
 //! - [`diff`]: which parameters two planets differ in
 //! - [`key`]: content keys
 //! - [`validate`]: ranges, references between names, the shape of the biome table
@@ -36,16 +36,19 @@ pub mod picture;
 mod pictures;
 mod problem;
 pub mod random;
+mod seas;
 pub mod shapes;
 pub mod shipped;
+mod skies;
 mod star_color;
+mod starting;
 pub mod structure;
 pub mod table;
 mod tables;
 pub(crate) mod text;
 pub mod validate;
 
-pub use airs::{STARTING_AIRS, StartingAir};
+pub use airs::STARTING_AIRS;
 pub use biome::{Biome, Detail, Steep};
 pub use file::{LoadError, SaveError};
 pub use key::Key;
@@ -55,11 +58,14 @@ pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;
 pub use problem::Problem;
+pub use seas::STARTING_SEAS;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
     Terraces, Warped,
 };
+pub use skies::STARTING_SKIES;
 pub use star_color::{STAR_KELVIN, star_color, star_kelvin};
+pub use starting::Starting;
 pub use structure::{PlateByHand, PlateKind, Plates, Rivers, Rotation, Structure, Weather};
 pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};

@@ -55,7 +55,7 @@ mod tests {
         assert!(bare.iter().all(|gain| (gain - 1.0).abs() < 1e-12), "{bare:?}");
         for air in STARTING_AIRS {
             for color in [[1.0, 0.4, 0.1], [0.6, 0.7, 1.0], [0.0; 3]] {
-                let found = under(Some(air.atmosphere()), color);
+                let found = under(Some(air.make()), color);
                 assert!(found.iter().all(|gain| (0.9..=1.1).contains(gain)), "{} {found:?}", air.name);
             }
         }

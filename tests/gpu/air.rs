@@ -30,7 +30,7 @@ fn under(air: Atmosphere, radius_km: f64, color: [f64; 3]) -> Planet {
 
 /// Planets like the Earth, Mars and Titan.
 fn planets() -> [(&'static str, Planet); 3] {
-    let air = |name: &str| STARTING_AIRS.iter().find(|air| air.name == name).unwrap().atmosphere();
+    let air = |name: &str| STARTING_AIRS.iter().find(|air| air.name == name).unwrap().make();
     [
         ("earth", under(air("Earth"), 6360.0, [0.12, 0.12, 0.06])),
         ("mars", under(air("Mars"), 3390.0, [0.35, 0.17, 0.08])),

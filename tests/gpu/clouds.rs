@@ -84,3 +84,42 @@ fn pictures_show_the_cover_that_queries_report() {
     }
     assert!(seen[1] > seen[0] + 10.0 && seen[2] > seen[1] + 10.0, "{seen:?}");
 }
+
+/// No cover draws what no clouds draw, to the bit.
+#[test]
+fn no_cover_is_no_clouds() {
+    let none = Arc::new(Planet { clouds: None, ..earth() });
+    let clear = cloudy(Clouds { coverage: 0.0, veil: 0.0, ..Clouds::default() });
+    let mut gpu = gpu();
+    for altitude_m in [2000.0, 13e6] {
+        let camera = camera(&none, 10.0, 10.0, altitude_m, 40.0, -40.0);
+        let surface = surface(&none, &camera);
+        let [without, with] = [&none, &clear].map(|planet| gpu.draw(&frame(&surface, planet, camera, (30.0, 40.0))));
+        assert!(without == with, "differs at {altitude_m} m");
+    }
+}
+
+/// Where the layer becomes thinner than a pixel the march changes, and the mean brightness does not step.
+#[test]
+fn the_hand_over_shows_no_step() {
+    let planet = cloudy(Clouds { coverage: 0.5, storms: 0.5, ..Clouds::default() });
+    let mut gpu = gpu();
+    let mut mean = |altitude_m: f64| {
+        let camera = camera(&planet, 10.0, 10.0, altitude_m, 0.0, -90.0);
+        let surface = surface(&planet, &camera);
+        let mut scene = frame(&surface, &planet, camera, (40.0, 40.0));
+        scene.post.tone = tellus::render::Tone::Plain;
+        let lights = lights(&gpu.draw(&scene));
+        f64::from(lights.iter().sum::<u32>()) / lights.len() as f64
+    };
+    // The pixel of a picture of 180 rows at the default field of view is half of the layer's thickness at this altitude.
+    let clouds = Clouds::default();
+    let pixel_rad = 2.0 * (0.5 * tellus::lod::Camera::DEFAULT_FOV_Y_RAD).tan() / 180.0;
+    for render_scale in [0.5, 1.0, 2.0] {
+        let away_m = 0.5 * clouds.thickness_km * 1e3 / pixel_rad * render_scale;
+        let altitude_m = away_m + 1e3 * (clouds.altitude_km + clouds.thickness_km);
+        let [near, far] = [0.97, 1.03].map(|share| mean(altitude_m * share));
+        let step = (near / far - 1.0).abs();
+        assert!(step < 0.04, "{near} below {altitude_m} m, {far} above: a step of {step}");
+    }
+}

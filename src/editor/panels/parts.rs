@@ -8,7 +8,8 @@ use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, Star, Structure, Water, star_color, star_kelvin,
+    Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, STARTING_SEAS, STARTING_SKIES, Star, Starting,
+    Structure, Water, star_color, star_kelvin,
 };
 use eframe::egui;
 
@@ -95,23 +96,40 @@ pub fn climate(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     whole(ui, "climate", &mut draft.planet.climate, &mut Climate::default(), draft.problems);
 }
 
+/// A menu of values that a part may start from.
+fn start_from<T>(
+    ui: &mut egui::Ui,
+    draft: &mut Draft<'_>,
+    part: &str,
+    all: &[Starting<T>],
+    set: impl Fn(&mut Planet, T),
+) {
+    menu_button(ui, "Start from …", |ui| {
+        for one in all {
+            if ui.button(one.name).on_hover_text(one.note).clicked() {
+                set(draft.planet, one.make());
+                draft.label = Some(format!("Start from {part}: {}", one.name));
+                ui.close();
+            }
+        }
+    });
+}
+
 /// The sea, if the planet has one.
 pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    start_from(ui, draft, "sea", STARTING_SEAS, |planet, sea| {
+        // The level belongs to the land, not to the liquid.
+        let level_m = planet.water.as_ref().map_or(sea.level_m, |old| old.level_m);
+        planet.water = Some(Water { level_m, ..sea });
+    });
+    ui.add_space(4.0);
     let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.problems);
     draft.label = label.or(draft.label.take());
 }
 
 /// The atmosphere, if the planet has one.
 pub fn atmosphere(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
-    menu_button(ui, "Start from …", |ui| {
-        for air in STARTING_AIRS {
-            if ui.button(air.name).on_hover_text(air.note).clicked() {
-                draft.planet.atmosphere = Some(air.atmosphere());
-                draft.label = Some(format!("Start from air: {}", air.name));
-                ui.close();
-            }
-        }
-    });
+    start_from(ui, draft, "air", STARTING_AIRS, |planet, air| planet.atmosphere = Some(air));
     if let Some(air) = &mut draft.planet.atmosphere {
         scatterer(ui, "Rayleigh", &mut air.rayleigh_per_km);
         scatterer(ui, "Mie", &mut air.mie_scattering_per_km);
@@ -124,6 +142,12 @@ pub fn atmosphere(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Dra
 
 /// The clouds, if the planet has any.
 pub fn clouds(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    start_from(ui, draft, "clouds", STARTING_SKIES, |planet, sky| {
+        let (seed, wind_km_h) =
+            planet.clouds.as_ref().map_or((sky.seed, sky.wind_km_h), |old| (old.seed, old.wind_km_h));
+        planet.clouds = Some(Clouds { seed, wind_km_h, ..sky });
+    });
+    ui.add_space(4.0);
     let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut turned_off.clouds, draft.problems);
     draft.label = label.or(draft.label.take());
 }
