@@ -8,6 +8,9 @@ fn drifted(p: vec3f) -> vec3f {
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
+// Shift of look-ups in the cloud maps, texels over the noise.
+const SHIFT: f32 = 3.5;
+
 // The cloud maps at a direction from the centre.
 struct Sky {
     // 0 clear, 1 overcast
@@ -24,12 +27,23 @@ fn cover_of(rank: f32, odds: f32) -> f32 {
     return saturate1((rank - 1.0 + share + width) / (2.0 * width + 1e-6));
 }
 
+// Shift of a look-up in the cloud maps, where their texels show: streaks thinner than a texel would be strings of beads.
+fn shifted(dir: vec3f, texel_km: f32, footprint: f32) -> vec3f {
+    let share = 1.0 - smoothstep(0.3, 1.0, footprint / texel_km);
+    if share <= 0.0 { return vec3f(0.0); }
+    let band = body.cloud_bands[1];
+    let rel = drifted(dir * body.radius_km - body.eye_km);
+    let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1.0));
+    let n = textureSampleLevel(noise_tile, repeated, band.offset + rel / band.period, lod).rg - 0.5;
+    return vec3f(n, n.x - n.y) * (share * SHIFT * texel_km / body.radius_km);
+}
+
 // `footprint`: size in km below which nothing is resolved.
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     let texel_km = 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE;
     let level = clamp(log2(max(footprint / texel_km, 1e-3)), body.cloud_least_level, CLOUD_MAP_LEVELS - 1.0);
     let odds = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0).r;
-    let carried = drifted(dir);
+    let carried = drifted(dir) + shifted(dir, texel_km, footprint);
     var ranks = vec4f(0.0);
     if body.cloud_odd_share < 1.0 {
         ranks = textureSampleLevel(cloud_maps, clamped, carried, 1, level) * (1.0 - body.cloud_odd_share);
