@@ -27,7 +27,8 @@ fn cover_of(rank: f32, odds: f32) -> f32 {
     return saturate1((rank - 1.0 + share + width) / (2.0 * width + 1e-6));
 }
 
-// Shift of a look-up in the cloud maps, where their texels show: streaks thinner than a texel would be strings of beads.
+// Shift of a look-up in the cloud maps, where their texels show: streaks thinner than a texel would be strings of
+// beads.
 fn shifted(dir: vec3f, texel_km: f32, footprint: f32) -> vec3f {
     let share = 1.0 - smoothstep(0.3, 1.0, footprint / texel_km);
     if share <= 0.0 { return vec3f(0.0); }

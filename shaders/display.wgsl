@@ -7,6 +7,8 @@
 
 // Whether the format of the target encodes sRGB in hardware.
 override TARGET_ENCODES_SRGB: bool = false;
+// Whether the target takes linear values: floats of 32 bits, of which a photograph is made.
+override TARGET_IS_LINEAR: bool = false;
 
 fn encode_srgb(c: vec3f) -> vec3f {
     let low = c * 12.92;
@@ -30,6 +32,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let at = position.xy * frame.render_scale / vec2f(textureDimensions(shown));
         light = textureSampleLevel(shown, clamped, at, 0.0).rgb;
     }
+    if TARGET_IS_LINEAR { return vec4f(saturate(light), 1.0); }
     var encoded = encode_srgb(light);
     if frame.debug_view == VIEW_SHADED {
         // Triangular noise with the amplitude of one step hides the 256 steps of the display.

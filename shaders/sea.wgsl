@@ -188,7 +188,8 @@ fn caustics(calm_m: vec3f, up: vec3f, depth_m: f32, footprint_m: f32, first: u32
     return mix(1.0, min(focus, 4.0) * 0.78, fades);
 }
 
-// The sky is brighter around a low sun than away from it; the LUT has the mean over all azimuths. Its mean is 1; by eye.
+// The sky is brighter around a low sun than away from it; the LUT has the mean over all azimuths. The mean of the factor
+// is 1; by eye.
 fn glow_around(cosine: f32, sun_mu: f32) -> f32 {
     let low = 1.0 - saturate1(abs(sun_mu));
     return mix(1.0, 0.65 + 2.24 * pow(max(cosine, 0.0), 6.0), low * low);

@@ -112,8 +112,8 @@ fn from_below(dir: vec3f, surface_km: f32, up: vec3f, deep: vec3f) -> vec3f {
     return out;
 }
 
-// Radiance at the eye under water. `scene`: light of the ground; `terrain`, `surface_km`: distances of the ground and of
-// the surface, km.
+// Radiance at the eye under water. `scene`: light of the ground; `terrain`, `surface_km`: distances of the ground and
+// of the surface, km.
 fn underwater(dir: vec3f, scene: vec3f, terrain: f32, surface_km: f32) -> vec3f {
     let up = body.eye_up;
     let lit = downwelling_at(up);

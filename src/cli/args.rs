@@ -1,7 +1,9 @@
 //! Parsers of sizes, angles and locations on the command line. Each error says what would be right.
 
 /// Largest side of a picture, in pixels.
-const MAX_SIDE: u32 = 8192;
+const MAX_SIDE: u32 = 32_768;
+/// Most pixels of a picture: they take 12 bytes each.
+const MAX_PIXELS: u64 = 1 << 28;
 
 /// A finite number from `min` to `max`.
 fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
@@ -51,6 +53,21 @@ pub(super) fn zenith(text: &str) -> Result<f64, String> {
     number(text, 0.0, 180.0)
 }
 
+/// Focal length in mm in front of a sensor 24 mm high.
+pub(super) fn focal_length(text: &str) -> Result<f64, String> {
+    number(text, 4.0, 1300.0)
+}
+
+/// A length in metres that is not 0.
+pub(super) fn length(text: &str) -> Result<f64, String> {
+    number(text, 1e-4, 1e12)
+}
+
+pub(super) fn samples(text: &str) -> Result<u32, String> {
+    let wrong = || "use 1 to 16, the samples along each side of a pixel".to_owned();
+    text.parse().ok().filter(|samples| (1..=16).contains(samples)).ok_or_else(wrong)
+}
+
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     number(text, -1e9, 1e9)
 }
@@ -77,7 +94,13 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let wrong = || format!("this is not a size; write WIDTHxHEIGHT, each 1 to {MAX_SIDE}, such as 1280x720");
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
     let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or_else(wrong);
-    Ok([side(width)?, side(height)?])
+    let [width, height] = [side(width)?, side(height)?];
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(format!(
+            "{width}x{height} are too many pixels; use at most {MAX_PIXELS} in all, such as 16384x16384"
+        ));
+    }
+    Ok([width, height])
 }
 
 #[cfg(test)]
@@ -86,8 +109,10 @@ mod tests {
 
     #[test]
     fn values_are_read_or_refused_with_what_would_be_right() {
-        assert_eq!(size("1x8192"), Ok([1, 8192]));
-        for wrong in ["", "x", "0x5", "5", "8193x1", "-1x5", "1x2x3", "1.5x2", "99999999999x1"] {
+        assert_eq!(size("1x32768"), Ok([1, 32_768]));
+        assert!(size("32768x32768").unwrap_err().contains("16384x16384"));
+        assert!(samples("17").is_err() && samples("4") == Ok(4));
+        for wrong in ["", "x", "0x5", "5", "32769x1", "-1x5", "1x2x3", "1.5x2", "99999999999x1"] {
             assert!(size(wrong).unwrap_err().contains("1280x720"), "{wrong}");
         }
         assert_eq!(location("-10, 30.5"), Ok((-10.0, 30.5)));

@@ -72,6 +72,15 @@ impl Gpu {
         }
     }
 
+    /// Does something with the device; its first uncaptured error counts as a failure.
+    pub(super) fn checked<T>(&self, work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+        let result = work();
+        match self.first_error() {
+            Some(first) => Err(format!("the GPU ({}): {first}", self.name)),
+            None => result,
+        }
+    }
+
     fn first_error(&self) -> Option<String> {
         self.error.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

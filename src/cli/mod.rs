@@ -4,6 +4,7 @@
 //! - `render`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands; `points`: many points for
 //!   `sample`
 //! - `headless`: a GPU without a window
+//! - `picture_file`: PNG and OpenEXR
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
 
@@ -13,6 +14,7 @@ mod check;
 mod headless;
 mod maps;
 mod new;
+mod picture_file;
 mod points;
 mod render;
 mod rivers;

@@ -1,27 +1,30 @@
 //! `tellus render`: a picture of a planet, without a window.
 
+use super::picture_file::Kind;
 use super::{Failure, args, headless, load, maps};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::file::write_atomically;
-use crate::render::{DebugView, Metering, Renderer, Scene, Tone};
+use crate::render::{DebugView, Lens, Metering, Photo, Renderer, Scene, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use crate::tiles::{add_detail, build_over};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-/// Draw a planet into a PNG file
+/// Draw a planet into a PNG or OpenEXR file
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The preset
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
-    /// The picture to write
-    #[arg(short, long, value_name = "OUT.png")]
+    /// The picture to write: .png, or .exr for linear radiance without stars
+    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
-    /// Width and height in pixels
+    /// Width and height in pixels. Large pictures are drawn in tiles
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = args::size)]
     size: [u32; 2],
     #[arg(
@@ -72,6 +75,22 @@ pub(super) struct Args {
         value_parser = args::field_of_view
     )]
     fov: f64,
+    /// Focal length in mm in front of a sensor 24 mm high, in place of --fov
+    #[arg(long, value_name = "MM", conflicts_with = "fov", value_parser = args::focal_length)]
+    focal: Option<f64>,
+    /// Diameter of the lens: what is not in focus is blurred. 0.01 is a camera's; 1000 makes a model of a continent.
+    /// Needs --focus, and --samples of 4 or more
+    #[arg(long, value_name = "METRES", requires = "focus", value_parser = args::length)]
+    aperture: Option<f64>,
+    /// Distance along the view axis that is in focus
+    #[arg(long, value_name = "METRES", requires = "aperture", value_parser = args::length)]
+    focus: Option<f64>,
+    /// Samples along each side of a pixel, 1 to 16
+    #[arg(long, value_name = "N", default_value = "1", value_parser = args::samples)]
+    samples: u32,
+    /// Bits of each colour of a .png: 8 or 16
+    #[arg(long, value_name = "BITS", value_parser = ["8", "16"])]
+    bits: Option<String>,
     /// Location with the star overhead [default: from the preset, at --time]
     #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::location)]
     sun: Option<(f64, f64)>,
@@ -150,38 +169,64 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let (file, view) = (args.file.display(), args.view.label());
         return Err(format!("{file}: the planet has no structure, so that there is no map of {view} to show").into());
     }
-    let gpu = headless::Gpu::open(args.size)?;
+    let kind = Kind::of(&args.output, args.bits.as_deref().and_then(|bits| bits.parse().ok()))?;
+    let gpu = headless::Gpu::open(args.size.map(|side| side.min(Photo::MOST_TILE_PX)))?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let terrain = Arc::new(maps::terrain(planet.clone())?);
     let view = view(args, &terrain)?;
-    let mut surface = build_over(&terrain, &view);
-    add_detail(&mut surface, &view);
+    // The ground of a large picture is as fine as that of a smaller one: its tiles fit into memory.
+    let ground_view = View { size_px: fitted(view.size_px), ..view };
+    let mut surface = build_over(&terrain, &ground_view);
+    add_detail(&mut surface, &ground_view);
     let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
     let mut scene = Scene::of_planet(&surface, view, sun.direction());
+    for body in &mut scene.bodies {
+        body.frozen = (ground_view.size_px != view.size_px).then_some(ground_view);
+    }
     scene.time_secs = args.time;
     scene.debug_view = args.view;
     scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     scene.post.exposure_ev = args.exposure.unwrap_or(0.0);
     scene.post.tone = args.tone;
-    let pixels =
-        gpu.picture(args.size, |target| renderer.render(target, &scene).map(drop).map_err(|error| error.to_string()))?;
-    let png = encode(&pixels, args.size).map_err(|error| format!("cannot encode the picture: {error}"))?;
-    write_atomically(&args.output, &png).map_err(|error| format!("{}: {error}", args.output.display()))?;
+    let mut photo = Photo::default();
+    (photo.samples, photo.develop) = (args.samples, kind.develop());
+    photo.lens = args.aperture.zip(args.focus).map(|(diameter_m, focus_m)| Lens { diameter_m, focus_m });
+    let pixels = gpu.checked(|| photo.take(&mut renderer, &scene, &mut told()).map_err(|error| error.to_string()))?;
+    let bytes = kind.encode(&pixels.unwrap_or_default(), args.size)?;
+    write_atomically(&args.output, &bytes).map_err(|error| format!("{}: {error}", args.output.display()))?;
     Ok(())
 }
 
-/// A PNG file from rows of RGBA pixels.
-fn encode(rgba: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Fast);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(rgba)?;
-    writer.finish()?;
-    Ok(bytes)
+/// Longest side in pixels of the picture whose ground is drawn.
+const GROUND_PX: u32 = 3840;
+
+/// A size that is not larger than [`GROUND_PX`], of the same shape.
+fn fitted(size_px: [u32; 2]) -> [u32; 2] {
+    let longer = size_px[0].max(size_px[1]);
+    if longer <= GROUND_PX {
+        return size_px;
+    }
+    size_px.map(|side| (u64::from(side) * u64::from(GROUND_PX) / u64::from(longer)).max(1) as u32)
 }
+
+/// Tells a person at a terminal how much of a picture is drawn, if it takes long.
+fn told() -> impl FnMut(f64) -> bool {
+    let (start, mut last) = (Instant::now(), None);
+    move |done| {
+        let percent = (done * 100.0) as u32;
+        if start.elapsed() > PATIENCE && last != Some(percent) && std::io::stderr().is_terminal() {
+            eprint!("\rdrawn: {percent}%{}", if done < 1.0 { "" } else { "\n" });
+            last = Some(percent);
+        }
+        true
+    }
+}
+
+/// Time after which progress is told.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Height of the sensor that focal lengths refer to: that of 35 mm film.
+const SENSOR_MM: f64 = 24.0;
 
 fn view(args: &Args, terrain: &Terrain) -> Result<View, Failure> {
     let planet = terrain.planet();
@@ -213,6 +258,7 @@ fn view(args: &Args, terrain: &Terrain) -> Result<View, Failure> {
     };
     let pitch_deg = args.pitch.unwrap_or_else(|| opening::default_pitch_deg(planet, altitude_m));
     let (heading, pitch) = (args.heading.to_radians(), pitch_deg.to_radians());
-    let camera = Camera::over(place, radius_m, heading, pitch, args.fov.to_radians());
+    let fov_rad = args.focal.map_or(args.fov.to_radians(), |focal_mm| 2.0 * (0.5 * SENSOR_MM / focal_mm).atan());
+    let camera = Camera::over(place, radius_m, heading, pitch, fov_rad);
     Ok(View { camera, size_px: args.size, quality: args.quality })
 }

@@ -8,12 +8,14 @@ use super::{RenderError, gpu, shaders};
 use glam::UVec2;
 
 impl Metering {
-    /// Share of the difference to the metered exposure that this picture closes; `None` for manual exposure.
-    fn share(self) -> Option<f32> {
+    /// Share of the difference to the metered exposure that this picture closes, or the exposure in stops where it is
+    /// not metered.
+    fn share(self) -> Result<f32, f64> {
         match self {
-            Metering::Manual => None,
-            Metering::Instant => Some(1.0),
-            Metering::Adapting { secs } => Some((1.0 - (-secs.max(0.0) / ADAPTATION_SECS).exp()) as f32),
+            Metering::Manual => Err(0.0),
+            Metering::Fixed { metered_ev } => Err(metered_ev),
+            Metering::Instant => Ok(1.0),
+            Metering::Adapting { secs } => Ok((1.0 - (-secs.max(0.0) / ADAPTATION_SECS).exp()) as f32),
         }
     }
 }
@@ -70,9 +72,13 @@ impl ExposurePass {
         viewport_px: [u32; 4],
         metering: Metering,
     ) {
-        let Some(share) = metering.share() else {
-            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[1.0_f32, 0.0, 0.0, 0.0]));
-            return;
+        let share = match metering.share() {
+            Ok(share) => share,
+            Err(ev) => {
+                let ev = ev as f32;
+                queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, 0.0, 0.0]));
+                return;
+            }
         };
         let [x, y, width, height] = viewport_px;
         let step = MeterStep { origin_px: UVec2::new(x, y), size_px: UVec2::new(width, height), share };

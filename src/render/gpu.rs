@@ -117,6 +117,8 @@ pub(crate) struct ScreenPipelineDescriptor<'a> {
     pub(crate) writes_depth: bool,
     /// Whether the target encodes sRGB in hardware: the shader constant TARGET_ENCODES_SRGB.
     pub(crate) encodes_srgb: bool,
+    /// Whether the target takes linear values: the shader constant TARGET_IS_LINEAR.
+    pub(crate) is_linear: bool,
 }
 
 /// Creates a full-screen pipeline.
@@ -124,7 +126,8 @@ pub(crate) fn screen_pipeline(
     device: &wgpu::Device,
     of: &ScreenPipelineDescriptor<'_>,
 ) -> Result<wgpu::RenderPipeline, RenderError> {
-    let constants = [("TARGET_ENCODES_SRGB", 1.0)];
+    let constants = [("TARGET_ENCODES_SRGB", of.encodes_srgb), ("TARGET_IS_LINEAR", of.is_linear)];
+    let constants: Vec<_> = constants.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| (name, 1.0)).collect();
     checked(device, of.entry, || {
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(of.entry),
@@ -139,7 +142,7 @@ pub(crate) fn screen_pipeline(
                 module: of.module,
                 entry_point: Some("fragment"),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: if of.encodes_srgb { &constants } else { &[] },
+                    constants: &constants,
                     ..wgpu::PipelineCompilationOptions::default()
                 },
                 targets: of.targets,

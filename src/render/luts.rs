@@ -83,6 +83,7 @@ impl LutPipelines {
                 targets: &[Some(RADIANCE_FORMAT.into())],
                 writes_depth: false,
                 encodes_srgb: false,
+                is_linear: false,
             };
             gpu::screen_pipeline(device, &description)
         };

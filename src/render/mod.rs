@@ -10,6 +10,7 @@
 //!   `horizon_pool`; then `water`
 //! - air stage: `clouds`, `air`; `copy` where there is no air
 //! - post-process: `exposure` (compute), `tonemap` with `tone` and `white_balance`, `antialias`, `display`
+//! - `photo`: pictures of any size, in tiles, of many samples, through a lens
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
 //!   (of `material_kinds`, by `material_noise`)
 //! - `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes, checks, hot reload
@@ -40,6 +41,7 @@ mod material_noise;
 mod morph;
 mod noise_tile;
 mod passes;
+mod photo;
 mod pool;
 mod prepared;
 mod renderer;
@@ -63,6 +65,7 @@ pub(crate) use cloud_map::cloud_keyframe;
 pub use error::RenderError;
 pub use gpu::{read_texture, texture};
 pub use luts::LutRuns;
+pub use photo::{Develop, Lens, Photo};
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
 pub use scene::{Body, BodyId, DebugView, Matrices, Metering, Post, Projection, Scene, Sun, ViewId, split_position};

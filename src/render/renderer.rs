@@ -304,6 +304,26 @@ impl Renderer {
         Ok(([width, height], bytes.chunks_exact(8).map(pixel).collect()))
     }
 
+    /// The exposure that the newest [`Renderer::render`] of a view metered, in stops: for [`super::Metering::Fixed`].
+    /// 0 for a view that was not drawn. Waits for the device.
+    ///
+    /// # Errors
+    /// [`RenderError::Device`]: the device does not answer.
+    pub fn metered_ev(&self, id: ViewId) -> Result<f64, RenderError> {
+        let Some(view) = self.views.get(&id) else { return Ok(0.0) };
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("metered"),
+            size: 16,
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(&view.exposure.result, 0, &buffer, 0, 16);
+        self.queue.submit([encoder.finish()]);
+        let bytes = gpu::read(&self.device, &buffer)?;
+        Ok(f64::from(f32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]])))
+    }
+
     /// Group 0 of a frame and a body.
     pub(crate) fn uniform_group(&self, frame: &UniformBuffer, body: &UniformBuffer) -> wgpu::BindGroup {
         self.shared.group(&self.device, frame, body)

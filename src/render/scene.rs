@@ -136,6 +136,13 @@ pub enum Metering {
     Manual,
     /// `exposure_ev` corrects the exposure metered from this picture.
     Instant,
+    /// `exposure_ev` corrects an exposure that was metered before, in stops: [`Renderer::metered_ev`].
+    ///
+    /// [`Renderer::metered_ev`]: super::Renderer::metered_ev
+    Fixed {
+        /// The metered exposure, stops.
+        metered_ev: f64,
+    },
     /// As [`Metering::Instant`], but the exposure follows the picture over time, as an eye adapts.
     Adapting {
         /// Seconds since the last picture.

@@ -156,6 +156,7 @@ impl ScreenPipeline {
             targets: &targets,
             writes_depth: self.pass.depth.is_some(),
             encodes_srgb: output.is_some_and(|format| format.is_srgb()),
+            is_linear: output == Some(wgpu::TextureFormat::Rgba32Float),
         };
         let pipeline = gpu::screen_pipeline(device, &description)?;
         pipelines.insert(output, pipeline.clone());

@@ -46,6 +46,7 @@ impl Renderer {
             targets: &[Some(FORMAT.into()), Some(FORMAT.into())],
             writes_depth: false,
             encodes_srgb: false,
+            is_linear: false,
         };
         let pipeline = gpu::screen_pipeline(device, &description)?;
         let input = ray_texture(device, queue, rays);

@@ -39,9 +39,12 @@ fn broken(folder: &tempfile::TempDir) -> PathBuf {
 #[test]
 fn wrong_usage_is_status_2_and_says_what_would_be_right() {
     for (args, part) in [
-        (vec!["render"], "--output <OUT.png>"),
-        (vec!["render", LAYERED], "--output <OUT.png>"),
-        (vec!["render", LAYERED, "-o", "x.png", "--size", "0x9"], "each 1 to 8192, such as 1280x720"),
+        (vec!["render"], "--output <OUT.png|OUT.exr>"),
+        (vec!["render", LAYERED], "--output <OUT.png|OUT.exr>"),
+        (vec!["render", LAYERED, "-o", "x.png", "--size", "0x9"], "each 1 to 32768, such as 1280x720"),
+        (vec!["render", LAYERED, "-o", "x.png", "--samples", "40"], "use 1 to 16"),
+        (vec!["render", LAYERED, "-o", "x.png", "--aperture", "1"], "--focus <METRES>"),
+        (vec!["render", LAYERED, "-o", "x.png", "--fov", "50", "--focal", "50"], "cannot be used with"),
         (vec!["render", LAYERED, "-o", "x.png", "--lat", "91"], "91 is out of range; use -90 to 90"),
         (vec!["render", LAYERED, "-o", "x.png", "--sun", "5"], "write LAT,LON such as 20,-45"),
         (vec!["render", LAYERED, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),

@@ -112,7 +112,7 @@ fn the_hand_over_shows_no_step() {
         let lights = lights(&gpu.draw(&scene));
         f64::from(lights.iter().sum::<u32>()) / lights.len() as f64
     };
-    // The pixel of a picture of 180 rows at the default field of view is half of the layer's thickness at this altitude.
+    // At this altitude a pixel of 180 rows is half as wide as the layer is thick.
     let clouds = Clouds::default();
     let pixel_rad = 2.0 * (0.5 * tellus::lod::Camera::DEFAULT_FOV_Y_RAD).tan() / 180.0;
     for render_scale in [0.5, 1.0, 2.0] {

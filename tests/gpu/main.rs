@@ -7,6 +7,7 @@
 //! - `lakes`: water of planets with a structure
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
+//! - `photo`: photographs: tiles, samples, the lens
 //! - `render`: passes, stages and errors of the renderer
 //! - `scene`: several bodies, the caller's targets, projections and viewports
 //! - `sea`: waves, the view from below, floes
@@ -20,6 +21,7 @@ mod edges;
 mod lakes;
 mod lod_pictures;
 mod materials;
+mod photo;
 mod planets;
 mod render;
 mod scene;
