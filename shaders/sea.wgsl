@@ -118,7 +118,7 @@ fn water_surface(water: Water, calm_m: vec3f, up: vec3f, variance: f32, noise: f
     let step_x = pixel_step(calm_m, up, body.pixel_right);
     let step_y = pixel_step(calm_m, up, body.pixel_up);
     let depth_m = 0.5 * (water.depths_m.x + water.depths_m.y);
-    var waves = waves_at(calm_m, up, step_x, step_y, depth_m, body.wave_count);
+    var waves = waves_at(calm_m, up, step_x, step_y, depth_m);
     // From afar the few waves that are drawn would make a lattice: there they come in groups.
     let groups = mix(1.0, saturate1(0.75 + 1.1 * noise) + 0.1, smoothstep(300.0, 1500.0, length(calm_m)));
     let scale = sqrt(variance / max(body.wave_slope_variance, 1e-6)) * groups;
@@ -188,8 +188,8 @@ fn caustics(calm_m: vec3f, up: vec3f, depth_m: f32, footprint_m: f32, first: u32
     return mix(1.0, min(focus, 4.0) * 0.78, fades);
 }
 
-// The sky is brighter around a low sun than away from it; the LUT has the mean over all azimuths. The mean of the factor
-// is 1; by eye.
+// The sky is brighter around a low sun than away from it; the LUT has the mean over all azimuths. The mean of the
+// factor is 1; by eye.
 fn glow_around(cosine: f32, sun_mu: f32) -> f32 {
     let low = 1.0 - saturate1(abs(sun_mu));
     return mix(1.0, 0.65 + 2.24 * pow(max(cosine, 0.0), 6.0), low * low);

@@ -76,7 +76,7 @@ fn from_below(dir: vec3f, surface_km: f32, up: vec3f, deep: vec3f) -> vec3f {
     let calm_m = rel_m - up * lift_m;
     let step_x = pixel_step(calm_m, up, body.pixel_right);
     let step_y = pixel_step(calm_m, up, body.pixel_up);
-    let waves = waves_at(calm_m, up, step_x, step_y, 1e4, body.wave_count);
+    let waves = waves_at(calm_m, up, step_x, step_y, 1e4);
     let normal = normalize(up - waves.slope * skewed(waves).y);
     let cosine = max(dot(dir, normal), 0.02);
     let bent = INDEX * INDEX * (1.0 - cosine * cosine);

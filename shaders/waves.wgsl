@@ -24,12 +24,11 @@ const WAVE_LOST: f32 = 1.9;
 const BREAKING_PER_M: f32 = 4.2;
 
 // Sums the waves at a point of the calm sea. `step_x`, `step_y`: steps to the next pixel along the water, metres.
-// `depth_m`: of the water; waves longer than twice the depth are lower (Kitaigorodskii 1975). `count`: waves to sum up,
-// longest first.
-fn waves_at(calm_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, depth_m: f32, count: u32) -> WaveSum {
+// `depth_m`: of the water; waves longer than twice the depth are lower (Kitaigorodskii 1975).
+fn waves_at(calm_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, depth_m: f32) -> WaveSum {
     var out = WaveSum(0.0, vec3f(0.0), 0.0, 0.0, 0.0, 0.0);
     let least_step = min(length(step_x), length(step_y));
-    for (var i = 0u; i < count; i++) {
+    for (var i = 0u; i < body.wave_count; i++) {
         let wave = body.waves[i];
         let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
         let k = length(along);
@@ -62,9 +61,6 @@ fn skewed(waves: WaveSum) -> vec2f {
     return vec2f(height_m, max(1.0 + 2.0 * WAVE_SKEW * x, LEAST_SKEWED));
 }
 
-// Longest waves that displace the surface; shorter ones only tilt it.
-const DISPLACING: u32 = 48u;
-
 // Where a ray meets the displaced sea, km; `flat_km` is where it meets the calm sea, a negative number if nowhere.
 // `sine`: of the ray over the horizon. Rays start at the eye, above the waves or below.
 fn displaced_km(dir: vec3f, flat_km: f32, sine: f32, depth_m: f32) -> f32 {
@@ -83,20 +79,19 @@ fn displaced_km(dir: vec3f, flat_km: f32, sine: f32, depth_m: f32) -> f32 {
     near_m = max(near_m, 0.0);
     if near_m > far_m || to_m <= 0.0 { return flat_km; }
     to_m = min(to_m, far_m);
-    let count = min(body.wave_count, DISPLACING);
     var before = vec2f(near_m, 1.0);
     for (var i = 1u; i <= body.wave_steps; i++) {
         // Steps grow with distance.
         let share = f32(i) / f32(body.wave_steps);
         let at_m = near_m + (to_m - near_m) * share * mix(share, 1.0, 0.5);
-        let over = wave_gap(dir, at_m, depth_m, count) * -towards;
+        let over = wave_gap(dir, at_m, depth_m) * -towards;
         if over <= 0.0 {
             // Regula falsi between the last two steps.
             var outer = before;
             var inner = vec2f(at_m, over);
             for (var j = 0u; j < 4u; j++) {
                 let between = mix(outer.x, inner.x, clamp(outer.y / max(outer.y - inner.y, 1e-6), 0.05, 0.95));
-                let gap = wave_gap(dir, between, depth_m, count) * -towards;
+                let gap = wave_gap(dir, between, depth_m) * -towards;
                 if gap > 0.0 { outer = vec2f(between, gap); } else { inner = vec2f(between, gap); }
             }
             return mix(outer.x, inner.x, clamp(outer.y / max(outer.y - inner.y, 1e-6), 0.0, 1.0)) * 0.001;
@@ -107,13 +102,13 @@ fn displaced_km(dir: vec3f, flat_km: f32, sine: f32, depth_m: f32) -> f32 {
 }
 
 // Height of a point of a ray over the waves, metres.
-fn wave_gap(dir: vec3f, at_m: f32, depth_m: f32, count: u32) -> f32 {
+fn wave_gap(dir: vec3f, at_m: f32, depth_m: f32) -> f32 {
     let rel_m = dir * at_m;
     let radius_m = (body.radius_km + body.sea_level_km) * 1000.0;
     let sine = dot(dir, body.eye_up);
     let over_m = body.eye_over_sea_km * 1000.0 + at_m * sine + at_m * at_m * (1.0 - sine * sine) / (2.0 * radius_m);
     let up = normalize(body.eye_up * radius_m + rel_m);
     let step = vec3f(at_m * frame.pixel_rad, 0.0, 0.0);
-    let waves = waves_at(rel_m - up * over_m, up, step, step, depth_m, count);
+    let waves = waves_at(rel_m - up * over_m, up, step, step, depth_m);
     return over_m - skewed(waves).x;
 }

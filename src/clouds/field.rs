@@ -131,8 +131,8 @@ impl CloudField {
         (self.drift_rad_s * time_secs).rem_euclid(TAU)
     }
 
-    #[cfg(feature = "render")]
     /// Offsets of the log-odds of the target cover with which the mean covers of clouds and veil are those asked for.
+    #[cfg(any(feature = "render", test))]
     pub(crate) fn offsets(&self) -> [f64; 2] {
         self.offsets
     }

@@ -14,4 +14,5 @@ mod wind;
 #[cfg(feature = "render")]
 pub(crate) use waves::{LEAST_SKEWED, MOST_WAVES, SKEW};
 pub use waves::{WaterSurface, Waves};
+#[cfg(feature = "render")]
 pub(crate) use wind::relative_wind;

@@ -20,8 +20,9 @@ const DIRECTIONS: (usize, usize) = (44, 20);
 const SHORT_PER_M: f64 = 0.9;
 /// The most waves of a place.
 pub(crate) const MOST_WAVES: usize = 80;
-/// Waves of less slope are left out.
-const LEAST_SLOPE: f64 = 4e-4;
+/// Waves of less slope that are also lower are left out.
+const LEAST_SLOPE: f64 = 1e-3;
+const LEAST_M: f64 = 0.02;
 /// Where the wave vector leans out of the tangent plane, the wave is longer: its tangential part below which it is left
 /// out, and from which it counts in full.
 const TANGENT: (f64, f64) = (0.7, 0.95);
@@ -89,12 +90,10 @@ impl Waves {
         let mut waves: Vec<Wave> =
             (0..BANDS).flat_map(|band| band_of(band, up, &spectrum, &blowing, &swelling)).collect();
         let slope = |wave: &Wave| wave.amplitude_m * wave.vector_per_m.reject_from(up).length();
-        waves.retain(|wave| slope(wave) > LEAST_SLOPE);
-        if waves.len() > MOST_WAVES {
-            waves.sort_by(|a, b| slope(b).total_cmp(&slope(a)));
-            waves.truncate(MOST_WAVES);
-        }
+        waves.retain(|wave| slope(wave) > LEAST_SLOPE || wave.amplitude_m > LEAST_M);
         waves.sort_by(|a, b| a.vector_per_m.length_squared().total_cmp(&b.vector_per_m.length_squared()));
+        // The shortest are the first to become roughness.
+        waves.truncate(MOST_WAVES);
         let deviation_m = libm::sqrt(waves.iter().map(|wave| 0.5 * wave.amplitude_m * wave.amplitude_m).sum());
         Self { waves, level_m: water.level_m, radius_m: planet.radius_m(), deviation_m }
     }

@@ -12,7 +12,8 @@ use tellus::terrain::Revision;
 pub fn full_planet() -> Planet {
     let mut planet = Planet {
         radius_km: 1500.0,
-        water: Some(Water::default()),
+        // A young sea, whose waves grow with the fetch, and that glows.
+        water: Some(Water { fetch_km: 8.0, glow: 0.1, ..Water::default() }),
         atmosphere: Some(Atmosphere::default()),
         clouds: Some(Clouds::default()),
         ..Planet::default()
