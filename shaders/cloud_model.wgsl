@@ -1,5 +1,6 @@
 // Density of the clouds: the cloud maps give the cover, and a tiling noise carves single clouds out of it.
 #include "light.wgsl"
+#include "nearness.wgsl"
 
 // Rotates a position about the pole: the wind carries the cloud layer.
 fn drifted(p: vec3f) -> vec3f {
@@ -31,7 +32,7 @@ fn cover_of(rank: f32, odds: f32) -> f32 {
 // beads.
 fn shifted(dir: vec3f, texel_km: f32, footprint: f32) -> vec3f {
     let share = 1.0 - smoothstep(0.3, 1.0, footprint / texel_km);
-    if share <= 0.0 { return vec3f(0.0); }
+    if NEARNESS == FROM_ORBIT || share <= 0.0 { return vec3f(0.0); }
     let band = body.cloud_bands[1];
     let rel = drifted(dir * body.radius_km - body.eye_km);
     let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1.0));

@@ -50,6 +50,9 @@ fn ice_at(water: Water, rel_m: vec3f, up: vec3f, footprint_m: f32, variation: f3
     if closed <= 0.0 { return Ice(0.0, thick); }
     // Bent, so that edges of floes are no straight lines.
     let bend = vec3f(variation, broad, variation - broad) * 0.25;
+    // The mean of floes too small to be seen.
+    let mean = mix(closed * 0.9, 1.0, closed * closed);
+    if NEARNESS == FROM_ORBIT { return Ice(mean, thick); }
     var share = 1.0;
     var albedo = thick;
     var width_cells = footprint_m * body.floes_per_m;
@@ -74,8 +77,6 @@ fn ice_at(water: Water, rel_m: vec3f, up: vec3f, footprint_m: f32, variation: f3
         scale *= 4.0;
         width_cells *= 4.0;
     }
-    // The mean of floes too small to be seen.
-    let mean = mix(closed * 0.9, 1.0, closed * closed);
     let far = smoothstep(0.15, 0.5, footprint_m * body.floes_per_m);
     return Ice(mix(share, mean, far), albedo);
 }

@@ -103,7 +103,7 @@ fn exceeded_by(share: f32) -> f32 {
 
 // Foam is lace: a share of a surface whitens where a fine noise exceeds it.
 fn lace(share: f32, rel_m: vec3f, footprint_m: f32) -> f32 {
-    if share <= 0.0 || footprint_m > 0.4 { return share; }
+    if NEARNESS < FROM_GROUND || share <= 0.0 || footprint_m > 0.4 { return share; }
     let octave = body.variation[VARIATION_OCTAVES - 1];
     let lod = max(log2(footprint_m * NOISE_TILE_SIDE / octave.period), 0.0);
     let at = octave.offset + rel_m / octave.period;
@@ -168,7 +168,7 @@ const FIRST_LENS: u32 = 26u;
 const LAST_LENS: u32 = 56u;
 
 fn caustics(calm_m: vec3f, up: vec3f, depth_m: f32, footprint_m: f32, first: u32, last: u32) -> f32 {
-    if footprint_m > 0.6 || body.wave_count < first + 4u { return 1.0; }
+    if NEARNESS < FROM_GROUND || footprint_m > 0.6 || body.wave_count < first + 4u { return 1.0; }
     var bend = 0.0;
     var variance = 0.0;
     for (var i = first; i < min(last, body.wave_count); i++) {

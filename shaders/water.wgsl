@@ -43,7 +43,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let ground = Output(scene, textureLoad(scene_depth, pixel, 0));
     let sine = dot(dir, body.eye_up);
 
-    if body.eye_is_under == 1u {
+    if NEARNESS == FROM_GROUND && body.eye_is_under == 1u {
         let surface_km = displaced_km(dir, select(-1.0, hits.y, hits.y > 0.0), sine, 1e4);
         let light = underwater(dir, scene.rgb, terrain, surface_km);
         // Water hides what is farther: the air's light must not cover it.

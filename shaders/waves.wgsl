@@ -1,5 +1,6 @@
 // Waves of the sea: the plane waves of the eye's place (src/sea), filtered by the size of a pixel.
 #include "macro_variation.wgsl"
+#include "nearness.wgsl"
 
 // Sum of waves at a point.
 struct WaveSum {
@@ -27,6 +28,7 @@ const BREAKING_PER_M: f32 = 4.2;
 // `depth_m`: of the water; waves longer than twice the depth are lower (Kitaigorodskii 1975).
 fn waves_at(calm_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, depth_m: f32) -> WaveSum {
     var out = WaveSum(0.0, vec3f(0.0), 0.0, 0.0, 0.0, 0.0);
+    if NEARNESS == FROM_ORBIT { return out; }
     let least_step = min(length(step_x), length(step_y));
     for (var i = 0u; i < body.wave_count; i++) {
         let wave = body.waves[i];
@@ -64,7 +66,7 @@ fn skewed(waves: WaveSum) -> vec2f {
 // Where a ray meets the displaced sea, km; `flat_km` is where it meets the calm sea, a negative number if nowhere.
 // `sine`: of the ray over the horizon. Rays start at the eye, above the waves or below.
 fn displaced_km(dir: vec3f, flat_km: f32, sine: f32, depth_m: f32) -> f32 {
-    if body.wave_steps == 0u { return flat_km; }
+    if NEARNESS < FROM_GROUND || body.wave_steps == 0u { return flat_km; }
     let reach_m = 4.0 * body.wave_deviation_m;
     let over_m = body.eye_over_sea_km * 1000.0;
     let is_under = body.eye_is_under == 1u;

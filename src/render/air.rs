@@ -16,5 +16,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     ],
     writes: &[writes(Target::AfterAir), Output { target: Target::Stars, multiplies: true }],
     depth: None,
+    by_nearness: false,
     runs: |work| work.shaded,
 };

@@ -10,5 +10,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Sample(Target::Toned)],
     writes: &[writes(Target::Smoothed)],
     depth: None,
+    by_nearness: false,
     runs: |work| work.shaded && work.smooth_edges,
 };

@@ -10,5 +10,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Load(Target::BeforeAir), Input::Depth(Target::Depth)],
     writes: &[writes(Target::CloudLight), writes(Target::CloudDistance)],
     depth: None,
+    by_nearness: true,
     runs: |work| work.shaded && work.clouds,
 };

@@ -10,5 +10,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Load(Target::BeforeAir)],
     writes: &[writes(Target::AfterAir), Output { target: Target::Stars, multiplies: true }],
     depth: None,
+    by_nearness: false,
     runs: |_| true,
 };

@@ -10,5 +10,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Sample(Target::Picture)],
     writes: &[writes(Target::Output)],
     depth: None,
+    by_nearness: false,
     runs: |_| true,
 };

@@ -1,6 +1,7 @@
 //! Small wgpu helpers for all passes: bind group layouts, full-screen pipelines, error scopes, reading back.
 
 use super::RenderError;
+use super::nearness::Nearness;
 use super::targets::DEPTH_FORMAT;
 use std::future::Future;
 use std::pin::pin;
@@ -119,6 +120,8 @@ pub(crate) struct ScreenPipelineDescriptor<'a> {
     pub(crate) encodes_srgb: bool,
     /// Whether the target takes linear values: the shader constant TARGET_IS_LINEAR.
     pub(crate) is_linear: bool,
+    /// The value of the shader constant NEARNESS, if the shader has it.
+    pub(crate) nearness: Option<Nearness>,
 }
 
 /// Creates a full-screen pipeline.
@@ -127,7 +130,12 @@ pub(crate) fn screen_pipeline(
     of: &ScreenPipelineDescriptor<'_>,
 ) -> Result<wgpu::RenderPipeline, RenderError> {
     let constants = [("TARGET_ENCODES_SRGB", of.encodes_srgb), ("TARGET_IS_LINEAR", of.is_linear)];
-    let constants: Vec<_> = constants.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| (name, 1.0)).collect();
+    let constants: Vec<_> = constants
+        .into_iter()
+        .filter(|(_, holds)| *holds)
+        .map(|(name, _)| (name, 1.0))
+        .chain(of.nearness.map(Nearness::constant))
+        .collect();
     checked(device, of.entry, || {
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(of.entry),

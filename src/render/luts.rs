@@ -84,6 +84,7 @@ impl LutPipelines {
                 writes_depth: false,
                 encodes_srgb: false,
                 is_linear: false,
+                nearness: None,
             };
             gpu::screen_pipeline(device, &description)
         };

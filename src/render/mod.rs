@@ -6,6 +6,7 @@
 //!
 //! - `scene`: what is drawn. `renderer`: resources and preparation. `prepared`: the stages. `error`: what can go wrong
 //! - `passes`: the list of all passes; `screen_pass`: a pass over all pixels; `targets`: the textures between them
+//! - `nearness`: pipelines for distant views leave out what no pixel resolves
 //! - opaque stage: `morph` (compute), `terrain` with `ground_view`, `body_tiles`, `pool`, `layer_pool`, `detail_pool`,
 //!   `horizon_pool`; then `water`
 //! - air stage: `clouds`, `air`; `copy` where there is no air
@@ -39,6 +40,7 @@ mod material_kinds;
 mod material_maps;
 mod material_noise;
 mod morph;
+mod nearness;
 mod noise_tile;
 mod passes;
 mod photo;

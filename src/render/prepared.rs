@@ -1,5 +1,6 @@
 //! A frame whose uniforms, tiles and LUTs are on the GPU: the stages that the caller records.
 
+use super::nearness::Nearness;
 use super::renderer::{Renderer, ViewResources};
 use super::scene::BodyId;
 use super::screen_pass::{Drawing, ScreenPipeline, Work};
@@ -127,15 +128,20 @@ impl<'r> PreparedFrame<'r> {
                 viewport_px: self.plan.viewport_px,
                 load: load && !under_sea,
                 lines: self.plan.lines,
+                nearness: body.work.nearness,
             };
             let groups = [&body_view.group, resources.luts.group()];
             let pass = &self.renderer.pipelines.terrain;
             let tiles = (&resources.tiles, &body_view.ground);
-            let drawn = pass.draw(encoder, &self.renderer.indices, groups, tiles, &ground);
+            let device = &self.renderer.device;
+            let drawn = pass.draw((device, encoder), &self.renderer.indices, groups, tiles, &ground)?;
             stats.tiles_drawn += drawn.tiles_drawn;
             stats.triangles += drawn.triangles;
             for pass in self.running(&self.renderer.pipelines.opaque, &body.work) {
-                pass.draw(encoder, &self.drawing(view, &groups, &texture, load))?;
+                pass.draw(
+                    encoder,
+                    &Drawing { nearness: body.work.nearness, ..self.drawing(view, &groups, &texture, load) },
+                )?;
             }
             load = true;
         }
@@ -180,7 +186,7 @@ impl<'r> PreparedFrame<'r> {
             let groups = [&body_view.group, resources.luts.group()];
             for pass in self.running(&self.renderer.pipelines.air, &body.work) {
                 let drawing = self.drawing(view, &groups, &texture, number > 0);
-                pass.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), ..drawing })?;
+                pass.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), nearness: body.work.nearness, ..drawing })?;
             }
         }
         if with_air.is_empty() {
@@ -310,6 +316,7 @@ impl<'r> PreparedFrame<'r> {
             texture,
             exposure: &view.exposure.result,
             viewport_px: self.plan.viewport_px,
+            nearness: Nearness::Orbit,
             load,
             keeps_rest: false,
         }

@@ -3,6 +3,7 @@
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::luts::{LutRuns, Luts, Patterns};
+use super::nearness::Nearness;
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
 use super::scene::{Body, BodyId, DebugView, Scene, ViewId};
@@ -210,7 +211,7 @@ impl Renderer {
             return Err(RenderError::BodyTwice(twice.id.0));
         }
         self.reload_shaders();
-        let plan = plan(scene, drawn, has_own_targets);
+        let mut plan = plan(scene, drawn, has_own_targets);
         let (device, queue) = (&self.device, &self.queue);
         let group = |frame: &UniformBuffer, body: &UniformBuffer| self.shared.group(device, frame, body);
         let view = self.views.entry(scene.view_id).or_insert_with(|| {
@@ -225,8 +226,9 @@ impl Renderer {
         for owned in plan.owned() {
             view.targets.make(device, owned);
         }
-        let frame_written = view.frame.write(queue, &uniforms::frame(scene, drawn));
-        for (number, planned) in plan.bodies.iter().enumerate() {
+        let frame_values = uniforms::frame(scene, drawn);
+        let frame_written = view.frame.write(queue, &frame_values);
+        for (number, planned) in plan.bodies.iter_mut().enumerate() {
             let body = &scene.bodies[planned.index];
             let resources =
                 self.bodies.entry(body.id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
@@ -241,6 +243,7 @@ impl Renderer {
             let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene);
             (values.cloud_offset, values.veil_offset) = (clouds.offset, clouds.veil_offset);
             (values.cloud_odd_share, values.cloud_least_level) = (clouds.odd_share, clouds.least_level);
+            planned.work.nearness = Nearness::of(&values, frame_values.pixel_rad);
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
             resources.begin_view(scene.view_id);
@@ -374,7 +377,9 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage.max(clouds.veil) > 0.0)
             && body.marked.is_none();
         let sea = body.planet().water.is_some();
-        let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges };
+        // Known only when the body is prepared.
+        let nearness = Nearness::Ground;
+        let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges, nearness };
         // The farthest body brings the stars, whether it has air or not.
         let has_air = shaded && (number == 0 || clouds || body.planet().atmosphere.is_some());
         PlannedBody { id: body.id, index, work, has_air }
@@ -387,7 +392,13 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         bodies,
         lines: scene.debug_view == DebugView::Wireframe,
         metering: if shaded { scene.post.metering } else { Metering::Manual },
-        post: Work { shaded, sea: false, clouds: false, smooth_edges: scene.post.smooth_edges },
+        post: Work {
+            shaded,
+            sea: false,
+            clouds: false,
+            smooth_edges: scene.post.smooth_edges,
+            nearness: Nearness::Orbit,
+        },
     }
 }
 

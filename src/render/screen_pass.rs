@@ -1,6 +1,7 @@
 //! A pass over all pixels of the picture: its description, and its pipeline.
 
 use super::gpu::{self, Slot};
+use super::nearness::Nearness;
 use super::targets::Target;
 use super::{RenderError, shaders};
 use std::collections::HashMap;
@@ -51,6 +52,8 @@ pub(crate) struct Work {
     pub(crate) clouds: bool,
     /// Edges are smoothed.
     pub(crate) smooth_edges: bool,
+    /// How near the eye is to the body.
+    pub(crate) nearness: Nearness,
 }
 
 /// A pass over all pixels of the picture.
@@ -62,6 +65,8 @@ pub(crate) struct ScreenPass {
     pub(crate) writes: &'static [Output],
     /// A depth texture that the pass tests and writes.
     pub(crate) depth: Option<Target>,
+    /// Whether its shader has the constant of [`Nearness`].
+    pub(crate) by_nearness: bool,
     /// When it runs.
     pub(crate) runs: fn(&Work) -> bool,
 }
@@ -73,14 +78,17 @@ pub(crate) struct Shared<'a> {
     pub(crate) luts: &'a wgpu::BindGroupLayout,
 }
 
+/// Format of the output, and nearness.
+type Kind = (Option<wgpu::TextureFormat>, Option<Nearness>);
+
 /// The pipeline of a pass.
 pub(crate) struct ScreenPipeline {
     pub(crate) pass: &'static ScreenPass,
     inputs: wgpu::BindGroupLayout,
     layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    /// By the format of the output; the same for all formats where the pass does not write the output.
-    pipelines: Mutex<HashMap<Option<wgpu::TextureFormat>, wgpu::RenderPipeline>>,
+    /// By the format of the output, if the pass writes it, and by nearness, if its shader knows it.
+    pipelines: Mutex<HashMap<Kind, wgpu::RenderPipeline>>,
 }
 
 /// What a pass is drawn with.
@@ -92,6 +100,8 @@ pub(crate) struct Drawing<'a> {
     pub(crate) exposure: &'a wgpu::Buffer,
     /// Left, top, width and height in the targets.
     pub(crate) viewport_px: [u32; 4],
+    /// How near the eye is to the body.
+    pub(crate) nearness: Nearness,
     /// Whether the targets keep what they hold; if not they are cleared.
     pub(crate) load: bool,
     /// Whether the caller's targets keep what they hold outside of the viewport.
@@ -122,19 +132,21 @@ impl ScreenPipeline {
         let made = Self { pass, inputs, layout, module, pipelines: Mutex::default() };
         let writes_output = pass.writes.iter().any(|output| output.target == Target::Output);
         if !writes_output {
-            made.pipeline(device, None)?;
+            made.pipeline(device, None, Nearness::Orbit)?;
         }
         Ok(made)
     }
 
-    /// The pipeline for a format of the output.
+    /// The pipeline for a format of the output and a distance of the eye.
     fn pipeline(
         &self,
         device: &wgpu::Device,
         output: Option<wgpu::TextureFormat>,
+        nearness: Nearness,
     ) -> Result<wgpu::RenderPipeline, RenderError> {
+        let nearness = self.pass.by_nearness.then_some(nearness);
         let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = pipelines.get(&output) {
+        if let Some(pipeline) = pipelines.get(&(output, nearness)) {
             return Ok(pipeline.clone());
         }
         let multiply = wgpu::BlendComponent {
@@ -157,9 +169,10 @@ impl ScreenPipeline {
             writes_depth: self.pass.depth.is_some(),
             encodes_srgb: output.is_some_and(|format| format.is_srgb()),
             is_linear: output == Some(wgpu::TextureFormat::Rgba32Float),
+            nearness,
         };
         let pipeline = gpu::screen_pipeline(device, &description)?;
-        pipelines.insert(output, pipeline.clone());
+        pipelines.insert((output, nearness), pipeline.clone());
         Ok(pipeline)
     }
 
@@ -168,7 +181,7 @@ impl ScreenPipeline {
         let pass = self.pass;
         let output = pass.writes.iter().find(|output| output.target == Target::Output);
         let format = output.and_then(|output| (with.texture)(output.target)).map(|view| view.texture().format());
-        let pipeline = self.pipeline(with.device, format)?;
+        let pipeline = self.pipeline(with.device, format, with.nearness)?;
         let resource = |input: &Input| match input {
             Input::Load(target) | Input::Sample(target) | Input::Depth(target) => {
                 (with.texture)(*target).map(wgpu::BindingResource::TextureView)

@@ -6,15 +6,17 @@ use super::gpu;
 use super::ground_view::{GroundView, INSTANCE_BYTES};
 use super::horizon_pool::HORIZON;
 use super::morph::SHOWN_ATTRIBUTES;
+use super::nearness::Nearness;
 use super::screen_pass::Shared;
 use super::shared::SHOWN_BYTES;
 use super::targets::{RADIANCE_FORMAT, Target};
 use super::{FrameStats, RenderError, shaders};
 use crate::lod::stitch;
 use crate::lod::tile::Vertex;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::mem::offset_of;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 use wgpu::util::DeviceExt;
 
 /// The attributes of a vertex that the shader reads. Height and climate come from morphing.
@@ -31,18 +33,37 @@ const fn attribute(shader_location: u32, format: wgpu::VertexFormat, offset: usi
     wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
 }
 
+const ENTRY: &str = "terrain.wgsl";
+
 /// Pipelines of the ground.
 pub(crate) struct TerrainPass {
-    filled: wgpu::RenderPipeline,
-    wireframe: wgpu::RenderPipeline,
+    layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    /// By whether edges alone are drawn, and by nearness.
+    pipelines: Mutex<HashMap<(bool, Nearness), wgpu::RenderPipeline>>,
 }
 
 impl TerrainPass {
     pub(crate) fn new(device: &wgpu::Device, shared: Shared<'_>) -> Result<Self, RenderError> {
-        const ENTRY: &str = "terrain.wgsl";
         let module = shaders::module(device, ENTRY)?;
         let (detail, horizon) = (DETAIL.layout(device), HORIZON.layout(device));
         let layout = gpu::pipeline_layout(device, ENTRY, &[shared.uniforms, shared.luts, &detail, &horizon]);
+        let made = Self { layout, module, pipelines: Mutex::default() };
+        made.pipeline(device, false, Nearness::Orbit)?;
+        Ok(made)
+    }
+
+    /// The pipeline for triangles or their edges, and a distance of the eye.
+    fn pipeline(
+        &self,
+        device: &wgpu::Device,
+        lines: bool,
+        nearness: Nearness,
+    ) -> Result<wgpu::RenderPipeline, RenderError> {
+        let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = pipelines.get(&(lines, nearness)) {
+            return Ok(pipeline.clone());
+        }
         let buffer = |array_stride, step_mode, attributes| {
             Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes })
         };
@@ -53,35 +74,39 @@ impl TerrainPass {
         ];
         let formats =
             [Target::Radiance, Target::GroundSurface].map(|target| target.format().unwrap_or(RADIANCE_FORMAT));
-        let make = |topology, cull_mode| {
-            gpu::checked(device, ENTRY, || {
-                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some(ENTRY),
-                    layout: Some(&layout),
-                    vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some("vertex"),
-                        compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        buffers: &buffers,
-                    },
-                    fragment: Some(wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some("fragment"),
-                        compilation_options: wgpu::PipelineCompilationOptions::default(),
-                        targets: &formats.map(|format| Some(format.into())),
-                    }),
-                    primitive: wgpu::PrimitiveState { topology, cull_mode, ..wgpu::PrimitiveState::default() },
-                    depth_stencil: Some(gpu::depth_state(wgpu::CompareFunction::Greater)),
-                    multisample: wgpu::MultisampleState::default(),
-                    multiview_mask: None,
-                    cache: None,
-                })
-            })
+        let (topology, cull_mode) = match lines {
+            false => (wgpu::PrimitiveTopology::TriangleList, Some(wgpu::Face::Back)),
+            true => (wgpu::PrimitiveTopology::LineList, None),
         };
-        Ok(Self {
-            filled: make(wgpu::PrimitiveTopology::TriangleList, Some(wgpu::Face::Back))?,
-            wireframe: make(wgpu::PrimitiveTopology::LineList, None)?,
-        })
+        let constants = [nearness.constant()];
+        let pipeline = gpu::checked(device, ENTRY, || {
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(ENTRY),
+                layout: Some(&self.layout),
+                vertex: wgpu::VertexState {
+                    module: &self.module,
+                    entry_point: Some("vertex"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: &buffers,
+                },
+                fragment: Some(wgpu::FragmentState {
+                    module: &self.module,
+                    entry_point: Some("fragment"),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: &constants,
+                        ..wgpu::PipelineCompilationOptions::default()
+                    },
+                    targets: &formats.map(|format| Some(format.into())),
+                }),
+                primitive: wgpu::PrimitiveState { topology, cull_mode, ..wgpu::PrimitiveState::default() },
+                depth_stencil: Some(gpu::depth_state(wgpu::CompareFunction::Greater)),
+                multisample: wgpu::MultisampleState::default(),
+                multiview_mask: None,
+                cache: None,
+            })
+        })?;
+        pipelines.insert((lines, nearness), pipeline.clone());
+        Ok(pipeline)
     }
 }
 
@@ -137,18 +162,21 @@ pub(crate) struct GroundTargets<'a> {
     pub(crate) load: bool,
     /// Edges of triangles alone.
     pub(crate) lines: bool,
+    /// How near the eye is to the body.
+    pub(crate) nearness: Nearness,
 }
 
 impl TerrainPass {
     /// Draws the tiles that `view` chose. `groups`: uniforms and LUTs of the body.
     pub(crate) fn draw(
         &self,
-        encoder: &mut wgpu::CommandEncoder,
+        (device, encoder): (&wgpu::Device, &mut wgpu::CommandEncoder),
         indices: &Indices,
         groups: [&wgpu::BindGroup; 2],
         (tiles, view): (&BodyTiles, &GroundView),
         to: &GroundTargets<'_>,
-    ) -> FrameStats {
+    ) -> Result<FrameStats, RenderError> {
+        let pipeline = self.pipeline(device, to.lines, to.nearness)?;
         let attachment = |view, load: bool| {
             let load = if load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
             Some(wgpu::RenderPassColorAttachment {
@@ -164,7 +192,7 @@ impl TerrainPass {
             depth_stencil_attachment: Some(gpu::depth_attachment(to.depth, to.load)),
             ..wgpu::RenderPassDescriptor::default()
         });
-        draw.set_pipeline(if to.lines { &self.wireframe } else { &self.filled });
+        draw.set_pipeline(&pipeline);
         gpu::set_viewport(&mut draw, to.viewport_px);
         draw.set_bind_group(0, groups[0], &[]);
         draw.set_bind_group(1, groups[1], &[]);
@@ -190,6 +218,6 @@ impl TerrainPass {
             stats.tiles_drawn += 1;
             stats.triangles += indices.triangles[tile.mask].len() / 3;
         }
-        stats
+        Ok(stats)
     }
 }

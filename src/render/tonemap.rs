@@ -10,5 +10,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Load(Target::Composite), Input::Exposure, Input::Load(Target::Stars)],
     writes: &[writes(Target::Toned)],
     depth: None,
+    by_nearness: false,
     runs: |_| true,
 };

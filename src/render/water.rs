@@ -14,5 +14,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     ],
     writes: &[writes(Target::Radiance)],
     depth: Some(Target::Depth),
+    by_nearness: true,
     runs: |work| work.shaded && work.sea,
 };
