@@ -6,14 +6,20 @@
 @group(1) @binding(0) var hdr: texture_2d<f32>;
 // x: metered factor on radiance, 1 for manual exposure
 @group(1) @binding(1) var<uniform> metered: vec4f;
-// Square roots of the light of stars, which metering does not change
+// Square roots of the light of stars
 @group(1) @binding(2) var stars: texture_2d<f32>;
+
+// An exposure for sunlit ground leaves little of the stars: the share at factor 1, and the factor from which all of their
+// light is there. A camera would show none; by eye.
+const STARS_IN_SUNLIGHT: f32 = 0.12;
+const STARS_IN_FULL: f32 = 10.0;
 
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let radiance = textureLoad(hdr, vec2i(position.xy), 0).rgb;
     if frame.debug_view != VIEW_SHADED { return vec4f(saturate(radiance), 1.0); }
     let points = textureLoad(stars, vec2i(position.xy), 0).rgb;
-    let shown = toned((radiance * frame.white * metered.x + points * points) * frame.exposure, frame.tone);
+    let starlight = clamp(metered.x / STARS_IN_FULL, STARS_IN_SUNLIGHT, 1.0);
+    let shown = toned((radiance * frame.white * metered.x + points * points * starlight) * frame.exposure, frame.tone);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));
 }

@@ -14,6 +14,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, missing_docs)]
 
 mod air;
+mod albedo;
 mod biomes;
 mod clouds;
 mod colours;

@@ -1,0 +1,120 @@
+//! White is white and deep sea is dark: what planets reflect, measured in radiance from orbit.
+
+use crate::support::{debug, frame_of, gpu, preset, surface_of, terrain};
+use glam::{DVec3, dvec3};
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::{Clouds, Planet};
+use tellus::render::DebugView;
+use tellus::sphere::LatLon;
+
+const SIDE_PX: usize = 96;
+/// Directions that the eye is over.
+const PLACES: [DVec3; 3] = [DVec3::X, DVec3::NEG_Y, dvec3(-0.5, 0.0, 0.87)];
+
+fn luminance(color: [f32; 3]) -> f64 {
+    f64::from(0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2])
+}
+
+/// What a kind of ground reflects, means over all its pixels.
+#[derive(Clone, Copy, Debug, Default)]
+struct Reflected {
+    pixels: f64,
+    /// Of the light that falls on the air above it.
+    from_orbit: f64,
+    /// Of the light that falls on itself.
+    albedo: f64,
+}
+
+/// By the name of the biome; "sea" where there is water.
+fn reflected(planet: &Arc<Planet>) -> BTreeMap<String, Reflected> {
+    let terrain = terrain(planet);
+    let sunlight = planet.star.brightness * luminance(planet.star.color.map(|channel| channel as f32));
+    let fov_rad = 0.6_f64;
+    let distance_m = 2.2 * planet.radius_m();
+    let mut kinds: BTreeMap<String, Reflected> = BTreeMap::new();
+    let mut gpu = gpu();
+    for place in PLACES {
+        let place = place.normalize();
+        // The star stands aside, so that the sea does not mirror it into the eye.
+        let sun = (place + 0.9 * place.any_orthonormal_vector()).normalize();
+        let camera = Camera::over(LatLon::from_direction(place), distance_m, 0.0, -FRAC_PI_2, fov_rad);
+        let view = View { camera, size_px: [SIDE_PX as u32; 2], quality: Quality::Medium };
+        let surface = surface_of(planet, &view);
+        let shaded = frame_of(&surface, planet, view, sun);
+        gpu.draw_only(&shaded, 1);
+        let (_, light) = gpu.renderer.radiance().unwrap();
+        gpu.draw_only(&debug(frame_of(&surface, planet, view, sun), DebugView::Albedo), 1);
+        let (_, albedo) = gpu.renderer.radiance().unwrap();
+        for (i, (light, albedo)) in light.into_iter().zip(albedo).enumerate() {
+            let at = |n: usize| ((n as f64 + 0.5) / SIDE_PX as f64 * 2.0 - 1.0) * (0.5 * fov_rad).tan();
+            let ray = shaded.scene_from_view * dvec3(at(i % SIDE_PX), -at(i / SIDE_PX), -1.0).normalize();
+            let eye_m = camera.position_planet_m;
+            let along_m = -ray.dot(eye_m);
+            let inside = along_m * along_m - eye_m.length_squared() + planet.radius_m().powi(2);
+            let dir = (eye_m + ray * (along_m - inside.max(0.0).sqrt())).normalize();
+            let mu = dir.dot(sun);
+            if inside < 0.0 || mu < 0.6 || dir.dot(-ray) < 0.8 || ray.reflect(dir).dot(sun) > 0.75 {
+                continue;
+            }
+            let ground = terrain.sample(dir);
+            let wet = planet.sea_level_m().is_some_and(|level_m| ground.height_m < level_m - 200.0);
+            let dry = planet.sea_level_m().is_none_or(|level_m| ground.height_m > level_m + 20.0);
+            let name = match (wet, dry) {
+                (true, _) if ground.temperature_c < 8.0 => continue,
+                (true, _) => "sea".to_owned(),
+                (_, true) => planet.biomes.palette[ground.biome].name.clone(),
+                _ => continue,
+            };
+            let kind = kinds.entry(name).or_default();
+            kind.pixels += 1.0;
+            kind.from_orbit += luminance(light) / (mu * sunlight);
+            kind.albedo += luminance(albedo);
+        }
+    }
+    for kind in kinds.values_mut() {
+        kind.from_orbit /= kind.pixels;
+        kind.albedo /= kind.pixels;
+    }
+    kinds.retain(|_, kind| kind.pixels > 150.0);
+    kinds
+}
+
+/// Share and rest of an albedo by which what is seen from orbit may differ: clear air adds some light to dark ground and
+/// takes some from bright ground.
+const MOST_OFF: (f64, f64) = (0.15, 0.045);
+/// Its crevasses shade each other.
+const SHADED: &str = "Old ice";
+
+/// The sea reflects about 0.06 (Payne 1972); clear air adds a little.
+#[test]
+fn each_ground_reflects_what_its_preset_says() {
+    for file in ["aurel.ron", "maren.ron", "cinnabar.ron", "hoarfrost.ron", "pallor.ron"] {
+        let clear = Arc::new(Planet { clouds: None, ..preset(file) });
+        let kinds = reflected(&clear);
+        assert!(kinds.len() > 2, "{file}: {kinds:?}");
+        for (name, kind) in kinds.into_iter().filter(|(name, _)| name != SHADED) {
+            let off = (kind.from_orbit - kind.albedo).abs();
+            let holds = match &*name {
+                "sea" => (0.045..0.09).contains(&kind.from_orbit),
+                _ => off < MOST_OFF.0 * kind.albedo + MOST_OFF.1,
+            };
+            assert!(holds, "{file}, {name}: {kind:?}");
+        }
+    }
+}
+
+/// Closed cloud from above reflects what its optical depth says (Lacis and Hansen 1974), over sea and land alike.
+#[test]
+fn closed_cloud_is_white() {
+    let preset = preset("maren.ron");
+    for density in [12.0, 48.0] {
+        let clouds = preset.clouds.clone().map(|clouds| Clouds { coverage: 1.0, veil: 0.0, density, ..clouds });
+        let wanted = 0.13 * density / (1.0 + 0.13 * density);
+        for (name, kind) in reflected(&Arc::new(Planet { clouds, ..preset.clone() })) {
+            assert!((kind.from_orbit / wanted - 1.0).abs() < 0.15, "{density}, {name}: {kind:?}, wanted {wanted}");
+        }
+    }
+}
