@@ -36,7 +36,7 @@ const DARKEST_MEAN_EV: f32 = -3.4;
 // Broader highlights, such as the sky around a low sun, never exceed this level.
 const BROAD_HIGHLIGHTS: f32 = 0.12;
 const BROAD_HIGHLIGHT_EV: f32 = -0.5;
-const LIFTED_HIGHLIGHT: f32 = 0.2;
+const LIFTED_HIGHLIGHT: f32 = 0.3;
 const LIFTED_SNOW: f32 = 1.0;
 // Share of white pixels at which the lift changes from that for ground to that for snow.
 const SNOW_SHARE: vec2f = vec2f(0.2, 0.45);

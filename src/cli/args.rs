@@ -76,6 +76,14 @@ pub(super) fn exposure(text: &str) -> Result<f64, String> {
     number(text, -20.0, 20.0)
 }
 
+pub(super) fn white(text: &str) -> Result<f64, String> {
+    number(text, 2000.0, 25_000.0)
+}
+
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1.0)
+}
+
 /// Discharge in cubic metres a second.
 pub(super) fn discharge(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e12)

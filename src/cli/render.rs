@@ -4,7 +4,7 @@ use super::picture_file::Kind;
 use super::{Failure, args, headless, load, maps};
 use crate::lod::{Camera, Quality, View, opening};
 use crate::planet::file::write_atomically;
-use crate::render::{DebugView, Lens, Metering, Photo, Renderer, Scene, Tone};
+use crate::render::{DebugView, Lens, Metering, Photo, Post, Renderer, Scene, Tone};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
 use crate::tiles::{add_detail, build_over};
@@ -100,6 +100,12 @@ pub(super) struct Args {
     /// Exposure in stops, 0 for a sunlit planet [default: metered from the picture]
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = args::exposure)]
     exposure: Option<f64>,
+    /// Colour temperature in kelvins that is shown white: lower makes the picture bluer
+    #[arg(long, value_name = "K", default_value_t = Post::DAYLIGHT_K, value_parser = args::white)]
+    white: f64,
+    /// How much darker the corners are, 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = args::share)]
+    vignette: f64,
     /// Tone curve from radiance to the picture
     #[arg(long, value_enum, default_value_t = Tone::default())]
     tone: Tone,
@@ -188,6 +194,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     scene.post.exposure_ev = args.exposure.unwrap_or(0.0);
     scene.post.tone = args.tone;
+    (scene.post.white_k, scene.post.vignette) = (args.white, args.vignette);
     let mut photo = Photo::default();
     (photo.samples, photo.develop) = (args.samples, kind.develop());
     photo.lens = args.aperture.zip(args.focus).map(|(diameter_m, focus_m)| Lens { diameter_m, focus_m });

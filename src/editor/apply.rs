@@ -72,6 +72,8 @@ fn set(state: &mut State, setting: Setting) {
         Setting::Quality(quality) => settings.quality = quality,
         Setting::Tone(tone) => settings.tone = tone,
         Setting::ExposureEv(exposure_ev) => settings.exposure_ev = exposure_ev,
+        Setting::WhiteK(white_k) => settings.white_k = white_k,
+        Setting::Vignette(vignette) => settings.vignette = vignette,
         Setting::AutoExposure(automatic) => settings.auto_exposure = automatic,
         Setting::TimeSpeed(time_speed) => settings.time_speed = time_speed,
     }

@@ -81,6 +81,10 @@ pub enum Setting {
     Tone(Tone),
     /// Exposure in stops.
     ExposureEv(f64),
+    /// Colour temperature that is shown white, kelvins.
+    WhiteK(f64),
+    /// How much darker the corners are, 0 to 1.
+    Vignette(f64),
     /// Whether the exposure follows the picture's brightness.
     AutoExposure(bool),
     /// Seconds of the planet for each second of the clock.

@@ -216,6 +216,7 @@ fn tile<'a>(scene: &Scene<'a>, [x, y, width, height]: Part) -> Scene<'a> {
     let down = |px: u32| top + (bottom - top) * f64::from(px) / high;
     tile.projection.tangents = [across(x), across(x + width), down(y + height), down(y)];
     tile.projection.near_m = Some(scene.matrices().near_m);
+    tile.whole.get_or_insert(scene.projection);
     tile.size_px = [width, height];
     tile.view_id = VIEW;
     tile

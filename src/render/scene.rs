@@ -162,11 +162,28 @@ pub struct Post {
     pub smooth_edges: bool,
     /// Exposure in stops, 0 for a sunlit planet. With automatic exposure: a correction to it.
     pub exposure_ev: f64,
+    /// Colour temperature of the light that is shown white, kelvins, 2,000 to 25,000. [`Post::DAYLIGHT_K`] is the
+    /// planet's daylight; lower makes the picture bluer, as a camera set to lamps.
+    pub white_k: f64,
+    /// How much darker the corners are than the middle, 0 to 1.
+    pub vignette: f64,
+}
+
+impl Post {
+    /// The white balance of daylight.
+    pub const DAYLIGHT_K: f64 = 6504.0;
 }
 
 impl Default for Post {
     fn default() -> Self {
-        Self { metering: Metering::Manual, tone: Tone::default(), smooth_edges: true, exposure_ev: 0.0 }
+        Self {
+            metering: Metering::Manual,
+            tone: Tone::default(),
+            smooth_edges: true,
+            exposure_ev: 0.0,
+            white_k: Self::DAYLIGHT_K,
+            vignette: 0.0,
+        }
     }
 }
 
@@ -194,6 +211,8 @@ pub struct Scene<'a> {
     pub debug_view: DebugView,
     /// Whether cloud maps may be coarse for now: while a slider is dragged, an answer at once is worth more.
     pub drafts: bool,
+    /// Of a tile of a photograph: the projection of the whole.
+    pub(crate) whole: Option<Projection>,
     /// How radiance becomes a picture.
     pub post: Post,
 }
@@ -212,6 +231,7 @@ impl<'a> Scene<'a> {
             time_secs: 0.0,
             debug_view: DebugView::Shaded,
             drafts: false,
+            whole: None,
             post: Post::default(),
         }
     }

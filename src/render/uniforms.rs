@@ -10,10 +10,11 @@ mod water;
 use super::scene::{self, Matrices, Scene, height_range_m, split_position};
 pub(crate) use super::shared::{Body, Frame};
 use super::shared::{MAX_SUNS, MIXTURE_ENTRIES, Octave, Sun};
-use super::{gpu, wgsl, white_balance};
+use super::white_balance::{camera_balance, white_balance};
+use super::{gpu, wgsl};
 use crate::lod::Quality;
 use crate::sea::Waves;
-use glam::{DQuat, DVec3, Mat4, UVec2, Vec2, Vec3};
+use glam::{DQuat, DVec2, DVec3, Mat4, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;
 
 /// Where the picture lies and how it is drawn.
@@ -43,7 +44,10 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
     };
     // The nearest body's sky decides how white the picture is.
     let nearest = scene.bodies.iter().min_by(|a, b| away_m(a).total_cmp(&away_m(b)));
-    let white = nearest.map_or([1.0; 3], |body| white_balance(body.planet()));
+    let daylight = nearest.map_or([1.0; 3], |body| white_balance(body.planet()));
+    let white = DVec3::from_array(daylight) * DVec3::from_array(camera_balance(scene.post.white_k));
+    let whole = scene.whole.unwrap_or(scene.projection).half_extent();
+    let half_diagonal = whole[0].hypot(whole[1]);
     Frame {
         origin_px: UVec2::new(x, y).as_vec2(),
         size_px: UVec2::new(width, height).as_vec2(),
@@ -55,7 +59,9 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
         exposure: scene.post.exposure_ev.exp2() as f32,
         debug_view: scene::DebugView::ALL.iter().position(|&view| view == scene.debug_view).unwrap_or(0) as u32,
         tone: scene.post.tone as u32,
-        white: DVec3::from_array(white).as_vec3(),
+        white: white.as_vec3(),
+        vignette: scene.post.vignette.clamp(0.0, 1.0) as f32,
+        vignette_extent: (DVec2::new(half_x, half_y) / half_diagonal).as_vec2(),
         air_steps,
         pattern_quality,
         mixture_entries: MIXTURE_ENTRIES,

@@ -4,7 +4,7 @@ use crate::support::{camera, earth, frame_of, gpu, surface_of};
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::Planet;
-use tellus::render::{Develop, Lens, Metering, Photo, Scene};
+use tellus::render::{Develop, Lens, Metering, Photo, Scene, Tone};
 use tellus::sphere::LatLon;
 
 fn luminance(pixel: &[f32; 3]) -> f64 {
@@ -53,6 +53,39 @@ fn a_picture_in_tiles_is_the_picture() {
         let usual = (900..1300).filter(|x| *x != 1023).map(step_at).sum::<f64>() / 399.0;
         assert!(step_at(1023) < 3.0 * usual, "{} at the border, {usual} elsewhere", step_at(1023));
         assert!(usual > 1e-4);
+    });
+}
+
+/// The corners of the whole picture are darker, not those of its tiles; a camera set to lamps shows a bluer planet.
+#[test]
+fn vignette_and_white_balance_are_of_the_whole_picture() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let mut gpu = gpu();
+    of(&planet, [2200, 40], 3e5, |mut scene| {
+        scene.post.smooth_edges = false;
+        scene.post.metering = Metering::Fixed { metered_ev: -1.0 };
+        scene.post.tone = Tone::Plain;
+        let mut take = |scene: &Scene<'_>| {
+            let pixels = Photo::default().take(&mut gpu.renderer, scene, &mut |_| true).unwrap().unwrap();
+            let row = &pixels[20 * 2200..21 * 2200];
+            let mean =
+                |x: usize| row[x..x + 20].iter().fold([0.0; 3], |sum, pixel| [0, 1, 2].map(|k| sum[k] + pixel[k]));
+            (0..2180).step_by(20).map(mean).collect::<Vec<_>>()
+        };
+        let plain = take(&scene);
+        scene.post.vignette = 1.0;
+        let dark = take(&scene);
+        let kept: Vec<f64> = dark.iter().zip(&plain).map(|(a, b)| luminance(a) / luminance(b)).collect();
+        assert!((0.22..0.3).contains(&kept[0]) && kept[54] > 0.97, "{} {}", kept[0], kept[54]);
+        assert!(kept[..54].windows(2).all(|pair| pair[1] > pair[0] - 0.02 && pair[1] < pair[0] + 0.08), "{kept:?}");
+        scene.post.vignette = 0.0;
+        scene.post.white_k = 3200.0;
+        let blue = take(&scene);
+        let blueness = |pixels: &[[f32; 3]]| {
+            let sum = |band: usize| pixels.iter().map(|pixel| pixel[band]).sum::<f32>();
+            sum(2) / sum(0)
+        };
+        assert!(blueness(&blue) > 1.2 * blueness(&plain), "{} {}", blueness(&blue), blueness(&plain));
     });
 }
 

@@ -170,6 +170,7 @@ impl Picture {
         scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
         scene.post.exposure_ev = key.exposure_ev;
         scene.post.tone = key.tone;
+        (scene.post.white_k, scene.post.vignette) = (key.white_k, key.vignette);
         for body in &mut scene.bodies {
             body.frozen = key.frozen;
             body.marked.clone_from(&key.marked);
@@ -218,6 +219,8 @@ struct PictureKey {
     time_secs: f64,
     exposure_ev: f64,
     auto_exposure: bool,
+    white_k: f64,
+    vignette: f64,
     tone: Tone,
     debug_view: DebugView,
     marked: Option<Arc<MarkedCells>>,
@@ -234,6 +237,8 @@ impl PictureKey {
             time_secs: subject.settings.time_secs,
             exposure_ev: subject.settings.exposure_ev,
             auto_exposure: subject.settings.auto_exposure,
+            white_k: subject.settings.white_k,
+            vignette: subject.settings.vignette,
             tone: subject.settings.tone,
             debug_view: subject.settings.debug_view,
             marked: subject.marked.clone(),
@@ -249,6 +254,8 @@ impl PictureKey {
             && self.time_secs == other.time_secs
             && self.exposure_ev == other.exposure_ev
             && self.auto_exposure == other.auto_exposure
+            && self.white_k == other.white_k
+            && self.vignette == other.vignette
             && self.tone == other.tone
             && self.debug_view == other.debug_view
             && self.marked == other.marked

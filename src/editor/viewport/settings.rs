@@ -1,7 +1,7 @@
 //! Settings of the view; no part of the document.
 
 use crate::lod::Quality;
-use crate::render::{DebugView, Tone};
+use crate::render::{DebugView, Post, Tone};
 
 /// Which picture of the planet is drawn, and at which time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,10 @@ pub struct ViewSettings {
     pub exposure_ev: f64,
     /// Whether the exposure follows the brightness of the picture; [`Self::exposure_ev`] then corrects it.
     pub auto_exposure: bool,
+    /// Colour temperature that is shown white, kelvins.
+    pub white_k: f64,
+    /// How much darker the corners are, 0 to 1.
+    pub vignette: f64,
     /// The tone curve.
     pub tone: Tone,
     /// Seconds since time zero.
@@ -35,6 +39,8 @@ impl ViewSettings {
             freeze_detail: false,
             exposure_ev: 0.0,
             auto_exposure: true,
+            white_k: Post::DAYLIGHT_K,
+            vignette: 0.0,
             tone: Tone::default(),
             time_secs: 0.0,
             playing: false,

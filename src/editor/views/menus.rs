@@ -16,6 +16,8 @@ use std::path::Path;
 
 /// Range of the exposure slider, in stops.
 const EXPOSURE_EV: f64 = 8.0;
+/// Least and greatest white balance, kelvins.
+const WHITE_K: (f64, f64) = (2000.0, 25_000.0);
 /// Fastest time, in seconds of the planet for each second: a day of 24 hours.
 const MAX_TIME_SPEED: f64 = 86_400.0;
 
@@ -120,21 +122,16 @@ fn settings(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     });
     tones.response.on_hover_text("The tone curve from radiance to the picture: like film, neutral, or none");
     exposure(ui, state, commands);
+    camera(ui, state, commands);
 }
 
 fn exposure(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
-    let mut exposure_ev = state.viewport.settings.exposure_ev;
     let mut automatic = state.viewport.settings.auto_exposure;
     ui.horizontal(|ui| {
-        let label = ui.label("Exposure");
         let told = "Brightness of the picture in stops; not part of the planet";
-        let slider = egui::Slider::new(&mut exposure_ev, -EXPOSURE_EV..=EXPOSURE_EV).show_value(false);
-        let slid = ui.add(slider).labelled_by(label.id).on_hover_text(told);
         let allowed = Allowed::numbers(Unit::None, -EXPOSURE_EV, EXPOSURE_EV).marked(" EV");
-        let typed = plain_field(ui, &mut exposure_ev, 0.02, 3, allowed)
-            .on_hover_text(told)
-            .accessible_name("Exposure as a number");
-        if slid.changed() || typed.changed() {
+        let of = Slider { name: "Exposure", told, allowed, range: (-EXPOSURE_EV, EXPOSURE_EV), step: 0.02 };
+        if let Some(exposure_ev) = of.show(ui, state.viewport.settings.exposure_ev) {
             commands.push(Action::Set(Setting::ExposureEv(exposure_ev)));
         }
         let told = "The exposure follows the brightness of the picture, and the slider corrects it; off, the slider \
@@ -143,6 +140,52 @@ fn exposure(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
             commands.push(Action::Set(Setting::AutoExposure(automatic)));
         }
     });
+}
+
+/// What a photographer sets besides the exposure.
+fn camera(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    let settings = state.viewport.settings;
+    ui.horizontal(|ui| {
+        let told =
+            "Colour temperature that is shown white: 6504 K is the planet's daylight, lower makes the picture bluer";
+        let (least, most) = WHITE_K;
+        let allowed = Allowed::numbers(Unit::None, least, most).marked(" K");
+        let of = Slider { name: "White balance", told, allowed, range: (2500.0, 12_000.0), step: 20.0 };
+        if let Some(white_k) = of.show(ui, settings.white_k) {
+            commands.push(Action::Set(Setting::WhiteK(white_k)));
+        }
+    });
+    ui.horizontal(|ui| {
+        let told = "How much darker the corners are than the middle";
+        let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
+        let of = Slider { name: "Vignette", told, allowed, range: (0.0, 1.0), step: 0.005 };
+        if let Some(vignette) = of.show(ui, settings.vignette) {
+            commands.push(Action::Set(Setting::Vignette(vignette)));
+        }
+    });
+}
+
+/// A labelled slider with a field beside it.
+struct Slider<'a> {
+    name: &'static str,
+    told: &'static str,
+    allowed: Allowed<'a>,
+    /// Range of the slider; the field may allow more.
+    range: (f64, f64),
+    step: f64,
+}
+
+impl Slider<'_> {
+    /// The value, where it was changed.
+    fn show(self, ui: &mut egui::Ui, mut value: f64) -> Option<f64> {
+        let label = ui.label(self.name);
+        let slider = egui::Slider::new(&mut value, self.range.0..=self.range.1).clamping(egui::SliderClamping::Edits);
+        let slid = ui.add(slider.show_value(false)).labelled_by(label.id).on_hover_text(self.told);
+        let typed = plain_field(ui, &mut value, self.step, 3, self.allowed)
+            .on_hover_text(self.told)
+            .accessible_name(format!("{} as a number", self.name));
+        (slid.changed() || typed.changed()).then_some(value)
+    }
 }
 
 /// Right to left: speed, then the button.

@@ -29,6 +29,10 @@ uniform_struct! {
         tone: u32,
         /// White balance: gains on radiance.
         white: Vec3,
+        /// How much darker the corners are, 0 to 1.
+        vignette: f32,
+        /// Half extent of the picture by the half diagonal of the whole.
+        vignette_extent: Vec2,
         /// Steps of a march through the air.
         air_steps: f32,
         /// Quality of the ground's patterns: 0 (one tap of one pattern) to 2.
