@@ -110,7 +110,10 @@ fn lace(share: f32, rel_m: vec3f, footprint_m: f32) -> f32 {
     let coarse = textureSampleLevel(noise_tile, repeated, at, lod).g;
     let fine = textureSampleLevel(noise_tile, repeated, at.yzx * 4.0, lod + 2.0).r;
     let pattern = 0.5 + 1.6 * (mix(coarse, fine, 0.5) - 0.5);
-    return mix(smoothstep(1.0 - share - 0.2, 1.0 - share + 0.25, pattern), share, smoothstep(0.1, 0.4, footprint_m));
+    // A small share would be crumbs all over the water: from near, foam is where waves break.
+    let near = share * smoothstep(0.05, 0.3, share);
+    let drawn = smoothstep(1.0 - near - 0.2, 1.0 - near + 0.25, pattern) * smoothstep(0.0, 0.02, near);
+    return mix(drawn, share, smoothstep(0.1, 0.4, footprint_m));
 }
 
 // `variance`: of the slope of all waves at the place; the waves of the eye's place are scaled to it.

@@ -23,6 +23,8 @@ pub(crate) const MOST_WAVES: usize = 80;
 /// Waves of less slope that are also lower are left out.
 const LEAST_SLOPE: f64 = 1e-3;
 const LEAST_M: f64 = 0.02;
+/// Share of the variance of the strongest wave of a band below which a wave is left out.
+const WEAKEST: f64 = 0.25;
 /// Where the wave vector leans out of the tangent plane, the wave is longer: its tangential part below which it is left
 /// out, and from which it counts in full.
 const TANGENT: (f64, f64) = (0.7, 0.95);
@@ -193,13 +195,20 @@ fn band_of(band: u32, up: DVec3, spectrum: &Spectrum, blowing: &Course, swelling
     });
     let candidates: Vec<_> = candidates.collect();
     let totals = [0, 1].map(|part| candidates.iter().map(|(.., weights)| weights[part]).sum::<f64>().max(1e-9));
+    let variance_of =
+        |weights: [f64; 2]| (0..2).map(|part| variances[part] * weights[part] / totals[part]).sum::<f64>();
+    // Waves much weaker than the strongest of their band leave their variance to it. The rest falls to 0 steadily, so
+    // that no wave comes or goes at once.
+    let strongest = candidates.iter().map(|(.., weights)| variance_of(*weights)).fold(0.0, f64::max);
+    let kept = |weights: [f64; 2]| (variance_of(weights) - WEAKEST * strongest).max(0.0);
+    let gain =
+        (variances[0] + variances[1]) / candidates.iter().map(|(.., weights)| kept(*weights)).sum::<f64>().max(1e-12);
     let wave = |(number, dir, flat, weights): (usize, DVec3, f64, [f64; 2])| {
         let vector_per_m = dir * k_at(f64::from(band) + random(number, 3));
-        let variance = (0..2).map(|part| variances[part] * weights[part] / totals[part]).sum::<f64>();
         let k = vector_per_m.length();
         Wave {
             vector_per_m,
-            amplitude_m: libm::sqrt(2.0 * variance) / (k * flat),
+            amplitude_m: libm::sqrt(2.0 * kept(weights) * gain) / (k * flat),
             phase_rad: TAU * random(number, 4),
             // Deep water. A frequency of the whole vector is the same everywhere.
             frequency_rad_s: libm::sqrt(GRAVITY_M_S2 * k),
@@ -219,6 +228,20 @@ mod tests {
         let water = Water { wind_m_s, swell_m, ..Water::default() };
         let planet = Planet { water: Some(water), layers: Vec::new(), ..Planet::default() };
         Terrain::try_new(Arc::new(planet)).unwrap()
+    }
+
+    /// From the swell down to ripples: the most waves leave room for all bands.
+    #[test]
+    fn short_waves_are_there_too() {
+        for (wind_m_s, swell_m) in [(3.0, 0.0), (6.0, 0.5), (10.0, 2.0), (20.0, 6.0)] {
+            for dir in spread(30) {
+                let waves = Waves::near(&sea(wind_m_s, swell_m), dir);
+                let shortest = waves.waves.last().unwrap();
+                let length_m = TAU / shortest.vector_per_m.length();
+                assert!(length_m < 0.8, "{wind_m_s} m/s: {} waves down to {length_m} m", waves.waves.len());
+                assert!(waves.waves.len() > 20);
+            }
+        }
     }
 
     #[test]
