@@ -10,8 +10,8 @@ fn lobe(cosine: f32, g: f32) -> f32 {
 }
 
 // Factor on direct light: with it, a closed layer seen from above reflects the share that Lacis and Hansen (A
-// parameterization for the absorption of solar radiation, 1974) give for its optical depth. From below and from the side
-// it is that of a thick layer. `sine`: of the view ray over the horizon.
+// parameterization for the absorption of solar radiation, 1974) give for its optical depth. From below and from the
+// side it is that of a thick layer. `sine`: of the view ray over the horizon.
 const BRIGHTNESS: f32 = 1.95;
 
 fn brightness(sine: f32) -> f32 {

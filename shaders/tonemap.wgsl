@@ -14,7 +14,8 @@
 const STARS_IN_SUNLIGHT: f32 = 0.12;
 const STARS_IN_FULL: f32 = 10.0;
 
-// The corners of a picture get less light: by the fourth power of the cosine for real lenses, here by as much as asked.
+// The corners of a picture get less light: by the fourth power of the cosine for real lenses, here by as much as
+// asked.
 fn shaded_by_lens(position: vec2f) -> f32 {
     if frame.vignette <= 0.0 { return 1.0; }
     let at = (position - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);

@@ -82,8 +82,8 @@ fn reflected(planet: &Arc<Planet>) -> BTreeMap<String, Reflected> {
     kinds
 }
 
-/// Share and rest of an albedo by which what is seen from orbit may differ: clear air adds some light to dark ground and
-/// takes some from bright ground.
+/// Share and rest of an albedo by which the view from orbit may differ: clear air adds light to dark ground and takes
+/// some from bright ground.
 const MOST_OFF: (f64, f64) = (0.15, 0.045);
 /// Its crevasses shade each other.
 const SHADED: &str = "Old ice";
