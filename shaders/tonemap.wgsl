@@ -9,8 +9,8 @@
 // Square roots of the light of stars
 @group(1) @binding(2) var stars: texture_2d<f32>;
 
-// An exposure for sunlit ground leaves little of the stars: the share at factor 1, and the factor from which all of their
-// light is there. A camera would show none; by eye.
+// An exposure for sunlit ground leaves little of the stars: the share at factor 1, and the factor from which all
+// of their light is there. A camera would show none; by eye.
 const STARS_IN_SUNLIGHT: f32 = 0.12;
 const STARS_IN_FULL: f32 = 10.0;
 
