@@ -150,7 +150,7 @@ impl CompiledLayer {
         let noise = noise.map(|v| v + blend.bias);
         let output = noise.map(|v| v * blend.amplitude_m);
         let soft = |gap_m: f64| 0.25 * (blend.softness_m - gap_m.abs()).max(0.0).powi(2) / blend.softness_m;
-        match blend.kind {
+        let target = match blend.kind {
             Blend::Add => height.with(output, |h, y| h + y),
             Blend::Subtract => height.with(Interval { lo: -output.hi, hi: -output.lo }, |h, y| h + y),
             Blend::Multiply => height.times(noise),
@@ -159,7 +159,10 @@ impl CompiledLayer {
             Blend::Replace => output,
             Blend::SmoothMax => height.with(output, |h, y| h.max(y) + soft(y - h)),
             Blend::SmoothMin => height.with(output, |h, y| h.min(y) - soft(y - h)),
-        }
+        };
+        // The evaluator adds a share of the difference to the height below, and so rounds as coarsely as that.
+        let rounding_m = 4.0 * f64::EPSILON * height.lo.abs().max(height.hi.abs());
+        Interval { lo: target.lo - rounding_m, hi: target.hi + rounding_m }
     }
 }
 
