@@ -10,13 +10,14 @@ fn lobe(cosine: f32, g: f32) -> f32 {
 }
 
 // Factor on direct light: with it, a closed layer seen from above reflects the share that Lacis and Hansen (A
-// parameterization for the absorption of solar radiation, 1974) give for its optical depth. From below and from the
-// side it is that of a thick layer. `sine`: of the view ray over the horizon.
-const BRIGHTNESS: f32 = 1.95;
+// parameterization for the absorption of solar radiation, 1974) give for its optical depth.
+const BRIGHTNESS: f32 = 1.8;
 
-fn brightness(sine: f32) -> f32 {
+// Light sent back by a layer of this optical depth, over that of a thick layer, of which BRIGHTNESS is. The optical
+// depth counts from above only. `sine`: of the view ray over the horizon.
+fn sent_back(sine: f32) -> f32 {
     let turned = 0.13 * body.cloud_optical_depth;
-    return BRIGHTNESS * mix(0.92, turned / (1.0 + turned), saturate1(-2.0 * sine));
+    return mix(1.0, 1.087 * turned / (1.0 + turned), saturate1(-2.0 * sine));
 }
 
 // Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
@@ -83,10 +84,9 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         1.0 / (4.0 * PI),
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
+    let returned = sent_back(dot(dir, up));
     // From above, one sees tops that a low sun only grazes (law of Lommel and Seeliger); the march is too coarse to
     // resolve this.
-    let strength = brightness(dot(dir, up));
-    let sent_back = strength / (0.92 * BRIGHTNESS);
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
@@ -120,7 +120,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
         // Thin cloud sends back less light; by eye.
         let lit = shade(rel, sky_here.cover, sun_mu, footprint) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
-        let shine = body.cloud_color * (sunlight * direct * (strength * grazed * lit) + ambient * sent_back);
+        let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * returned * grazed * lit) + ambient * returned);
         let passed = exp(-extinction * density * length_km);
         let seen = out.transmittance * (1.0 - passed);
         out.light += seen * shine;

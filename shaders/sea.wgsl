@@ -166,18 +166,21 @@ fn surf(depths_m: vec2f, noise: f32) -> f32 {
 // Share of sunlight that the waves above concentrate at a depth: 1 in the mean. The curvature of the surface is a lens
 // of focal length 4 over the curvature (refractive index 1.333).
 //
-// `first`, `last`: waves that count. The longest have too little curvature.
-const FIRST_LENS: u32 = 26u;
-const LAST_LENS: u32 = 56u;
+// `per_m`: least and greatest wave number that counts, radians per metre. Longer waves have too little curvature,
+// shorter ones have their focus near the surface. LENS_PER_M: 4 m to 0.8 m long.
+const LENS_PER_M: vec2f = vec2f(1.6, 8.0);
 
-fn caustics(calm_m: vec3f, up: vec3f, depth_m: f32, footprint_m: f32, first: u32, last: u32) -> f32 {
-    if NEARNESS < FROM_GROUND || footprint_m > 0.6 || body.wave_count < first + 4u { return 1.0; }
+fn caustics(calm_m: vec3f, up: vec3f, depth_m: f32, footprint_m: f32, per_m: vec2f) -> f32 {
+    if NEARNESS < FROM_GROUND || footprint_m > 0.6 { return 1.0; }
     var bend = 0.0;
     var variance = 0.0;
-    for (var i = first; i < min(last, body.wave_count); i++) {
+    for (var i = 0u; i < body.wave_count; i++) {
         let wave = body.waves[i];
         let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
         let k2 = dot(along, along);
+        if k2 < per_m.x * per_m.x { continue; }
+        // All later waves are shorter.
+        if k2 > per_m.y * per_m.y { break; }
         // Waves much shorter than the depth blur each other.
         let kept = (1.0 - smoothstep(0.6, 1.9, sqrt(k2) * footprint_m)) * exp(-0.004 * k2 * depth_m);
         bend += wave.amplitude_m * kept * k2 * cos(dot(wave.vector_per_m, calm_m) + wave.phase);
@@ -258,7 +261,7 @@ fn water_radiance(water: Water) -> vec3f {
         let lit = dot(direct, vec3f(0.333)) / max(dot(downwelling, vec3f(0.333)), 1e-6);
         if depth_m < 30.0 {
             let calm_m = rel_m - up * water.lift_m;
-            here.floor *= mix(1.0, caustics(calm_m, up, depth_m, footprint_m, FIRST_LENS, LAST_LENS), saturate1(lit));
+            here.floor *= mix(1.0, caustics(calm_m, up, depth_m, footprint_m, LENS_PER_M), saturate1(lit));
         }
         light = water_body(here, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
         let white = saturate1(max(surf(water.depths_m, variation), surface.foam) * water.foam);

@@ -14,14 +14,13 @@
 const STARS_IN_SUNLIGHT: f32 = 0.12;
 const STARS_IN_FULL: f32 = 10.0;
 
-// The corners of a picture get less light: by the fourth power of the cosine for real lenses, here by as much as
-// asked.
+// The cosine-fourth law of lenses: of a lens whose half diagonal spans 45 degrees, the corners get a quarter of the
+// light of the middle. The vignette asks for a share of this.
 fn shaded_by_lens(position: vec2f) -> f32 {
     if frame.vignette <= 0.0 { return 1.0; }
     let at = (position - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
     let away = (at + frame.lens_shift) * frame.vignette_extent;
     let fall = 1.0 + dot(away, away);
-    // A fall of a quarter in the corners is that of a wide lens: squares of 1 + r^2.
     return mix(1.0, 1.0 / (fall * fall), frame.vignette);
 }
 
@@ -31,6 +30,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if frame.debug_view != VIEW_SHADED { return vec4f(saturate(radiance), 1.0); }
     let points = textureLoad(stars, vec2i(position.xy), 0).rgb;
     let starlight = clamp(metered.x / STARS_IN_FULL, STARS_IN_SUNLIGHT, 1.0);
-    let shown = toned(shaded_by_lens(position.xy) * (radiance * frame.white * metered.x + points * points * starlight) * frame.exposure, frame.tone);
+    let light = radiance * frame.white * metered.x + points * points * starlight;
+    let shown = toned(light * shaded_by_lens(position.xy) * frame.exposure, frame.tone);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));
 }

@@ -4,11 +4,17 @@
 const INDEX: f32 = 1.333;
 // Steps of the march that gathers light shafts.
 const SHAFT_STEPS: u32 = 14u;
-// Waves that are wide enough for their light to reach far down.
-const FIRST_SHAFT: u32 = 22u;
-const LAST_SHAFT: u32 = 38u;
+// Wave numbers of waves whose light reaches far down, radians per metre: 10 m to 2.5 m long.
+const SHAFT_PER_M: vec2f = vec2f(0.6, 2.5);
 // Contrast of light shafts; by eye.
 const SHAFTS: f32 = 3.0;
+
+// Radiance of deep water in a direction, over that straight down: level water is four times as bright (Tyler, Radiance
+// distribution as a function of depth in an underwater environment, 1960). `sine`: of the direction over the horizon.
+fn around(sine: f32) -> f32 {
+    let down = saturate1(-sine);
+    return mix(4.0, 1.0, down * (2.0 - down));
+}
 
 // Height of a point of a ray over the calm sea, metres.
 fn altitude_over_sea_m(dir: vec3f, distance_km: f32, sine: f32) -> f32 {
@@ -47,8 +53,9 @@ fn downwelling_at(up: vec3f) -> Downwelling {
 }
 
 // Radiance of what the surface mirrors into a direction: the bed, where the picture shows it, and water.
-fn mirrored_below(dir: vec3f, normal: vec3f, deep: vec3f) -> vec3f {
+fn mirrored_below(dir: vec3f, normal: vec3f, up: vec3f, deep_down: vec3f) -> vec3f {
     let down = reflect(dir, normal);
+    let deep = deep_down * around(dot(down, up));
     let clip = body.clip_from_rel_m * vec4f(down * 100.0, 1.0);
     let at = clip.xy / max(clip.w, 1e-6);
     if clip.w <= 0.0 { return deep; }
@@ -84,7 +91,7 @@ fn from_below(dir: vec3f, surface_km: f32, up: vec3f, deep: vec3f) -> vec3f {
     let rest = max(body.wave_slope_variance - waves.slope_variance, 0.0004);
     let blur = 0.5 * sqrt(rest);
     let window = smoothstep(-blur, blur, 1.0 - bent);
-    let mirror = mirrored_below(dir, normal, deep);
+    let mirror = mirrored_below(dir, normal, up, deep);
     var out = mirror;
     if window > 0.0 {
         let out_cosine = sqrt(max(1.0 - bent, 0.003));
@@ -135,8 +142,8 @@ fn underwater(dir: vec3f, scene: vec3f, terrain: f32, surface_km: f32) -> vec3f 
     let glow = 0.8 + 5.0 * pow(max(dot(dir, lit.to_sun), 0.0), 7.0);
     let gathering = lit.straight * glow + lit.sky;
     // The eye adapts to blue light: deep water looks brighter than its reflectance.
-    let deep = color * total * 2.2 * surface_light;
-    var light = deep / max(total, vec3f(1e-9)) * gathering * gathered;
+    let deep = color * total * 1.3 * surface_light;
+    var light = deep * around(sine) / max(total, vec3f(1e-9)) * gathering * gathered;
     // Light shafts: sunlight that waves focus.
     let shaft_m = min(path_m, 16.0);
     var shafts = vec3f(0.0);
@@ -147,7 +154,7 @@ fn underwater(dir: vec3f, scene: vec3f, terrain: f32, surface_km: f32) -> vec3f 
         let to_surface_m = depth_m / max(dot(lit.to_sun, up), 0.2);
         let above = dir * at_m + lit.to_sun * to_surface_m;
         let weight = exp(-extinction * at_m - depth_rate * depth_m);
-        let focus = caustics(above - up * dot(above, up) - up * (body.eye_over_sea_km * 1000.0), up, depth_m, 0.12, FIRST_SHAFT, LAST_SHAFT);
+        let focus = caustics(above - up * dot(above, up) - up * (body.eye_over_sea_km * 1000.0), up, depth_m, 0.12, SHAFT_PER_M);
         shafts += weight * focus;
         plain += weight;
     }
@@ -163,7 +170,7 @@ fn underwater(dir: vec3f, scene: vec3f, terrain: f32, surface_km: f32) -> vec3f 
     let at_m = dir * path_m;
     let to_surface_m = bed_m / max(dot(lit.to_sun, up), 0.2);
     let above = at_m + lit.to_sun * to_surface_m;
-    let focus = caustics(above - up * dot(above, up), up, bed_m, path_m * frame.pixel_rad * 2.0, FIRST_LENS, LAST_LENS);
+    let focus = caustics(above - up * dot(above, up), up, bed_m, path_m * frame.pixel_rad * 2.0, LENS_PER_M);
     let sun_share = lit.straight / max(total, vec3f(1e-6));
     return light + scene * exp(-depth_rate * bed_m) * mix(vec3f(1.0), vec3f(focus), sun_share) * transmittance;
 }

@@ -16,10 +16,9 @@ struct WaveSum {
     steepness_variance: f32,
 }
 
-// Phase differences from one pixel to the next, radians, between which a wave fades into roughness (Bruneton, Neyret,
-// Holzschuch, Real-time Realistic Ocean Lighting, 2010): the mean stays and nothing shimmers.
+// Phase difference from one pixel to the next, radians, from which a wave fades into roughness, up to WAVE_LOST
+// (Bruneton, Neyret, Holzschuch, Real-time Realistic Ocean Lighting, 2010): the mean stays and nothing shimmers.
 const WAVE_SEEN: f32 = 0.6;
-const WAVE_LOST: f32 = 1.9;
 
 // Wave number of the shortest waves whose breaking makes foam, radians per metre: 1.5 m long.
 const BREAKING_PER_M: f32 = 4.2;
@@ -35,7 +34,7 @@ fn waves_at(calm_m: vec3f, up: vec3f, step_x: vec3f, step_y: vec3f, depth_m: f32
         let along = wave.vector_per_m - up * dot(wave.vector_per_m, up);
         let k = length(along);
         // All later waves are shorter.
-        if 0.7 * k * least_step > WAVE_LOST { break; }
+        if WAVE_ACROSS * k * least_step > WAVE_LOST { break; }
         let turn = max(abs(dot(along, step_x)), abs(dot(along, step_y)));
         let seen = 1.0 - smoothstep(WAVE_SEEN, WAVE_LOST, turn);
         if seen <= 0.0 { continue; }

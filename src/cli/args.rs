@@ -1,5 +1,7 @@
 //! Parsers of sizes, angles and locations on the command line. Each error says what would be right.
 
+use crate::render::Post;
+
 /// Largest side of a picture, in pixels.
 const MAX_SIDE: u32 = 32_768;
 /// Most pixels of a picture: they take 12 bytes each.
@@ -77,7 +79,8 @@ pub(super) fn exposure(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn white(text: &str) -> Result<f64, String> {
-    number(text, 2000.0, 25_000.0)
+    let (least, most) = Post::WHITE_K.into_inner();
+    number(text, least, most)
 }
 
 pub(super) fn share(text: &str) -> Result<f64, String> {

@@ -61,15 +61,12 @@ impl Gpu {
         size_px: [u32; 2],
         draw: impl FnOnce(&wgpu::TextureView) -> Result<(), String>,
     ) -> Result<Vec<u8>, String> {
-        let texture = texture(&self.device, "picture", size_px, FORMAT);
-        draw(&texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
-
-        let texels = read_texture(&self.device, &self.queue, &texture);
-        match (self.first_error(), texels) {
-            (Some(first), _) => Err(format!("the GPU ({}): {first}", self.name)),
-            (None, Err(error)) => Err(format!("the GPU ({}): {error}", self.name)),
-            (None, Ok(texels)) => Ok(texels),
-        }
+        self.checked(|| {
+            let texture = texture(&self.device, "picture", size_px, FORMAT);
+            draw(&texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
+            read_texture(&self.device, &self.queue, &texture)
+                .map_err(|error| format!("the GPU ({}): {error}", self.name))
+        })
     }
 
     /// Does something with the device; its first uncaptured error counts as a failure.

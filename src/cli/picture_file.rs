@@ -1,6 +1,7 @@
 //! Files of pictures: PNG of 8 or 16 bits, and OpenEXR.
 
-use crate::render::Develop;
+use crate::render::{Develop, srgb_from_linear};
+use crate::world::noise::{hash, unit};
 use exr::prelude::{Image, SpecificChannels, WritableImage as _, f16};
 use rayon::prelude::*;
 use std::io::Cursor;
@@ -64,21 +65,15 @@ impl Kind {
     }
 }
 
-/// Encodes a linear value from 0 to 1 as sRGB (IEC 61966-2-1).
+/// Encodes a linear value as sRGB, cut off at 0 and 1.
 fn srgb(value: f32) -> f32 {
-    let value = value.clamp(0.0, 1.0);
-    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+    srgb_from_linear(f64::from(value)) as f32
 }
 
 /// Eight bits of a value from 0 to 1. Triangular noise with the amplitude of one step hides the steps; none on black.
 fn dithered(value: f32, pixel: u32) -> u8 {
-    let scramble = |bits: u32| {
-        let h = (bits ^ (bits >> 16)).wrapping_mul(0x7FEB_352D);
-        let h = (h ^ (h >> 15)).wrapping_mul(0x846C_A68B);
-        h ^ (h >> 16)
-    };
-    let unit = |bits: u32| scramble(bits) as f32 / u32::MAX as f32;
-    let noise = unit(pixel) - unit(pixel ^ 0x9E37_79B9);
+    let [a, b] = [0, 1].map(|number| unit(hash(pixel, number)) as f32);
+    let noise = a - b;
     (value * 255.0 + noise * (value * 255.0).min(1.0)).round().clamp(0.0, 255.0) as u8
 }
 

@@ -8,14 +8,20 @@ use super::{RenderError, gpu, shaders};
 use glam::UVec2;
 
 impl Metering {
-    /// Share of the difference to the metered exposure that this picture closes, or the exposure in stops where it is
-    /// not metered.
-    fn share(self) -> Result<f32, f64> {
+    /// The exposure in stops, where this picture is not metered.
+    fn fixed_ev(self) -> Option<f32> {
         match self {
-            Metering::Manual => Err(0.0),
-            Metering::Fixed { metered_ev } => Err(metered_ev),
-            Metering::Instant => Ok(1.0),
-            Metering::Adapting { secs } => Ok((1.0 - (-secs.max(0.0) / ADAPTATION_SECS).exp()) as f32),
+            Metering::Manual => Some(0.0),
+            Metering::Fixed { metered_ev } => Some(metered_ev as f32),
+            Metering::Instant | Metering::Adapting { .. } => None,
+        }
+    }
+
+    /// Share of the difference to the metered exposure that this picture closes.
+    fn share(self) -> f32 {
+        match self {
+            Metering::Adapting { secs } => (1.0 - (-secs.max(0.0) / ADAPTATION_SECS).exp()) as f32,
+            _ => 1.0,
         }
     }
 }
@@ -72,16 +78,13 @@ impl ExposurePass {
         viewport_px: [u32; 4],
         metering: Metering,
     ) {
-        let share = match metering.share() {
-            Ok(share) => share,
-            Err(ev) => {
-                let ev = ev as f32;
-                queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, 0.0, 0.0]));
-                return;
-            }
-        };
+        if let Some(ev) = metering.fixed_ev() {
+            queue.write_buffer(&of.result, 0, bytemuck::cast_slice(&[ev.exp2(), ev, 0.0, 0.0]));
+            return;
+        }
         let [x, y, width, height] = viewport_px;
-        let step = MeterStep { origin_px: UVec2::new(x, y), size_px: UVec2::new(width, height), share };
+        let step =
+            MeterStep { origin_px: UVec2::new(x, y), size_px: UVec2::new(width, height), share: metering.share() };
         queue.write_buffer(&of.step, 0, &wgsl::bytes_of(&step));
         let [bins, result, step] = [&of.bins, &of.result, &of.step].map(wgpu::Buffer::as_entire_binding);
         let counted = [wgpu::BindingResource::TextureView(radiance), bins.clone(), step.clone()];

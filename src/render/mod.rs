@@ -76,6 +76,7 @@ pub use shared::MAX_SUNS;
 pub use sky_probe::SkyAnswer;
 pub use targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 pub use tone::Tone;
+pub(crate) use tone::srgb_from_linear;
 /// The GPU crate of all signatures.
 pub use wgpu;
 pub use white_balance::white_balance;

@@ -1,7 +1,7 @@
 //! How near the eye is to a body. Pipelines for distant views leave out the detail that no pixel of them resolves: an
 //! `if` does not save it on adapters that run both branches, and its registers cost the others.
 
-use super::shared::{Body, CLOUD_MAP_SIDE};
+use super::shared::{Body, CLOUD_MAP_SIDE, WAVE_ACROSS, WAVE_LOST};
 use std::f32::consts::FRAC_PI_2;
 
 /// Distance of the eye from the nearest ground, water or cloud of a body, by what a pixel resolves there.
@@ -32,9 +32,12 @@ impl Nearness {
         let cloud_pixel_km = if body.veil_km > 0.0 { over_clouds_km.max(0.0) * pixel_rad } else { f32::MAX };
         let texel_km = FRAC_PI_2 * body.radius_km / CLOUD_MAP_SIDE as f32;
         let floe_km = if body.floes_per_m > 0.0 { 1e-3 / body.floes_per_m } else { 0.0 };
+        // Width of a pixel in which waves.wgsl loses the longest wave.
+        let longest_per_m = if body.wave_count > 0 { body.waves[0].vector_per_m.length() } else { f32::MAX };
+        let wave_km = 1e-3 * (WAVE_LOST / WAVE_ACROSS) as f32 / longest_per_m;
         match () {
             () if pixel_km < NEAR_M * 1e-3 => Self::Ground,
-            () if pixel_km < 0.5 * floe_km || cloud_pixel_km < texel_km => Self::Air,
+            () if pixel_km < wave_km.max(0.5 * floe_km) || cloud_pixel_km < texel_km => Self::Air,
             () => Self::Orbit,
         }
     }
@@ -47,7 +50,10 @@ impl Nearness {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shared::{WAVES, Wave};
     use super::*;
+    use glam::Vec3;
+    use std::f32::consts::TAU;
 
     /// A planet like the Earth with clouds, under an eye at a height.
     fn body(eye_altitude_km: f32) -> Body {
@@ -69,6 +75,13 @@ mod tests {
         assert_eq!(of(&body(9000.0)), Nearness::Air);
         assert_eq!(of(&Body { veil_km: 0.0, ..body(9000.0) }), Nearness::Orbit);
         assert_eq!(of(&body(0.9)), Nearness::Air);
+        // Without clouds and floes, a pixel of 3 m shows a swell 60 m long and loses one 6 m long.
+        let calm = |wave_m: f32| {
+            let mut waves = [Wave::default(); WAVES];
+            waves[0].vector_per_m = Vec3::X * TAU / wave_m;
+            Body { veil_km: 0.0, floes_per_m: 0.0, wave_count: 1, waves, ..body(2.0) }
+        };
+        assert_eq!([60.0, 6.0].map(|wave_m| of(&calm(wave_m))), [Nearness::Air, Nearness::Orbit]);
         assert_eq!(of(&body(0.2)), Nearness::Ground);
         assert_eq!(of(&Body { wave_steps: 6, ..body(0.9) }), Nearness::Ground);
         assert_eq!(of(&Body { eye_is_under: 1, ..body(0.9) }), Nearness::Ground);

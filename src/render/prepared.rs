@@ -128,7 +128,7 @@ impl<'r> PreparedFrame<'r> {
                 viewport_px: self.plan.viewport_px,
                 load: load && !under_sea,
                 lines: self.plan.lines,
-                nearness: body.work.nearness,
+                nearness: body_view.nearness,
             };
             let groups = [&body_view.group, resources.luts.group()];
             let pass = &self.renderer.pipelines.terrain;
@@ -140,7 +140,7 @@ impl<'r> PreparedFrame<'r> {
             for pass in self.running(&self.renderer.pipelines.opaque, &body.work) {
                 pass.draw(
                     encoder,
-                    &Drawing { nearness: body.work.nearness, ..self.drawing(view, &groups, &texture, load) },
+                    &Drawing { nearness: body_view.nearness, ..self.drawing(view, &groups, &texture, load) },
                 )?;
             }
             load = true;
@@ -186,7 +186,7 @@ impl<'r> PreparedFrame<'r> {
             let groups = [&body_view.group, resources.luts.group()];
             for pass in self.running(&self.renderer.pipelines.air, &body.work) {
                 let drawing = self.drawing(view, &groups, &texture, number > 0);
-                pass.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), nearness: body.work.nearness, ..drawing })?;
+                pass.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), nearness: body_view.nearness, ..drawing })?;
             }
         }
         if with_air.is_empty() {

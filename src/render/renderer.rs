@@ -72,6 +72,8 @@ pub(crate) struct BodyView {
     /// Group 0 of the passes that draw the body.
     pub(crate) group: wgpu::BindGroup,
     pub(crate) ground: GroundView,
+    /// How near the eye is to the body in this frame.
+    pub(crate) nearness: Nearness,
 }
 
 impl Renderer {
@@ -211,7 +213,7 @@ impl Renderer {
             return Err(RenderError::BodyTwice(twice.id.0));
         }
         self.reload_shaders();
-        let mut plan = plan(scene, drawn, has_own_targets);
+        let plan = plan(scene, drawn, has_own_targets);
         let (device, queue) = (&self.device, &self.queue);
         let group = |frame: &UniformBuffer, body: &UniformBuffer| self.shared.group(device, frame, body);
         let view = self.views.entry(scene.view_id).or_insert_with(|| {
@@ -228,14 +230,14 @@ impl Renderer {
         }
         let frame_values = uniforms::frame(scene, drawn);
         let frame_written = view.frame.write(queue, &frame_values);
-        for (number, planned) in plan.bodies.iter_mut().enumerate() {
+        for (number, planned) in plan.bodies.iter().enumerate() {
             let body = &scene.bodies[planned.index];
             let resources =
                 self.bodies.entry(body.id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
             let body_view = view.bodies.entry(body.id).or_insert_with(|| {
                 let uniforms = UniformBuffer::new::<uniforms::Body>(device, "body");
                 let group = group(&view.frame, &uniforms);
-                BodyView { uniforms, group, ground: GroundView::new(device) }
+                BodyView { uniforms, group, ground: GroundView::new(device), nearness: Nearness::Ground }
             });
             let order = [number == 0, plan.frontmost == Some(number)];
             let mut values = uniforms::body(scene, body, drawn, order);
@@ -243,7 +245,7 @@ impl Renderer {
             let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene);
             (values.cloud_offset, values.veil_offset) = (clouds.offset, clouds.veil_offset);
             (values.cloud_odd_share, values.cloud_least_level) = (clouds.odd_share, clouds.least_level);
-            planned.work.nearness = Nearness::of(&values, frame_values.pixel_rad);
+            body_view.nearness = Nearness::of(&values, frame_values.pixel_rad);
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
             resources.begin_view(scene.view_id);
@@ -377,9 +379,7 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage.max(clouds.veil) > 0.0)
             && body.marked.is_none();
         let sea = body.planet().water.is_some();
-        // Known only when the body is prepared.
-        let nearness = Nearness::Ground;
-        let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges, nearness };
+        let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges };
         // The farthest body brings the stars, whether it has air or not.
         let has_air = shaded && (number == 0 || clouds || body.planet().atmosphere.is_some());
         PlannedBody { id: body.id, index, work, has_air }
@@ -392,13 +392,7 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         bodies,
         lines: scene.debug_view == DebugView::Wireframe,
         metering: if shaded { scene.post.metering } else { Metering::Manual },
-        post: Work {
-            shaded,
-            sea: false,
-            clouds: false,
-            smooth_edges: scene.post.smooth_edges,
-            nearness: Nearness::Orbit,
-        },
+        post: Work { shaded, sea: false, clouds: false, smooth_edges: scene.post.smooth_edges },
     }
 }
 

@@ -11,6 +11,7 @@ use crate::terrain::Revision;
 use crate::tiles::Surface;
 use crate::world::MapView;
 use glam::{DQuat, DVec3, Mat4};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Key of a body: the renderer keeps the body's tiles and LUTs under it from frame to frame.
@@ -162,7 +163,7 @@ pub struct Post {
     pub smooth_edges: bool,
     /// Exposure in stops, 0 for a sunlit planet. With automatic exposure: a correction to it.
     pub exposure_ev: f64,
-    /// Colour temperature of the light that is shown white, kelvins, 2,000 to 25,000. [`Post::DAYLIGHT_K`] is the
+    /// Colour temperature of the light that is shown white, kelvins, in [`Post::WHITE_K`]. [`Post::DAYLIGHT_K`] is the
     /// planet's daylight; lower makes the picture bluer, as a camera set to lamps.
     pub white_k: f64,
     /// How much darker the corners are than the middle, 0 to 1.
@@ -172,6 +173,8 @@ pub struct Post {
 impl Post {
     /// The white balance of daylight.
     pub const DAYLIGHT_K: f64 = 6504.0;
+    /// Range of the white balance.
+    pub const WHITE_K: RangeInclusive<f64> = 2000.0..=25_000.0;
 }
 
 impl Default for Post {

@@ -52,8 +52,6 @@ pub(crate) struct Work {
     pub(crate) clouds: bool,
     /// Edges are smoothed.
     pub(crate) smooth_edges: bool,
-    /// How near the eye is to the body.
-    pub(crate) nearness: Nearness,
 }
 
 /// A pass over all pixels of the picture.

@@ -116,6 +116,12 @@ fn neutral(radiance: [f64; 3]) -> [f64; 3] {
     raised.map(|c| shrunk + (c * shrunk / peak - shrunk) * kept)
 }
 
+/// Encodes a linear value as sRGB (IEC 61966-2-1), from 0 to 1; what lies beyond is cut off.
+pub(crate) fn srgb_from_linear(value: f64) -> f64 {
+    let value = value.clamp(0.0, 1.0);
+    if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

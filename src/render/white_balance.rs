@@ -25,10 +25,11 @@ pub fn white_balance(planet: &Planet) -> [f64; 3] {
     white.map(|c| (luminance / c.max(1e-6)).clamp(GAIN_RANGE.0, GAIN_RANGE.1))
 }
 
-/// Gains on red, green and blue of a camera that shows light of a colour temperature as white, 2,000 to 25,000 kelvins.
+/// Gains on red, green and blue of a camera that shows light of a colour temperature in [`Post::WHITE_K`] as white.
 /// Luminance of white stays.
 pub(crate) fn camera_balance(white_k: f64) -> [f64; 3] {
-    let shown = [white_k, Post::DAYLIGHT_K].map(|kelvins| black_body(kelvins.clamp(2000.0, 25_000.0)));
+    let (least, most) = Post::WHITE_K.into_inner();
+    let shown = [white_k, Post::DAYLIGHT_K].map(|kelvins| black_body(kelvins.clamp(least, most)));
     let gains: [f64; 3] = std::array::from_fn(|i| shown[1][i] / shown[0][i].max(0.02));
     let luminance = 0.2126 * gains[0] + 0.7152 * gains[1] + 0.0722 * gains[2];
     gains.map(|gain| gain / luminance)

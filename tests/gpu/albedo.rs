@@ -49,8 +49,8 @@ fn reflected(planet: &Arc<Planet>) -> BTreeMap<String, Reflected> {
         gpu.draw_only(&debug(frame_of(&surface, planet, view, sun), DebugView::Albedo), 1);
         let (_, albedo) = gpu.renderer.radiance().unwrap();
         for (i, (light, albedo)) in light.into_iter().zip(albedo).enumerate() {
-            let at = |n: usize| ((n as f64 + 0.5) / SIDE_PX as f64 * 2.0 - 1.0) * (0.5 * fov_rad).tan();
-            let ray = shaded.scene_from_view * dvec3(at(i % SIDE_PX), -at(i / SIDE_PX), -1.0).normalize();
+            let at = |n: usize| (n as f64 + 0.5) / SIDE_PX as f64 * 2.0 - 1.0;
+            let ray = camera.ray_dir_planet(at(i % SIDE_PX), -at(i / SIDE_PX), 1.0);
             let eye_m = camera.position_planet_m;
             let along_m = -ray.dot(eye_m);
             let inside = along_m * along_m - eye_m.length_squared() + planet.radius_m().powi(2);

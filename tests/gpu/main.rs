@@ -2,6 +2,7 @@
 //!
 //! - `shaders`: every WGSL file through naga
 //! - `air`, `sky`: the atmosphere, against goldens and against the CPU reference
+//! - `albedo`: what grounds, seas and clouds reflect, from orbit
 //! - `biomes`, `colours`, `materials`: the colours of the ground
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `lakes`: water of planets with a structure

@@ -18,6 +18,15 @@ fn sharpness(pixels: &[[f32; 3]], width: usize) -> f64 {
     all.iter().sum::<f64>() / all.len() as f64
 }
 
+/// The earth without clouds, from 300 km, with an exposure that no tile can change; each pixel by itself.
+fn wide(draw: impl FnOnce(Scene<'_>)) {
+    of(&Arc::new(Planet { clouds: None, ..earth() }), [2200, 40], 3e5, |mut scene| {
+        scene.post.smooth_edges = false;
+        scene.post.metering = Metering::Fixed { metered_ev: -1.0 };
+        draw(scene);
+    });
+}
+
 fn of(planet: &Arc<Planet>, size_px: [u32; 2], altitude_m: f64, draw: impl FnOnce(Scene<'_>)) {
     let view = View { camera: camera(planet, 10.0, 10.0, altitude_m, 40.0, -90.0), size_px, quality: Quality::Medium };
     let surface = surface_of(planet, &view);
@@ -29,11 +38,8 @@ fn of(planet: &Arc<Planet>, size_px: [u32; 2], altitude_m: f64, draw: impl FnOnc
 /// Tiles join without a seam: each has the exposure, the ground and the footprints of the whole picture.
 #[test]
 fn a_picture_in_tiles_is_the_picture() {
-    let planet = Arc::new(Planet { clouds: None, ..earth() });
     let mut gpu = gpu();
-    of(&planet, [2200, 40], 3e5, |mut scene| {
-        scene.post.smooth_edges = false;
-        scene.post.metering = Metering::Fixed { metered_ev: 0.4 };
+    wide(|scene| {
         let tiled = Photo::default().take(&mut gpu.renderer, &scene, &mut |_| true).unwrap().unwrap();
         assert_eq!(tiled.len(), 2200 * 40);
         // A picture of the left half is one tile.
@@ -59,11 +65,8 @@ fn a_picture_in_tiles_is_the_picture() {
 /// The corners of the whole picture are darker, not those of its tiles; a camera set to lamps shows a bluer planet.
 #[test]
 fn vignette_and_white_balance_are_of_the_whole_picture() {
-    let planet = Arc::new(Planet { clouds: None, ..earth() });
     let mut gpu = gpu();
-    of(&planet, [2200, 40], 3e5, |mut scene| {
-        scene.post.smooth_edges = false;
-        scene.post.metering = Metering::Fixed { metered_ev: -1.0 };
+    wide(|mut scene| {
         scene.post.tone = Tone::Plain;
         let mut take = |scene: &Scene<'_>| {
             let pixels = Photo::default().take(&mut gpu.renderer, scene, &mut |_| true).unwrap().unwrap();

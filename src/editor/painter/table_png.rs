@@ -2,6 +2,7 @@
 //! the palette.
 
 use crate::planet::{Biomes, Table};
+use crate::render::srgb_from_linear;
 use image::{ImageFormat, ImageReader, Rgba, RgbaImage};
 use std::io::Cursor;
 
@@ -102,13 +103,9 @@ fn difference(a: [u8; 3], b: [u8; 3]) -> f64 {
     (0..3).map(|i| (a[i] - b[i]).powi(2)).sum()
 }
 
-/// A linear colour as sRGB bytes (IEC 61966-2-1).
+/// A linear colour as sRGB bytes.
 fn srgb(linear: [f64; 3]) -> [u8; 3] {
-    linear.map(|x| {
-        let x = x.clamp(0.0, 1.0);
-        let encoded = if x <= 0.003_130_8 { x * 12.92 } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
-        (encoded * 255.0).round() as u8
-    })
+    linear.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u8)
 }
 
 #[cfg(test)]

@@ -10,14 +10,12 @@ use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::lod::Quality;
 use crate::planet::param::Unit;
 use crate::planet::shipped;
-use crate::render::Tone;
+use crate::render::{Post, Tone};
 use eframe::egui;
 use std::path::Path;
 
 /// Range of the exposure slider, in stops.
 const EXPOSURE_EV: f64 = 8.0;
-/// Least and greatest white balance, kelvins.
-const WHITE_K: (f64, f64) = (2000.0, 25_000.0);
 /// Fastest time, in seconds of the planet for each second: a day of 24 hours.
 const MAX_TIME_SPEED: f64 = 86_400.0;
 
@@ -148,7 +146,7 @@ fn camera(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     ui.horizontal(|ui| {
         let told =
             "Colour temperature that is shown white: 6504 K is the planet's daylight, lower makes the picture bluer";
-        let (least, most) = WHITE_K;
+        let (least, most) = Post::WHITE_K.into_inner();
         let allowed = Allowed::numbers(Unit::None, least, most).marked(" K");
         let of = Slider { name: "White balance", told, allowed, range: (2500.0, 12_000.0), step: 20.0 };
         if let Some(white_k) = of.show(ui, settings.white_k) {

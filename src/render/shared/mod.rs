@@ -75,6 +75,8 @@ pub(crate) fn text() -> String {
         ("CLOUD_MAP_LEVELS", &f64::from(CLOUD_MAP_LEVELS)),
         ("CALM_SLOPE_VARIANCE", &CALM_SLOPE_VARIANCE),
         ("WAVE_SKEW", &WAVE_SKEW),
+        ("WAVE_LOST", &WAVE_LOST),
+        ("WAVE_ACROSS", &WAVE_ACROSS),
         ("LEAST_SKEWED", &LEAST_SKEWED),
         ("FLOE_GRID", &FLOE_GRID),
         // Exposure
