@@ -21,44 +21,6 @@ fn sun_disc(dir: vec3f) -> vec3f {
     return active_sun.irradiance * (active_sun.disc_gain * edge) * limb;
 }
 
-// Glare around a sun's disc: light scattered in the lens, scaled by the visible share of the disc. It falls smoothly to
-// zero at REACH (length of the difference of unit vectors).
-fn glare(dir: vec3f) -> vec3f {
-    const REACH: f32 = 1.2;
-    let sun = active_sun.dir;
-    let off = length(dir - sun);
-    let inside = saturate1(1.0 - off / REACH);
-    if inside <= 0.0 { return vec3f(0.0); }
-    let square = off * off;
-    let shape = inside * inside * (0.5 * pow(1.0 + square * 8000.0, -1.5) + 0.06 * pow(1.0 + square * 250.0, -1.5));
-    // Position of the sun in the picture; no glare if the sun is outside.
-    let right = body.ray_right;
-    let top = body.ray_up;
-    let depth = dot(sun, body.view_axis);
-    if depth <= 0.0 { return vec3f(0.0); }
-    let aside = vec2f(dot(sun, right) / dot(right, right), dot(sun, top) / dot(top, top)) / depth;
-    let size = frame.size_px;
-    let center = ((aside - frame.lens_shift) * vec2f(0.5, -0.5) + 0.5) * size;
-    let reach = active_sun.radius_rad / frame.pixel_rad * 0.6;
-    var open = 0.0;
-    for (var i = 0; i < 9; i++) {
-        let at = center + vec2f(f32(i % 3 - 1), f32(i / 3 - 1)) * reach;
-        if any(at < vec2f(0.0)) || any(at >= size) { continue; }
-        let pixel = frame.origin_px + at;
-        let ray = pixel_ray(pixel);
-        let length_at = length(ray);
-        if surface_distance(vec2i(pixel), length_at) >= NOTHING_KM {
-            var through = 1.0;
-            if has_clouds() { through = textureLoad(cloud_light, vec2i(pixel), 0).a; }
-            open += through / 9.0;
-        }
-    }
-    let altitude_km = body.eye_altitude_km;
-    var clear = vec3f(1.0);
-    if altitude_km < body.air_height_km { clear = sun_transmittance(altitude_km, dot(body.eye_up, sun)); }
-    return active_sun.irradiance / PI * clear * (shape * open);
-}
-
 // Whether the pass of the clouds has run.
 fn has_clouds() -> bool { return max(body.cloud_coverage, body.veil_coverage) > 0.0; }
 
@@ -101,7 +63,7 @@ struct Output {
     @location(1) stars: vec4f,
 }
 
-// Result of a ray, without stars and glare.
+// Result of a ray, without stars.
 struct RayLight {
     light: vec3f,
     // Luminance of the sunlight scattered by the air
@@ -230,20 +192,13 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         cloud_at = around.at_km;
     }
     let seen = across_limb(pixel, dir, far, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
-    var scattered = vec3f(0.0);
-    if body.is_frontmost != 0u {
-        for (var i = 0u; i < body.sun_count; i++) {
-            use_sun(i);
-            scattered += glare(dir);
-        }
-    }
     // Factor on the stars left by the bodies farther away.
     var star_light = select(vec3f(1.0), vec3f(0.0), ground);
     // Weight of the sky for metering: small from within the air, zero from outer space.
     var weight = 1.0;
     if !ground {
         // Bright sky hides the stars, at dusk as well, when the exposure is long.
-        let dimming = 1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb) + 1e3 * luminance(scattered);
+        let dimming = 1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb);
         let star_visibility = 1.0 / dimming;
         // Stars are as wide as a pixel of the display, not of this target, so that their brightness does not depend on
         // the render scale.
@@ -255,5 +210,5 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         let sky = seen.air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
         weight = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));
     }
-    return Output(vec4f(min(seen.light + scattered, vec3f(60000.0)), weight), vec4f(sqrt(star_light), 1.0));
+    return Output(vec4f(min(seen.light, vec3f(60000.0)), weight), vec4f(sqrt(star_light), 1.0));
 }

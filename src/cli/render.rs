@@ -106,6 +106,9 @@ pub(super) struct Args {
     /// How much darker the corners are, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = args::share)]
     vignette: f64,
+    /// Share of the light that the lens scatters, 0 to 1: the glow of the sun and of highlights
+    #[arg(long, value_name = "SHARE", default_value_t = Post::CLEAN_LENS, value_parser = args::share)]
+    bloom: f64,
     /// Tone curve from radiance to the picture
     #[arg(long, value_enum, default_value_t = Tone::default())]
     tone: Tone,
@@ -194,7 +197,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.post.metering = if args.exposure.is_some() { Metering::Manual } else { Metering::Instant };
     scene.post.exposure_ev = args.exposure.unwrap_or(0.0);
     scene.post.tone = args.tone;
-    (scene.post.white_k, scene.post.vignette) = (args.white, args.vignette);
+    (scene.post.white_k, scene.post.vignette, scene.post.bloom) = (args.white, args.vignette, args.bloom);
     let mut photo = Photo::default();
     (photo.samples, photo.develop) = (args.samples, kind.develop());
     photo.lens = args.aperture.zip(args.focus).map(|(diameter_m, focus_m)| Lens { diameter_m, focus_m });

@@ -70,10 +70,11 @@ fn set(state: &mut State, setting: Setting) {
     let settings = &mut state.viewport.settings;
     match setting {
         Setting::Quality(quality) => settings.quality = quality,
-        Setting::Tone(tone) => settings.tone = tone,
-        Setting::ExposureEv(exposure_ev) => settings.exposure_ev = exposure_ev,
-        Setting::WhiteK(white_k) => settings.white_k = white_k,
-        Setting::Vignette(vignette) => settings.vignette = vignette,
+        Setting::Tone(tone) => settings.post.tone = tone,
+        Setting::ExposureEv(exposure_ev) => settings.post.exposure_ev = exposure_ev,
+        Setting::WhiteK(white_k) => settings.post.white_k = white_k,
+        Setting::Vignette(vignette) => settings.post.vignette = vignette,
+        Setting::Bloom(bloom) => settings.post.bloom = bloom,
         Setting::AutoExposure(automatic) => settings.auto_exposure = automatic,
         Setting::TimeSpeed(time_speed) => settings.time_speed = time_speed,
     }

@@ -85,6 +85,8 @@ pub enum Setting {
     WhiteK(f64),
     /// How much darker the corners are, 0 to 1.
     Vignette(f64),
+    /// Share of the light that the lens scatters, 0 to 1.
+    Bloom(f64),
     /// Whether the exposure follows the picture's brightness.
     AutoExposure(bool),
     /// Seconds of the planet for each second of the clock.

@@ -10,7 +10,7 @@
 //! - opaque stage: `morph` (compute), `terrain` with `ground_view`, `body_tiles`, `pool`, `layer_pool`, `detail_pool`,
 //!   `horizon_pool`; then `water`
 //! - air stage: `clouds`, `air`; `copy` where there is no air
-//! - post-process: `exposure` (compute), `tonemap` with `tone` and `white_balance`, `antialias`, `display`
+//! - post-process: `exposure` (compute), `bloom`, `tonemap` with `tone` and `white_balance`, `antialias`, `display`
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
 //!   (of `material_kinds`, by `material_noise`)
@@ -22,6 +22,7 @@
 mod air;
 mod antialias;
 mod biome_table;
+mod bloom;
 mod body_tiles;
 mod border_tile;
 mod cloud_map;

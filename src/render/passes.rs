@@ -1,7 +1,9 @@
 //! The passes of a frame, in their order: the one place that names them all.
 
 use super::screen_pass::{ScreenPass, ScreenPipeline, Shared};
-use super::{RenderError, air, antialias, clouds, copy, display, exposure, luts, morph, terrain, tonemap, water};
+use super::{
+    RenderError, air, antialias, bloom, clouds, copy, display, exposure, luts, morph, terrain, tonemap, water,
+};
 
 /// Passes of the opaque stage that follow the ground, for each body.
 pub(crate) const OPAQUE: &[&ScreenPass] = &[&water::PASS];
@@ -20,6 +22,7 @@ pub(crate) struct Pipelines {
     /// Stands in for the air stage where it draws nothing.
     pub(crate) copy: ScreenPipeline,
     pub(crate) exposure: exposure::ExposurePass,
+    pub(crate) bloom: bloom::BloomPass,
     pub(crate) post: Vec<ScreenPipeline>,
 }
 
@@ -36,6 +39,7 @@ impl Pipelines {
             air: make(AIR)?,
             copy: ScreenPipeline::new(device, shared, &copy::PASS)?,
             exposure: exposure::ExposurePass::new(device)?,
+            bloom: bloom::BloomPass::new(device, shared.uniforms)?,
             post: make(POST)?,
         })
     }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// Side of a tile in pixels, and rows around it that are drawn and cut off: smooth edges look at neighbours.
 const TILE_PX: u32 = 1024;
 const APRON_PX: u32 = 12;
-/// Longer side in pixels of the small picture that meters the exposure of all tiles.
+/// Longer side in pixels of the small picture that gives all tiles their exposure and bloom.
 const METERED_PX: u32 = 768;
 /// The view of photographs.
 const VIEW: ViewId = ViewId(u32::MAX);
@@ -86,11 +86,7 @@ impl Photo {
         let count = self.samples.clamp(1, 16).pow(2);
         let parts = parts(scene.size_px);
         let is_one = parts.len() == 1 && count == 1;
-        let metering = match scene.post.metering {
-            given @ (Metering::Manual | Metering::Fixed { .. }) => given,
-            _ if is_one => Metering::Instant,
-            _ => Metering::Fixed { metered_ev: metered_ev(renderer, scene)? },
-        };
+        let metering = if is_one { scene.post.metering } else { metered(renderer, scene)? };
         let [wide, high] = scene.size_px.map(|side| side as usize);
         let mut pixels = vec![[0.0; 3]; wide * high];
         for (number, part) in parts.iter().enumerate() {
@@ -101,6 +97,9 @@ impl Photo {
                     return Ok(None);
                 }
                 let mut tile = tile(scene, part.drawn);
+                if !is_one {
+                    tile.whole.get_or_insert(scene.projection);
+                }
                 tile.post.metering = metering;
                 tile.post.smooth_edges &= count == 1;
                 self.aim(&mut tile, sample, count);
@@ -216,22 +215,28 @@ fn tile<'a>(scene: &Scene<'a>, [x, y, width, height]: Part) -> Scene<'a> {
     let down = |px: u32| top + (bottom - top) * f64::from(px) / high;
     tile.projection.tangents = [across(x), across(x + width), down(y + height), down(y)];
     tile.projection.near_m = Some(scene.matrices().near_m);
-    tile.whole.get_or_insert(scene.projection);
     tile.size_px = [width, height];
     tile.view_id = VIEW;
     tile
 }
 
-/// The exposure that a small picture of the whole meters, in stops.
-fn metered_ev(renderer: &mut Renderer, scene: &Scene<'_>) -> Result<f64, RenderError> {
+/// Draws a small picture of the whole, whose exposure and bloom all tiles have.
+fn metered(renderer: &mut Renderer, scene: &Scene<'_>) -> Result<Metering, RenderError> {
     let longer = scene.size_px[0].max(scene.size_px[1]).max(1);
     let mut small = tile(scene, [0, 0, scene.size_px[0], scene.size_px[1]]);
     let shrunk = |side: u32| (u64::from(side) * u64::from(METERED_PX.min(longer)) / u64::from(longer)).max(1) as u32;
     small.size_px = scene.size_px.map(shrunk);
-    small.post.metering = Metering::Instant;
+    let given = match scene.post.metering {
+        given @ (Metering::Manual | Metering::Fixed { .. }) => Some(given),
+        Metering::Instant | Metering::Adapting { .. } => None,
+    };
+    small.post.metering = given.unwrap_or(Metering::Instant);
     let target = texture(&renderer.device, "metered photograph", small.size_px, FORMAT);
     renderer.render(&target.create_view(&wgpu::TextureViewDescriptor::default()), &small)?;
-    renderer.metered_ev(VIEW)
+    match given {
+        Some(given) => Ok(given),
+        None => Ok(Metering::Fixed { metered_ev: renderer.metered_ev(VIEW)? }),
+    }
 }
 
 /// A picture at another size: the mean of the pixels that fall into each.

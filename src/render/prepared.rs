@@ -49,11 +49,13 @@ pub(crate) struct Plan {
     pub(crate) has_own_targets: bool,
     /// The farthest first.
     pub(crate) bodies: Vec<PlannedBody>,
-    /// Number of the nearest body whose air is drawn.
-    pub(crate) frontmost: Option<usize>,
+    /// Whether the air of any body is drawn.
+    pub(crate) has_air: bool,
     /// Edges of triangles alone.
     pub(crate) lines: bool,
     pub(crate) metering: Metering,
+    /// Whether the lens scatters light of this picture. A tile of a photograph has that of the whole.
+    pub(crate) makes_bloom: bool,
     /// Decides which passes of the post-process run.
     pub(crate) post: Work,
 }
@@ -216,11 +218,16 @@ impl<'r> PreparedFrame<'r> {
         targets::check("output", output, None, wgpu::TextureUsages::RENDER_ATTACHMENT)?;
         self.meter(encoder, composite);
         let view = self.view;
+        if self.plan.makes_bloom {
+            let picture = (composite, &view.exposure.result);
+            self.renderer.pipelines.bloom.draw(&self.renderer.device, encoder, &view.bloom, &view.group, picture);
+        }
         let smoothed = self.plan.post.shaded && self.plan.post.smooth_edges;
         let picture = if smoothed { Target::Smoothed } else { Target::Toned };
         let texture = |target| match target {
             Target::Composite => Some(composite),
             Target::Output => Some(output),
+            Target::Bloom => view.bloom.light(),
             Target::Picture => view.targets.get(Owned::Target(picture)),
             other => view.targets.get(Owned::Target(other)),
         };
@@ -272,7 +279,7 @@ impl<'r> PreparedFrame<'r> {
         encoder: &mut wgpu::CommandEncoder,
         output: &wgpu::TextureView,
     ) -> Result<(FrameStats, Target), RenderError> {
-        let has_air = self.plan.frontmost.is_some();
+        let has_air = self.plan.has_air;
         let radiance = if has_air { Target::Composite } else { Target::Radiance };
         let texture = |target| self.view.targets.get(Owned::Target(target));
         let textures = [Target::Radiance, Target::Depth, radiance].map(texture);

@@ -1,5 +1,6 @@
 //! The renderer of a device: pipelines and patterns once, resources for each body and for each view.
 
+use super::bloom::Bloom;
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::luts::{LutRuns, Luts, Patterns};
@@ -63,6 +64,7 @@ pub(crate) struct ViewResources {
     pub(crate) group: wgpu::BindGroup,
     pub(crate) targets: Targets,
     pub(crate) exposure: exposure::Exposure,
+    pub(crate) bloom: Bloom,
     pub(crate) bodies: HashMap<BodyId, BodyView>,
 }
 
@@ -219,11 +221,21 @@ impl Renderer {
         let view = self.views.entry(scene.view_id).or_insert_with(|| {
             let frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
             let group = group(&frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"));
-            let (targets, exposure) = (Targets::new(target_px), exposure::Exposure::new(device));
-            ViewResources { frame, group, targets, exposure, bodies: HashMap::new() }
+            ViewResources {
+                frame,
+                group,
+                targets: Targets::new(target_px),
+                exposure: exposure::Exposure::new(device),
+                bloom: Bloom::new(device, [1, 1]),
+                bodies: HashMap::new(),
+            }
         });
         if view.targets.size_px != target_px {
             view.targets = Targets::new(target_px);
+        }
+        let picture_px = [drawn.viewport_px[2], drawn.viewport_px[3]];
+        if plan.makes_bloom && !view.bloom.fits(picture_px) {
+            view.bloom = Bloom::new(device, picture_px);
         }
         for owned in plan.owned() {
             view.targets.make(device, owned);
@@ -239,8 +251,7 @@ impl Renderer {
                 let group = group(&view.frame, &uniforms);
                 BodyView { uniforms, group, ground: GroundView::new(device), nearness: Nearness::Ground }
             });
-            let order = [number == 0, plan.frontmost == Some(number)];
-            let mut values = uniforms::body(scene, body, drawn, order);
+            let mut values = uniforms::body(scene, body, drawn, number == 0);
             let terrain = &*body.surface.terrain;
             let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene);
             (values.cloud_offset, values.veil_offset) = (clouds.offset, clouds.veil_offset);
@@ -388,9 +399,10 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
     Plan {
         viewport_px: drawn.viewport_px,
         has_own_targets,
-        frontmost: bodies.iter().rposition(|body| body.has_air),
+        has_air: bodies.iter().any(|body| body.has_air),
         bodies,
         lines: scene.debug_view == DebugView::Wireframe,
+        makes_bloom: shaded && scene.post.bloom > 0.0 && scene.whole.is_none(),
         metering: if shaded { scene.post.metering } else { Metering::Manual },
         post: Work { shaded, sea: false, clouds: false, smooth_edges: scene.post.smooth_edges },
     }

@@ -168,11 +168,16 @@ pub struct Post {
     pub white_k: f64,
     /// How much darker the corners are than the middle, 0 to 1.
     pub vignette: f64,
+    /// Share of the light that the lens scatters over the picture, 0 to 1: the glow of highlights and of the sun. It
+    /// is [`Post::CLEAN_LENS`] for clean glass, and 0.1 for a lens behind mist.
+    pub bloom: f64,
 }
 
 impl Post {
     /// The white balance of daylight.
     pub const DAYLIGHT_K: f64 = 6504.0;
+    /// The bloom of clean glass.
+    pub const CLEAN_LENS: f64 = 0.015;
     /// Range of the white balance.
     pub const WHITE_K: RangeInclusive<f64> = 2000.0..=25_000.0;
 }
@@ -186,6 +191,7 @@ impl Default for Post {
             exposure_ev: 0.0,
             white_k: Self::DAYLIGHT_K,
             vignette: 0.0,
+            bloom: Self::CLEAN_LENS,
         }
     }
 }

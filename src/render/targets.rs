@@ -37,6 +37,8 @@ pub(crate) enum Target {
     Stars,
     /// Radiance of the whole scene: the caller's.
     Composite,
+    /// Light that the lens scatters, exposed.
+    Bloom,
     /// The picture after the tone curve, linear; alpha: perceived brightness.
     Toned,
     /// The same with smooth edges.

@@ -7,7 +7,7 @@ use super::targets::Target;
 pub(crate) const PASS: ScreenPass = ScreenPass {
     shader: "tonemap.wgsl",
     scope: Scope::View,
-    reads: &[Input::Load(Target::Composite), Input::Exposure, Input::Load(Target::Stars)],
+    reads: &[Input::Load(Target::Composite), Input::Exposure, Input::Load(Target::Stars), Input::Sample(Target::Bloom)],
     writes: &[writes(Target::Toned)],
     depth: None,
     by_nearness: false,

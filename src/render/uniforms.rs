@@ -46,8 +46,10 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
     let nearest = scene.bodies.iter().min_by(|a, b| away_m(a).total_cmp(&away_m(b)));
     let daylight = nearest.map_or([1.0; 3], |body| white_balance(body.planet()));
     let white = DVec3::from_array(daylight) * DVec3::from_array(camera_balance(scene.post.white_k));
-    let whole = scene.whole.unwrap_or(scene.projection).half_extent();
-    let half_diagonal = whole[0].hypot(whole[1]);
+    let whole = scene.whole.unwrap_or(scene.projection);
+    let whole_half = DVec2::from_array(whole.half_extent());
+    let half = DVec2::new(half_x, half_y);
+    let aside = DVec2::new(center_x, center_y) - DVec2::from_array(whole.center(scene.size_px));
     Frame {
         origin_px: UVec2::new(x, y).as_vec2(),
         size_px: UVec2::new(width, height).as_vec2(),
@@ -61,7 +63,10 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
         tone: scene.post.tone as u32,
         white: white.as_vec3(),
         vignette: scene.post.vignette.clamp(0.0, 1.0) as f32,
-        vignette_extent: (DVec2::new(half_x, half_y) / half_diagonal).as_vec2(),
+        vignette_extent: (half / whole_half.length()).as_vec2(),
+        whole_scale: (half / whole_half).as_vec2(),
+        whole_offset: (aside / whole_half).as_vec2(),
+        bloom: scene.post.bloom.clamp(0.0, 1.0) as f32,
         air_steps,
         pattern_quality,
         mixture_entries: MIXTURE_ENTRIES,
@@ -73,14 +78,14 @@ pub(crate) fn away_m(body: &scene::Body<'_>) -> f64 {
     body.position_m.length() - body.planet().radius_m()
 }
 
-/// The uniforms of a body. `order`: whether it is the farthest, and the nearest, of those whose air is drawn.
-pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, order: [bool; 2]) -> Body {
+/// The uniforms of a body. `is_backmost`: whether it is the farthest.
+pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, is_backmost: bool) -> Body {
     let planet = body.planet();
     let eye_m = body.eye_planet_m();
     let body_from_view = body.scene_from_body.inverse() * scene.scene_from_view;
     let mut out = planet_only(planet);
     place(&mut out, scene, drawn, planet.radius_m(), eye_m, body_from_view);
-    [out.is_backmost, out.is_frontmost] = order.map(u32::from);
+    out.is_backmost = u32::from(is_backmost);
     let (low_m, high_m) = height_range_m(body.surface);
     out.height_range_m = Vec2::new(low_m as f32, high_m as f32);
     let view = scene.view_of(body.position_m, body.scene_from_body);

@@ -221,7 +221,7 @@ fn an_idle_editor_draws_nothing() {
     assert!(pictures > 0);
     harness.run_steps(20);
     assert_eq!(harness.state().viewport().pictures(), pictures);
-    harness.state_mut().viewport_mut().settings.exposure_ev = 1.0;
+    harness.state_mut().viewport_mut().settings.post.exposure_ev = 1.0;
     harness.run_steps(3);
     assert_eq!(harness.state().viewport().pictures(), pictures + 1);
 }

@@ -9,7 +9,7 @@ use super::target::Target;
 use super::timeline::{self, Span};
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, RenderError, Renderer, Scene, Tone};
+use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Post, RenderError, Renderer, Scene};
 use crate::terrain::Revision;
 use crate::tiles::{Leaf, Surface};
 use eframe::egui::{self, TextureId};
@@ -167,10 +167,7 @@ impl Picture {
         scene.time_secs = key.time_secs;
         scene.debug_view = key.debug_view;
         scene.drafts = key.drafts;
-        scene.post.metering = self.adaptation.metering(settings.auto_exposure, changed);
-        scene.post.exposure_ev = key.exposure_ev;
-        scene.post.tone = key.tone;
-        (scene.post.white_k, scene.post.vignette) = (key.white_k, key.vignette);
+        scene.post = Post { metering: self.adaptation.metering(settings.auto_exposure, changed), ..key.post };
         for body in &mut scene.bodies {
             body.frozen = key.frozen;
             body.marked.clone_from(&key.marked);
@@ -217,11 +214,8 @@ struct PictureKey {
     view: View,
     frozen: Option<View>,
     time_secs: f64,
-    exposure_ev: f64,
+    post: Post,
     auto_exposure: bool,
-    white_k: f64,
-    vignette: f64,
-    tone: Tone,
     debug_view: DebugView,
     marked: Option<Arc<MarkedCells>>,
     drafts: bool,
@@ -235,11 +229,8 @@ impl PictureKey {
             view: subject.view,
             frozen: subject.frozen,
             time_secs: subject.settings.time_secs,
-            exposure_ev: subject.settings.exposure_ev,
+            post: subject.settings.post,
             auto_exposure: subject.settings.auto_exposure,
-            white_k: subject.settings.white_k,
-            vignette: subject.settings.vignette,
-            tone: subject.settings.tone,
             debug_view: subject.settings.debug_view,
             marked: subject.marked.clone(),
             drafts: subject.drafts,
@@ -252,11 +243,8 @@ impl PictureKey {
             && self.view == other.view
             && self.frozen == other.frozen
             && self.time_secs == other.time_secs
-            && self.exposure_ev == other.exposure_ev
+            && self.post == other.post
             && self.auto_exposure == other.auto_exposure
-            && self.white_k == other.white_k
-            && self.vignette == other.vignette
-            && self.tone == other.tone
             && self.debug_view == other.debug_view
             && self.marked == other.marked
             // What was drawn with drafts is drawn again without.

@@ -1,7 +1,7 @@
 //! Settings of the view; no part of the document.
 
 use crate::lod::Quality;
-use crate::render::{DebugView, Post, Tone};
+use crate::render::{DebugView, Post};
 
 /// Which picture of the planet is drawn, and at which time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,16 +12,10 @@ pub struct ViewSettings {
     pub quality: Quality,
     /// Whether the tiles stay those of the view in which they were frozen.
     pub freeze_detail: bool,
-    /// Exposure in stops.
-    pub exposure_ev: f64,
-    /// Whether the exposure follows the brightness of the picture; [`Self::exposure_ev`] then corrects it.
+    /// How the picture is developed; the metering is chosen for each picture.
+    pub post: Post,
+    /// Whether the exposure follows the brightness of the picture; [`Post::exposure_ev`] then corrects it.
     pub auto_exposure: bool,
-    /// Colour temperature that is shown white, kelvins.
-    pub white_k: f64,
-    /// How much darker the corners are, 0 to 1.
-    pub vignette: f64,
-    /// The tone curve.
-    pub tone: Tone,
     /// Seconds since time zero.
     pub time_secs: f64,
     /// Whether time passes.
@@ -37,11 +31,8 @@ impl ViewSettings {
             debug_view: DebugView::default(),
             quality,
             freeze_detail: false,
-            exposure_ev: 0.0,
+            post: Post::default(),
             auto_exposure: true,
-            white_k: Post::DAYLIGHT_K,
-            vignette: 0.0,
-            tone: Tone::default(),
             time_secs: 0.0,
             playing: false,
             // Ten minutes of the planet for each second: a day of 24 hours takes 2.4 minutes.

@@ -110,9 +110,9 @@ fn settings(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
             }
         }
     });
-    let tones = ui.menu_button(format!("Tones: {}", settings.tone.label()), |ui| {
+    let tones = ui.menu_button(format!("Tones: {}", settings.post.tone.label()), |ui| {
         for tone in Tone::ALL {
-            if ui.radio(settings.tone == tone, tone.label()).clicked() {
+            if ui.radio(settings.post.tone == tone, tone.label()).clicked() {
                 commands.push(Action::Set(Setting::Tone(tone)));
                 ui.close();
             }
@@ -129,7 +129,7 @@ fn exposure(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
         let told = "Brightness of the picture in stops; not part of the planet";
         let allowed = Allowed::numbers(Unit::None, -EXPOSURE_EV, EXPOSURE_EV).marked(" EV");
         let of = Slider { name: "Exposure", told, allowed, range: (-EXPOSURE_EV, EXPOSURE_EV), step: 0.02 };
-        if let Some(exposure_ev) = of.show(ui, state.viewport.settings.exposure_ev) {
+        if let Some(exposure_ev) = of.show(ui, state.viewport.settings.post.exposure_ev) {
             commands.push(Action::Set(Setting::ExposureEv(exposure_ev)));
         }
         let told = "The exposure follows the brightness of the picture, and the slider corrects it; off, the slider \
@@ -149,7 +149,7 @@ fn camera(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
         let (least, most) = Post::WHITE_K.into_inner();
         let allowed = Allowed::numbers(Unit::None, least, most).marked(" K");
         let of = Slider { name: "White balance", told, allowed, range: (2500.0, 12_000.0), step: 20.0 };
-        if let Some(white_k) = of.show(ui, settings.white_k) {
+        if let Some(white_k) = of.show(ui, settings.post.white_k) {
             commands.push(Action::Set(Setting::WhiteK(white_k)));
         }
     });
@@ -157,8 +157,16 @@ fn camera(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
         let told = "How much darker the corners are than the middle";
         let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
         let of = Slider { name: "Vignette", told, allowed, range: (0.0, 1.0), step: 0.005 };
-        if let Some(vignette) = of.show(ui, settings.vignette) {
+        if let Some(vignette) = of.show(ui, settings.post.vignette) {
             commands.push(Action::Set(Setting::Vignette(vignette)));
+        }
+    });
+    ui.horizontal(|ui| {
+        let told = "Share of the light that the lens scatters: the glow of the sun and of highlights";
+        let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
+        let of = Slider { name: "Bloom", told, allowed, range: (0.0, 0.2), step: 0.001 };
+        if let Some(bloom) = of.show(ui, settings.post.bloom) {
+            commands.push(Action::Set(Setting::Bloom(bloom)));
         }
     });
 }

@@ -33,6 +33,11 @@ uniform_struct! {
         vignette: f32,
         /// Half extent of the picture by the half diagonal of the whole.
         vignette_extent: Vec2,
+        /// From a place in this picture, -1 to 1 along each axis, to that in the whole picture that it is a tile of.
+        whole_scale: Vec2,
+        whole_offset: Vec2,
+        /// Share of the light that the lens scatters.
+        bloom: f32,
         /// Steps of a march through the air.
         air_steps: f32,
         /// Quality of the ground's patterns: 0 (one tap of one pattern) to 2.
@@ -88,8 +93,6 @@ uniform_struct! {
         /// 1 for the body farthest away: behind it are stars.
         is_backmost: u32,
         eye_low_m: Vec3,
-        /// 1 for the body nearest to the eye: before it the lens scatters light.
-        is_frontmost: u32,
         /// The eye from the body's centre.
         eye_km: Vec3,
         /// Radius of the reference sphere.
