@@ -49,6 +49,24 @@ fn shade(rel: vec3f, cover: f32, sun_mu: f32, footprint: f32) -> f32 {
     return 1.0 - 0.8 * covered * (1.0 - smoothstep(0.3, 0.7, sun_mu));
 }
 
+// Density below which there is no cloud.
+const LEAST_DENSITY: f32 = 0.002;
+// Width of what a step resolves, in steps.
+const BLUR: f32 = 0.3;
+// Halvings of a step to find where a ray enters a cloud.
+const SEARCH: i32 = 3;
+
+fn height_in_layer(at_km: f32, eye_mu: f32) -> f32 {
+    let altitude_km = altitude_along(body.radius_km, body.eye_altitude_km, eye_mu, at_km);
+    return saturate1((altitude_km - body.cloud_bottom_km) / (body.cloud_top_km - body.cloud_bottom_km));
+}
+
+// Density at a distance along a ray, as steps of a length resolve it.
+fn density_on(dir: vec3f, at_km: f32, eye_mu: f32, sky: Sky, step_km: f32) -> f32 {
+    let footprint = max(at_km * frame.pixel_rad, step_km * BLUR);
+    return cloud_density(dir * at_km, sky, height_in_layer(at_km, eye_mu), footprint);
+}
+
 struct March {
     light: vec3f,
     transmittance: f32,
@@ -59,8 +77,6 @@ struct March {
 
 fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter: f32) -> March {
     var out = into;
-    let radius = body.radius_km;
-    let h_eye = body.eye_altitude_km;
     let bottom = body.cloud_bottom_km;
     let thickness = body.cloud_top_km - bottom;
     let sun = active_sun.dir;
@@ -90,44 +106,70 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     let high = max(sun_mu, 0.0) + 0.02;
     let grazed = min(1.6 * high / (high + 0.6 * max(-dot(dir, up), 0.0)), 1.0);
 
+    var before = from_km;
+    var was_empty = true;
     for (var i = 0.0; i < steps; i += 1.0) {
-        let s0 = i / steps;
-        let s1 = (i + 1.0) / steps;
-        let sm = (i + jitter) / steps;
-        let t0 = mix(s0 * span, min(grown_km(i), span), bend);
-        let t1 = mix(s1 * span, min(grown_km(i + 1.0), span), bend);
-        let t = from_km + mix(sm * span, min(grown_km(i + jitter), span), bend);
-        let length_km = t1 - t0;
-        if length_km <= 0.0 { break; }
-        let rel = dir * t;
-        let height = saturate1((altitude_along(radius, h_eye, eye_mu, t) - bottom) / thickness);
-        let above = normalize(body.eye_km + rel);
-        let footprint = max(t * frame.pixel_rad, length_km * 0.3);
-        let sky_here = sky_over(above, t * frame.pixel_rad);
-        if sky_here.cover <= 0.0 { continue; }
-        let density = cloud_density(rel, sky_here, height, footprint);
-        if density <= 0.002 { continue; }
-        // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
-        let reach = max(thickness * 0.4, t * frame.pixel_rad * 1.2);
-        let ahead_height = saturate1(height + reach * sun_mu / thickness);
-        let ahead = cloud_density(rel + sun * reach, sky_here, ahead_height, footprint);
-        let room = (1.0 - height) * thickness * to_sun;
-        let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * max(room - reach * 0.5, 0.0) * 0.55);
-        // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The Great
-        // and Volumetric).
-        let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
-            + 1.5 * phases.z * exp(-0.07 * sun_depth);
-        let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
-        // Thin cloud sends back less light; by eye.
-        let lit = shade(rel, sky_here.cover, sun_mu, footprint) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
-        let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * returned * grazed * lit) + ambient * returned);
-        let passed = exp(-extinction * density * length_km);
-        let seen = out.transmittance * (1.0 - passed);
-        out.light += seen * shine;
-        out.distance += seen * t;
-        out.weight += seen;
-        out.transmittance *= passed;
-        if out.transmittance < 0.004 { out.transmittance = 0.0; break; }
+        let t0 = from_km + mix(i / steps * span, min(grown_km(i), span), bend);
+        let t1 = from_km + mix((i + 1.0) / steps * span, min(grown_km(i + 1.0), span), bend);
+        let t = from_km + mix((i + jitter) / steps * span, min(grown_km(i + jitter), span), bend);
+        if t1 <= t0 { break; }
+        let sky_here = sky_over(normalize(body.eye_km + dir * t), t * frame.pixel_rad);
+        var found = 0.0;
+        if sky_here.cover > 0.0 { found = density_on(dir, t, eye_mu, sky_here, t1 - t0); }
+        if found <= LEAST_DENSITY {
+            before = t;
+            was_empty = true;
+            continue;
+        }
+        // Where the ray enters the cloud.
+        var enter = t0;
+        if was_empty && body.cloud_parts > 1.0 {
+            var inside = t;
+            enter = before;
+            for (var k = 0; k < SEARCH; k++) {
+                let middle = 0.5 * (enter + inside);
+                let density = density_on(dir, middle, eye_mu, sky_here, (t1 - t0) / body.cloud_parts);
+                if density > LEAST_DENSITY { inside = middle; } else { enter = middle; }
+            }
+            enter = mix(enter, inside, jitter);
+        }
+        was_empty = false;
+        // The first parts are the shortest: there the light comes from.
+        for (var k = 0.0; k < body.cloud_parts; k += 1.0) {
+            let shares = vec3f(k, k + jitter, k + 1.0) / body.cloud_parts;
+            let at = enter + (t1 - enter) * shares * sqrt(shares);
+            let length_km = at.z - at.x;
+            var here = at.y;
+            var density = found;
+            if body.cloud_parts > 1.0 { density = density_on(dir, here, eye_mu, sky_here, length_km); } else { here = t; }
+            if density <= LEAST_DENSITY { continue; }
+            let rel = dir * here;
+            let height = height_in_layer(here, eye_mu);
+            let footprint = max(here * frame.pixel_rad, length_km * BLUR);
+            // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
+            let reach = max(thickness * 0.4, here * frame.pixel_rad * 1.2);
+            let ahead_height = saturate1(height + reach * sun_mu / thickness);
+            let ahead = cloud_density(rel + sun * reach, sky_here, ahead_height, footprint);
+            let room = (1.0 - height) * thickness * to_sun;
+            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * max(room - reach * 0.5, 0.0) * 0.55);
+            // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
+            // Great and Volumetric).
+            let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
+                + 1.5 * phases.z * exp(-0.07 * sun_depth);
+            let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
+            // Thin cloud sends back less light; by eye.
+            let lit = shade(rel, sky_here.cover, sun_mu, footprint) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
+            let shine = body.cloud_color
+                * (sunlight * direct * (BRIGHTNESS * returned * grazed * lit) + ambient * returned);
+            let passed = exp(-extinction * density * length_km);
+            let seen = out.transmittance * (1.0 - passed);
+            out.light += seen * shine;
+            out.distance += seen * here;
+            out.weight += seen;
+            out.transmittance *= passed;
+            if out.transmittance < 0.004 { out.transmittance = 0.0; break; }
+        }
+        if out.transmittance <= 0.0 { break; }
     }
     return out;
 }

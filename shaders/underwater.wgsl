@@ -9,11 +9,11 @@ const SHAFT_PER_M: vec2f = vec2f(0.6, 2.5);
 // Contrast of light shafts; by eye.
 const SHAFTS: f32 = 3.0;
 
-// Radiance of deep water in a direction, over that straight down: level water is four times as bright (Tyler, Radiance
+// Radiance of deep water in a direction, over that straight down: level water is about three times as bright (Tyler, Radiance
 // distribution as a function of depth in an underwater environment, 1960). `sine`: of the direction over the horizon.
 fn around(sine: f32) -> f32 {
     let down = saturate1(-sine);
-    return mix(4.0, 1.0, down * (2.0 - down));
+    return mix(3.0, 1.0, down * (2.0 - down));
 }
 
 // Height of a point of a ray over the calm sea, metres.
@@ -141,8 +141,7 @@ fn underwater(dir: vec3f, scene: vec3f, terrain: f32, surface_km: f32) -> vec3f 
     // Water scatters sunlight forwards: it glows around the sun (Petzold 1972, flattened).
     let glow = 0.8 + 5.0 * pow(max(dot(dir, lit.to_sun), 0.0), 7.0);
     let gathering = lit.straight * glow + lit.sky;
-    // The eye adapts to blue light: deep water looks brighter than its reflectance.
-    let deep = color * total * 1.3 * surface_light;
+    let deep = color * total * surface_light;
     var light = deep * around(sine) / max(total, vec3f(1e-9)) * gathering * gathered;
     // Light shafts: sunlight that waves focus.
     let shaft_m = min(path_m, 16.0);

@@ -7,8 +7,8 @@ use super::{RADIANCE_FORMAT, RenderError, shaders};
 
 /// Pixels of the picture for each texel of the finest level, along each axis.
 const FIRST: u32 = 4;
-/// The shorter side of the coarsest level has at least as many texels.
-const LEAST_TEXELS: u32 = 4;
+/// The longer side of the coarsest level has at least as many texels.
+const LEAST_TEXELS: u32 = 6;
 /// Light in a level over that in the next coarser one. By eye.
 const FINER: f64 = 0.6;
 
@@ -54,7 +54,7 @@ impl Bloom {
 fn sizes(picture_px: [u32; 2]) -> Vec<[u32; 2]> {
     let halved = |size: &[u32; 2]| {
         let half = size.map(|side| side.div_ceil(2));
-        (half[0].min(half[1]) >= LEAST_TEXELS).then_some(half)
+        (half[0].max(half[1]) >= LEAST_TEXELS).then_some(half)
     };
     std::iter::successors(Some(picture_px.map(|side| side.div_ceil(FIRST))), halved).collect()
 }
@@ -141,6 +141,7 @@ mod tests {
     #[test]
     fn levels_end_before_they_are_points() {
         assert_eq!(sizes([640, 360]), [[160, 90], [80, 45], [40, 23], [20, 12], [10, 6]]);
+        assert_eq!(sizes([240, 2]), [[60, 1], [30, 1], [15, 1], [8, 1]]);
         assert_eq!(sizes([1, 1]), [[1, 1]]);
         assert!(sizes([16_384, 16_384]).len() <= 11);
     }

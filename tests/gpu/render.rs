@@ -322,7 +322,7 @@ fn a_thin_crescent_keeps_its_colours() {
     let disc = inside_disc(&frame, -20_000.0);
     let [top, lit] = [0.001, 0.01].map(|share| brightest(&picture, &disc, share));
     assert!(top.iter().all(|c| *c < 250), "blown out: {top:?}");
-    assert!(lit.iter().any(|c| *c > 40), "too dim: {lit:?}");
+    assert!(lit.iter().any(|c| *c > 30), "too dim: {lit:?}");
 }
 
 /// Rough ground under a low sun behind the camera has neither fireflies nor black pixels.

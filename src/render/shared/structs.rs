@@ -180,6 +180,8 @@ uniform_struct! {
         cloud_steps: f32,
         /// 1 where the layer is thinner than a pixel.
         cloud_is_far: u32,
+        /// Parts of a step within a cloud; 1: such steps are neither searched nor parted.
+        cloud_parts: f32,
         /// First step of a march that begins in the layer, and the ratio of each step to the one before.
         cloud_first_step_km: f32,
         cloud_step_growth: f32,

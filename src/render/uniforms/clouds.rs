@@ -22,10 +22,10 @@ const FAR_STEPS: f64 = 3.0;
 pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Scene<'_>, pixel_rad: f32) {
     out.has_wind = u32::from(planet.structure.as_ref().is_some_and(|structure| structure.weather_share > 0.0));
     let Some(clouds) = &planet.clouds else { return };
-    let steps = match scene.quality {
-        Quality::Low => 7.0,
-        Quality::Medium => 16.0,
-        Quality::High => 28.0,
+    let (steps, parts) = match scene.quality {
+        Quality::Low => (7.0, 3.0),
+        Quality::Medium => (14.0, 4.0),
+        Quality::High => (22.0, 6.0),
     };
     let eye_km = eye_m * 1e-3;
     let (bottom_km, top_km) = (clouds.altitude_km, clouds.altitude_km + clouds.thickness_km);
@@ -48,9 +48,10 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
     // The longest way within the layer goes from its top down to its bottom and up again.
     let longest_km = 2.0 * (2.0 * (planet.radius_km + top_km) * clouds.thickness_km).sqrt();
     let first_km = FIRST_STEP * clouds.thickness_km;
-    let steps = if is_thin { FAR_STEPS } else { steps };
+    let (steps, parts) = if is_thin { (FAR_STEPS, 1.0) } else { (steps, parts) };
     out.cloud_is_far = u32::from(is_thin);
     out.cloud_steps = steps as f32;
+    out.cloud_parts = parts as f32;
     out.cloud_first_step_km = first_km as f32;
     out.cloud_step_growth = step_growth(longest_km / first_km, steps) as f32;
     out.cloud_drift = Vec2::new(c as f32, s as f32);
