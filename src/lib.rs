@@ -36,6 +36,7 @@
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
+//! - `film` (feature `render`): photographs and films in files
 //! - `editor` (feature `editor`): the application
 //! - `cli` (feature `cli`): the command line, which also starts the editor
 //!
@@ -56,6 +57,8 @@ pub mod terrain;
 pub mod tiles;
 mod world;
 
+#[cfg(feature = "render")]
+pub mod film;
 #[cfg(feature = "render")]
 pub mod render;
 

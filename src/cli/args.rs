@@ -74,6 +74,11 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
     number(text, -1e9, 1e9)
 }
 
+/// The length of a film.
+pub(super) fn length_secs(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 3600.0)
+}
+
 pub(super) fn exposure(text: &str) -> Result<f64, String> {
     number(text, -20.0, 20.0)
 }

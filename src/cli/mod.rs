@@ -1,20 +1,21 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands; `points`: many points for
+//! - `render`, `film`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands; `points`: many points for
 //!   `sample`
 //! - `headless`: a GPU without a window
-//! - `picture_file`: PNG and OpenEXR
+//! - `camera`: what a photographer sets, for `render` and `film`
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
 
 mod args;
 mod bench;
+mod camera;
 mod check;
+mod film;
 mod headless;
 mod maps;
 mod new;
-mod picture_file;
 mod points;
 mod render;
 mod rivers;
@@ -45,6 +46,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Render(Box<render::Args>),
+    Film(Box<film::Args>),
     Check(check::Args),
     Sample(sample::Args),
     Rivers(rivers::Args),
@@ -91,6 +93,7 @@ pub fn run() -> ExitCode {
     let result = match cli.command {
         None => edit(cli.file),
         Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Film(args)) => film::run(&args),
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
         Some(Command::Rivers(args)) => rivers::run(&args),

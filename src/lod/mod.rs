@@ -1,6 +1,6 @@
 //! Level of detail: camera, ranges, choice of nodes, culling, morph, index permutations.
 //!
-//! - [`view`]: camera, viewport, quality
+//! - [`view`]: camera, viewport, quality; [`pose`]: position and orientation of the eye
 //! - [`tile`]: a tile: vertices and bounds; [`horizon`]: horizon angles
 //! - [`stitch`]: index permutations for coarser neighbours
 //! - [`opening`]: the camera when a planet is opened; [`scout`]: random planets that open on a good view
@@ -15,6 +15,7 @@ pub mod cull;
 pub mod horizon;
 pub mod morph;
 pub mod opening;
+pub mod pose;
 pub mod range;
 pub mod scout;
 pub mod select;

@@ -52,6 +52,9 @@ fn wrong_usage_is_status_2_and_says_what_would_be_right() {
         (vec!["render", LAYERED, "-o", "x.png", "--view", "nice"], "possible values: shaded, height"),
         (vec!["render", LAYERED, "-o", "x.png", "--quality", "best"], "possible values: low, medium, high"),
         (vec!["render", LAYERED, "-o", "x.png", "--altitude", "0"], "0 is on the surface; use 0.1 or more"),
+        (vec!["film", LAYERED, "-o", "x.png", "--fps", "0"], "0 is not in 1..=240"),
+        (vec!["film", LAYERED, "-o", "x.png", "--seconds", "-1"], "unexpected argument"),
+        (vec!["film", LAYERED, "-o", "x.png", "--seconds", "4000"], "use 0 to 3600"),
         (vec!["check"], "<FILE.ron>"),
         (vec!["sample", LAYERED, "--lat", "1"], "--lon <DEG>"),
         (vec!["new", "-o", "x.ron", "--seed", "x"], "invalid digit"),
@@ -311,4 +314,32 @@ fn altitude_goes_below_the_sea() {
     assert!(status == 1 && err.contains("m deep there; use -"), "{err}");
     let (status, _, err) = shot("13", "-6", "-5");
     assert!(status == 1 && err.contains("there is no water there; use 0.1 or more"), "{err}");
+}
+
+/// A film has a frame for each moment; frames that are there stay when it is resumed.
+#[test]
+fn a_film_is_numbered_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let (preset, film) = (folder.path().join("p.ron"), folder.path().join("way.png"));
+    let place =
+        |name: &str, lat: f64| format!("(name: {name:?}, latitude_deg: {lat:.1}, altitude_m: 9e6, pitch_deg: -90.0)");
+    let text = |bookmarks: &str| format!("(version: 3, radius_km: 3000.0, editor: (bookmarks: [{bookmarks}]))");
+    std::fs::write(&preset, text(&[place("A", 0.0), place("B", 40.0)].join(", "))).unwrap();
+    let args = ["film", text_of(&preset), "-o", text_of(&film), "--size", "48x27", "--quality", "low", "--fps", "3"];
+    let (status, out, err) = run(&[&args[..], &["--seconds", "1"]].concat());
+    assert!(status == 0 && out.is_empty() && err.is_empty(), "{out}{err}");
+    let frames: Vec<PathBuf> = (1..4).map(|n| folder.path().join(format!("way-000{n}.png"))).collect();
+    let before: Vec<Vec<u8>> = frames.iter().map(|frame| std::fs::read(frame).unwrap()).collect();
+    assert!(before[0] != before[1] && before[1] != before[2]);
+    assert!(!folder.path().join("way-0004.png").exists());
+    std::fs::write(&frames[0], "mine").unwrap();
+    std::fs::remove_file(&frames[1]).unwrap();
+    let (status, _, err) = run(&[&args[..], &["--seconds", "1", "--resume"]].concat());
+    assert_eq!((status, err.as_str()), (0, ""));
+    assert_eq!(std::fs::read(&frames[0]).unwrap(), b"mine");
+    assert_eq!(std::fs::read(&frames[1]).unwrap(), before[1]);
+    let (status, _, err) = run(&[&args[..], &["--over", "A,C"]].concat());
+    assert!(status == 1 && err.contains("there is no bookmark \"C\"; there is: A, B"), "{err}");
+    let (status, _, err) = run(&["film", LAYERED, "-o", text_of(&film)]);
+    assert!(status == 1 && err.contains("the planet has no bookmarks to fly over"), "{err}");
 }

@@ -33,12 +33,12 @@ pub use settings::ViewSettings;
 
 use crate::lod::View;
 use crate::lod::opening::opening_place;
+use crate::lod::pose::Pose;
 use crate::planet::Planet;
 use crate::render::{FrameStats, LutRuns};
 use crate::sphere::LatLon;
 use crate::terrain::{MapStore, Revision};
 use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
-use camera::pose::Pose;
 use camera::{Cameras, Ground};
 use clicks::Clicks;
 use clock::{EditClock, FrameMeter, same_tiles};

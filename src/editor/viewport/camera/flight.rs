@@ -4,7 +4,7 @@
 //! through the picture at an even speed, at every distance and height.
 
 use super::Ground;
-use super::pose::Pose;
+use crate::lod::pose::Pose;
 use glam::{DQuat, DVec3};
 
 /// ρ of the paper: the balance between climbing and moving across. The authors found 1.4 in a user study.

@@ -1,7 +1,7 @@
 //! Free flight: along the view, with a speed that grows with the height above the ground.
 
-use super::pose::{Attitude, Pose};
 use super::{Controls, MAX_RADII};
+use crate::lod::pose::{Attitude, Pose};
 use glam::DVec3;
 
 /// Least height of the eye above the ground.

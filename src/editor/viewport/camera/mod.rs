@@ -2,7 +2,6 @@
 //!
 //! - [`orbit`]: around the planet; [`fly`]: free flight; [`walk`]: on foot
 //! - [`flight`]: an animated flight from one pose to another
-//! - [`pose`]: position and orientation of the eye, common to all cameras
 //!
 //! [`Cameras`] holds the camera in use. A change of the mode starts from the pose of the camera before, without a jump.
 //! The eye never goes below the ground.
@@ -10,16 +9,15 @@
 pub mod flight;
 pub mod fly;
 pub mod orbit;
-pub mod pose;
 pub mod walk;
 
 use crate::lod::Camera;
+use crate::lod::pose::{Attitude, Pose};
 use crate::sphere::LatLon;
 use flight::Flight;
 use fly::Fly;
 use glam::{DQuat, DVec3};
 use orbit::Orbit;
-use pose::{Attitude, Pose};
 use walk::Walk;
 
 /// Greatest distance of the eye from the centre, in planet radii.

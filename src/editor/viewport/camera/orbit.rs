@@ -4,9 +4,9 @@
 //! (straight down from space, towards the horizon below some kilometres) until the user tilts the view.
 //! Angles are radians, lengths metres.
 
-use super::pose::{Attitude, Pose};
 use super::{Ground, MAX_RADII};
 use crate::lod::Camera;
+use crate::lod::pose::{Attitude, Pose};
 use crate::sphere::{LatLon, geo};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};

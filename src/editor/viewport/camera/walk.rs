@@ -2,7 +2,7 @@
 //! lead to equal positions at any frame rate.
 
 use super::Controls;
-use super::pose::{Attitude, Pose};
+use crate::lod::pose::{Attitude, Pose};
 use glam::DVec3;
 
 /// Height of the eyes above the ground.

@@ -1,7 +1,9 @@
 //! Position and orientation of the eye. Every camera gives a pose and can start from one.
 //! Planet frame, metres, radians.
 
-use crate::lod::Camera;
+use super::Camera;
+use crate::planet::Bookmark;
+use crate::sphere::{LatLon, geo};
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -24,6 +26,42 @@ impl Pose {
     /// Unit vector from the planet's centre to the eye.
     pub fn up(&self) -> DVec3 {
         self.position_planet_m.normalize_or(DVec3::Z)
+    }
+
+    /// The pose of a bookmark. `surface_radius_m`: distance from the centre to the ground or the water in a direction.
+    pub fn of_bookmark(bookmark: &Bookmark, surface_radius_m: impl FnOnce(DVec3) -> f64) -> Self {
+        let up = LatLon::from_degrees(bookmark.latitude_deg, bookmark.longitude_deg).direction();
+        let (east, north) = geo::east_north(up);
+        let (sin_h, cos_h) = libm::sincos(bookmark.heading_deg.to_radians());
+        let attitude = Attitude {
+            ahead: north * cos_h + east * sin_h,
+            pitch_rad: bookmark.pitch_deg.to_radians(),
+            roll_rad: bookmark.roll_deg.to_radians(),
+        };
+        Self::new(up * (surface_radius_m(up) + bookmark.altitude_m), &attitude)
+    }
+
+    /// The bookmark of the pose. `surface_radius_m` is the distance from the centre to the ground or the sea below it.
+    pub fn bookmark(&self, name: String, surface_radius_m: f64) -> Bookmark {
+        let up = self.up();
+        let attitude = Attitude::of(self);
+        let (east, north) = geo::east_north(up);
+        let heading_rad = libm::atan2(attitude.ahead.dot(east), attitude.ahead.dot(north));
+        let (latitude_deg, longitude_deg) = LatLon::from_direction(up).to_degrees();
+        // Seven decimals of a degree are a centimetre on a planet of the size of the Earth.
+        let rounded = |value: f64, decimals: i32| {
+            let unit = 10_f64.powi(decimals);
+            (value * unit).round() / unit
+        };
+        Bookmark {
+            name,
+            latitude_deg: rounded(latitude_deg, 7),
+            longitude_deg: rounded(longitude_deg, 7),
+            altitude_m: rounded(self.position_planet_m.length() - surface_radius_m, 3),
+            heading_deg: rounded(heading_rad.to_degrees().rem_euclid(360.0), 3),
+            pitch_deg: rounded(attitude.pitch_rad.to_degrees(), 3),
+            roll_deg: rounded(attitude.roll_rad.to_degrees(), 3),
+        }
     }
 
     /// The camera for drawing.
@@ -142,6 +180,23 @@ mod tests {
             let now = Pose::new(DVec3::X, &attitude).planet_from_view * DVec3::NEG_Z;
             let seen = before.inverse() * now;
             assert!(seen.x > 0.009 && seen.y.abs() < 1e-3, "{roll_rad}: {seen}");
+        }
+    }
+
+    #[test]
+    fn a_bookmark_is_the_pose_it_was_made_of() {
+        let radius_m = 6_371_000.0;
+        for (lat, lon, altitude_m, pitch_rad, roll_rad) in
+            [(10.0, 20.0, 1.7, -0.2, 0.0), (-89.99, 100.0, 5e6, -1.5, 0.4), (90.0, 0.0, 12e6, -1.57, 0.0)]
+        {
+            let up = LatLon::from_degrees(lat, lon).direction();
+            let attitude = Attitude { ahead: geo::east_north(up).0, pitch_rad, roll_rad };
+            let before = Pose::new(up * (radius_m + altitude_m), &attitude);
+            let kept = before.bookmark("Here".to_owned(), radius_m);
+            let after = Pose::of_bookmark(&kept, |_| radius_m);
+            let off_m = before.position_planet_m.distance(after.position_planet_m);
+            assert!(off_m < 0.02 + 1e-8 * altitude_m, "{off_m} m off");
+            assert!(before.planet_from_view.angle_between(after.planet_from_view) < 1e-4);
         }
     }
 }

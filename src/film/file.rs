@@ -1,15 +1,15 @@
-//! Files of pictures: PNG of 8 or 16 bits, and OpenEXR.
+//! Files of pictures: PNG of 8 or 16 bits, and OpenEXR; names of the frames of a film.
 
 use crate::render::{Develop, srgb_from_linear};
 use crate::world::noise::{hash, unit};
 use exr::prelude::{Image, SpecificChannels, WritableImage as _, f16};
 use rayon::prelude::*;
 use std::io::Cursor;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum FileKind {
     /// Display values of 8 bits, dithered.
     Png8,
     /// Display values of 16 bits.
@@ -18,9 +18,12 @@ pub(super) enum Kind {
     Exr,
 }
 
-impl Kind {
+impl FileKind {
     /// The kind of a file by its ending. `bits`: of a PNG.
-    pub(super) fn of(path: &Path, bits: Option<u8>) -> Result<Self, String> {
+    ///
+    /// # Errors
+    /// Which endings there are.
+    pub fn of(path: &Path, bits: Option<u8>) -> Result<Self, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
         match (ending.as_str(), bits) {
             ("png", None | Some(8)) => Ok(Self::Png8),
@@ -32,12 +35,15 @@ impl Kind {
     }
 
     /// What its pixels are.
-    pub(super) fn develop(self) -> Develop {
+    pub fn develop(self) -> Develop {
         if self == Self::Exr { Develop::Radiance } else { Develop::Shown }
     }
 
     /// The bytes of a file of pixels, row by row from the top.
-    pub(super) fn encode(self, pixels: &[[f32; 3]], size_px: [u32; 2]) -> Result<Vec<u8>, String> {
+    ///
+    /// # Errors
+    /// What the encoder says.
+    pub fn encode(self, pixels: &[[f32; 3]], size_px: [u32; 2]) -> Result<Vec<u8>, String> {
         match self {
             Self::Png8 => {
                 let numbered = pixels.par_iter().enumerate();
@@ -63,6 +69,13 @@ impl Kind {
             }
         }
     }
+}
+
+/// The file of a frame of a film, counted from 1: `film.png` gives `film-0001.png`.
+pub fn frame_path(film: &Path, number: usize) -> PathBuf {
+    let stem = film.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = film.extension().unwrap_or_default().to_string_lossy();
+    film.with_file_name(format!("{stem}-{number:04}.{ending}"))
 }
 
 /// Encodes a linear value as sRGB, cut off at 0 and 1.
@@ -97,10 +110,10 @@ mod tests {
 
     #[test]
     fn the_ending_tells_the_kind() {
-        let of = |name: &str, bits| Kind::of(Path::new(name), bits);
-        assert_eq!(of("a.PNG", None), Ok(Kind::Png8));
-        assert_eq!(of("a.png", Some(16)), Ok(Kind::Png16));
-        assert_eq!(of("a.exr", None), Ok(Kind::Exr));
+        let of = |name: &str, bits| FileKind::of(Path::new(name), bits);
+        assert_eq!(of("a.PNG", None), Ok(FileKind::Png8));
+        assert_eq!(of("a.png", Some(16)), Ok(FileKind::Png16));
+        assert_eq!(of("a.exr", None), Ok(FileKind::Exr));
         assert!(of("a.exr", Some(16)).unwrap_err().contains("floats"));
         for name in ["a.jpg", "a", ".png"] {
             assert!(of(name, None).unwrap_err().contains(".png or .exr"), "{name}");
@@ -108,15 +121,20 @@ mod tests {
     }
 
     #[test]
+    fn frames_are_numbered() {
+        assert_eq!(frame_path(Path::new("a/way.png"), 7), Path::new("a/way-0007.png"));
+    }
+
+    #[test]
     fn files_hold_the_values() {
         let pixels = [[0.0, 0.5, 1.0], [0.25, 2.0, -1.0]];
-        let deep = image::load_from_memory(&Kind::Png16.encode(&pixels, [2, 1]).unwrap()).unwrap().to_rgb16();
+        let deep = image::load_from_memory(&FileKind::Png16.encode(&pixels, [2, 1]).unwrap()).unwrap().to_rgb16();
         let wanted = [0, 48_192, 65_535, 35_199, 65_535, 0];
         assert!(deep.as_raw().iter().zip(wanted).all(|(a, b)| a.abs_diff(b) < 40), "{:?}", deep.as_raw());
-        let plain = image::load_from_memory(&Kind::Png8.encode(&pixels, [2, 1]).unwrap()).unwrap().to_rgb8();
+        let plain = image::load_from_memory(&FileKind::Png8.encode(&pixels, [2, 1]).unwrap()).unwrap().to_rgb8();
         let wanted = [0, 188, 255, 137, 255, 0_u8];
         assert!(plain.as_raw().iter().zip(wanted).all(|(a, b)| a.abs_diff(b) <= 1), "{:?}", plain.as_raw());
-        let bytes = Kind::Exr.encode(&[[0.0, 0.5, 40.0], [0.25, 2.0, 1.0]], [2, 1]).unwrap();
+        let bytes = FileKind::Exr.encode(&[[0.0, 0.5, 40.0], [0.25, 2.0, 1.0]], [2, 1]).unwrap();
         use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
         let read = read().no_deep_data().largest_resolution_level().rgba_channels(
             |_, _| Vec::new(),

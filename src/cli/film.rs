@@ -1,0 +1,90 @@
+//! `tellus film`: the frames of a flight over the bookmarks of a planet.
+
+use super::camera::{CameraArgs, told};
+use super::{Failure, args, headless, load, maps};
+use crate::film::{CameraPath, Sequence, Shot, frame_path};
+use crate::lod::View;
+use crate::planet::{Bookmark, Planet};
+use crate::render::{Photo, Renderer};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Draw a flight over the bookmarks of a planet as numbered frames
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The preset
+    #[arg(value_name = "FILE.ron")]
+    file: PathBuf,
+    /// The film: way.png gives way-0001.png, way-0002.png, ...; .exr for linear radiance
+    #[arg(short, long, value_name = "OUT.png|OUT.exr")]
+    output: PathBuf,
+    /// Names of bookmarks to fly over, in this order [default: all]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    over: Vec<String>,
+    /// Length of the film
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = args::length_secs)]
+    seconds: f64,
+    /// Frames of each second
+    #[arg(long, value_name = "N", default_value = "30", value_parser = clap::value_parser!(u32).range(1..=240))]
+    fps: u32,
+    /// Time in seconds at the first frame; it moves the star, the clouds and the waves
+    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    time: f64,
+    /// Seconds of the planet that pass in each second of the film
+    #[arg(long, value_name = "FACTOR", default_value = "1", allow_hyphen_values = true, value_parser = args::seconds)]
+    speed: f64,
+    /// Keep frames that are there already: goes on where a film was interrupted
+    #[arg(long)]
+    resume: bool,
+    #[command(flatten)]
+    camera: CameraArgs,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let planet = Arc::new(load(&args.file)?);
+    let camera = &args.camera;
+    camera.check_view(&planet, &args.file)?;
+    let kind = camera.kind(&args.output)?;
+    let bookmarks = chosen(&planet, &args.over).map_err(|error| format!("{}: {error}", args.file.display()))?;
+    let gpu = headless::Gpu::open(camera.size.map(|side| side.min(Photo::MOST_TILE_PX)))?;
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
+    let terrain = Arc::new(maps::terrain(planet.clone())?);
+    let Some(path) = CameraPath::over(&terrain, &bookmarks, camera.fov_y_rad()) else {
+        return Err(format!("{}: there is no bookmark to fly over", args.file.display()).into());
+    };
+    let count = (args.seconds * f64::from(args.fps)).round().max(1.0) as usize;
+    let shot = |number: usize| {
+        let time_secs = args.time + args.speed * number as f64 / f64::from(args.fps);
+        let share = number as f64 / (count - 1).max(1) as f64;
+        Shot {
+            terrain: terrain.clone(),
+            view: View { camera: path.camera(&terrain, share), size_px: camera.size, quality: camera.quality },
+            sun_dir_planet: planet.star.place(time_secs).direction(),
+            time_secs,
+            debug_view: camera.view,
+            post: camera.post(),
+            photo: camera.photo(),
+        }
+    };
+    let frames = (0..count).map(|number| (shot(number), frame_path(&args.output, number + 1)));
+    let shots = frames.filter(|(_, file)| !(args.resume && file.is_file())).collect();
+    gpu.checked(|| Sequence { shots, kind }.take(&mut renderer, &mut told()))?;
+    Ok(())
+}
+
+/// The bookmarks of these names, or all.
+fn chosen(planet: &Planet, names: &[String]) -> Result<Vec<Bookmark>, String> {
+    let all = planet.editor.as_ref().map_or(&[][..], |notes| &notes.bookmarks);
+    if all.is_empty() {
+        return Err("the planet has no bookmarks to fly over; add some in the editor (Ctrl+B)".to_owned());
+    }
+    if names.is_empty() {
+        return Ok(all.to_vec());
+    }
+    let known = || all.iter().map(|bookmark| bookmark.name.as_str()).collect::<Vec<_>>().join(", ");
+    let found = |name: &String| {
+        let found = all.iter().find(|bookmark| bookmark.name == name.trim());
+        found.cloned().ok_or_else(|| format!("--over: there is no bookmark {name:?}; there is: {}", known()))
+    };
+    names.iter().map(found).collect()
+}
