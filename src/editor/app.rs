@@ -6,7 +6,7 @@
 use super::apply::apply_all;
 use super::command::{Command, Commands};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
-use super::handlers::{answers, open_file, opening};
+use super::handlers::{answers, open_file, opening, shooting};
 use super::painter::survey::Surveyor;
 use super::panels::{Draft, PanelState};
 use super::state::State;
@@ -14,8 +14,9 @@ use super::state::document::Document;
 use super::state::pictures::Pictures;
 use super::state::questions::Questions;
 use super::state::recovery::Recovery;
+use super::state::shooting::PhotoSettings;
 use super::viewport::Viewport;
-use super::views::{controls, look, menus, performance, problems, prompts::Prompts, shortcuts, status};
+use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, shortcuts, status};
 use crate::planet::{Planet, shipped};
 use crate::terrain::MapStore;
 use eframe::egui;
@@ -116,6 +117,11 @@ impl EditorApp {
     /// The viewport, to change its settings.
     pub fn viewport_mut(&mut self) -> &mut Viewport {
         &mut self.state.viewport
+    }
+
+    /// What a photographer set, to change it.
+    pub fn photo_mut(&mut self) -> &mut PhotoSettings {
+        &mut self.state.photo
     }
 
     /// Asks for a command, as a menu does.
@@ -222,6 +228,7 @@ impl eframe::App for EditorApp {
         shortcuts::take(ctx, state, self.was_typing, &mut self.commands);
         answers::poll_dialogs(state, ctx);
         open_file::poll(state, ctx);
+        shooting::poll(state);
         self.commands = apply_all(state, ctx, self.commands.take());
         state.notices.poll(state.document.path(), ctx);
         if let Some(problem) = self.maps.as_ref().and_then(|maps| maps.take_problem()) {
@@ -250,6 +257,7 @@ impl eframe::App for EditorApp {
         self.prompts.show(&ctx, &self.state, &mut self.commands);
         controls::show(&ctx, &self.state, &mut self.commands);
         performance::show(&ctx, &self.state, &mut self.commands);
+        photo::show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);
         self.settle(&ctx);
         self.plan_next_frame(&ctx);

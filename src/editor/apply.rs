@@ -1,8 +1,8 @@
 //! Carries out the actions that views ask for.
 
-use super::command::{Action, Answer, Command, Commands, Setting, Window};
+use super::command::{Action, Answer, Command, Commands, Setting, Shoot, Window};
 use super::commands;
-use super::handlers::{answers, bookmarks, opening, pictures};
+use super::handlers::{answers, bookmarks, opening, pictures, shooting};
 use super::state::State;
 use super::state::questions::Goal;
 use eframe::egui;
@@ -31,7 +31,7 @@ fn takes_typed_value(action: &Action) -> bool {
     match action {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
         Action::OpenPath(_) | Action::OpenShipped(_) | Action::Browse(_) => true,
-        Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) => false,
+        Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) => false,
         Action::DismissMessage | Action::Close(_) => false,
     }
 }
@@ -56,6 +56,14 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         }
         Action::Close(Window::Controls) => state.shows.controls = false,
         Action::Close(Window::Performance) => state.shows.performance = false,
+        Action::Close(Window::Photo) => state.shows.photo = false,
+        Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
+        Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),
+        Action::Shoot(Shoot::Cancel) => {
+            if let Some(shooting) = &state.shooting {
+                shooting.cancel();
+            }
+        }
     }
 }
 

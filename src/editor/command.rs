@@ -3,6 +3,7 @@
 //! This file knows neither views nor handlers. [`commands`](super::commands) gives each command its name, its shortcut
 //! and its handler; [`apply`](super::apply) carries out the actions.
 
+use super::state::shooting::{PhotoSettings, Subject};
 use super::viewport::camera::Mode;
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
@@ -17,6 +18,7 @@ pub enum Command {
     Open,
     Save,
     SaveAs,
+    Photo,
     Quit,
     Undo,
     Redo,
@@ -53,6 +55,8 @@ pub enum Action {
     Browse(ParamPath),
     /// Change a bookmark, or fly to it.
     Bookmark(BookmarkAction),
+    /// Take a picture.
+    Shoot(Shoot),
     /// Change a setting of the view.
     Set(Setting),
     /// Answer the question on screen.
@@ -70,6 +74,8 @@ pub enum Window {
     Controls,
     /// The times of the last edit.
     Performance,
+    /// Photographs and films.
+    Photo,
 }
 
 /// A setting of the view, and its new value. Settings are no part of the document.
@@ -91,6 +97,17 @@ pub enum Setting {
     AutoExposure(bool),
     /// Seconds of the planet for each second of the clock.
     TimeSpeed(f64),
+}
+
+/// An action on photographs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shoot {
+    /// Change the settings.
+    Set(PhotoSettings),
+    /// Ask for a file.
+    Ask(Subject),
+    /// Stop what is being taken.
+    Cancel,
 }
 
 /// An action on the bookmark of an index.

@@ -188,8 +188,13 @@ fn file_and_edit() -> Vec<Row> {
             .within(Menu::File, 1)
             .keys([ctrl_shift(Key::S)])
             .taking_typed_value(),
+        Row::new(Command::Photo, "Picture or film…", "Save this view, or a flight over the bookmarks.", |s, _| {
+            s.shows.photo ^= true;
+        })
+        .within(Menu::File, 2)
+        .keys([plain(Key::F10)]),
         Row::new(Command::Quit, "Quit", "Close the editor.", |s, ctx| opening::pursue(s, ctx, Goal::Quit))
-            .within(Menu::File, 2)
+            .within(Menu::File, 3)
             .keys([ctrl(Key::Q)])
             .taking_typed_value(),
         Row::new(Command::Undo, "Undo", "Undo the last change.", State::undo)

@@ -4,6 +4,7 @@
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
+//! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -15,6 +16,7 @@ mod input;
 #[path = "../support/layered.rs"]
 mod layered;
 mod painter;
+mod photo;
 mod plates;
 mod viewport;
 

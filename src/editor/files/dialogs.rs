@@ -34,6 +34,13 @@ pub enum DialogRequest {
         /// Proposed file name.
         file_name: String,
     },
+    /// A file to write a photograph to.
+    Photograph {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// Proposed file name.
+        file_name: String,
+    },
     /// A file to save to.
     SaveAs {
         /// Folder to begin in.
@@ -51,6 +58,7 @@ impl DialogRequest {
             DialogRequest::Picture { .. } => "Choose a height map",
             DialogRequest::ImportTable { .. } => "Import biome table",
             DialogRequest::ExportTable { .. } => "Export biome table",
+            DialogRequest::Photograph { .. } => "Save picture",
             DialogRequest::SaveAs { .. } => "Save planet",
         }
     }
@@ -59,7 +67,7 @@ impl DialogRequest {
     fn filter(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             DialogRequest::Open { .. } | DialogRequest::SaveAs { .. } => ("Planet presets", &["ron"]),
-            DialogRequest::Picture { .. } => ("Pictures", &["png", "exr"]),
+            DialogRequest::Picture { .. } | DialogRequest::Photograph { .. } => ("Pictures", &["png", "exr"]),
             DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
         }
     }
@@ -76,6 +84,7 @@ impl DialogRequest {
             | DialogRequest::Picture { folder }
             | DialogRequest::ImportTable { folder }
             | DialogRequest::ExportTable { folder, .. }
+            | DialogRequest::Photograph { folder, .. }
             | DialogRequest::SaveAs { folder, .. } => folder.as_ref(),
         }
     }
@@ -83,7 +92,9 @@ impl DialogRequest {
     /// The proposed name of a file to write.
     pub fn file_name(&self) -> Option<&str> {
         match self {
-            DialogRequest::ExportTable { file_name, .. } | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
+            DialogRequest::ExportTable { file_name, .. }
+            | DialogRequest::Photograph { file_name, .. }
+            | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
             _ => None,
         }
     }

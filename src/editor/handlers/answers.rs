@@ -1,6 +1,6 @@
 //! Answers to questions about files, and the window's close button.
 
-use super::{biome_table, opening, pictures, saving};
+use super::{biome_table, opening, pictures, saving, shooting};
 use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::files::disk::TheirFile;
 use crate::editor::state::State;
@@ -32,6 +32,7 @@ fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf,
         Asking::Picture(path) => pictures::choose(state, &path, &file),
         Asking::ImportTable => biome_table::import(state, &file),
         Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),
+        Asking::Photograph(subject) => shooting::chosen(state, ctx, subject, &file, agreed),
     }
 }
 
@@ -54,8 +55,12 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
     match (answer, replace) {
         (ReplaceAnswer::Replace, Replace::Planet(path)) => saving::write(state, ctx, path),
         (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
+        (ReplaceAnswer::Replace, Replace::Photograph { subject, path, .. }) => {
+            shooting::start(state, ctx, subject, &path)
+        }
         (ReplaceAnswer::OtherName, Replace::Planet(_)) => saving::save_as(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Table(_)) => biome_table::ask_for_export(state, ctx),
+        (ReplaceAnswer::OtherName, Replace::Photograph { subject, .. }) => shooting::ask(state, ctx, subject),
         (ReplaceAnswer::Cancel, _) => state.questions.after_save = None,
     }
 }

@@ -4,6 +4,7 @@
 //! - [`saving`]: the planet into a file
 //! - [`answers`]: answers to questions about files, and the close button
 //! - [`open_file`]: the open file has changed on disk
+//! - [`shooting`]: photographs and films
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps
 //! - [`bookmarks`]: views kept in the preset
@@ -16,4 +17,5 @@ pub mod open_file;
 pub mod opening;
 pub mod pictures;
 pub mod saving;
+pub mod shooting;
 pub mod window;

@@ -8,6 +8,7 @@
 //! - [`notices`]: notices of the editor
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
+//! - [`shooting`]: photographs and films
 
 pub mod describe;
 pub mod document;
@@ -17,6 +18,7 @@ pub mod open_file;
 pub mod pictures;
 pub mod questions;
 pub mod recovery;
+pub mod shooting;
 
 use super::files::dialogs::FileDialogs;
 use super::viewport::Viewport;
@@ -29,6 +31,7 @@ use open_file::OpenFile;
 use pictures::Pictures;
 use questions::Questions;
 use recovery::{Orphan, Recovery};
+use shooting::{PhotoSettings, Shooting};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -57,6 +60,8 @@ pub struct Shows {
     pub controls: bool,
     /// The times of the last edit.
     pub performance: bool,
+    /// Photographs and films.
+    pub photo: bool,
 }
 
 /// The state of the editor.
@@ -79,6 +84,10 @@ pub struct State {
     pub messages: Vec<Message>,
     /// The parts of the window that are shown.
     pub shows: Shows,
+    /// What a photographer set.
+    pub photo: PhotoSettings,
+    /// The photographs that are being taken.
+    pub shooting: Option<Shooting>,
     /// The index of the bookmark whose name is asked for.
     pub renaming: Option<usize>,
     /// Working copies that crashed editors left behind.
@@ -103,7 +112,9 @@ impl State {
             notices: Notices::default(),
             pictures: Pictures::default(),
             messages: Vec::new(),
-            shows: Shows { panel: true, controls: false, performance: false },
+            shows: Shows { panel: true, controls: false, performance: false, photo: false },
+            photo: PhotoSettings::default(),
+            shooting: None,
             renaming: None,
             orphans: Vec::new(),
             recovery: None,

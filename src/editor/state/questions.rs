@@ -1,5 +1,6 @@
 //! Questions about files, and the actions that wait for the answers.
 
+use super::shooting::Subject;
 use crate::editor::files::dialogs::{DialogRequest, FileDialogs, Wake};
 use crate::editor::files::disk::TheirFile;
 use crate::planet::param::ParamPath;
@@ -31,6 +32,8 @@ pub enum Asking {
     ImportTable,
     /// A file to export the biome table to.
     ExportTable,
+    /// A file for a photograph or a film.
+    Photograph(Subject),
 }
 
 /// A file that exists and would be replaced.
@@ -40,13 +43,22 @@ pub enum Replace {
     Planet(PathBuf),
     /// By the picture of the biome table.
     Table(PathBuf),
+    /// By a photograph, or by the frames of a film of this name.
+    Photograph {
+        /// What is taken.
+        subject: Subject,
+        /// The file that was chosen.
+        path: PathBuf,
+        /// The first file that would be replaced.
+        first: PathBuf,
+    },
 }
 
 impl Replace {
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            Replace::Planet(path) | Replace::Table(path) => path,
+            Replace::Planet(path) | Replace::Table(path) | Replace::Photograph { first: path, .. } => path,
         }
     }
 }

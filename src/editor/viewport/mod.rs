@@ -35,7 +35,7 @@ use crate::lod::View;
 use crate::lod::opening::opening_place;
 use crate::lod::pose::Pose;
 use crate::planet::Planet;
-use crate::render::{FrameStats, LutRuns};
+use crate::render::{FrameStats, LutRuns, Renderer};
 use crate::sphere::LatLon;
 use crate::terrain::{MapStore, Revision};
 use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
@@ -120,6 +120,11 @@ impl Viewport {
         let dive = self.cameras.dives();
         self.cameras = Cameras::new(self.ground_radius_m, opening_place(planet));
         self.cameras.set_dive(dive);
+    }
+
+    /// A renderer on the same device, for pictures that are not on screen; none without a device.
+    pub fn second_renderer(&self) -> Option<Renderer> {
+        self.picture.second_renderer()
     }
 
     /// The surface on screen.

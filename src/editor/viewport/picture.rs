@@ -82,6 +82,14 @@ impl Picture {
         }
     }
 
+    /// A renderer on the same device; none without a device.
+    pub(super) fn second_renderer(&self) -> Option<Renderer> {
+        match &self.drawing {
+            Drawing::Ready(renderer, _) => Some(renderer.sibling()),
+            Drawing::Failed(_) => None,
+        }
+    }
+
     /// The surface on screen.
     pub(super) fn surface(&self) -> Option<&Arc<Surface>> {
         self.swap.shown()

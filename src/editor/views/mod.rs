@@ -4,7 +4,7 @@
 //! - [`status`]: the status bar
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`]: windows
+//! - [`controls`], [`performance`], [`photo`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
@@ -13,6 +13,7 @@ pub mod look;
 pub mod menus;
 mod path_field;
 pub mod performance;
+pub mod photo;
 pub mod problems;
 pub mod prompts;
 mod rename;

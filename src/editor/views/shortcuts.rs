@@ -1,6 +1,6 @@
 //! Keys and dropped files, as commands.
 
-use super::{controls, performance};
+use super::{controls, performance, photo};
 use crate::editor::command::{Action, Commands, Window};
 use crate::editor::commands;
 use crate::editor::panels::biomes;
@@ -38,6 +38,7 @@ fn take_escape(ctx: &egui::Context, state: &State, was_typing: bool, commands: &
     let windows = [
         (controls::layer(), state.shows.controls, Window::Controls),
         (performance::layer(), state.shows.performance, Window::Performance),
+        (photo::layer(), state.shows.photo, Window::Photo),
     ];
     let order: Vec<egui::LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
     let height = |layer: &egui::LayerId| order.iter().position(|other| other == layer);

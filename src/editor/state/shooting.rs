@@ -1,0 +1,111 @@
+//! Photographs and films: what the user set, and the one that is being taken on another thread.
+
+use crate::film::Sequence;
+use crate::lod::Quality;
+use crate::render::Renderer;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// One photograph, or a flight over the bookmarks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Subject {
+    Picture,
+    Film,
+}
+
+/// What a photographer sets, besides the exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhotoSettings {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// Samples along each side of a pixel, 1 to 16.
+    pub samples: u32,
+    /// How well the planet is drawn.
+    pub quality: Quality,
+    /// Diameter of the lens, metres; 0: all is sharp.
+    pub aperture_m: f64,
+    /// Distance that is in focus, metres; none: what is in the middle of the picture.
+    pub focus_m: Option<f64>,
+    /// Length of a film, seconds.
+    pub film_secs: f64,
+    /// Frames of each second of a film.
+    pub fps: u32,
+}
+
+impl Default for PhotoSettings {
+    fn default() -> Self {
+        Self {
+            size_px: [1920, 1080],
+            samples: 1,
+            quality: Quality::High,
+            aperture_m: 0.0,
+            focus_m: None,
+            film_secs: 10.0,
+            fps: 30,
+        }
+    }
+}
+
+/// The photographs that are being taken.
+pub struct Shooting {
+    /// The file, or the first one.
+    pub first: PathBuf,
+    /// How many photographs.
+    pub count: usize,
+    /// Ten-thousandths that are done.
+    done: Arc<AtomicU32>,
+    cancelled: Arc<AtomicBool>,
+    result: Receiver<Result<usize, String>>,
+}
+
+impl Shooting {
+    /// Takes photographs on another thread. `wake` is called when there is progress.
+    pub fn start(sequence: Sequence, mut renderer: Renderer, wake: impl Fn() + Send + 'static) -> Self {
+        let (done, cancelled) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(false)));
+        let (sender, result) = channel();
+        let first = sequence.shots.first().map(|(_, file)| file.clone()).unwrap_or_default();
+        let count = sequence.shots.len();
+        let (told, stop) = (Arc::clone(&done), Arc::clone(&cancelled));
+        std::thread::spawn(move || {
+            let taken = sequence.take(&mut renderer, &mut |share| {
+                let share = (share * 1e4) as u32;
+                if told.swap(share, Ordering::Relaxed) != share {
+                    wake();
+                }
+                !stop.load(Ordering::Relaxed)
+            });
+            // The receiver is gone if the editor has closed.
+            let _ = sender.send(taken);
+            wake();
+        });
+        Self { first, count, done, cancelled, result }
+    }
+
+    /// Share that is done, 0 to 1.
+    pub fn done(&self) -> f64 {
+        f64::from(self.done.load(Ordering::Relaxed)) * 1e-4
+    }
+
+    /// Stops after the tile that is being drawn. Files that are written stay.
+    pub fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// The number of files written, or what went wrong, once it has ended.
+    pub fn ended(&self) -> Option<Result<usize, String>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(result),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err("the picture could not be drawn; try again".to_owned())),
+        }
+    }
+}
+
+impl Drop for Shooting {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}
