@@ -119,59 +119,56 @@ fn settings(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
         }
     });
     tones.response.on_hover_text("The tone curve from radiance to the picture: like film, neutral, or none");
-    exposure(ui, state, commands);
-    camera(ui, state, commands);
+    egui::Grid::new("camera settings").num_columns(4).show(ui, |ui| {
+        exposure(ui, state, commands);
+        camera(ui, state, commands);
+    });
 }
 
 fn exposure(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     let mut automatic = state.viewport.settings.auto_exposure;
-    ui.horizontal(|ui| {
-        let told = "Brightness of the picture in stops; not part of the planet";
-        let allowed = Allowed::numbers(Unit::None, -EXPOSURE_EV, EXPOSURE_EV).marked(" EV");
-        let of = Slider { name: "Exposure", told, allowed, range: (-EXPOSURE_EV, EXPOSURE_EV), step: 0.02 };
-        if let Some(exposure_ev) = of.show(ui, state.viewport.settings.post.exposure_ev) {
-            commands.push(Action::Set(Setting::ExposureEv(exposure_ev)));
-        }
-        let told = "The exposure follows the brightness of the picture, and the slider corrects it; off, the slider \
-                    alone sets it";
-        if ui.checkbox(&mut automatic, "Automatic").on_hover_text(told).changed() {
-            commands.push(Action::Set(Setting::AutoExposure(automatic)));
-        }
-    });
+    let told = "Brightness of the picture in stops; not part of the planet";
+    let allowed = Allowed::numbers(Unit::None, -EXPOSURE_EV, EXPOSURE_EV).marked(" EV");
+    let of = Slider { name: "Exposure", told, allowed, range: (-EXPOSURE_EV, EXPOSURE_EV), step: 0.02 };
+    if let Some(exposure_ev) = of.show(ui, state.viewport.settings.post.exposure_ev) {
+        commands.push(Action::Set(Setting::ExposureEv(exposure_ev)));
+    }
+    let told = "The exposure follows the brightness of the picture, and the slider corrects it; off, the slider \
+                alone sets it";
+    if ui.checkbox(&mut automatic, "Automatic").on_hover_text(told).changed() {
+        commands.push(Action::Set(Setting::AutoExposure(automatic)));
+    }
+    ui.end_row();
 }
 
 /// What a photographer sets besides the exposure.
 fn camera(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     let settings = state.viewport.settings;
-    ui.horizontal(|ui| {
-        let told =
-            "Colour temperature that is shown white: 6504 K is the planet's daylight, lower makes the picture bluer";
-        let (least, most) = Post::WHITE_K.into_inner();
-        let allowed = Allowed::numbers(Unit::None, least, most).marked(" K");
-        let of = Slider { name: "White balance", told, allowed, range: (2500.0, 12_000.0), step: 20.0 };
-        if let Some(white_k) = of.show(ui, settings.post.white_k) {
-            commands.push(Action::Set(Setting::WhiteK(white_k)));
-        }
-    });
-    ui.horizontal(|ui| {
-        let told = "How much darker the corners are than the middle";
-        let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
-        let of = Slider { name: "Vignette", told, allowed, range: (0.0, 1.0), step: 0.005 };
-        if let Some(vignette) = of.show(ui, settings.post.vignette) {
-            commands.push(Action::Set(Setting::Vignette(vignette)));
-        }
-    });
-    ui.horizontal(|ui| {
-        let told = "Share of the light that the lens scatters: the glow of the sun and of highlights";
-        let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
-        let of = Slider { name: "Bloom", told, allowed, range: (0.0, 0.2), step: 0.001 };
-        if let Some(bloom) = of.show(ui, settings.post.bloom) {
-            commands.push(Action::Set(Setting::Bloom(bloom)));
-        }
-    });
+    let told = "Colour temperature that is shown white: 6504 K is the planet's daylight, lower makes the picture bluer";
+    let (least, most) = Post::WHITE_K.into_inner();
+    let allowed = Allowed::numbers(Unit::None, least, most).marked(" K");
+    let of = Slider { name: "White balance", told, allowed, range: (2500.0, 12_000.0), step: 20.0 };
+    if let Some(white_k) = of.show(ui, settings.post.white_k) {
+        commands.push(Action::Set(Setting::WhiteK(white_k)));
+    }
+    ui.end_row();
+    let told = "How much darker the corners are than the middle";
+    let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
+    let of = Slider { name: "Vignette", told, allowed, range: (0.0, 1.0), step: 0.005 };
+    if let Some(vignette) = of.show(ui, settings.post.vignette) {
+        commands.push(Action::Set(Setting::Vignette(vignette)));
+    }
+    ui.end_row();
+    let told = "Share of the light that the lens scatters: the glow of the sun and of highlights";
+    let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
+    let of = Slider { name: "Bloom", told, allowed, range: (0.0, 0.2), step: 0.001 };
+    if let Some(bloom) = of.show(ui, settings.post.bloom) {
+        commands.push(Action::Set(Setting::Bloom(bloom)));
+    }
+    ui.end_row();
 }
 
-/// A labelled slider with a field beside it.
+/// A labelled slider with a field beside it: three cells of a grid.
 struct Slider<'a> {
     name: &'static str,
     told: &'static str,
