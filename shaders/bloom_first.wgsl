@@ -9,6 +9,8 @@
 // sun, but film and eye hardly see it beside the sun; by eye.
 const GLARE_FROM: f32 = 8.0;
 const GLARE: f32 = 0.06;
+// Most luminance that is scattered, for a night's exposure beside a sun.
+const GLARE_MOST: f32 = 8000.0;
 
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
@@ -24,7 +26,8 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         let at = clamp(frame.origin_px + place + step, first, last);
         let light = textureSampleLevel(scene, clamped, at * texel, 0.0).rgb * (frame.white * metered.x * frame.exposure);
         let bright = max(luminance(light), 1e-6);
-        sum += weight * light * mix(GLARE, 1.0, min(bright, GLARE_FROM) / bright);
+        let spread = light * mix(GLARE, 1.0, min(bright, GLARE_FROM) / bright);
+        sum += weight * spread * min(1.0, GLARE_MOST / max(luminance(spread), 1e-6));
     }
     return vec4f(frame.bloom * sum, 1.0);
 }

@@ -5,6 +5,7 @@
 #include "highlight.wgsl"
 #include "horizon.wgsl"
 #include "sea.wgsl"
+#include "settlements.wgsl"
 
 struct Vertex {
     @location(0) high_m: vec3f,
@@ -457,6 +458,9 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         if i > 0u { from_here = visibility_at(on_mesh, up); }
         radiance += lit(ground, facet, from_here);
     }
+    let slope = length(n - up * dot(n, up)) / max(dot(n, up), 0.05);
+    let sun_mu = dot(up, body.suns[0].dir);
+    radiance += settlement_light(in.rel_m, footprint_m, over_sea_m, slope, climate.temperature_c, climate.moisture, sun_mu);
     if wet > 0.0 {
         let water = inland_radiance(facet, radiance, pixel_ground.water.y, climate.temperature_c, from_ground);
         radiance = mix(radiance, water, wet);

@@ -43,6 +43,7 @@ fn titan() -> Atmosphere {
         absorber_height_km: 200.0,
         absorber_width_km: 120.0,
         ground_albedo: [0.18, 0.12, 0.07],
+        ..Atmosphere::default()
     }
 }
 
@@ -59,6 +60,7 @@ fn venus() -> Atmosphere {
         absorber_height_km: 60.0,
         absorber_width_km: 15.0,
         ground_albedo: [0.25, 0.2, 0.13],
+        ..Atmosphere::default()
     }
 }
 

@@ -71,7 +71,7 @@ pub use table::Table;
 pub use tables::{STARTING_TABLES, StartingTable};
 pub use validate::InvalidPlanet;
 
-use param::{Curve, Domain, ParamPath, Params, Part, PartType, Stage, Unit, choice, log, params};
+use param::{Curve, Domain, ParamPath, Params, Part, PartType, Stage, Unit, choice, linear, log, params};
 use serde::{Deserialize, Serialize};
 
 /// The version of the preset format that this crate writes. It pins the terrain algorithm too: a preset of an old
@@ -105,6 +105,9 @@ params! {
         /// Precision of the heights. Classic is the arithmetic of presets before version 3 and keeps their heights bit
         /// for bit; Millimetre is smooth underfoot on the highest mountains.
         precision: Precision = Precision::Millimetre, "Precision", Unit::None, Domain::Choice, Stage::Field;
+        /// Lights of settlements at night, where the land is low, mild and watered: 1 is as bright as the Earth's, 0 is
+        /// none.
+        settlements: f64 = 0.0, "Settlements", Unit::None, linear(0.0, 4.0), Stage::Uniform;
         /// Reshapes the combined height of all layers: points (height, new height). An empty curve changes nothing.
         /// Beyond its ends the curve is a straight line.
         height_curve: Curve = Curve::new(), "Height curve", Unit::Metres, HEIGHT_CURVE, Stage::Height;

@@ -171,6 +171,10 @@ params! {
         absorber_width_km: f64 = 15.0, "Absorber width", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
         /// Albedo of the ground, as the light in the atmosphere assumes it.
         ground_albedo: [f64; 3] = [0.3, 0.3, 0.3], "Ground albedo", Unit::None, Domain::Color, Stage::AirTables;
+        /// Brightness of the aurora at night: 1 is a bright one of the Earth, 0 is none.
+        aurora: f64 = 0.0, "Aurora", Unit::None, linear(0.0, 10.0), Stage::Uniform;
+        /// Magnetic latitude of the aurora. The magnetic poles are 10° from the poles.
+        aurora_lat_deg: f64 = 67.0, "Aurora latitude", Unit::Degrees, linear(30.0, 88.0), Stage::Uniform;
     }
 }
 

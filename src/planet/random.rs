@@ -55,6 +55,7 @@ pub fn random(seed: u64) -> Planet {
         seed: dice.seed(),
         radius_km,
         precision: Precision::default(),
+        settlements: 0.0,
         height_curve: Vec::new(),
         star: Star { latitude_deg: dice.rounded(-24.0, 24.0), color: star_color(&mut dice), ..Star::default() },
         layers,

@@ -1,7 +1,7 @@
 //! The air of a body (`air.wgsl`): in front of everything that is drawn, with clouds at their distance. The body
 //! farthest away has stars and the discs of suns behind it.
 
-use super::screen_pass::{Input, Output, Scope, ScreenPass, writes};
+use super::screen_pass::{Blend, Input, Output, Scope, ScreenPass, writes};
 use super::targets::Target;
 
 /// See the module.
@@ -14,7 +14,7 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
         Input::Load(Target::CloudLight),
         Input::Load(Target::CloudDistance),
     ],
-    writes: &[writes(Target::AfterAir), Output { target: Target::Stars, multiplies: true }],
+    writes: &[writes(Target::AfterAir), Output { target: Target::Stars, blend: Blend::Multiply }],
     depth: None,
     by_nearness: false,
     runs: |work| work.shaded,

@@ -1,6 +1,6 @@
 //! The air stage where there is no air to draw (`copy.wgsl`): debug views and scenes without bodies.
 
-use super::screen_pass::{Input, Output, Scope, ScreenPass, writes};
+use super::screen_pass::{Blend, Input, Output, Scope, ScreenPass, writes};
 use super::targets::Target;
 
 /// See the module.
@@ -8,7 +8,7 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     shader: "copy.wgsl",
     scope: Scope::View,
     reads: &[Input::Load(Target::BeforeAir)],
-    writes: &[writes(Target::AfterAir), Output { target: Target::Stars, multiplies: true }],
+    writes: &[writes(Target::AfterAir), Output { target: Target::Stars, blend: Blend::Multiply }],
     depth: None,
     by_nearness: false,
     runs: |_| true,

@@ -9,7 +9,7 @@
 //! - `nearness`: pipelines for distant views leave out what no pixel resolves
 //! - opaque stage: `morph` (compute), `terrain` with `ground_view`, `body_tiles`, `pool`, `layer_pool`, `detail_pool`,
 //!   `horizon_pool`; then `water`
-//! - air stage: `clouds`, `air`; `copy` where there is no air
+//! - air stage: `clouds`, `air`, `aurora`; `copy` where there is no air
 //! - post-process: `exposure` (compute), `bloom`, `tonemap` with `tone` and `white_balance`, `antialias`, `display`
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
@@ -21,6 +21,7 @@
 
 mod air;
 mod antialias;
+mod aurora;
 mod biome_table;
 mod bloom;
 mod body_tiles;

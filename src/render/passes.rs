@@ -2,13 +2,13 @@
 
 use super::screen_pass::{ScreenPass, ScreenPipeline, Shared};
 use super::{
-    RenderError, air, antialias, bloom, clouds, copy, display, exposure, luts, morph, terrain, tonemap, water,
+    RenderError, air, antialias, aurora, bloom, clouds, copy, display, exposure, luts, morph, terrain, tonemap, water,
 };
 
 /// Passes of the opaque stage that follow the ground, for each body.
 pub(crate) const OPAQUE: &[&ScreenPass] = &[&water::PASS];
 /// Passes of the air stage, for each body from the farthest to the nearest.
-pub(crate) const AIR: &[&ScreenPass] = &[&clouds::PASS, &air::PASS];
+pub(crate) const AIR: &[&ScreenPass] = &[&clouds::PASS, &air::PASS, &aurora::PASS];
 /// Passes of the post-process that follow the metering.
 pub(crate) const POST: &[&ScreenPass] = &[&tonemap::PASS, &antialias::PASS, &display::PASS];
 

@@ -390,7 +390,8 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage.max(clouds.veil) > 0.0)
             && body.marked.is_none();
         let sea = body.planet().water.is_some();
-        let work = Work { shaded, sea, clouds, smooth_edges: scene.post.smooth_edges };
+        let aurora = body.planet().atmosphere.as_ref().is_some_and(|air| air.aurora > 0.0) && body.marked.is_none();
+        let work = Work { shaded, sea, clouds, aurora, smooth_edges: scene.post.smooth_edges };
         // The farthest body brings the stars, whether it has air or not.
         let has_air = shaded && (number == 0 || clouds || body.planet().atmosphere.is_some());
         PlannedBody { id: body.id, index, work, has_air }
@@ -404,7 +405,7 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         lines: scene.debug_view == DebugView::Wireframe,
         makes_bloom: shaded && scene.post.bloom > 0.0 && scene.whole.is_none(),
         metering: if shaded { scene.post.metering } else { Metering::Manual },
-        post: Work { shaded, sea: false, clouds: false, smooth_edges: scene.post.smooth_edges },
+        post: Work { shaded, sea: false, clouds: false, aurora: false, smooth_edges: scene.post.smooth_edges },
     }
 }
 

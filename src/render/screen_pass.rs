@@ -24,13 +24,23 @@ pub(crate) enum Input {
 #[derive(Clone, Copy)]
 pub(crate) struct Output {
     pub(crate) target: Target,
-    /// The texture is multiplied by what the pass writes: by each body in turn, from 1 on.
-    pub(crate) multiplies: bool,
+    pub(crate) blend: Blend,
+}
+
+/// How what a pass writes is joined with what the texture holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Blend {
+    /// It replaces that.
+    Replace,
+    /// It multiplies that: each body in turn, from 1 on.
+    Multiply,
+    /// Its colour is added to that; alpha stays.
+    Add,
 }
 
 /// Writes a texture.
 pub(crate) const fn writes(target: Target) -> Output {
-    Output { target, multiplies: false }
+    Output { target, blend: Blend::Replace }
 }
 
 /// Whose uniforms a pass reads.
@@ -50,6 +60,8 @@ pub(crate) struct Work {
     pub(crate) sea: bool,
     /// The body has clouds.
     pub(crate) clouds: bool,
+    /// The body has an aurora.
+    pub(crate) aurora: bool,
     /// Edges are smoothed.
     pub(crate) smooth_edges: bool,
 }
@@ -147,16 +159,21 @@ impl ScreenPipeline {
         if let Some(pipeline) = pipelines.get(&(output, nearness)) {
             return Ok(pipeline.clone());
         }
-        let multiply = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::Dst,
-            dst_factor: wgpu::BlendFactor::Zero,
-            operation: wgpu::BlendOperation::Add,
+        let component = |src_factor, dst_factor| {
+            let operation = wgpu::BlendOperation::Add;
+            wgpu::BlendComponent { src_factor, dst_factor, operation }
         };
-        let blend = |multiplies: bool| multiplies.then_some(wgpu::BlendState { color: multiply, alpha: multiply });
+        let (zero, one) = (wgpu::BlendFactor::Zero, wgpu::BlendFactor::One);
+        let multiply = component(wgpu::BlendFactor::Dst, zero);
+        let blend = |blend: Blend| match blend {
+            Blend::Replace => None,
+            Blend::Multiply => Some(wgpu::BlendState { color: multiply, alpha: multiply }),
+            Blend::Add => Some(wgpu::BlendState { color: component(one, one), alpha: component(zero, one) }),
+        };
         let state = |of: &Output| {
             let format = of.target.format().or(output)?;
             let write_mask = wgpu::ColorWrites::ALL;
-            Some(wgpu::ColorTargetState { format, blend: blend(of.multiplies), write_mask })
+            Some(wgpu::ColorTargetState { format, blend: blend(of.blend), write_mask })
         };
         let targets: Vec<_> = self.pass.writes.iter().map(state).collect();
         let description = gpu::ScreenPipelineDescriptor {
@@ -189,8 +206,11 @@ impl ScreenPipeline {
         let Some(resources) = pass.reads.iter().map(resource).collect::<Option<Vec<_>>>() else { return Ok(()) };
         let inputs = gpu::group(with.device, pass.shader, &self.inputs, resources);
         let attachment = |output: &Output| {
-            let clear = if output.multiplies { wgpu::Color::WHITE } else { wgpu::Color::TRANSPARENT };
-            let keeps = with.load || (with.keeps_rest && !output.multiplies);
+            let (clear, keeps) = match output.blend {
+                Blend::Replace => (wgpu::Color::TRANSPARENT, with.load || with.keeps_rest),
+                Blend::Multiply => (wgpu::Color::WHITE, with.load),
+                Blend::Add => (wgpu::Color::TRANSPARENT, true),
+            };
             let load = if keeps { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(clear) };
             Some(wgpu::RenderPassColorAttachment {
                 view: (with.texture)(output.target)?,

@@ -6,6 +6,7 @@
 //! - `biomes`, `colours`, `materials`: the colours of the ground
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `lakes`: water of planets with a structure
+//! - `night`: aurora, lights of settlements
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
 //! - `photo`: photographs: tiles, samples, the lens
@@ -23,6 +24,7 @@ mod edges;
 mod lakes;
 mod lod_pictures;
 mod materials;
+mod night;
 mod photo;
 mod planets;
 mod render;

@@ -23,7 +23,7 @@ frozen! {
         atmosphere: Option<Atmosphere> = None,
         clouds: Option<Clouds> = None,
         editor: Option<EditorNotes> = None,
-    } adding { precision: Precision::Classic, structure: None }
+    } adding { precision: Precision::Classic, structure: None, settlements: 0.0 }
 }
 
 frozen! {
@@ -142,7 +142,7 @@ frozen! {
         absorber_height_km: f64 = 25.0,
         absorber_width_km: f64 = 15.0,
         ground_albedo: [f64; 3] = [0.3, 0.3, 0.3],
-    }
+    } adding { aurora: 0.0, aurora_lat_deg: 67.0 }
 }
 
 frozen! {

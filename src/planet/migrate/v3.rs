@@ -37,6 +37,7 @@ file! {
     seed: u32,
     radius_km: f64,
     precision: Precision,
+    settlements: f64,
     height_curve: Curve,
     star: Star,
     layers: Vec<Layer>,

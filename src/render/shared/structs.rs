@@ -133,6 +133,11 @@ uniform_struct! {
         absorber_width_km: f32,
         /// Thickness of the air; 0 without air.
         air_height_km: f32,
+        /// Brightness of the aurora, and its magnetic latitude.
+        aurora: f32,
+        aurora_lat_rad: f32,
+        /// Brightness of the lights of settlements.
+        settlements: f32,
         /// Mean albedo of the ground, for multiple scattering.
         ground_albedo: Vec3,
         /// 1 where there is a sea.

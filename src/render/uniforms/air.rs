@@ -19,5 +19,7 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
     out.absorber_height_km = air.absorber_height_km as f32;
     out.absorber_width_km = air.absorber_width_km as f32;
     out.air_height_km = height_km as f32;
+    out.aurora = if height_km > 0.0 { air.aurora as f32 } else { 0.0 };
+    out.aurora_lat_rad = air.aurora_lat_deg.to_radians() as f32;
     out.ground_albedo = rgb(air.ground_albedo);
 }

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 /// Sets the climate of a planet and the shape of its biome table.
 pub(super) fn of(out: &mut Body, planet: &Planet) {
+    out.settlements = planet.settlements as f32;
     out.lapse_c_per_m = (planet.climate.lapse_c_per_km * 1e-3) as f32;
     out.border_jitter_cells = planet.biomes.border_jitter as f32;
     out.crisp_borders = u32::from(planet.biomes.blend == TableBlend::Crisp);

@@ -1,0 +1,66 @@
+//! The night side: aurora, and lights of settlements.
+
+use crate::support::{camera, earth, frame_of, gpu, surface_of};
+use std::sync::Arc;
+use tellus::lod::{Quality, View};
+use tellus::planet::{Atmosphere, Planet};
+use tellus::sphere::LatLon;
+
+/// Radiance of a view of 96 by 54 pixels, the star over the equator at a longitude.
+fn radiance(planet: &Arc<Planet>, place: [f64; 5], sun_lon: f64) -> Vec<[f32; 3]> {
+    let [lat, lon, altitude_m, heading, pitch] = place;
+    let camera = camera(planet, lat, lon, altitude_m, heading, pitch);
+    let view = View { camera, size_px: [96, 54], quality: Quality::Medium };
+    let surface = surface_of(planet, &view);
+    let mut gpu = gpu();
+    gpu.draw_only(&frame_of(&surface, planet, view, LatLon::from_degrees(0.0, sun_lon).direction()), 1);
+    gpu.renderer.radiance().unwrap().1
+}
+
+fn sum(pixels: &[[f32; 3]]) -> f64 {
+    pixels.iter().flatten().map(|value| f64::from(*value)).sum()
+}
+
+fn with_aurora(aurora: f64) -> Arc<Planet> {
+    let planet = earth();
+    let air = planet.atmosphere.clone().map(|air| Atmosphere { aurora, ..air });
+    Arc::new(Planet { atmosphere: air, clouds: None, ..planet })
+}
+
+#[test]
+fn an_aurora_stands_over_its_oval_at_night() {
+    // The magnetic pole leans towards longitude -70, so that the oval at midnight is at 53 degrees there.
+    let under = [50.0, -70.0, 500.0, 0.0, 25.0];
+    let [none, one, two] = [0.0, 1.0, 2.0].map(|aurora| radiance(&with_aurora(aurora), under, 110.0));
+    let added = sum(&one) - sum(&none);
+    assert!(added > 0.5 * sum(&none), "{added} over {}", sum(&none));
+    assert!(((sum(&two) - sum(&none)) / added - 2.0).abs() < 0.05);
+    // It is mostly green.
+    let band = |band: usize| one.iter().zip(&none).map(|(a, b)| f64::from(a[band] - b[band])).sum::<f64>();
+    assert!(band(1) > 1.4 * band(0) && band(1) > 1.3 * band(2), "{} {} {}", band(0), band(1), band(2));
+    // There is none in the tropics, and daylight hides it.
+    let tropics = [10.0, -70.0, 500.0, 0.0, 25.0];
+    let [none, one] = [0.0, 1.0].map(|aurora| sum(&radiance(&with_aurora(aurora), tropics, 110.0)));
+    assert!((one / none - 1.0).abs() < 1e-3, "{one} {none}");
+    let [none, one] = [0.0, 1.0].map(|aurora| sum(&radiance(&with_aurora(aurora), under, -70.0)));
+    assert!((one / none - 1.0).abs() < 0.02, "{one} {none}");
+}
+
+#[test]
+fn settlements_shine_on_land_at_night() {
+    let with = |settlements: f64, level_m: f64| {
+        let mut planet = Planet { settlements, clouds: None, layers: Vec::new(), ..earth() };
+        planet.water.as_mut().unwrap().level_m = level_m;
+        (planet.climate.moisture, planet.climate.temperature_variation_c) = (0.6, 0.0);
+        Arc::new(planet)
+    };
+    let above = [30.0, 20.0, 300e3, 0.0, -90.0];
+    let seen =
+        |settlements: f64, level_m: f64, sun_lon: f64| sum(&radiance(&with(settlements, level_m), above, sun_lon));
+    let (dark, lit) = (seen(0.0, -20.0, 200.0), seen(1.0, -20.0, 200.0));
+    assert!(lit > 3.0 * dark, "{lit} over {dark}");
+    let (dark, lit) = (seen(0.0, 20.0, 200.0), seen(1.0, 20.0, 200.0));
+    assert!((lit / dark - 1.0).abs() < 1e-3, "at sea: {lit} over {dark}");
+    let (dark, lit) = (seen(0.0, -20.0, 20.0), seen(1.0, -20.0, 20.0));
+    assert!((lit / dark - 1.0).abs() < 1e-3, "by day: {lit} over {dark}");
+}
