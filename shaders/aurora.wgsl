@@ -17,8 +17,8 @@ const MIDNIGHT: f32 = 0.07;
 const SHEET_KM: f32 = 7.0;
 const GLOW_KM: f32 = 260.0;
 const BETWEEN_KM: f32 = 150.0;
-// Radiance for each km within a bright curtain: 100 kilorayleigh across it, over a night sky of one.
-const BRIGHTNESS: f32 = 2.2e-5;
+// Radiance for each km within a bright curtain: 200 kilorayleigh across it, over a night sky of one.
+const BRIGHTNESS: f32 = 4e-5;
 
 const GREEN: vec3f = vec3f(0.22, 1.0, 0.38);
 const RED: vec3f = vec3f(1.0, 0.1, 0.22);
@@ -77,7 +77,7 @@ fn gathered(dir: vec3f, from_km: f32, to_km: f32, jitter: f32) -> vec3f {
         let n = p / r;
         let north = MAGNETIC_POLE - n * dot(n, MAGNETIC_POLE);
         let across = abs(dot(dir, north)) * inverseSqrt(max(dot(north, north), 1e-4));
-        sum += glow_at(n, r - body.radius_km, step_km * max(across, 0.25)) * step_km;
+        sum += glow_at(n, r - body.radius_km, step_km * max(across, 0.5)) * step_km;
     }
     return sum;
 }

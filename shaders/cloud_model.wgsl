@@ -102,19 +102,26 @@ fn cloud_density(rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
     return mix(sharp, mean, blurred);
 }
 
-// Share of direct sunlight that the cloud layer transmits to a point below or within it. `rel`: point relative to the
-// eye, km; `h`: its altitude, km.
+// Optical depth of the veil where it is closed, and the share of its scattered light that goes on so nearly straight
+// that it counts as direct.
+const VEIL_DEPTH: f32 = 0.6;
+const VEIL_AHEAD: f32 = 0.5;
+
+// Share of direct sunlight that the veil and the cloud layer transmit to a point below or within the layer. `rel`: point
+// relative to the eye, km; `h`: its altitude, km.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
-    if body.cloud_coverage <= 0.0 || h >= body.cloud_top_km { return 1.0; }
+    if max(body.cloud_coverage, body.veil_coverage) <= 0.0 || h >= body.cloud_top_km { return 1.0; }
     let radius = body.radius_km;
     let middle = 0.5 * (body.cloud_bottom_km + body.cloud_top_km);
     let at = max(h, middle);
     let path_km = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
     let point = rel + active_sun.dir * path_km;
     let up = normalize(body.eye_km + point);
-    let density = cloud_density(point, sky_over(up, footprint), 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
+    let sky = sky_over(up, footprint);
+    let density = cloud_density(point, sky, 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
     let left = saturate1((body.cloud_top_km - h) / (body.cloud_top_km - body.cloud_bottom_km));
-    return exp(-body.cloud_optical_depth * density * left / max(dot(up, active_sun.dir), 0.05));
+    let depth = body.cloud_optical_depth * density * left + VEIL_DEPTH * (1.0 - VEIL_AHEAD) * sky.veil;
+    return exp(-depth / max(dot(up, active_sun.dir), 0.05));
 }
 
 // Two-stream estimate of light under clouds after multiple scattering. x: factor on the sky's irradiance; y: share of

@@ -174,9 +174,6 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     return out;
 }
 
-// Optical depth of the veil where it is closed.
-const VEIL_DEPTH: f32 = 0.6;
-
 struct Sheet {
     light: vec3f,
     transmittance: f32,

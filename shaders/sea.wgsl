@@ -66,7 +66,7 @@ fn water_body(water: Water, view_mu: f32, sun_mu: f32, downwelling: vec3f) -> ve
 
 // How gusts and slicks vary the part of the slopes' variance that the wind raises, as the exponent of the noise: glints
 // show streaks on photographs from orbit. By eye.
-const GUSTS: f32 = 1.2;
+const GUSTS: f32 = 0.5;
 
 fn gusty(variance: f32, noise: f32) -> f32 {
     let raised = max(variance - CALM_SLOPE_VARIANCE, 0.0);

@@ -73,20 +73,21 @@ impl CameraArgs {
 
     /// How the picture is developed.
     pub(super) fn post(&self) -> Post {
-        let mut post = Post::default();
-        post.metering = if self.exposure.is_some() { Metering::Manual } else { Metering::Instant };
-        post.exposure_ev = self.exposure.unwrap_or(0.0);
-        post.tone = self.tone;
-        (post.white_k, post.vignette, post.bloom) = (self.white, self.vignette, self.bloom);
-        post
+        Post {
+            metering: if self.exposure.is_some() { Metering::Manual } else { Metering::Instant },
+            exposure_ev: self.exposure.unwrap_or(0.0),
+            tone: self.tone,
+            white_k: self.white,
+            vignette: self.vignette,
+            bloom: self.bloom,
+            ..Post::default()
+        }
     }
 
     /// Samples and lens.
     pub(super) fn photo(&self) -> Photo {
-        let mut photo = Photo::default();
-        photo.samples = self.samples;
-        photo.lens = self.aperture.zip(self.focus).map(|(diameter_m, focus_m)| Lens { diameter_m, focus_m });
-        photo
+        let lens = self.aperture.zip(self.focus).map(|(diameter_m, focus_m)| Lens { diameter_m, focus_m });
+        Photo { samples: self.samples, lens, ..Photo::default() }
     }
 
     /// The kind of a file to write.

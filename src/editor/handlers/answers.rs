@@ -56,7 +56,7 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
         (ReplaceAnswer::Replace, Replace::Planet(path)) => saving::write(state, ctx, path),
         (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
         (ReplaceAnswer::Replace, Replace::Photograph { subject, path, .. }) => {
-            shooting::start(state, ctx, subject, &path)
+            shooting::start(state, ctx, subject, &path);
         }
         (ReplaceAnswer::OtherName, Replace::Planet(_)) => saving::save_as(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Table(_)) => biome_table::ask_for_export(state, ctx),

@@ -85,13 +85,11 @@ fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, St
 /// Samples, and a lens that is in focus where it should be.
 fn taken(state: &State, surface: &Surface, camera: &Camera) -> Photo {
     let settings = &state.photo;
-    let mut photo = Photo::default();
-    photo.samples = settings.samples;
     let middle_m = || surface.terrain.raycast(camera.position_planet_m, camera.forward_planet());
     // What is in the middle of the sky is far away.
     let focus_m = || settings.focus_m.or_else(middle_m).unwrap_or(1e9);
-    photo.lens = (settings.aperture_m > 0.0).then(|| Lens { diameter_m: settings.aperture_m, focus_m: focus_m() });
-    photo
+    let lens = (settings.aperture_m > 0.0).then(|| Lens { diameter_m: settings.aperture_m, focus_m: focus_m() });
+    Photo { samples: settings.samples, lens, ..Photo::default() }
 }
 
 /// Says what has become of the photographs, once they are taken.
