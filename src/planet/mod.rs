@@ -101,7 +101,7 @@ params! {
         /// Seed of the planet, mixed into the seed of every layer, the climate and the clouds.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field | Stage::ClimateNoise | Stage::CloudMap;
         /// Radius of the reference sphere from which heights are measured.
-        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::AirTables;
+        radius_km: f64 = 6371.0, "Radius", Unit::Kilometres, log(1.0, 100_000.0), Stage::Field | Stage::ClimateNoise | Stage::CloudMap | Stage::OpticalDepth;
         /// Precision of the heights. Classic is the arithmetic of presets before version 3 and keeps their heights bit
         /// for bit; Millimetre is smooth underfoot on the highest mountains.
         precision: Precision = Precision::Millimetre, "Precision", Unit::None, Domain::Choice, Stage::Field;

@@ -150,25 +150,25 @@ params! {
     /// The atmosphere: two kinds of scatterers whose density falls with height, and one absorbing layer.
     pub struct Atmosphere {
         /// Height of the top of the atmosphere above the reference sphere.
-        height_km: f64 = 100.0, "Height", Unit::Kilometres, log(0.1, 5000.0), Stage::AirTables;
+        height_km: f64 = 100.0, "Height", Unit::Kilometres, log(0.1, 5000.0), Stage::OpticalDepth;
         /// Scattering by molecules at the reference sphere, for red, green and blue.
-        rayleigh_per_km: [f64; 3] = [0.005802, 0.013558, 0.0331], "Rayleigh scattering", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        rayleigh_per_km: [f64; 3] = [0.005802, 0.013558, 0.0331], "Rayleigh scattering", Unit::PerKilometre, triple(2.0), Stage::OpticalDepth;
         /// Height over which the density of molecules falls by a factor of e.
-        rayleigh_scale_km: f64 = 8.0, "Rayleigh scale", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        rayleigh_scale_km: f64 = 8.0, "Rayleigh scale", Unit::Kilometres, log(0.01, 500.0), Stage::OpticalDepth;
         /// Scattering by dust and droplets at the reference sphere.
-        mie_scattering_per_km: [f64; 3] = [0.003996, 0.003996, 0.003996], "Mie scattering", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        mie_scattering_per_km: [f64; 3] = [0.003996, 0.003996, 0.003996], "Mie scattering", Unit::PerKilometre, triple(2.0), Stage::OpticalDepth;
         /// Absorption by dust and droplets at the reference sphere.
-        mie_absorption_per_km: [f64; 3] = [0.000444, 0.000444, 0.000444], "Mie absorption", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        mie_absorption_per_km: [f64; 3] = [0.000444, 0.000444, 0.000444], "Mie absorption", Unit::PerKilometre, triple(2.0), Stage::OpticalDepth;
         /// Height over which the density of dust and droplets falls by a factor of e.
-        mie_scale_km: f64 = 1.2, "Mie scale", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        mie_scale_km: f64 = 1.2, "Mie scale", Unit::Kilometres, log(0.01, 500.0), Stage::OpticalDepth;
         /// Forward scattering of dust and droplets: 0 scatters evenly, near 1 makes a tight glow around the star.
         mie_anisotropy: f64 = 0.8, "Mie anisotropy", Unit::None, linear(-0.95, 0.95), Stage::AirTables;
         /// Absorption in the middle of the absorbing layer, such as ozone.
-        absorber_per_km: [f64; 3] = [0.00065, 0.001881, 0.000085], "Absorber", Unit::PerKilometre, triple(2.0), Stage::AirTables;
+        absorber_per_km: [f64; 3] = [0.00065, 0.001881, 0.000085], "Absorber", Unit::PerKilometre, triple(2.0), Stage::OpticalDepth;
         /// Height of the middle of the absorbing layer.
-        absorber_height_km: f64 = 25.0, "Absorber height", Unit::Kilometres, log(0.0, 1000.0), Stage::AirTables;
+        absorber_height_km: f64 = 25.0, "Absorber height", Unit::Kilometres, log(0.0, 1000.0), Stage::OpticalDepth;
         /// Distance from the middle of the absorbing layer to its edges.
-        absorber_width_km: f64 = 15.0, "Absorber width", Unit::Kilometres, log(0.01, 500.0), Stage::AirTables;
+        absorber_width_km: f64 = 15.0, "Absorber width", Unit::Kilometres, log(0.01, 500.0), Stage::OpticalDepth;
         /// Albedo of the ground, as the light in the atmosphere assumes it.
         ground_albedo: [f64; 3] = [0.3, 0.3, 0.3], "Ground albedo", Unit::None, Domain::Color, Stage::AirTables;
         /// Brightness of the aurora at night: 1 is a bright one of the Earth, 0 is none.

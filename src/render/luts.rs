@@ -38,7 +38,9 @@ pub struct LutRuns {
     pub biomes: u64,
     /// The cloud maps.
     pub weather: u64,
-    /// The four LUTs of the air.
+    /// The LUT of the optical depth of the air.
+    pub optical_depth: u64,
+    /// The three LUTs of scattered light.
     pub air: u64,
     /// The uniforms of the body and of the frame.
     pub uniforms: u64,
@@ -102,6 +104,7 @@ pub(crate) struct Luts {
     map_picture: wgpu::TextureView,
     shown_map: Option<(MapView, [Option<Key>; 2])>,
     groups: Groups,
+    depth_key: Option<Key>,
     /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
     air_key: Option<(Key, u32)>,
     biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
@@ -132,6 +135,7 @@ impl Luts {
             map_picture,
             shown_map: None,
             groups,
+            depth_key: None,
             air_key: None,
             biome_key: None,
             biome_texels,
@@ -146,7 +150,7 @@ impl Luts {
 
     /// Makes the next frame draw everything again, because shaders have changed.
     pub(crate) fn forget(&mut self) {
-        self.air_key = None;
+        (self.depth_key, self.air_key) = (None, None);
     }
 
     /// Updates everything that a revision has made stale. `uniforms`: those of the body, already written.
@@ -169,8 +173,11 @@ impl Luts {
         }
         let air_key = Some((keys.air_tables(), sun_radius_rad.to_bits()));
         if planet.atmosphere.is_some() && self.air_key != air_key {
-            self.fill_air(encoder, uniforms, pipelines);
-            self.air_key = air_key;
+            let depth_key = Some(keys.optical_depth());
+            let has_depth = self.depth_key == depth_key;
+            self.fill_air(encoder, uniforms, pipelines, usize::from(has_depth));
+            self.runs.optical_depth += u64::from(!has_depth);
+            (self.depth_key, self.air_key) = (depth_key, air_key);
             self.runs.air += 1;
         }
     }
@@ -229,8 +236,14 @@ impl Luts {
         self.runs.biomes += 1;
     }
 
-    fn fill_air(&self, encoder: &mut wgpu::CommandEncoder, uniforms: &wgpu::BindGroup, pipelines: &LutPipelines) {
-        for (i, (name, ..)) in AIR_LUTS.iter().enumerate() {
+    fn fill_air(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        uniforms: &wgpu::BindGroup,
+        pipelines: &LutPipelines,
+        first: usize,
+    ) {
+        for (i, (name, ..)) in AIR_LUTS.iter().enumerate().skip(first) {
             let groups = match AIR_LUTS_READ[i] {
                 0 => vec![uniforms],
                 1 => vec![uniforms, &self.groups.first_of_air],

@@ -65,6 +65,7 @@ pub struct Keys {
     climate: Key,
     materials: Key,
     cloud_map: Key,
+    optical_depth: Key,
     air_tables: Key,
 }
 
@@ -79,7 +80,12 @@ impl Keys {
         self.cloud_map
     }
 
-    /// The key of the scattering LUTs.
+    /// The key of the LUT of optical depth.
+    pub fn optical_depth(&self) -> Key {
+        self.optical_depth
+    }
+
+    /// The key of the LUTs of scattered light.
     pub fn air_tables(&self) -> Key {
         self.air_tables
     }
@@ -96,6 +102,7 @@ impl Keys {
             (Stage::Climate, self.heights != before.heights || self.climate != before.climate),
             (Stage::Material, self.materials != before.materials),
             (Stage::CloudMap, self.cloud_map != before.cloud_map),
+            (Stage::OpticalDepth, self.optical_depth != before.optical_depth),
             (Stage::AirTables, self.air_tables != before.air_tables),
         ];
         differs.into_iter().filter(|(_, differs)| *differs).map(|(stage, _)| stage).collect()
@@ -176,7 +183,7 @@ impl Compiled {
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let [materials, cloud_map, air_tables] = texture_keys(planet);
+        let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
             heights: tiles.heights,
@@ -184,6 +191,7 @@ impl Compiled {
             climate: tiles.climate,
             materials,
             cloud_map,
+            optical_depth,
             air_tables,
         };
         Self { stack, under, climate, relief, map_inputs, content, keys }
@@ -206,10 +214,11 @@ fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
     }))
 }
 
-/// Keys of the parameters that the biome textures, the cloud coverage map and the scattering LUTs read.
-fn texture_keys(planet: &Planet) -> [Key; 3] {
-    const STAGES: [Stage; 3] = [Stage::Material, Stage::CloudMap, Stage::AirTables];
-    let mut read: [Vec<(ParamPath, Value)>; 3] = Default::default();
+/// Keys of the parameters that the biome textures, the cloud coverage map, the LUT of optical depth and the LUTs of
+/// scattered light read.
+fn texture_keys(planet: &Planet) -> [Key; 4] {
+    const STAGES: [Stage; 4] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
+    let mut read: [Vec<(ParamPath, Value)>; 4] = Default::default();
     planet.each_value(&mut |path, param, value| {
         for (stage, read) in STAGES.iter().zip(&mut read) {
             if param.stages.contains(*stage) {
@@ -217,8 +226,13 @@ fn texture_keys(planet: &Planet) -> [Key; 3] {
             }
         }
     });
-    let [materials, cloud_map, air_tables] = &read;
-    [Key::of(&(materials, &planet.biomes.table)), Key::of(cloud_map), Key::of(air_tables)]
+    let [materials, cloud_map, optical_depth, air_tables] = &read;
+    [
+        Key::of(&(materials, &planet.biomes.table)),
+        Key::of(cloud_map),
+        Key::of(optical_depth),
+        Key::of(&(optical_depth, air_tables)),
+    ]
 }
 
 #[cfg(test)]

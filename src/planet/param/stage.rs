@@ -19,7 +19,9 @@ pub enum Stage {
     Material,
     /// The cloud coverage map.
     CloudMap,
-    /// Scattering LUTs.
+    /// LUT of the optical depth of the air.
+    OpticalDepth,
+    /// LUTs of scattered light.
     AirTables,
     /// Uniforms: water, star, rock, cloud drift, climate by height.
     Uniform,
@@ -29,13 +31,14 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 9] = [
+    pub const ALL: [Stage; 10] = [
         Stage::Field,
         Stage::Height,
         Stage::ClimateNoise,
         Stage::Climate,
         Stage::Material,
         Stage::CloudMap,
+        Stage::OpticalDepth,
         Stage::AirTables,
         Stage::Uniform,
         Stage::Label,
@@ -47,6 +50,7 @@ impl Stage {
             Stage::Field => Stages::of(&[Stage::Height, Stage::Climate]),
             Stage::Height | Stage::ClimateNoise => Stages::of(&[Stage::Climate]),
             // The shaders that fill these textures read the parameters from uniforms.
+            Stage::OpticalDepth => Stages::of(&[Stage::AirTables, Stage::Uniform]),
             Stage::CloudMap | Stage::AirTables => Stages::of(&[Stage::Uniform]),
             Stage::Climate | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
         }
