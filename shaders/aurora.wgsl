@@ -1,5 +1,5 @@
-// Aurora: light that electrons excite in the highest air, in curtains along an oval around each magnetic pole. Green and
-// red are oxygen's, the purple lower edge is nitrogen's. The pass adds it to the finished air.
+// Aurora: light that electrons excite in the highest air, in curtains along an oval around each magnetic pole. Green
+// and red are oxygen's, the purple lower edge is nitrogen's. The pass adds it to the finished air.
 #include "surface.wgsl"
 #include "luts.wgsl"
 

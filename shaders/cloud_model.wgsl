@@ -107,8 +107,8 @@ fn cloud_density(rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
 const VEIL_DEPTH: f32 = 0.6;
 const VEIL_AHEAD: f32 = 0.5;
 
-// Share of direct sunlight that the veil and the cloud layer transmit to a point below or within the layer. `rel`: point
-// relative to the eye, km; `h`: its altitude, km.
+// Share of direct sunlight that the veil and the cloud layer transmit to a point below or within the layer. `rel`:
+// point relative to the eye, km; `h`: its altitude, km.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     if max(body.cloud_coverage, body.veil_coverage) <= 0.0 || h >= body.cloud_top_km { return 1.0; }
     let radius = body.radius_km;

@@ -9,8 +9,9 @@ const SHAFT_PER_M: vec2f = vec2f(0.6, 2.5);
 // Contrast of light shafts; by eye.
 const SHAFTS: f32 = 3.0;
 
-// Radiance of deep water in a direction, over that straight down: level water is about three times as bright (Tyler, Radiance
-// distribution as a function of depth in an underwater environment, 1960). `sine`: of the direction over the horizon.
+// Radiance of deep water in a direction, over that straight down: level water is about three times as bright (Tyler,
+// Radiance distribution as a function of depth in an underwater environment, 1960). `sine`: of the direction over the
+// horizon.
 fn around(sine: f32) -> f32 {
     let down = saturate1(-sine);
     return mix(3.0, 1.0, down * (2.0 - down));

@@ -1,8 +1,8 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `film`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands; `points`: many points for
-//!   `sample`
+//! - `render`, `film`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands
+//! - `points`: many points for `sample`
 //! - `headless`: a GPU without a window
 //! - `camera`: what a photographer sets, for `render` and `film`
 //!
