@@ -8,7 +8,7 @@
 // Exposed luminance from which a smaller share is scattered: 3 stops over white. Lenses scatter the same share of the
 // sun, but film and eye hardly see it beside the sun; by eye.
 const GLARE_FROM: f32 = 8.0;
-const GLARE: f32 = 0.06;
+const GLARE: f32 = 0.09;
 // Most luminance that is scattered, for a night's exposure beside a sun.
 const GLARE_MOST: f32 = 8000.0;
 

@@ -177,7 +177,7 @@ impl Post {
     /// The white balance of daylight.
     pub const DAYLIGHT_K: f64 = 6504.0;
     /// The bloom of clean glass.
-    pub const CLEAN_LENS: f64 = 0.015;
+    pub const CLEAN_LENS: f64 = 0.01;
     /// Range of the white balance.
     pub const WHITE_K: RangeInclusive<f64> = 2000.0..=25_000.0;
 }
