@@ -22,7 +22,9 @@ fn settlement_light(
     let mild = smoothstep(-8.0, 6.0, temperature_c) * (1.0 - smoothstep(30.0, 38.0, temperature_c));
     let low = smoothstep(1.0, 4.0, over_sea_m) * (1.0 - smoothstep(300.0, 1800.0, over_sea_m));
     let even = 1.0 - smoothstep(0.12, 0.45, slope);
-    let good = body.settlements * night * mild * low * even * smoothstep(0.12, 0.4, moisture);
+    // Underfoot there are no houses to shine: lights belong to land at a distance.
+    let away = smoothstep(0.3, 1.5, footprint_m);
+    let good = body.settlements * night * away * mild * low * even * smoothstep(0.12, 0.4, moisture);
     var crowd = 1.0;
     var newest = 1.0;
     var position = rel_m;
