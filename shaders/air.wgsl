@@ -21,9 +21,6 @@ fn sun_disc(dir: vec3f) -> vec3f {
     return active_sun.irradiance * (active_sun.disc_gain * edge) * limb;
 }
 
-// Whether the pass of the clouds has run.
-fn has_clouds() -> bool { return max(body.cloud_coverage, body.veil_coverage) > 0.0; }
-
 struct Clouds {
     // rgb: radiance; a: transmittance
     light: vec4f,

@@ -47,7 +47,8 @@ fn glow_at(n: vec3f, height_km: f32, across_km: f32) -> vec3f {
     var sheets = 0.0;
     for (var k = 0; k < 3; k++) {
         let side = f32(k - 1);
-        let wind_km = side * BETWEEN_KM * (1.0 + 0.6 * wide.y) + 190.0 * wide.x + (60.0 + 25.0 * side) * folds.x + 14.0 * fine.x;
+        let wind_km = side * BETWEEN_KM * (1.0 + 0.6 * wide.y) + 190.0 * wide.x
+            + (60.0 + 25.0 * side) * folds.x + 14.0 * fine.x;
         let x = (off_km - wind_km) / width_km;
         // Each is bright in parts of the oval alone.
         let share = saturate1(0.8 + 1.5 * folds.y * (1.0 - 0.4 * side) + 0.9 * side * wide.y - 0.25 * abs(side));
@@ -97,7 +98,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let inner = ray_sphere((radius + h) * mu, (h - bottom) * (2.0 * radius + h + bottom));
     let outer = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
     if outer.y < outer.x || outer.y <= 0.0 { return vec4f(0.0); }
-    let jitter = fract(52.9829189 * fract(dot(floor(position.xy) - frame.origin_px, vec2f(0.06711056, 0.00583715))));
+    let jitter = gradient_noise(position.xy);
     let enter = max(outer.x, 0.0);
     let crosses = inner.y >= inner.x && inner.y > 0.0;
     var light = vec3f(0.0);
@@ -107,7 +108,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     // Air and clouds below dim it.
     if h < bottom {
         light *= exp(-0.12 / (max(mu, 0.0) + 0.06));
-        if max(body.cloud_coverage, body.veil_coverage) > 0.0 { light *= textureLoad(cloud_light, pixel, 0).a; }
+        if has_clouds() { light *= textureLoad(cloud_light, pixel, 0).a; }
     }
     return vec4f(light * (BRIGHTNESS * body.aurora), 0.0);
 }

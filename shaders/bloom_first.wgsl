@@ -18,13 +18,14 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let first = frame.origin_px + 1.0;
     let last = frame.origin_px + frame.size_px - 1.0;
     let place = floor(position.xy) * 4.0 + 2.0;
+    let exposure = frame.white * metered.x * frame.exposure;
     // A tent over 8 by 8 pixels.
     var sum = vec3f(0.0);
     for (var i = 0; i < 16; i++) {
         let step = vec2f(f32(i % 4), f32(i / 4)) * 2.0 - 3.0;
         let weight = (4.0 - abs(step.x)) * (4.0 - abs(step.y)) / 64.0;
         let at = clamp(frame.origin_px + place + step, first, last);
-        let light = textureSampleLevel(scene, clamped, at * texel, 0.0).rgb * (frame.white * metered.x * frame.exposure);
+        let light = textureSampleLevel(scene, clamped, at * texel, 0.0).rgb * exposure;
         let bright = max(luminance(light), 1e-6);
         let spread = light * mix(GLARE, 1.0, min(bright, GLARE_FROM) / bright);
         sum += weight * spread * min(1.0, GLARE_MOST / max(luminance(spread), 1e-6));

@@ -141,7 +141,11 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
             let length_km = at.z - at.x;
             var here = at.y;
             var density = found;
-            if body.cloud_parts > 1.0 { density = density_on(dir, here, eye_mu, sky_here, length_km); } else { here = t; }
+            if body.cloud_parts > 1.0 {
+                density = density_on(dir, here, eye_mu, sky_here, length_km);
+            } else {
+                here = t;
+            }
             if density <= LEAST_DENSITY { continue; }
             let rel = dir * here;
             let height = height_in_layer(here, eye_mu);
@@ -151,14 +155,16 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
             let ahead_height = saturate1(height + reach * sun_mu / thickness);
             let ahead = cloud_density(rel + sun * reach, sky_here, ahead_height, footprint);
             let room = (1.0 - height) * thickness * to_sun;
-            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * max(room - reach * 0.5, 0.0) * 0.55);
+            let beyond = max(room - reach * 0.5, 0.0);
+            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * beyond * 0.55);
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
             // Great and Volumetric).
             let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
                 + 1.5 * phases.z * exp(-0.07 * sun_depth);
             let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
             // Thin cloud sends back less light; by eye.
-            let lit = shade(rel, sky_here.cover, sun_mu, footprint) * mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
+            let bulk = mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
+            let lit = shade(rel, sky_here.cover, sun_mu, footprint) * bulk;
             let shine = body.cloud_color
                 * (sunlight * direct * (BRIGHTNESS * returned * grazed * lit) + ambient * returned);
             let passed = exp(-extinction * density * length_km);
@@ -254,9 +260,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     first.y = min(first.y, far);
     second.y = min(second.y, far);
-    // Jitter between neighbouring pixels hides the steps, which would show as terraces (interleaved gradient noise,
-    // Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
-    let jitter = fract(52.9829189 * fract(dot(floor(position.xy) - frame.origin_px, vec2f(0.06711056, 0.00583715))));
+    // Jitter between neighbouring pixels hides the steps, which would show as terraces.
+    let jitter = gradient_noise(position.xy);
     var light = vec3f(0.0);
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
     for (var i = 0u; i < body.sun_count; i++) {

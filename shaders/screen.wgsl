@@ -7,6 +7,12 @@ fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f 
     return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 
+// Noise from 0 to 1 of which any 3x3 pixels have all values: the jitter of marches (interleaved gradient noise,
+// Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
+fn gradient_noise(pixel: vec2f) -> f32 {
+    return fract(52.9829189 * fract(dot(floor(pixel) - frame.origin_px, vec2f(0.06711056, 0.00583715))));
+}
+
 // Offset in metres from the point `rel_m` of a plane with normal `n` to the point of the plane one pixel away.
 // `across`: change of the ray to that pixel, `body.pixel_right` or `body.pixel_up`.
 fn pixel_step(rel_m: vec3f, n: vec3f, across: vec3f) -> vec3f {

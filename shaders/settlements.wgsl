@@ -14,17 +14,18 @@ const CASCADE: u32 = 6u;
 // Greatest light at one place, by the mean.
 const MOST: f32 = 60.0;
 
-// Light that settlements send up. `slope`: rise over run; `sun_mu`: cosine of the sun to the zenith.
+// Light that settlements send up. `slope`: rise over run; `climate`: temperature in °C and moisture; `sun_mu`: cosine
+// of the sun to the zenith.
 fn settlement_light(
-    rel_m: vec3f, footprint_m: f32, over_sea_m: f32, slope: f32, temperature_c: f32, moisture: f32, sun_mu: f32,
+    rel_m: vec3f, footprint_m: f32, over_sea_m: f32, slope: f32, climate: vec2f, sun_mu: f32,
 ) -> vec3f {
     let night = 1.0 - smoothstep(-0.08, 0.02, sun_mu);
-    let mild = smoothstep(-8.0, 6.0, temperature_c) * (1.0 - smoothstep(30.0, 38.0, temperature_c));
+    let mild = smoothstep(-8.0, 6.0, climate.x) * (1.0 - smoothstep(30.0, 38.0, climate.x));
     let low = smoothstep(1.0, 4.0, over_sea_m) * (1.0 - smoothstep(300.0, 1800.0, over_sea_m));
     let even = 1.0 - smoothstep(0.12, 0.45, slope);
     // Underfoot there are no houses to shine: lights belong to land at a distance.
     let away = smoothstep(0.3, 1.5, footprint_m);
-    let good = body.settlements * night * away * mild * low * even * smoothstep(0.12, 0.4, moisture);
+    let good = body.settlements * night * away * mild * low * even * smoothstep(0.12, 0.4, climate.y);
     var crowd = 1.0;
     var newest = 1.0;
     var position = rel_m;

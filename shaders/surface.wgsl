@@ -23,3 +23,6 @@ fn sea_hits(dir: vec3f) -> vec2f {
     let radius = body.radius_km + body.sea_level_km;
     return ray_sphere((radius + h) * dot(dir, body.eye_up), h * (2.0 * radius + h));
 }
+
+// Whether the pass of the clouds has run.
+fn has_clouds() -> bool { return max(body.cloud_coverage, body.veil_coverage) > 0.0; }

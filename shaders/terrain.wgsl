@@ -460,7 +460,8 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     }
     let slope = length(n - up * dot(n, up)) / max(dot(n, up), 0.05);
     let sun_mu = dot(up, body.suns[0].dir);
-    radiance += settlement_light(in.rel_m, footprint_m, over_sea_m, slope, climate.temperature_c, climate.moisture, sun_mu);
+    let settled = vec2f(climate.temperature_c, climate.moisture);
+    radiance += settlement_light(in.rel_m, footprint_m, over_sea_m, slope, settled, sun_mu);
     if wet > 0.0 {
         let water = inland_radiance(facet, radiance, pixel_ground.water.y, climate.temperature_c, from_ground);
         radiance = mix(radiance, water, wet);

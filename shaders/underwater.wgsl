@@ -154,7 +154,8 @@ fn underwater(dir: vec3f, scene: vec3f, terrain: f32, surface_km: f32) -> vec3f 
         let to_surface_m = depth_m / max(dot(lit.to_sun, up), 0.2);
         let above = dir * at_m + lit.to_sun * to_surface_m;
         let weight = exp(-extinction * at_m - depth_rate * depth_m);
-        let focus = caustics(above - up * dot(above, up) - up * (body.eye_over_sea_km * 1000.0), up, depth_m, 0.12, SHAFT_PER_M);
+        let calm_m = above - up * (dot(above, up) + body.eye_over_sea_km * 1000.0);
+        let focus = caustics(calm_m, up, depth_m, 0.12, SHAFT_PER_M);
         shafts += weight * focus;
         plain += weight;
     }

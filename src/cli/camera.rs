@@ -1,14 +1,16 @@
 //! The camera of `tellus render` and `tellus film`: what a photographer sets.
 
 use super::{Failure, args};
-use crate::film::FileKind;
-use crate::lod::{Camera, Quality};
+use crate::film::{FileKind, Shot};
+use crate::lod::{Camera, Quality, View};
 use crate::planet::Planet;
 use crate::render::{DebugView, Lens, Metering, Photo, Post, Tone};
+use crate::terrain::Terrain;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use std::io::IsTerminal as _;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Size, lens, exposure and quality.
@@ -88,6 +90,21 @@ impl CameraArgs {
     pub(super) fn photo(&self) -> Photo {
         let lens = self.aperture.zip(self.focus).map(|(diameter_m, focus_m)| Lens { diameter_m, focus_m });
         Photo { samples: self.samples, lens, ..Photo::default() }
+    }
+
+    /// A photograph that this camera takes.
+    pub(super) fn shot(&self, terrain: &Arc<Terrain>, camera: Camera, time_secs: f64) -> Shot {
+        Shot {
+            terrain: terrain.clone(),
+            revision: terrain.revision(),
+            view: View { camera, size_px: self.size, quality: self.quality },
+            time_secs,
+            sun: None,
+            debug_view: self.view,
+            post: self.post(),
+            photo: self.photo(),
+            focuses: false,
+        }
     }
 
     /// The kind of a file to write.

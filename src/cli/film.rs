@@ -2,8 +2,7 @@
 
 use super::camera::{CameraArgs, told};
 use super::{Failure, args, headless, load, maps};
-use crate::film::{CameraPath, Sequence, Shot, frame_path};
-use crate::lod::View;
+use crate::film::{CameraPath, Film, Sequence};
 use crate::planet::{Bookmark, Planet};
 use crate::render::{Photo, Renderer};
 use std::path::PathBuf;
@@ -52,23 +51,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let Some(path) = CameraPath::over(&terrain, &bookmarks, camera.fov_y_rad()) else {
         return Err(format!("{}: there is no bookmark to fly over", args.file.display()).into());
     };
-    let count = (args.seconds * f64::from(args.fps)).round().max(1.0) as usize;
-    let shot = |number: usize| {
-        let time_secs = args.time + args.speed * number as f64 / f64::from(args.fps);
-        let share = number as f64 / (count - 1).max(1) as f64;
-        Shot {
-            terrain: terrain.clone(),
-            view: View { camera: path.camera(&terrain, share), size_px: camera.size, quality: camera.quality },
-            sun_dir_planet: planet.star.place(time_secs).direction(),
-            time_secs,
-            debug_view: camera.view,
-            post: camera.post(),
-            photo: camera.photo(),
-        }
-    };
-    let frames = (0..count).map(|number| (shot(number), frame_path(&args.output, number + 1)));
-    let shots = frames.filter(|(_, file)| !(args.resume && file.is_file())).collect();
-    gpu.checked(|| Sequence { shots, kind }.take(&mut renderer, &mut told()))?;
+    let first = camera.shot(&terrain, path.camera(&terrain, 0.0), args.time);
+    let film = Film { secs: args.seconds, fps: args.fps, speed: args.speed };
+    let mut sequence = Sequence::film(first, path, film, &args.output, kind);
+    sequence.resumes = args.resume;
+    gpu.checked(|| sequence.take(&mut renderer, &mut told()))?;
     Ok(())
 }
 

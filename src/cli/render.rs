@@ -2,8 +2,8 @@
 
 use super::camera::{CameraArgs, told};
 use super::{Failure, args, headless, load, maps};
-use crate::film::{Sequence, Shot};
-use crate::lod::{Camera, View, opening};
+use crate::film::Sequence;
+use crate::lod::{Camera, opening};
 use crate::render::{Photo, Renderer};
 use crate::sphere::LatLon;
 use crate::terrain::Terrain;
@@ -76,22 +76,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let gpu = headless::Gpu::open(camera.size.map(|side| side.min(Photo::MOST_TILE_PX)))?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let terrain = Arc::new(maps::terrain(planet.clone())?);
-    let sun = args.sun.map_or(planet.star.place(args.time), |(lat, lon)| LatLon::from_degrees(lat, lon));
-    let shot = Shot {
-        view: view(args, &terrain)?,
-        terrain,
-        sun_dir_planet: sun.direction(),
-        time_secs: args.time,
-        debug_view: camera.view,
-        post: camera.post(),
-        photo: camera.photo(),
-    };
-    let sequence = Sequence { shots: vec![(shot, args.output.clone())], kind };
+    let mut shot = camera.shot(&terrain, camera_of(args, &terrain)?, args.time);
+    shot.sun = args.sun.map(|(lat, lon)| LatLon::from_degrees(lat, lon));
+    let sequence = Sequence::picture(shot, args.output.clone(), kind);
     gpu.checked(|| sequence.take(&mut renderer, &mut told()))?;
     Ok(())
 }
 
-fn view(args: &Args, terrain: &Terrain) -> Result<View, Failure> {
+fn camera_of(args: &Args, terrain: &Terrain) -> Result<Camera, Failure> {
     let planet = terrain.planet();
     let (opening_lat_deg, opening_lon_deg) = opening::opening_place(planet).to_degrees();
     let place = LatLon::from_degrees(args.lat.unwrap_or(opening_lat_deg), args.lon.unwrap_or(opening_lon_deg));
@@ -121,6 +113,5 @@ fn view(args: &Args, terrain: &Terrain) -> Result<View, Failure> {
     };
     let pitch_deg = args.pitch.unwrap_or_else(|| opening::default_pitch_deg(planet, altitude_m));
     let (heading, pitch) = (args.heading.to_radians(), pitch_deg.to_radians());
-    let camera = Camera::over(place, radius_m, heading, pitch, args.camera.fov_y_rad());
-    Ok(View { camera, size_px: args.camera.size, quality: args.camera.quality })
+    Ok(Camera::over(place, radius_m, heading, pitch, args.camera.fov_y_rad()))
 }

@@ -36,11 +36,12 @@ impl CameraPath {
     /// The path through bookmarks in their order; none if there is no bookmark.
     pub fn over(terrain: &Terrain, bookmarks: &[Bookmark], fov_y_rad: f64) -> Option<Self> {
         let key = |bookmark: &Bookmark| {
-            let pose = Pose::of_bookmark(bookmark, |up| surface_radius_m(terrain, up));
+            // Bookmarks are placed over ground and sea; of lakes they know nothing.
+            let pose = Pose::of_bookmark(bookmark, |up| sea_or_ground_m(terrain, up));
             let (up, attitude) = (pose.up(), Attitude::of(&pose));
             Key {
                 up,
-                surface_m: surface_radius_m(terrain, up),
+                surface_m: sea_or_ground_m(terrain, up),
                 lift: (bookmark.altitude_m / EVEN_M).asinh(),
                 planet_from_view: pose.planet_from_view,
                 roll_rad: attitude.roll_rad,
@@ -67,8 +68,9 @@ impl CameraPath {
         let altitude_m = EVEN_M * number(|key| key.lift).sinh();
         let mut radius_m = number(|key| key.surface_m) + altitude_m;
         if key(0).lift > 0.0 && key(1).lift > 0.0 {
-            let least_m = CLEARANCE_M.min(altitude_m) + CLEARANCE_SHARE * altitude_m;
-            radius_m = radius_m.max(surface_radius_m(terrain, up) + least_m);
+            // Never more than the altitude, so that the path goes through its bookmarks.
+            let least_m = altitude_m.min(CLEARANCE_M + CLEARANCE_SHARE * altitude_m);
+            radius_m = radius_m.max(sea_or_ground_m(terrain, up) + least_m);
         }
         // The horizon leans as the bookmarks say, and not as the turn between them would have it.
         let turned = Pose { position_planet_m: up * radius_m, planet_from_view: rotation.normalize() };
@@ -77,10 +79,10 @@ impl CameraPath {
     }
 }
 
-/// Distance from the centre to the ground or the water on it, whichever is higher.
-pub fn surface_radius_m(terrain: &Terrain, dir_planet: DVec3) -> f64 {
-    let ground = terrain.sample(dir_planet);
-    terrain.planet().radius_m() + ground.water_level_m.map_or(ground.height_m, |water_m| water_m.max(ground.height_m))
+/// Distance from the centre to the ground or the sea, whichever is higher.
+fn sea_or_ground_m(terrain: &Terrain, dir_planet: DVec3) -> f64 {
+    let planet = terrain.planet();
+    planet.radius_m() + terrain.height_m(dir_planet).max(planet.sea_level_m().unwrap_or(f64::MIN))
 }
 
 /// The value between the second and the third of four, by a way of going from one value to another.
@@ -115,7 +117,7 @@ fn turned(from: DQuat, to: DQuat, share: f64) -> DQuat {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::Planet;
+    use crate::planet::{Fbm, Layer, Planet, Shape};
     use std::sync::Arc;
 
     fn bookmark(lat: f64, lon: f64, altitude_m: f64, heading_deg: f64, pitch_deg: f64) -> Bookmark {
@@ -141,14 +143,14 @@ mod tests {
         let bookmarks = [
             bookmark(10.0, 170.0, 5e6, 350.0, -80.0),
             bookmark(12.0, -170.0, 40e3, 20.0, -20.0),
-            bookmark(12.5, -169.0, 3.0, 40.0, -2.0),
+            bookmark(12.5, -169.0, 1.7, 40.0, -2.0),
             bookmark(80.0, -100.0, 300.0, 100.0, 5.0),
         ];
         let path = CameraPath::over(&terrain, &bookmarks, 0.7).unwrap();
         // The share at which the eased time is a third: of the polynomial of the ease.
         for (number, share) in [(0, 0.0), (1, 0.386963143105396), (2, 0.613036856894604), (3, 1.0)] {
             let camera = path.camera(&terrain, share);
-            let wanted = Pose::of_bookmark(&bookmarks[number], |up| surface_radius_m(&terrain, up));
+            let wanted = Pose::of_bookmark(&bookmarks[number], |up| sea_or_ground_m(&terrain, up));
             let off_m = camera.position_planet_m.distance(wanted.position_planet_m);
             assert!(off_m < 1e-5 * (1.0 + wanted.position_planet_m.length()), "{number}: {off_m} m");
             assert!(camera.planet_from_view.angle_between(wanted.planet_from_view) < 1e-4, "{number}");
@@ -169,7 +171,7 @@ mod tests {
             let turn = pair[0].planet_from_view.angle_between(pair[1].planet_from_view);
             assert!(turn < 0.05, "{turn}");
             let up = pair[1].position_planet_m.normalize();
-            let over_m = pair[1].position_planet_m.length() - surface_radius_m(&terrain, up);
+            let over_m = pair[1].position_planet_m.length() - sea_or_ground_m(&terrain, up);
             assert!(over_m > 5.0, "{over_m}");
             let level = (pair[1].planet_from_view * DVec3::X).dot(up);
             assert!(level.abs() < 1e-6, "{level}");
@@ -177,5 +179,23 @@ mod tests {
         assert!(CameraPath::over(&terrain, &[], 0.7).is_none());
         let still = CameraPath::over(&terrain, &bookmarks[..1], 0.7).unwrap();
         assert_eq!(still.camera(&terrain, 0.2), still.camera(&terrain, 0.9));
+    }
+
+    /// Mountains stand between two bookmarks in valleys.
+    #[test]
+    fn the_camera_passes_over_mountains() {
+        let shape = Shape::Fbm(Fbm { wavelength_km: 200.0, ..Fbm::default() });
+        let layers = vec![Layer { amplitude_m: 4000.0, shape, ..Layer::default() }];
+        let terrain = Terrain::try_new(Arc::new(Planet { layers, ..Planet::default() })).unwrap();
+        let bookmarks = [bookmark(10.0, 0.0, 40.0, 90.0, 0.0), bookmark(10.0, 8.0, 40.0, 90.0, 0.0)];
+        let path = CameraPath::over(&terrain, &bookmarks, 0.7).unwrap();
+        let places: Vec<DVec3> =
+            (0..=400).map(|n| path.camera(&terrain, f64::from(n) / 400.0).position_planet_m).collect();
+        let over_m = |place: &DVec3| place.length() - sea_or_ground_m(&terrain, place.normalize());
+        let least_m = places.iter().map(over_m).fold(f64::MAX, f64::min);
+        assert!(least_m > CLEARANCE_M + CLEARANCE_SHARE * 40.0 - 1e-3, "{least_m}");
+        // Without mountains in the way it would not have to climb.
+        let straight = |n: usize| 0.5 * (places[0].length() + places[400].length()) + 200.0 < places[n].length();
+        assert!((0..400).any(straight));
     }
 }

@@ -86,7 +86,12 @@ impl Photo {
         let count = self.samples.clamp(1, 16).pow(2);
         let parts = parts(scene.size_px);
         let is_one = parts.len() == 1 && count == 1;
-        let metering = if is_one { scene.post.metering } else { metered(renderer, scene)? };
+        let metering = match self.develop {
+            // Neither exposure nor bloom is in the radiance.
+            Develop::Radiance => Metering::Manual,
+            Develop::Shown if is_one => scene.post.metering,
+            Develop::Shown => metered(renderer, scene)?,
+        };
         let [wide, high] = scene.size_px.map(|side| side as usize);
         let mut pixels = vec![[0.0; 3]; wide * high];
         for (number, part) in parts.iter().enumerate() {
@@ -230,6 +235,9 @@ fn metered(renderer: &mut Renderer, scene: &Scene<'_>) -> Result<Metering, Rende
         given @ (Metering::Manual | Metering::Fixed { .. }) => Some(given),
         Metering::Instant | Metering::Adapting { .. } => None,
     };
+    if let (Some(given), true) = (given, scene.post.bloom <= 0.0) {
+        return Ok(given);
+    }
     small.post.metering = given.unwrap_or(Metering::Instant);
     let target = texture(&renderer.device, "metered photograph", small.size_px, FORMAT);
     renderer.render(&target.create_view(&wgpu::TextureViewDescriptor::default()), &small)?;

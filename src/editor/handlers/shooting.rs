@@ -4,10 +4,9 @@ use crate::editor::files::dialogs::DialogRequest;
 use crate::editor::state::State;
 use crate::editor::state::questions::{Asking, Replace};
 use crate::editor::state::shooting::{Shooting, Subject};
-use crate::film::{CameraPath, FileKind, Sequence, Shot, frame_path};
+use crate::film::{CameraPath, FileKind, Film, Sequence, Shot, frame_path};
 use crate::lod::{Camera, View};
-use crate::render::{Lens, Metering, Photo};
-use crate::tiles::Surface;
+use crate::render::{Lens, Metering, Photo, Post};
 use eframe::egui;
 use std::path::Path;
 use std::sync::Arc;
@@ -47,49 +46,35 @@ pub fn start(state: &mut State, ctx: &egui::Context, subject: Subject, path: &Pa
 
 fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, String> {
     let kind = FileKind::of(path, None)?;
-    let surface = state.viewport.surface().ok_or("The planet is not there yet: wait until it is drawn.")?;
-    let planet = state.document.valid_planet();
+    let (surface, revision) = state.viewport.shown().ok_or("The planet is not there yet: wait until it is drawn.")?;
     let (settings, photo) = (&state.viewport.settings, &state.photo);
-    let here = state.viewport.pose(planet).camera(Camera::DEFAULT_FOV_Y_RAD);
-    let shot = |camera: Camera, time_secs: f64| {
-        let mut post = settings.post;
-        post.metering = if settings.auto_exposure { Metering::Instant } else { Metering::Manual };
-        Shot {
-            terrain: Arc::clone(&surface.terrain),
-            view: View { camera, size_px: photo.size_px, quality: photo.quality },
-            sun_dir_planet: planet.star.place(time_secs).direction(),
-            time_secs,
-            debug_view: settings.debug_view,
-            post,
-            photo: taken(state, &surface, &camera),
-        }
+    let camera = state.viewport.pose(revision.planet()).camera(Camera::DEFAULT_FOV_Y_RAD);
+    let lens = (photo.aperture_m > 0.0)
+        .then(|| Lens { diameter_m: photo.aperture_m, focus_m: photo.focus_m.unwrap_or_default() });
+    let shot = Shot {
+        terrain: Arc::clone(&surface.terrain),
+        revision,
+        view: View { camera, size_px: photo.size_px, quality: photo.quality },
+        time_secs: settings.time_secs,
+        sun: None,
+        debug_view: settings.debug_view,
+        post: Post {
+            metering: if settings.auto_exposure { Metering::Instant } else { Metering::Manual },
+            ..settings.post
+        },
+        photo: Photo { samples: photo.samples, lens, ..Photo::default() },
+        focuses: photo.focus_m.is_none(),
     };
-    let shots = match subject {
-        Subject::Picture => vec![(shot(here, settings.time_secs), path.to_owned())],
+    match subject {
+        Subject::Picture => Ok(Sequence::picture(shot, path.to_owned(), kind)),
         Subject::Film => {
-            let way = CameraPath::over(&surface.terrain, state.document.bookmarks(), here.fov_y_rad)
+            let way = CameraPath::over(&shot.terrain, state.document.bookmarks(), camera.fov_y_rad)
                 .ok_or("There is no bookmark to fly over: add some with Ctrl+B.")?;
-            let count = (photo.film_secs * f64::from(photo.fps)).round().max(1.0) as usize;
             let speed = if settings.playing { settings.time_speed } else { 1.0 };
-            let frame = |number: usize| {
-                let time_secs = settings.time_secs + speed * number as f64 / f64::from(photo.fps);
-                let share = number as f64 / (count - 1).max(1) as f64;
-                (shot(way.camera(&surface.terrain, share), time_secs), frame_path(path, number + 1))
-            };
-            (0..count).map(frame).collect()
+            let film = Film { secs: photo.film_secs, fps: photo.fps, speed };
+            Ok(Sequence::film(shot, way, film, path, kind))
         }
-    };
-    Ok(Sequence { shots, kind })
-}
-
-/// Samples, and a lens that is in focus where it should be.
-fn taken(state: &State, surface: &Surface, camera: &Camera) -> Photo {
-    let settings = &state.photo;
-    let middle_m = || surface.terrain.raycast(camera.position_planet_m, camera.forward_planet());
-    // What is in the middle of the sky is far away.
-    let focus_m = || settings.focus_m.or_else(middle_m).unwrap_or(1e9);
-    let lens = (settings.aperture_m > 0.0).then(|| Lens { diameter_m: settings.aperture_m, focus_m: focus_m() });
-    Photo { samples: settings.samples, lens, ..Photo::default() }
+    }
 }
 
 /// Says what has become of the photographs, once they are taken.

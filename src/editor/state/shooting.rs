@@ -8,11 +8,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// One photograph, or a flight over the bookmarks.
+/// What is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Subject {
+    /// One photograph.
     Picture,
+    /// A flight over the bookmarks.
     Film,
 }
 
@@ -66,8 +67,7 @@ impl Shooting {
     pub fn start(sequence: Sequence, mut renderer: Renderer, wake: impl Fn() + Send + 'static) -> Self {
         let (done, cancelled) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(false)));
         let (sender, result) = channel();
-        let first = sequence.shots.first().map(|(_, file)| file.clone()).unwrap_or_default();
-        let count = sequence.shots.len();
+        let (first, count) = (sequence.first_file(), sequence.count());
         let (told, stop) = (Arc::clone(&done), Arc::clone(&cancelled));
         std::thread::spawn(move || {
             let taken = sequence.take(&mut renderer, &mut |share| {

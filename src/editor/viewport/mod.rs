@@ -127,6 +127,17 @@ impl Viewport {
         self.picture.second_renderer()
     }
 
+    /// The surface on screen, and the planet that gives it sea, air, clouds and light.
+    pub fn shown(&self) -> Option<(Arc<Surface>, Revision)> {
+        self.surface().map(|surface| (surface.clone(), self.revision_over(&surface)))
+    }
+
+    /// The newest planet if a surface has its tiles, else the surface's own.
+    fn revision_over(&self, surface: &Surface) -> Revision {
+        let newest = self.newest.clone().filter(|newest| same_tiles(&surface.terrain, newest));
+        newest.unwrap_or_else(|| surface.terrain.revision())
+    }
+
     /// The surface on screen.
     pub fn surface(&self) -> Option<Arc<Surface>> {
         self.picture.surface().cloned()
@@ -309,8 +320,7 @@ impl Viewport {
             self.newest = Revision::try_new(valid.clone()).ok();
         }
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
-        let newest = self.newest.clone().filter(|newest| same_tiles(&surface.terrain, newest));
-        let revision = newest.unwrap_or_else(|| surface.terrain.revision());
+        let revision = self.revision_over(&surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
         let subject = Subject { surface, revision, view, frozen: self.frozen, settings, marked, drafts };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);

@@ -143,29 +143,37 @@ fn exposure(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
 
 /// What a photographer sets besides the exposure.
 fn camera(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
-    let settings = state.viewport.settings;
-    let told = "Colour temperature that is shown white: 6504 K is the planet's daylight, lower makes the picture bluer";
+    let post = state.viewport.settings.post;
     let (least, most) = Post::WHITE_K.into_inner();
-    let allowed = Allowed::numbers(Unit::None, least, most).marked(" K");
-    let of = Slider { name: "White balance", told, allowed, range: (2500.0, 12_000.0), step: 20.0 };
-    if let Some(white_k) = of.show(ui, settings.post.white_k) {
-        commands.push(Action::Set(Setting::WhiteK(white_k)));
+    let white_balance = Slider {
+        name: "White balance",
+        told: "Colour temperature that is shown white: 6504 K is the planet's daylight, lower makes the picture bluer",
+        allowed: Allowed::numbers(Unit::None, least, most).marked(" K"),
+        range: (2500.0, 12_000.0),
+        step: 20.0,
+    };
+    let share = Allowed::numbers(Unit::None, 0.0, 1.0);
+    let vignette = Slider {
+        name: "Vignette",
+        told: "How much darker the corners are than the middle",
+        allowed: share,
+        range: (0.0, 1.0),
+        step: 0.005,
+    };
+    let bloom = Slider {
+        name: "Bloom",
+        told: "Share of the light that the lens scatters: the glow of the sun and of highlights",
+        allowed: share,
+        range: (0.0, 0.2),
+        step: 0.001,
+    };
+    let white_k = (white_balance, post.white_k, Setting::WhiteK as fn(f64) -> Setting);
+    for (slider, value, setting) in
+        [white_k, (vignette, post.vignette, Setting::Vignette), (bloom, post.bloom, Setting::Bloom)]
+    {
+        commands.extend(slider.show(ui, value).map(|value| Action::Set(setting(value))));
+        ui.end_row();
     }
-    ui.end_row();
-    let told = "How much darker the corners are than the middle";
-    let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
-    let of = Slider { name: "Vignette", told, allowed, range: (0.0, 1.0), step: 0.005 };
-    if let Some(vignette) = of.show(ui, settings.post.vignette) {
-        commands.push(Action::Set(Setting::Vignette(vignette)));
-    }
-    ui.end_row();
-    let told = "Share of the light that the lens scatters: the glow of the sun and of highlights";
-    let allowed = Allowed::numbers(Unit::None, 0.0, 1.0);
-    let of = Slider { name: "Bloom", told, allowed, range: (0.0, 0.2), step: 0.001 };
-    if let Some(bloom) = of.show(ui, settings.post.bloom) {
-        commands.push(Action::Set(Setting::Bloom(bloom)));
-    }
-    ui.end_row();
 }
 
 /// A labelled slider with a field beside it: three cells of a grid.

@@ -12,7 +12,7 @@ pub(crate) const WAVE_SKEW: f64 = sea::SKEW;
 pub(crate) const LEAST_SKEWED: f64 = sea::LEAST_SKEWED;
 /// Phase difference from one pixel to the next, radians, at which a wave has faded into roughness.
 pub(crate) const WAVE_LOST: f64 = 1.9;
-/// Share of a wave's phase difference along the better of two pixel steps, at least: waves run across both at worst.
+/// Least share of a wave's phase difference that one of the two pixel steps shows: a wave may run between them, at 45°.
 pub(crate) const WAVE_ACROSS: f64 = 0.7;
 /// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
 pub(crate) const VARIATION_PERIODS_M: [f64; VARIATION_OCTAVES] = [2.6e6, 330e3, 41e3, 5100.0, 640.0, 80.0, 10.0, 1.25];
