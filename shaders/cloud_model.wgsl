@@ -2,7 +2,7 @@
 #include "light.wgsl"
 #include "nearness.wgsl"
 
-// Rotates a position about the pole: the wind carries the cloud layer.
+// Rotates a position about the pole: the wind carries the clouds.
 fn drifted(p: vec3f) -> vec3f {
     let c = body.cloud_drift.x;
     let s = body.cloud_drift.y;
@@ -14,18 +14,20 @@ const SHIFT: f32 = 3.5;
 
 // The cloud maps at a direction from the centre.
 struct Sky {
-    // 0 clear, 1 overcast
-    cover: f32,
-    // Share of layered cloud; the rest is heaped up
-    layered: f32,
+    // Of the layers, 0 clear, 1 overcast: fog, rain, low clouds, middle clouds
+    covers: vec4f,
     veil: f32,
+    // Share of layered cloud among low clouds; the rest is heaped up
+    layered: f32,
+    // Height of the tops of low clouds, 0 to 1 in the layer
+    top: f32,
 }
 
 // Cover where the rank of the noise is `rank` and the target cover has log-odds `odds`: `clouds/cover.rs`.
-fn cover_of(rank: f32, odds: f32) -> f32 {
+fn cover_of(rank: vec4f, odds: vec4f) -> vec4f {
     let share = 1.0 / (1.0 + exp(-odds));
     let width = min(share, 1.0 - share);
-    return saturate1((rank - 1.0 + share + width) / (2.0 * width + 1e-6));
+    return clamp((rank - 1.0 + share + width) / (2.0 * width + 1e-6), vec4f(0.0), vec4f(1.0));
 }
 
 // Shift of a look-up in the cloud maps, where their texels show: streaks thinner than a texel would be strings of
@@ -40,11 +42,20 @@ fn shifted(dir: vec3f, texel_km: f32, footprint: f32) -> vec3f {
     return vec3f(n, n.x - n.y) * (share * SHIFT * texel_km / body.radius_km);
 }
 
+// Tops of decks and of small heaps where thunderclouds tower over them, 0 to 1 in the layer.
+const DECK_TOP: f32 = 0.28;
+const HEAP_TOP: f32 = 0.4;
+// Cover from which heaps grow into thunderclouds, and at which they have grown up.
+const GROWING: f32 = 0.6;
+const GROWN: f32 = 1.0;
+// Cover from which rain falls.
+const RAINING: f32 = 0.75;
+
 // `footprint`: size in km below which nothing is resolved.
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     let texel_km = 0.5 * PI * body.radius_km / CLOUD_MAP_SIDE;
     let level = clamp(log2(max(footprint / texel_km, 1e-3)), body.cloud_least_level, CLOUD_MAP_LEVELS - 1.0);
-    let odds = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0).r;
+    let ground = textureSampleLevel(cloud_maps, clamped, dir, 0, 0.0);
     let carried = drifted(dir) + shifted(dir, texel_km, footprint);
     var ranks = vec4f(0.0);
     if body.cloud_odd_share < 1.0 {
@@ -53,80 +64,132 @@ fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     if body.cloud_odd_share > 0.0 {
         ranks += textureSampleLevel(cloud_maps, clamped, carried, 2, level) * body.cloud_odd_share;
     }
-    var sky = Sky(0.0, ranks.g, 0.0);
-    if body.cloud_coverage > 0.0 { sky.cover = cover_of(ranks.r, odds + body.cloud_offset); }
-    if body.veil_coverage > 0.0 { sky.veil = cover_of(ranks.a, odds + body.veil_offset); }
-    return sky;
+    let odds = vec4f(ground.rrr, ground.b) + body.cloud_offsets;
+    // Low clouds, middle clouds, veil, fog
+    let asked = vec4f(body.cloud_coverages > vec4f(0.0));
+    let covers = cover_of(vec4f(ranks.rba, ground.a), odds) * asked;
+    let kind = body.cloud_layering;
+    let layered = mix(ranks.g, step(0.0, kind), abs(kind));
+    let thunder = (1.0 - layered) * smoothstep(GROWING, GROWN, covers.x);
+    let top = mix(1.0, mix(mix(HEAP_TOP, DECK_TOP, layered), 1.0, thunder), body.cloud_towers);
+    // Small rain from decks, showers from thunderclouds.
+    let rain = smoothstep(RAINING, 1.0, covers.x);
+    return Sky(vec4f(covers.w, rain, covers.xy), covers.z, layered, top);
 }
 
-// Density (0..1) at a point relative to the eye (km) and at a height in the layer (0..1), under the sky of its
-// direction. `footprint`: size in km below which nothing is resolved; finer noise is replaced by its mean, and the edge
-// widens.
-fn cloud_density(rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
-    if sky.cover <= 0.0 { return 0.0; }
+// Cover at the height of anvils, over that at the base.
+const ANVIL_COVERS: vec2f = vec2f(0.35, 0.7);
+
+// Density (0..1; more where the layer's depth is squeezed into less than its thickness) at a point relative to the eye
+// (km) and at a height in the layer (0..1), under the sky of its direction. `footprint`: size in km below which nothing
+// is resolved; finer noise is replaced by its mean, and the edge widens.
+fn cloud_density(number: u32, rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
+    var cover = sky.covers[number];
+    if cover <= 0.0 { return 0.0; }
+    let layered = vec4f(1.0, 0.5, sky.layered, 0.6 * sky.layered)[number];
     var position = drifted(rel);
     // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
     var bend = 0.0;
     var carve = 0.5;
-    var strength = mix(1.0, 0.45, sky.layered);
+    var weight = 0.9;
+    var strength = mix(1.0, 0.45, layered);
     var blurred = 1.0;
-    for (var i = 0; i < CLOUD_BANDS; i++) {
+    let end = body.cloud_layers[number].end_band;
+    let puff = body.cloud_layers[number].puff_band;
+    for (var i = body.cloud_layers[number].first_band; i < end; i++) {
         let band = body.cloud_bands[i];
         let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
         // A band fades out before its tile is small enough on screen for the repetition to show.
         var share = 1.0 - smoothstep(-1.0, 2.0, lod);
         if share <= 0.0 { break; }
         let n = textureSampleLevel(noise_tile, repeated, band.offset + position / band.period, lod);
-        if i < CLOUD_PUFF_BAND {
+        if i < puff {
             // The maps resolve coarser bands.
             share *= 1.0 - smoothstep(0.03, 0.08, band.period / body.radius_km);
-            bend += (n.g - 0.5) * share * (0.9 - 0.1 * f32(i)) * mix(1.0, 0.6, sky.layered);
+            bend += (n.g - 0.5) * share * weight * mix(1.0, 0.6, layered);
+            weight -= 0.1;
         } else {
             carve += (n.r - 0.5) * share * strength;
             strength *= 0.42;
-            if i == CLOUD_PUFF_BAND { blurred = 1.0 - share; }
+            if i == puff { blurred = 1.0 - share; }
         }
         position = OCTAVE_TURN * position;
     }
     // The bend has no effect where the cover is 0 or 1.
-    let cover = saturate1(sky.cover + 4.0 * bend * sky.cover * (1.0 - sky.cover));
-    let n = clamp(carve - (1.0 - cover) * 0.55 * max(height - 0.25, 0.0), 0.0, 1.0);
-    let width = mix(0.3, 0.55, sky.layered);
+    let base = saturate1(cover + 4.0 * bend * cover * (1.0 - cover));
+    let depth = body.cloud_layers[number].optical_depth;
+    // Low clouds: flat bases, heaps that narrow upwards, anvils over thunderclouds.
+    let risen = height / sky.top;
+    let anvil = body.cloud_towers * (1.0 - layered) * smoothstep(0.74, 0.82, height)
+        * smoothstep(ANVIL_COVERS.x, ANVIL_COVERS.y, base);
+    var narrowed = 0.55 * max(risen - 0.25, 0.0);
+    // Tops of decks and of small heaps are uneven; the ice of an anvil is thin.
+    var envelope = max(saturate1((1.1 + 0.5 * (carve - 0.5) - risen) * 6.0) / sky.top, 0.45 * anvil);
+    if number == MIDDLE_LAYER {
+        let off = 2.0 * height - 1.0;
+        narrowed = 0.6 * off * off;
+        envelope = 1.0;
+    } else if number == FOG_LAYER {
+        narrowed = 0.0;
+        // Its top waves.
+        envelope = saturate1((0.55 + 0.6 * carve - height) * 3.0);
+    } else if number == RAIN_LAYER {
+        narrowed = 0.0;
+        // It thins out as it falls.
+        envelope = 0.4 + 0.6 * height;
+    }
+    if body.cloud_towers <= 0.0 && number == LOW_LAYER { envelope = 1.0; }
+    cover = mix(base, max(base, anvil), f32(number == LOW_LAYER));
+    let n = clamp(carve - (1.0 - cover) * narrowed, 0.0, 1.0);
+    let width = mix(0.3, 0.55, layered);
     // Even overcast cloud varies in thickness.
     let bulk = 0.5 + n + 2.0 * bend * cover;
     let sharp = saturate1((n - 1.0 + cover) / width + cover * cover * cover) * max(bulk, 0.25);
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
-    let opaque = 1.0 - exp(-body.cloud_optical_depth);
+    let opaque = 1.0 - exp(-depth);
     // Of a dense layer no light is left in 32 bits.
-    let mean = -log(max(1.0 - cover * opaque, 1e-7)) / body.cloud_optical_depth;
-    return mix(sharp, mean, blurred);
+    let mean = -log(max(1.0 - cover * opaque, 1e-7)) / depth;
+    return mix(sharp, mean, blurred) * envelope;
 }
 
-// Optical depth of the veil where it is closed, and the share of its scattered light that goes on so nearly straight
-// that it counts as direct.
-const VEIL_DEPTH: f32 = 0.6;
+// Share of the veil's scattered light that goes on so nearly straight that it counts as direct.
 const VEIL_AHEAD: f32 = 0.5;
 
-// Share of direct sunlight that the veil and the cloud layer transmit to a point below or within the layer. `rel`:
-// point relative to the eye, km; `h`: its altitude, km.
+// Mean optical depth of the layers over a layer: of a number, from above.
+fn depth_over(number: u32, sky: Sky) -> f32 {
+    let low = body.cloud_layers[LOW_LAYER].optical_depth * sky.covers[LOW_LAYER];
+    let middle = body.cloud_layers[MIDDLE_LAYER].optical_depth * sky.covers[MIDDLE_LAYER];
+    let veil = body.veil_depth * (1.0 - VEIL_AHEAD) * sky.veil;
+    return veil + select(0.0, middle, number < MIDDLE_LAYER) + select(0.0, low, number < LOW_LAYER);
+}
+
+// Share of direct sunlight that clouds transmit to a point. `rel`: point relative to the eye, km; `h`: its altitude, km.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
-    if max(body.cloud_coverage, body.veil_coverage) <= 0.0 || h >= body.cloud_top_km { return 1.0; }
+    if all(body.cloud_coverages <= vec4f(0.0)) || h >= body.cloud_top_km { return 1.0; }
     let radius = body.radius_km;
-    let middle = 0.5 * (body.cloud_bottom_km + body.cloud_top_km);
+    let low = body.cloud_layers[LOW_LAYER];
+    let middle = 0.5 * (low.bottom_km + low.top_km);
     let at = max(h, middle);
     let path_km = max(ray_sphere((radius + h) * sun_mu, (h - at) * (2.0 * radius + h + at)).y, 0.0);
     let point = rel + active_sun.dir * path_km;
     let up = normalize(body.eye_km + point);
     let sky = sky_over(up, footprint);
-    let density = cloud_density(point, sky, 0.5, max(footprint, body.cloud_puff_period_km * 0.02));
-    let left = saturate1((body.cloud_top_km - h) / (body.cloud_top_km - body.cloud_bottom_km));
-    let depth = body.cloud_optical_depth * density * left + VEIL_DEPTH * (1.0 - VEIL_AHEAD) * sky.veil;
+    let band_km = body.cloud_bands[low.puff_band].period;
+    let density = cloud_density(LOW_LAYER, point, sky, 0.5 * sky.top, max(footprint, band_km * 0.02));
+    let left = saturate1((low.top_km - h) / (low.top_km - low.bottom_km));
+    let fog = body.cloud_layers[FOG_LAYER];
+    let fog_left = saturate1((fog.top_km - h) / (fog.top_km - fog.bottom_km));
+    let depth = low.optical_depth * density * sky.top * left + depth_over(LOW_LAYER, sky)
+        + fog.optical_depth * sky.covers[FOG_LAYER] * fog_left;
     return exp(-depth / max(dot(up, active_sun.dir), 0.05));
 }
+
+// Share of light that a layer of an optical depth lets through, most of it diffuse: two-stream estimate.
+fn let_through(depth: f32) -> f32 { return 1.0 / (1.0 + 0.12 * depth); }
 
 // Two-stream estimate of light under clouds after multiple scattering. x: factor on the sky's irradiance; y: share of
 // direct sunlight that arrives as diffuse light.
 fn overcast(shadow: f32) -> vec2f {
-    let spread = 1.0 / (1.0 + 0.12 * body.cloud_optical_depth);
+    let spread = let_through(body.cloud_layers[LOW_LAYER].optical_depth);
     return vec2f(mix(mix(spread, 1.0, 0.35), 1.0, shadow), (1.0 - shadow) * spread);
 }

@@ -1,4 +1,4 @@
-// Clouds: a march through a spherical shell, the same from below, within and above. Writes the radiance of the clouds
+// Clouds: marches through spherical shells, the same from below, within and above. Writes the radiance of the clouds
 // (without the air in front of them), their transmittance, and their mean distance for air.wgsl.
 #include "surface.wgsl"
 #include "cloud_model.wgsl"
@@ -13,19 +13,19 @@ fn lobe(cosine: f32, g: f32) -> f32 {
 // parameterization for the absorption of solar radiation, 1974) give for its optical depth.
 const BRIGHTNESS: f32 = 1.8;
 
-// Light sent back by a layer of this optical depth, over that of a thick layer, of which BRIGHTNESS is. The optical
+// Light sent back by a layer of an optical depth, over that of a thick layer, of which BRIGHTNESS is. The optical
 // depth counts from above only. `sine`: of the view ray over the horizon.
-fn sent_back(sine: f32) -> f32 {
-    let turned = 0.13 * body.cloud_optical_depth;
+fn sent_back(sine: f32, depth: f32) -> f32 {
+    let turned = 0.13 * depth;
     return mix(1.0, 1.087 * turned / (1.0 + turned), saturate1(-2.0 * sine));
 }
 
 // Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
 // and grow by a constant ratio. Steps that depend on the distance to the far end would be longest along the horizon and
 // show as a line there.
-fn grown_km(number: f32) -> f32 {
-    let ratio = body.cloud_step_growth;
-    return body.cloud_first_step_km * (pow(ratio, number) - 1.0) / (ratio - 1.0);
+fn grown_km(layer: CloudLayer, number: f32) -> f32 {
+    let ratio = layer.stride.y;
+    return layer.stride.x * (pow(ratio, number) - 1.0) / (ratio - 1.0);
 }
 
 // Height of cloud tops over the bottom of the layer, by the layer's thickness: closed cover towers.
@@ -37,14 +37,15 @@ const SHADE_RAD: vec4f = vec4f(0.002, 0.005, 0.01, 0.02);
 // the cloud map, towards the sun.
 fn shade(rel: vec3f, cover: f32, sun_mu: f32, footprint: f32) -> f32 {
     if body.cloud_is_far == 0u || sun_mu < -0.1 || sun_mu > 0.7 { return 1.0; }
-    let thickness = TOWER * (body.cloud_top_km - body.cloud_bottom_km);
+    let low = body.cloud_layers[LOW_LAYER];
+    let thickness = TOWER * (low.top_km - low.bottom_km);
     var covered = 0.0;
     for (var i = 0; i < 4; i++) {
         let away_km = SHADE_RAD[i] * body.radius_km;
         let there = normalize(body.eye_km + rel + active_sun.dir * away_km);
         // How much higher tops are there than the ray from here to the sun.
         let rise = away_km * max(sun_mu, 0.0) + 0.5 * away_km * SHADE_RAD[i];
-        covered = max(covered, saturate1((sky_over(there, footprint).cover - cover - rise / thickness) * 2.5));
+        covered = max(covered, saturate1((sky_over(there, footprint).covers[LOW_LAYER] - cover - rise / thickness) * 2.5));
     }
     return 1.0 - 0.8 * covered * (1.0 - smoothstep(0.3, 0.7, sun_mu));
 }
@@ -56,15 +57,26 @@ const BLUR: f32 = 0.3;
 // Halvings of a step to find where a ray enters a cloud.
 const SEARCH: i32 = 3;
 
-fn height_in_layer(at_km: f32, eye_mu: f32) -> f32 {
-    let altitude_km = altitude_along(body.radius_km, body.eye_altitude_km, eye_mu, at_km);
-    return saturate1((altitude_km - body.cloud_bottom_km) / (body.cloud_top_km - body.cloud_bottom_km));
+// A ray through a layer.
+struct Way {
+    dir: vec3f,
+    // Sine of the ray over the horizon of the eye
+    eye_mu: f32,
+    from_km: f32,
+    to_km: f32,
+    layer: u32,
+}
+
+fn height_in_layer(way: Way, at_km: f32) -> f32 {
+    let bottom = body.cloud_layers[way.layer].bottom_km;
+    let altitude_km = altitude_along(body.radius_km, body.eye_altitude_km, way.eye_mu, at_km);
+    return saturate1((altitude_km - bottom) / (body.cloud_layers[way.layer].top_km - bottom));
 }
 
 // Density at a distance along a ray, as steps of a length resolve it.
-fn density_on(dir: vec3f, at_km: f32, eye_mu: f32, sky: Sky, step_km: f32) -> f32 {
+fn density_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> f32 {
     let footprint = max(at_km * frame.pixel_rad, step_km * BLUR);
-    return cloud_density(dir * at_km, sky, height_in_layer(at_km, eye_mu), footprint);
+    return cloud_density(way.layer, way.dir * at_km, sky, height_in_layer(way, at_km), footprint);
 }
 
 struct March {
@@ -75,19 +87,22 @@ struct March {
     weight: f32,
 }
 
-fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter: f32) -> March {
+fn march(into: March, way: Way, jitter: f32) -> March {
     var out = into;
-    let bottom = body.cloud_bottom_km;
-    let thickness = body.cloud_top_km - bottom;
+    let layer = body.cloud_layers[way.layer];
+    let dir = way.dir;
+    let from_km = way.from_km;
+    let bottom = layer.bottom_km;
+    let thickness = layer.top_km - bottom;
     let sun = active_sun.dir;
-    let steps = body.cloud_steps;
-    let span = to_km - from_km;
+    let steps = layer.steps;
+    let span = way.to_km - from_km;
     // Even steps from afar, growing steps from within the layer.
     let bend = span / (span + from_km + 1e-6);
-    let extinction = body.cloud_optical_depth / thickness;
+    let extinction = layer.optical_depth / thickness;
 
     // Light that reaches the layer at the middle of the segment; it varies little along the ray.
-    let middle = dir * (from_km + mix(0.5 * span, min(grown_km(0.4 * steps), span), bend));
+    let middle = dir * (from_km + mix(0.5 * span, min(grown_km(layer, 0.4 * steps), span), bend));
     let up = normalize(body.eye_km + middle);
     let sun_mu = dot(up, sun);
     let sunlight = active_sun.irradiance * sun_transmittance(bottom + thickness * 0.7, sun_mu);
@@ -100,7 +115,7 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         1.0 / (4.0 * PI),
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
-    let returned = sent_back(dot(dir, up));
+    let returned = sent_back(dot(dir, up), layer.optical_depth);
     // From above, one sees tops that a low sun only grazes (law of Lommel and Seeliger); the march is too coarse to
     // resolve this.
     let high = max(sun_mu, 0.0) + 0.02;
@@ -109,13 +124,13 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
     var before = from_km;
     var was_empty = true;
     for (var i = 0.0; i < steps; i += 1.0) {
-        let t0 = from_km + mix(i / steps * span, min(grown_km(i), span), bend);
-        let t1 = from_km + mix((i + 1.0) / steps * span, min(grown_km(i + 1.0), span), bend);
-        let t = from_km + mix((i + jitter) / steps * span, min(grown_km(i + jitter), span), bend);
+        let t0 = from_km + mix(i / steps * span, min(grown_km(layer, i), span), bend);
+        let t1 = from_km + mix((i + 1.0) / steps * span, min(grown_km(layer, i + 1.0), span), bend);
+        let t = from_km + mix((i + jitter) / steps * span, min(grown_km(layer, i + jitter), span), bend);
         if t1 <= t0 { break; }
         let sky_here = sky_over(normalize(body.eye_km + dir * t), t * frame.pixel_rad);
         var found = 0.0;
-        if sky_here.cover > 0.0 { found = density_on(dir, t, eye_mu, sky_here, t1 - t0); }
+        if sky_here.covers[way.layer] > 0.0 { found = density_on(way, t, sky_here, t1 - t0); }
         if found <= LEAST_DENSITY {
             before = t;
             was_empty = true;
@@ -123,48 +138,56 @@ fn march(into: March, dir: vec3f, from_km: f32, to_km: f32, eye_mu: f32, jitter:
         }
         // Where the ray enters the cloud.
         var enter = t0;
-        if was_empty && body.cloud_parts > 1.0 {
+        if was_empty && layer.stride.z > 1.0 {
             var inside = t;
             enter = before;
             for (var k = 0; k < SEARCH; k++) {
                 let middle = 0.5 * (enter + inside);
-                let density = density_on(dir, middle, eye_mu, sky_here, (t1 - t0) / body.cloud_parts);
+                let density = density_on(way, middle, sky_here, (t1 - t0) / layer.stride.z);
                 if density > LEAST_DENSITY { inside = middle; } else { enter = middle; }
             }
             enter = mix(enter, inside, jitter);
         }
         was_empty = false;
+        // Light after the layers above: what they leave of direct light, and what they make diffuse.
+        let over = depth_over(way.layer, sky_here);
+        let passes = let_through(over);
+        let hides = 1.0 - exp(-over);
+        let sky_left = mix(1.0, passes, hides);
+        let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes);
         // The first parts are the shortest: there the light comes from.
-        for (var k = 0.0; k < body.cloud_parts; k += 1.0) {
-            let shares = vec3f(k, k + jitter, k + 1.0) / body.cloud_parts;
+        for (var k = 0.0; k < layer.stride.z; k += 1.0) {
+            let shares = vec3f(k, k + jitter, k + 1.0) / layer.stride.z;
             let at = enter + (t1 - enter) * shares * sqrt(shares);
             let length_km = at.z - at.x;
             var here = at.y;
             var density = found;
-            if body.cloud_parts > 1.0 {
-                density = density_on(dir, here, eye_mu, sky_here, length_km);
+            if layer.stride.z > 1.0 {
+                density = density_on(way, here, sky_here, length_km);
             } else {
                 here = t;
             }
             if density <= LEAST_DENSITY { continue; }
             let rel = dir * here;
-            let height = height_in_layer(here, eye_mu);
+            let height = height_in_layer(way, here);
             let footprint = max(here * frame.pixel_rad, length_km * BLUR);
             // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
             let reach = max(thickness * 0.4, here * frame.pixel_rad * 1.2);
             let ahead_height = saturate1(height + reach * sun_mu / thickness);
-            let ahead = cloud_density(rel + sun * reach, sky_here, ahead_height, footprint);
-            let room = (1.0 - height) * thickness * to_sun;
+            let ahead = cloud_density(way.layer, rel + sun * reach, sky_here, ahead_height, footprint);
+            let room = max(select(1.0, sky_here.top, way.layer == LOW_LAYER) - height, 0.05) * thickness * to_sun;
             let beyond = max(room - reach * 0.5, 0.0);
-            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * beyond * 0.55);
+            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * beyond * 0.55) + over * to_sun;
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
             // Great and Volumetric).
             let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
                 + 1.5 * phases.z * exp(-0.07 * sun_depth);
-            let ambient = (sky * (0.45 + 0.55 * height) + below * (1.0 - height)) / PI;
+            let ambient = (sky * ((0.45 + 0.55 * height) * sky_left) + diffuse + below * (1.0 - height)) / PI;
             // Thin cloud sends back less light; by eye.
-            let bulk = mix(0.7, 1.0, smoothstep(0.3, 1.0, sky_here.cover));
-            let lit = shade(rel, sky_here.cover, sun_mu, footprint) * bulk;
+            let cover = sky_here.covers[way.layer];
+            let bulk = mix(0.7, 1.0, smoothstep(0.3, 1.0, cover));
+            var lit = bulk;
+            if way.layer == LOW_LAYER { lit *= shade(rel, cover, sun_mu, footprint); }
             let shine = body.cloud_color
                 * (sunlight * direct * (BRIGHTNESS * returned * grazed * lit) + ambient * returned);
             let passed = exp(-extinction * density * length_km);
@@ -189,7 +212,7 @@ struct Sheet {
 // The veil where a ray meets it first: a thin sheet of ice, brightest towards the sun.
 fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     var out = Sheet(vec3f(0.0), 1.0, 0.0);
-    if body.veil_coverage <= 0.0 { return out; }
+    if body.cloud_coverages.z <= 0.0 { return out; }
     let radius = body.radius_km;
     let h = body.eye_altitude_km;
     let sheet = body.veil_km;
@@ -208,7 +231,7 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     let carried = drifted(rel);
     let streak = textureSampleLevel(noise_tile, repeated, band.offset + carried / band.period, lod).g;
     let fine = textureSampleLevel(noise_tile, repeated, 4.0 * (band.offset + carried / band.period), lod + 2.0).g;
-    let depth = VEIL_DEPTH * cover * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
+    let depth = body.veil_depth * cover * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
     out.transmittance = exp(-depth);
     out.at_km = t;
     for (var i = 0u; i < body.sun_count; i++) {
@@ -237,29 +260,30 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let radius = body.radius_km;
     let h = body.eye_altitude_km;
     let mu = dot(dir, body.eye_up);
-    let bottom = body.cloud_bottom_km;
-    let top = body.cloud_top_km;
-    let inner = ray_sphere((radius + h) * mu, (h - bottom) * (2.0 * radius + h + bottom));
-    let outer = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
-    let meets_inner = inner.y >= inner.x;
-
-    var first = vec2f(1.0, -1.0);
-    var second = vec2f(1.0, -1.0);
-    if outer.y >= outer.x && outer.y > 0.0 {
-        if h < bottom {
-            first = vec2f(inner.y, outer.y);
-        } else {
-            let enter = max(outer.x, 0.0);
-            if meets_inner && inner.x > 0.0 {
-                first = vec2f(enter, inner.x);
-                second = vec2f(inner.y, outer.y);
-            } else {
-                first = vec2f(enter, outer.y);
-            }
+    // Ways through the layers in the order of the ray: down from the highest layer, then up from the lowest. x and y:
+    // from and to, km; z: layer.
+    var ways: array<vec3f, 2u * CLOUD_LAYERS>;
+    var count = 0u;
+    for (var i = 0u; i < 2u * CLOUD_LAYERS; i++) {
+        let is_down = i < CLOUD_LAYERS;
+        let number = select(i - CLOUD_LAYERS, CLOUD_LAYERS - 1u - i, is_down);
+        if body.cloud_layers[number].steps <= 0.0 { continue; }
+        let bottom = body.cloud_layers[number].bottom_km;
+        let top = body.cloud_layers[number].top_km;
+        let inner = ray_sphere((radius + h) * mu, (h - bottom) * (2.0 * radius + h + bottom));
+        let outer = ray_sphere((radius + h) * mu, (h - top) * (2.0 * radius + h + top));
+        // The ray crosses the bottom, and is in the layer again on its way up.
+        let rises = inner.y >= inner.x && inner.y > 0.0;
+        if outer.y < outer.x || outer.y <= 0.0 || (is_down && rises && inner.x <= 0.0) || (!is_down && !rises) {
+            continue;
+        }
+        let from_km = select(inner.y, max(outer.x, 0.0), is_down);
+        let to_km = min(select(outer.y, inner.x, is_down && rises), far);
+        if to_km > from_km {
+            ways[count] = vec3f(from_km, to_km, f32(number));
+            count += 1u;
         }
     }
-    first.y = min(first.y, far);
-    second.y = min(second.y, far);
     // Jitter between neighbouring pixels hides the steps, which would show as terraces.
     let jitter = gradient_noise(position.xy);
     var light = vec3f(0.0);
@@ -267,9 +291,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun(i);
         state = March(vec3f(0.0), 1.0, 0.0, 0.0);
-        if first.y > first.x { state = march(state, dir, first.x, first.y, mu, jitter); }
-        if second.y > second.x && state.transmittance > 0.0 {
-            state = march(state, dir, second.x, second.y, mu, jitter);
+        for (var k = 0u; k < count && state.transmittance > 0.0; k++) {
+            state = march(state, Way(dir, mu, ways[k].x, ways[k].y, u32(ways[k].z)), jitter);
         }
         light += state.light;
     }

@@ -4,8 +4,9 @@
 @group(1) @binding(1) var multiscatter_lut: texture_2d<f32>;
 @group(1) @binding(2) var irradiance_lut: texture_2d<f32>;
 @group(1) @binding(3) var sky_lut: texture_2d<f32>;
-// Cube 0: r log-odds of the target cover without the offset, g wind by its mean. Cubes 1 and 2, the even and the odd
-// keyframe: r rank of the clouds, g share of layered cloud, a rank of the veil
+// Cube 0: r log-odds of the target cover without the offset, g wind by its mean, b log-odds of fog, a its rank. Cubes 1
+// and 2, the even and the odd keyframe: r rank of low clouds, g share of layered cloud, b rank of middle clouds, a rank
+// of the veil
 @group(1) @binding(4) var cloud_maps: texture_cube_array<f32>;
 @group(1) @binding(5) var noise_tile: texture_3d<f32>;
 // r: index into the palette; g: 1 if the cell is marked in the editor

@@ -25,4 +25,4 @@ fn sea_hits(dir: vec3f) -> vec2f {
 }
 
 // Whether the pass of the clouds has run.
-fn has_clouds() -> bool { return max(body.cloud_coverage, body.veil_coverage) > 0.0; }
+fn has_clouds() -> bool { return any(body.cloud_coverages > vec4f(0.0)); }

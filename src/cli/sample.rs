@@ -48,7 +48,7 @@ pub(super) struct Args {
     /// Print a JSON object: height_m, slope_deg, normal, temperature_c, precipitation_mm (a year), temperature and
     /// moisture (0 to 1, the axes of the biome table), biome, layers, water_level_m, water_surface_m (of the sea, with
     /// its waves), wave_height_m (significant), river, lake, basin, wind_m_s (to
-    /// the east and to the north), rain_mm (a year), plate, cloud_cover and veil_cover (0 to 1)
+    /// the east and to the north), rain_mm (a year), plate, cloud_cover, middle_cover, veil_cover and fog_cover (0 to 1)
     #[arg(long)]
     json: bool,
 }
@@ -138,7 +138,9 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
         "rain_mm": sample.rain_mm,
         "plate": sample.plate,
         "cloud_cover": clouds.map(|cover| cover.low),
+        "middle_cover": clouds.map(|cover| cover.middle),
         "veil_cover": clouds.map(|cover| cover.veil),
+        "fog_cover": clouds.map(|cover| cover.fog),
     })
 }
 
@@ -185,11 +187,10 @@ fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], mom
         lines.push(format!("wind         {:.1} m/s to {:.0}°", wind_m_s.length(), heading_deg(dir, wind_m_s)));
         lines.push(format!("rain         {:.0} mm a year", sample.rain_mm));
     }
-    lines.extend(
-        moment
-            .cover(dir)
-            .map(|cover| format!("clouds       {:.0}%, veil {:.0}%", cover.low * 100.0, cover.veil * 100.0)),
-    );
+    lines.extend(moment.cover(dir).map(|cover| {
+        let [low, middle, veil, fog] = [cover.low, cover.middle, cover.veil, cover.fog].map(|cover| cover * 100.0);
+        format!("clouds       {low:.0}%, middle {middle:.0}%, veil {veil:.0}%, fog {fog:.0}%")
+    }));
     lines.extend(sample.plate.map(|plate| format!("plate        {plate}")));
     let layers = terrain.planet().layers.iter().zip(layers_m);
     lines.extend(layers.map(|(layer, m)| format!("layer        {:.3} m  {}", m, layer.name)));

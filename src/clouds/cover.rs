@@ -1,12 +1,15 @@
 //! Cover from rank and target, and the target from the climate.
 
 use crate::planet::{CLIMATE_BELTS, Planet};
-use crate::world::weather::Weather;
+use crate::world::weather::{WARMEST_C, Weather};
 use glam::DVec3;
 
 /// Log-odds of cover for each unit of wetness (eight octaves of rain) and of the climate's belts. By eye.
 const WETNESS: f64 = 3.4;
 const BELTS: f64 = 1.3;
+/// Log-odds of fog for the coldest currents, and for the whole range of humidity. By eye.
+const COLD_FOG: f64 = 5.0;
+const HUMID_FOG: f64 = 2.0;
 /// Even a desert has a little cloud: added to the rain, mm a year.
 const LEAST_MM: f64 = 80.0;
 /// Octaves of rain from the median to either end of the wetness.
@@ -16,10 +19,14 @@ const OCTAVES: f64 = 4.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct CloudCover {
-    /// Share of the sky that the cloud layer covers, 0 to 1.
+    /// Share of the sky that low clouds cover, 0 to 1.
     pub low: f64,
+    /// Share that middle clouds cover, 0 to 1.
+    pub middle: f64,
     /// Share that the veil of high ice clouds covers, 0 to 1.
     pub veil: f64,
+    /// Share of the ground that fog covers, 0 to 1, where the ground lies under the top of the fog.
+    pub fog: f64,
 }
 
 /// The climate of clouds.
@@ -53,6 +60,14 @@ impl Targets {
             (0.5 * libm::log2(ratio) / OCTAVES).clamp(-0.5, 0.5)
         });
         belts + WETNESS * self.weather_share * rain
+    }
+
+    /// Log-odds of fog at a direction, relative to the mean of the globe: warm air over cold currents is foggy.
+    pub(super) fn fog_odds(&self, weather: Option<&Weather>, dir: DVec3) -> f64 {
+        weather.filter(|_| self.weather_share > 0.0).map_or(0.0, |weather| {
+            let [warmer_c, humidity] = weather.at(dir);
+            self.weather_share * (HUMID_FOG * (humidity - 0.5) - COLD_FOG * warmer_c / WARMEST_C)
+        })
     }
 }
 

@@ -1,10 +1,10 @@
-//! Ranks of clouds and veil at directions and times.
+//! Ranks of the layers of clouds at directions and times.
 
 use super::cover::{CloudCover, Targets, cover, offset};
 use super::ranks::Ranks;
 use super::swirl::{Noises, Swirls};
 use super::systems::{Climate, Effect, System, alive};
-use crate::planet::{Planet, Rotation};
+use crate::planet::{Clouds, Planet, Rotation};
 use crate::sphere::spread;
 use crate::terrain::Terrain;
 use crate::terrain::lane::CHUNK;
@@ -25,30 +25,34 @@ const ODDS: usize = 1024;
 const EARTH_SCALE_KM: f64 = 2500.0;
 /// The finest octave, cells along the radius: a cube map of 512 texels shows it.
 const FINEST: f64 = 102.0;
-/// How much cyclones add to the veil, of what they add to the clouds.
+/// How much cyclones add to the middle clouds and the veil, of what they add to the low clouds.
+const SHIELD: f64 = 0.8;
 const OUTFLOW: f64 = 0.5;
+/// Low clouds, middle clouds, veil and fog.
+pub(crate) const LAYERS: usize = 4;
 
 /// The clouds of a planet: where they are at any time. Cheap to clone the handle of, immutable.
 #[derive(Clone)]
 pub struct CloudField {
     swirls: Swirls,
     climate: Climate,
-    ranks: [Ranks; 2],
+    ranks: [Ranks; LAYERS],
     targets: Targets,
     weather: Option<Arc<Weather>>,
-    /// Shares of the sky that clouds and veil cover, and the offsets of their log-odds.
-    coverage: [f64; 2],
-    offsets: [f64; 2],
+    /// Shares of the sky that the layers cover, and the offsets of their log-odds.
+    coverage: [f64; LAYERS],
+    offsets: [f64; LAYERS],
     /// Drift about the pole, radians a second.
     drift_rad_s: f64,
-    /// Log-odds at directions of equal areas.
-    odds: Vec<f64>,
+    /// Log-odds of clouds and of fog at directions of equal areas.
+    odds: [Vec<f64>; 2],
 }
 
 /// Ranks at a direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Ranked {
     pub(super) low: f32,
+    pub(super) middle: f32,
     pub(super) veil: f32,
     /// Share of layered cloud: the rest is heaped up.
     pub(super) layered: f32,
@@ -73,33 +77,37 @@ impl CloudField {
         let cells = (planet.radius_km / clouds.scale_km).min(FINEST);
         let westward = planet.structure.as_ref().is_some_and(|s| s.weather.rotation == Rotation::Westward);
         let scale = clouds.scale_km / EARTH_SCALE_KM * (EARTH_KM / planet.radius_km);
-        let climate = Climate { seed, scale, strength: clouds.storms, westward };
+        let climate = Climate { seed, scale, strength: clouds.storms, cyclones: clouds.cyclones, westward };
         let targets = Targets::new(planet, weather.as_deref());
         let none = Ranks::of(&mut []);
         let mut field = Self {
-            swirls: Swirls::new(seed, cells, clouds.curl, FINEST),
+            swirls: Swirls::new(seed, cells, clouds.curl, FINEST, clouds.middle > 0.0),
             climate,
-            ranks: [none.clone(), none],
-            odds: spread(ODDS).map(|dir| targets.odds(weather.as_deref(), dir)).collect(),
+            ranks: std::array::from_fn(|_| none.clone()),
+            odds: [
+                spread(ODDS).map(|dir| targets.odds(weather.as_deref(), dir)).collect(),
+                spread(ODDS).map(|dir| targets.fog_odds(weather.as_deref(), dir)).collect(),
+            ],
             targets,
             weather,
-            coverage: [f64::NAN; 2],
-            offsets: [0.0; 2],
+            coverage: [f64::NAN; LAYERS],
+            offsets: [0.0; LAYERS],
             drift_rad_s: clouds.wind_km_h / 3600.0 / planet.radius_km,
         };
-        let coverage = planet.clouds.as_ref().map_or([0.0; 2], |clouds| [clouds.coverage, clouds.veil]);
-        field.set_coverage(coverage);
-        let (mut low, mut veil) = (Vec::with_capacity(SAMPLES), Vec::with_capacity(SAMPLES));
+        field.set_coverage(planet.clouds.as_ref().map_or([0.0; LAYERS], coverages));
+        let mut samples: [Vec<f32>; LAYERS] = std::array::from_fn(|_| Vec::with_capacity(SAMPLES));
         let systems = alive(&field.climate, 0.0);
         let dirs: Vec<DVec3> = spread(SAMPLES).collect();
         let mut noise = Box::<Noise>::default();
         for dirs in dirs.chunks(CHUNK) {
             field.values(dirs, 0.0, &systems, &mut noise, |_, value, _| {
-                low.push(value.low);
-                veil.push(value.veil);
+                for (layer, value) in [value.low, value.middle, value.veil].into_iter().enumerate() {
+                    samples[layer].push(value);
+                }
             });
+            field.swirls.fog(dirs, &mut noise, |_, value| samples[3].push(value));
         }
-        field.ranks = [Ranks::of(&mut low), Ranks::of(&mut veil)];
+        field.ranks = samples.each_mut().map(|samples| Ranks::of(samples));
         field
     }
 
@@ -118,12 +126,18 @@ impl CloudField {
         let (a, b) = (at(before), at(before + 1));
         let blend = |a: f32, b: f32| f64::from(a) + (f64::from(b) - f64::from(a)) * share;
         let odds = self.odds(dir);
-        let covered = |k: usize, rank: f64| match self.coverage[k] > 0.0 {
+        let covered = |k: usize, rank: f64, odds: f64| match self.coverage[k] > 0.0 {
             true => cover(rank, odds + self.offsets[k]),
             false => 0.0,
         };
-        let (low, veil) = (covered(0, blend(a.low, b.low)), covered(1, blend(a.veil, b.veil)));
-        CloudCover { low, veil }
+        let mut fog_rank = 0.0;
+        self.fog_ranks(&[dir], &mut Box::default(), |_, rank| fog_rank = f64::from(rank));
+        CloudCover {
+            low: covered(0, blend(a.low, b.low), odds),
+            middle: covered(1, blend(a.middle, b.middle), odds),
+            veil: covered(2, blend(a.veil, b.veil), odds),
+            fog: covered(3, fog_rank, self.fog_odds(dir)),
+        }
     }
 
     /// Angle by which the wind has carried all clouds to the east.
@@ -131,22 +145,29 @@ impl CloudField {
         (self.drift_rad_s * time_secs).rem_euclid(TAU)
     }
 
-    /// Offsets of the log-odds of the target cover with which the mean covers of clouds and veil are those asked for.
+    /// Offsets of the log-odds of the target cover with which the mean covers of the layers are those asked for.
     #[cfg(any(feature = "render", test))]
-    pub(crate) fn offsets(&self) -> [f64; 2] {
+    pub(crate) fn offsets(&self) -> [f64; LAYERS] {
         self.offsets
     }
 
-    /// Shares of the sky that clouds and veil cover.
+    /// Shares of the sky that the layers cover.
     #[cfg(feature = "render")]
-    pub(crate) fn coverage(&self) -> [f64; 2] {
+    pub(crate) fn coverage(&self) -> [f64; LAYERS] {
         self.coverage
     }
 
-    /// Other shares of clouds and veil: they decide neither ranks nor log-odds.
-    pub(crate) fn set_coverage(&mut self, coverage: [f64; 2]) {
+    /// Whether ranks of middle clouds are there.
+    #[cfg(feature = "render")]
+    pub(crate) fn has_middle(&self) -> bool {
+        self.swirls.has_middle()
+    }
+
+    /// Other shares of the layers: they decide neither ranks nor log-odds.
+    pub(crate) fn set_coverage(&mut self, coverage: [f64; LAYERS]) {
         if self.coverage != coverage {
-            self.offsets = coverage.map(|coverage| offset(&self.odds, coverage));
+            let [clouds, fog] = &self.odds;
+            self.offsets = std::array::from_fn(|k| offset(if k == 3 { fog } else { clouds }, coverage[k]));
             self.coverage = coverage;
         }
     }
@@ -154,6 +175,16 @@ impl CloudField {
     /// Log-odds of the target cover without the offset.
     pub(super) fn odds(&self, dir: DVec3) -> f64 {
         self.targets.odds(self.weather.as_deref(), dir)
+    }
+
+    /// Log-odds of the target cover of fog without the offset.
+    pub(super) fn fog_odds(&self, dir: DVec3) -> f64 {
+        self.targets.fog_odds(self.weather.as_deref(), dir)
+    }
+
+    /// Ranks of fog at up to [`CHUNK`] directions. Fog stays where it is.
+    pub(super) fn fog_ranks(&self, dirs: &[DVec3], noise: &mut Noise, mut out: impl FnMut(usize, f32)) {
+        self.swirls.fog(dirs, noise, |i, value| out(i, self.ranks[3].rank(value)));
     }
 
     /// The solved weather, and its share.
@@ -177,8 +208,9 @@ impl CloudField {
         mut out: impl FnMut(usize, Ranked),
     ) {
         self.values(dirs, days_of(number), systems, noise, |i, value, layered| {
-            let [low, veil] = [self.ranks[0].rank(value.low), self.ranks[1].rank(value.veil)];
-            out(i, Ranked { low, veil, layered });
+            let [low, middle, veil] =
+                [(0, value.low), (1, value.middle), (2, value.veil)].map(|(k, value)| self.ranks[k].rank(value));
+            out(i, Ranked { low, middle, veil, layered });
         });
     }
 
@@ -203,6 +235,7 @@ impl CloudField {
         self.swirls.evaluate(&unwound, days, noise, &mut noises);
         for (i, (effect, mut value)) in effects.iter().zip(noises).enumerate() {
             value.low += effect.extra as f32;
+            value.middle += (SHIELD * effect.extra) as f32;
             value.veil += (OUTFLOW * effect.extra.max(-1.0)) as f32;
             // Heaps in the tropics, layers towards the poles and in cyclones.
             let polar = (dirs[i].z * dirs[i].z * 1.6).min(1.0);
@@ -215,6 +248,11 @@ impl CloudField {
         self.swirls = self.swirls.with_simd(simd);
         self
     }
+}
+
+/// Shares of the sky that the layers of clouds cover.
+pub(crate) fn coverages(clouds: &Clouds) -> [f64; LAYERS] {
+    [clouds.coverage, clouds.middle, clouds.veil, clouds.fog]
 }
 
 /// The keyframe before a time, and the share of the next one.

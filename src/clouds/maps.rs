@@ -15,7 +15,8 @@ const GROUND_CELLS: usize = 128;
 /// The texels of six faces, rows from the top.
 pub(crate) type Texels = Vec<[f16; 4]>;
 
-/// Ranks at a time, in the frame that drifts with the wind: red clouds, green the share of layered cloud, alpha veil.
+/// Ranks at a time, in the frame that drifts with the wind: red low clouds, green the share of layered cloud, blue
+/// middle clouds, alpha veil.
 pub(crate) struct Keyframe {
     pub(crate) number: i64,
     pub(crate) texels: Texels,
@@ -44,10 +45,10 @@ pub(crate) fn keyframe(field: &CloudField, number: i64, side: usize) -> Keyframe
             let angle_rad = 1.3 * libm::acos(middle.dot(corner).min(1.0)) + 1e-3;
             let near: Vec<_> = systems.iter().filter(|system| system.reaches(middle, angle_rad)).cloned().collect();
             for (start, dirs) in dirs.chunks(CHUNK).enumerate() {
-                field.ranked(dirs, number, &near, noise, |i, Ranked { low, veil, layered }| {
+                field.ranked(dirs, number, &near, noise, |i, Ranked { low, middle, veil, layered }| {
                     let (x, y) = at(start * CHUNK + i);
                     if x < side {
-                        texels[y * side + x] = [low, layered, 0.0, veil].map(f16::from_f32);
+                        texels[y * side + x] = [low, layered, middle, veil].map(f16::from_f32);
                     }
                 });
             }
@@ -56,17 +57,21 @@ pub(crate) fn keyframe(field: &CloudField, number: i64, side: usize) -> Keyframe
     Keyframe { number, texels }
 }
 
-/// Values that stay over the ground: red log-odds of the target cover without the offset, green the wind by its mean.
+/// Values that stay over the ground: red log-odds of the target cover without the offset, green the wind by its mean,
+/// blue log-odds of fog without the offset, alpha its rank.
 pub(crate) fn ground_map(planet: &Planet, field: &CloudField, side: usize) -> Texels {
     let cells = GROUND_CELLS.min(side);
     let along = cells + 1;
-    let values: Vec<[f64; 2]> = (0..6 * along * along)
+    let values: Vec<[f64; 4]> = (0..6 * along * along)
         .into_par_iter()
         .with_min_len(along)
-        .map(|i| {
+        .map_init(Box::<Noise>::default, |noise, i| {
             let (x, y) = ((i % along) as f64, (i / along % along) as f64);
             let dir = texture_direction(i / (along * along), cells, x, y);
-            [field.odds(dir), relative_wind(planet, field.weather(), dir).length()]
+            let mut fog_rank = 0.0;
+            field.fog_ranks(&[dir], noise, |_, rank| fog_rank = f64::from(rank));
+            let wind = relative_wind(planet, field.weather(), dir).length();
+            [field.odds(dir), wind, field.fog_odds(dir), fog_rank]
         })
         .collect();
     let step = cells as f64 / side as f64;
@@ -80,7 +85,7 @@ pub(crate) fn ground_map(planet: &Planet, field: &CloudField, side: usize) -> Te
             let (top, bottom) = (at(0, 0)[k] * (1.0 - u) + at(1, 0)[k] * u, at(0, 1)[k] * (1.0 - u) + at(1, 1)[k] * u);
             f16::from_f64(top * (1.0 - v) + bottom * v)
         };
-        [value(0), value(1), f16::ZERO, f16::ZERO]
+        std::array::from_fn(value)
     };
     (0..6 * side * side).into_par_iter().with_min_len(side).map(texel).collect()
 }

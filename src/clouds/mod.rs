@@ -24,6 +24,6 @@ mod tests;
 pub use cover::CloudCover;
 pub use field::CloudField;
 #[cfg(feature = "render")]
-pub(crate) use field::keyframes;
+pub(crate) use field::{coverages, keyframes};
 #[cfg(feature = "render")]
 pub(crate) use maps::{Keyframe, Texels, ground_map, keyframe};

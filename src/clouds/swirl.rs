@@ -20,6 +20,15 @@ const VEIL_OCTAVES: usize = 6;
 const VEIL_STRETCH: DVec3 = DVec3::new(0.45, 0.45, 2.4);
 const VEIL_FREQUENCY: f64 = 1.6;
 const VEIL_GAIN: f32 = 0.58;
+/// Octaves of the middle clouds, which form bands between both.
+const MIDDLE_OCTAVES: usize = 8;
+const MIDDLE_STRETCH: DVec3 = DVec3::new(0.7, 0.7, 1.6);
+const MIDDLE_FREQUENCY: f64 = 1.2;
+const MIDDLE_GAIN: f32 = 0.72;
+/// Octaves of fog, which does not move.
+const FOG_OCTAVES: usize = 3;
+const FOG_FREQUENCY: f64 = 6.0;
+const FOG_GAIN: f32 = 0.7;
 /// Cells of the coarsest octave that change in a day; finer ones change faster.
 const CHANGE_PER_DAY: f64 = 0.22;
 /// Octaves whose share is less in the tropics, where clouds are clusters rather than bands.
@@ -33,7 +42,9 @@ pub(super) struct Swirls {
     curl: f64,
     swirls: [Octave; 2],
     octaves: Vec<(Octave, f32)>,
+    middle: Vec<(Octave, f32)>,
     veil: Vec<(Octave, f32)>,
+    fog: Vec<(Octave, f32)>,
 }
 
 /// Noises at a point.
@@ -41,13 +52,16 @@ pub(super) struct Swirls {
 pub(super) struct Noises {
     /// Of the low clouds.
     pub(super) low: f32,
+    /// Of the middle clouds.
+    pub(super) middle: f32,
     /// Of the veil.
     pub(super) veil: f32,
 }
 
 impl Swirls {
     /// `cells`: cells of the coarsest octave along the radius; `finest`: frequency beyond which nothing shows.
-    pub(super) fn new(seed: u32, cells: f64, curl: f64, finest: f64) -> Self {
+    /// `has_middle`: whether the noise of the middle clouds is needed.
+    pub(super) fn new(seed: u32, cells: f64, curl: f64, finest: f64, has_middle: bool) -> Self {
         let octave = |k: u32, frequency: f64| {
             let bits = hash(seed, k);
             let offset = [1, 2, 3].map(|axis| unit(hash(bits, axis)) * 512.0);
@@ -67,8 +81,15 @@ impl Swirls {
             curl,
             swirls: [0, 1].map(|k| octave(k as u32 + 1, SWIRLS[k].0)),
             octaves: series(10, OCTAVES, 1.0, GAIN),
+            middle: series(50, if has_middle { MIDDLE_OCTAVES } else { 0 }, MIDDLE_FREQUENCY, MIDDLE_GAIN),
             veil: series(30, VEIL_OCTAVES, VEIL_FREQUENCY, VEIL_GAIN),
+            fog: series(70, FOG_OCTAVES, FOG_FREQUENCY, FOG_GAIN),
         }
+    }
+
+    #[cfg(feature = "render")]
+    pub(super) fn has_middle(&self) -> bool {
+        !self.middle.is_empty()
     }
 
     #[cfg(test)]
@@ -112,6 +133,24 @@ impl Swirls {
             noise.values(self.simd, skewed.each_ref().map(|axis| &axis[..]), &changed(octave, k, days));
             (0..n).for_each(|i| out[i].veil += weight * noise.value[i]);
         }
+        load(&mut skewed, &points, MIDDLE_STRETCH);
+        for (k, (octave, weight)) in self.middle.iter().enumerate() {
+            noise.values(self.simd, skewed.each_ref().map(|axis| &axis[..]), &changed(octave, k + 1, days));
+            (0..n).for_each(|i| out[i].middle += weight * noise.value[i]);
+        }
+    }
+
+    /// Noise of fog at up to [`CHUNK`] directions.
+    pub(super) fn fog(&self, dirs: &[DVec3], noise: &mut Noise, mut out: impl FnMut(usize, f32)) {
+        let points = dirs.iter().map(|dir| skew((*dir * self.cells).to_array()));
+        let points: Vec<[f64; 3]> = points.take(CHUNK).collect();
+        let skewed: [Vec<f64>; 3] = std::array::from_fn(|axis| points.iter().map(|q| q[axis]).collect());
+        let mut sums = vec![0.0; points.len()];
+        for (octave, weight) in &self.fog {
+            noise.values(self.simd, skewed.each_ref().map(|axis| &axis[..]), octave);
+            sums.iter_mut().zip(noise.value.iter()).for_each(|(sum, value)| *sum += weight * value);
+        }
+        sums.into_iter().enumerate().for_each(|(i, sum)| out(i, sum));
     }
 }
 

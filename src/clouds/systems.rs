@@ -9,8 +9,8 @@ use crate::world::noise::{hash, unit};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Slots of each kind on each hemisphere.
-const SLOTS: [u32; 2] = [9, 3];
+/// Share of each kind in the slots of a hemisphere.
+const KINDS: [f64; 2] = [0.75, 0.25];
 /// Life in days. A depression of middle latitudes lives for about five days, a hurricane for about nine.
 const LIFE_DAYS: [f64; 2] = [5.0, 9.0];
 /// Latitudes of birth in degrees: storm tracks, and warm seas off the equator.
@@ -60,13 +60,22 @@ pub(super) struct Climate {
     pub(super) scale: f64,
     /// 0 to 1.
     pub(super) strength: f64,
+    /// Slots of both hemispheres.
+    pub(super) cyclones: u32,
     /// Whether the planet turns to the west.
     pub(super) westward: bool,
 }
 
+impl Climate {
+    /// Slots of a kind on each hemisphere.
+    fn slots(&self, kind: usize) -> u32 {
+        (f64::from(self.cyclones) * 0.5 * KINDS[kind]).round() as u32
+    }
+}
+
 /// The systems that are alive `days` after time zero.
 pub(super) fn alive(climate: &Climate, days: f64) -> Vec<System> {
-    let kinds = (0..2).flat_map(|kind| (0..2 * SLOTS[kind]).map(move |slot| (kind, slot)));
+    let kinds = (0..2).flat_map(|kind| (0..2 * climate.slots(kind)).map(move |slot| (kind, slot)));
     kinds.filter_map(|(kind, slot)| system(climate, kind, slot, days)).collect()
 }
 
@@ -89,7 +98,7 @@ fn system(climate: &Climate, kind: usize, slot: u32, days: f64) -> Option<System
     let [along, poleward] = DRIFT_RAD[kind].map(|drift| drift * drifted);
     let lat_rad = side * (between(LATITUDES_DEG[kind], 1).to_radians() + poleward);
     // Slots are spread over the longitudes, so that systems seldom meet.
-    let lon_rad = (f64::from(slot / 2) + 0.8 * roll(2)) / f64::from(SLOTS[kind]) * TAU + east * along;
+    let lon_rad = (f64::from(slot / 2) + 0.8 * roll(2)) / f64::from(climate.slots(kind)) * TAU + east * along;
     let center = LatLon { lat_rad, lon_rad }.direction();
     let (to_east, to_north) = east_north(center);
     let [least, most] = RADIUS_LIMITS_RAD;
@@ -168,7 +177,7 @@ fn hurricane(r: f64, unwound: DVec2) -> f64 {
 mod tests {
     use super::*;
 
-    const EARTH: Climate = Climate { seed: 4, scale: 1.0, strength: 1.0, westward: false };
+    const EARTH: Climate = Climate { seed: 4, scale: 1.0, strength: 1.0, cyclones: 24, westward: false };
 
     /// A trail of cloud that starts on the equator side of a cyclone is wound up counterclockwise in the north,
     /// clockwise in the south; the other way round on a planet that turns to the west.
@@ -205,6 +214,14 @@ mod tests {
             alive(&EARTH, days).iter().map(|s| s.center.to_array().map(f64::to_bits)).collect()
         };
         assert_ne!(centers(0.0), centers(40.0), "nothing repeats");
+    }
+
+    #[test]
+    fn as_many_live_as_asked() {
+        for (cyclones, expected) in [(0, 0..1), (8, 5..9), (24, 17..25), (80, 60..81)] {
+            let count = alive(&Climate { cyclones, ..EARTH }, 3.0).len();
+            assert!(expected.contains(&count), "{count} of {cyclones}");
+        }
     }
 
     #[test]

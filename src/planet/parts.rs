@@ -178,10 +178,13 @@ params! {
     }
 }
 
+/// Most cyclones that live at a time.
+pub const MAX_CYCLONES: u32 = 96;
+
 params! {
-    /// A layer of clouds.
+    /// Clouds in four layers: fog, low clouds, middle clouds and a veil of ice.
     pub struct Clouds {
-        /// Share of the sky covered by clouds.
+        /// Share of the sky covered by low clouds.
         coverage: f64 = 0.5, "Coverage", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Size of the weather systems.
         scale_km: f64 = 2500.0, "Scale", Unit::Kilometres, log(1.0, 50_000.0), Stage::CloudMap;
@@ -189,22 +192,54 @@ params! {
         curl: f64 = 0.6, "Curl", Unit::None, linear(0.0, 2.0), Stage::CloudMap;
         /// Strength of cyclones: comma-shaped ones of middle latitudes, and tropical ones with an eye. 0 is none.
         storms: f64 = 0.6, "Storms", Unit::None, linear(0.0, 1.0), Stage::CloudMap;
-        /// Share of the sky covered by a veil of high ice clouds.
-        veil: f64 = 0.1, "Veil", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        /// Number of cyclones that live at a time, most of them in the middle latitudes.
+        cyclones: u32 = 24, "Cyclones", Unit::None, count(0, MAX_CYCLONES), Stage::CloudMap;
         /// Seed of the cloud noise.
         seed: u32 = 3, "Seed", Unit::None, Domain::Seed, Stage::CloudMap;
-        /// Height of the bottom of the layer above the reference sphere.
+        /// Height of the bottom of the low clouds above the reference sphere.
         altitude_km: f64 = 3.0, "Altitude", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
-        /// Height from the bottom of the layer to its top.
+        /// Height from the bottom of the low clouds to their top.
         thickness_km: f64 = 2.0, "Thickness", Unit::Kilometres, log(0.01, 200.0), Stage::Uniform;
         /// Optical depth from top to bottom where the sky is fully covered: 1 is a veil, 20 hides the star.
         density: f64 = 12.0, "Density", Unit::None, log(0.01, 200.0), Stage::Uniform;
         /// Size of single clouds.
         puff_km: f64 = 6.0, "Puff size", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
+        /// Type of the low clouds: -1 is heaps everywhere, 0 is heaps in the tropics and decks towards the poles and in
+        /// cyclones, 1 is decks everywhere.
+        layering: f64 = 0.0, "Layering", Unit::None, linear(-1.0, 1.0), Stage::Uniform;
+        /// How far thunderclouds tower over small heaps and decks, and spread into anvils: at 0 all clouds fill the
+        /// layer, at 1 only thunderclouds reach its top.
+        towers: f64 = 0.0, "Towers", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        /// Density of the rain under thunderclouds and thick decks: 0 is dry, 1 hides what lies behind.
+        rain: f64 = 0.0, "Rain", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Colour of the droplets.
         color: [f64; 3] = [0.98, 0.98, 0.98], "Colour", Unit::None, Domain::Color, Stage::Uniform;
         /// Speed of the clouds at the equator; positive is eastward, negative westward.
         wind_km_h: f64 = 60.0, "Wind", Unit::KilometresPerHour, linear(-2000.0, 2000.0), Stage::Uniform;
+        /// Share of the sky covered by middle clouds.
+        middle: f64 = 0.0, "Middle clouds", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        /// Clear air between the top of the low clouds and the middle clouds.
+        middle_gap_km: f64 = 1.0, "Middle gap", Unit::Kilometres, log(0.0, 200.0), Stage::Uniform;
+        /// Height from the bottom of the middle clouds to their top.
+        middle_thickness_km: f64 = 0.6, "Middle thickness", Unit::Kilometres, log(0.01, 100.0), Stage::Uniform;
+        /// Optical depth of the middle clouds where they cover the sky.
+        middle_density: f64 = 4.0, "Middle density", Unit::None, log(0.01, 100.0), Stage::Uniform;
+        /// Size of single middle clouds.
+        middle_puff_km: f64 = 1.5, "Middle puff size", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
+        /// Share of the sky covered by a veil of high ice clouds.
+        veil: f64 = 0.1, "Veil", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        /// Height of the veil above the top of the low clouds. It never lies under the middle clouds.
+        veil_gap_km: f64 = 3.0, "Veil gap", Unit::Kilometres, log(0.0, 200.0), Stage::Uniform;
+        /// Optical depth of the veil where it covers the sky.
+        veil_density: f64 = 0.6, "Veil density", Unit::None, log(0.01, 20.0), Stage::Uniform;
+        /// Share of the globe under banks of fog. Mountains and islands stand out of them.
+        fog: f64 = 0.0, "Fog", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        /// Height of the bottom of the fog above the reference sphere. Fog under the ground is not seen.
+        fog_altitude_km: f64 = 0.0, "Fog altitude", Unit::Kilometres, linear(-20.0, 20.0), Stage::Uniform;
+        /// Height from the bottom of the fog to its top.
+        fog_thickness_km: f64 = 0.3, "Fog thickness", Unit::Kilometres, log(0.01, 20.0), Stage::Uniform;
+        /// Optical depth of the fog from top to bottom.
+        fog_density: f64 = 6.0, "Fog density", Unit::None, log(0.01, 200.0), Stage::Uniform;
     }
 }
 

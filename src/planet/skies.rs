@@ -19,7 +19,9 @@ fn fair() -> Clouds {
     Clouds {
         coverage: 0.15,
         storms: 0.2,
+        middle: 0.05,
         veil: 0.15,
+        veil_gap_km: 5.0,
         altitude_km: 1.2,
         thickness_km: 1.4,
         puff_km: 2.5,
@@ -31,10 +33,17 @@ fn earth() -> Clouds {
     Clouds {
         coverage: 0.35,
         storms: 0.7,
+        altitude_km: 1.5,
+        thickness_km: 6.0,
+        density: 24.0,
+        puff_km: 4.0,
+        towers: 0.8,
+        rain: 0.4,
+        middle: 0.15,
+        middle_gap_km: 0.3,
         veil: 0.12,
-        altitude_km: 2.0,
-        thickness_km: 2.5,
-        puff_km: 5.0,
+        veil_gap_km: 2.0,
+        fog: 0.04,
         ..Clouds::default()
     }
 }
@@ -43,11 +52,15 @@ fn overcast() -> Clouds {
     Clouds {
         coverage: 0.92,
         storms: 0.3,
-        veil: 0.0,
         altitude_km: 1.0,
         thickness_km: 1.5,
         density: 22.0,
         puff_km: 9.0,
+        layering: 0.8,
+        rain: 0.3,
+        middle: 0.3,
+        veil: 0.0,
+        fog: 0.05,
         ..Clouds::default()
     }
 }
@@ -56,17 +69,32 @@ fn storms() -> Clouds {
     Clouds {
         coverage: 0.45,
         storms: 1.0,
+        cyclones: 40,
+        altitude_km: 1.2,
+        thickness_km: 9.0,
+        density: 50.0,
+        puff_km: 6.0,
+        layering: -0.3,
+        towers: 1.0,
+        rain: 1.0,
+        middle: 0.2,
+        middle_gap_km: 0.2,
         veil: 0.3,
-        altitude_km: 1.5,
-        thickness_km: 7.0,
-        density: 40.0,
-        puff_km: 8.0,
+        veil_gap_km: 2.0,
         ..Clouds::default()
     }
 }
 
 fn ice_haze() -> Clouds {
-    Clouds { coverage: 0.0, storms: 0.3, veil: 0.8, altitude_km: 8.0, thickness_km: 1.0, ..Clouds::default() }
+    Clouds {
+        coverage: 0.0,
+        storms: 0.3,
+        veil: 0.8,
+        altitude_km: 8.0,
+        thickness_km: 1.0,
+        veil_gap_km: 1.0,
+        ..Clouds::default()
+    }
 }
 
 fn dust() -> Clouds {
@@ -80,6 +108,7 @@ fn dust() -> Clouds {
         thickness_km: 5.0,
         density: 8.0,
         puff_km: 12.0,
+        layering: 0.5,
         color: [0.8, 0.5, 0.28],
         ..Clouds::default()
     }
@@ -96,6 +125,7 @@ fn venus() -> Clouds {
         thickness_km: 18.0,
         density: 30.0,
         puff_km: 60.0,
+        veil_gap_km: 18.0,
         color: [0.96, 0.88, 0.62],
         ..Clouds::default()
     }
@@ -112,6 +142,11 @@ fn giant() -> Clouds {
         thickness_km: 25.0,
         density: 25.0,
         puff_km: 120.0,
+        middle: 0.4,
+        middle_gap_km: 5.0,
+        middle_thickness_km: 8.0,
+        middle_puff_km: 60.0,
+        veil_gap_km: 25.0,
         color: [0.85, 0.64, 0.42],
         ..Clouds::default()
     }

@@ -4,9 +4,10 @@
 //! A keyframe that is needed at once is solved at once. While time goes on, the one after is solved in the background.
 
 use super::shared::{CLOUD_MAP_LEVELS, CLOUD_MAP_SIDE};
-use crate::clouds::{CloudField, Keyframe, Texels, ground_map, keyframe, keyframes};
+use crate::clouds::{CloudField, Keyframe, Texels, coverages, ground_map, keyframe, keyframes};
 use crate::planet::Key;
 use crate::terrain::{Revision, Terrain};
+use glam::Vec4;
 use half::f16;
 use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, channel};
@@ -38,9 +39,8 @@ pub(crate) struct CloudMaps {
 /// Uniforms of clouds at a time that take the whole field.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CloudFrame {
-    /// Offsets of the log-odds of cover and veil.
-    pub(crate) offset: f32,
-    pub(crate) veil_offset: f32,
+    /// Offsets of the log-odds of the layers' covers.
+    pub(crate) offsets: Vec4,
     /// Share of the odd keyframe.
     pub(crate) odd_share: f32,
     /// The finest mip level of the maps that is there.
@@ -87,7 +87,9 @@ impl CloudMaps {
         let planet = revision.planet();
         let weather = terrain.and_then(Terrain::weather);
         let key = (revision.keys().cloud_map(), terrain.and_then(Terrain::weather_key));
-        let is_changed = self.key != Some(key) || self.field.is_none();
+        let needs_middle = planet.clouds.as_ref().is_some_and(|clouds| clouds.middle > 0.0);
+        let is_changed =
+            self.key != Some(key) || self.field.as_ref().is_none_or(|field| needs_middle && !field.has_middle());
         // The first maps are never drafts.
         let is_draft = drafts && self.key.is_some() && (is_changed || self.least_level > 0);
         if is_changed || (self.least_level > 0 && !is_draft) {
@@ -103,12 +105,14 @@ impl CloudMaps {
         }
         let Some(field) = &mut self.field else { return CloudFrame::default() };
         let Some(clouds) = &planet.clouds else { return CloudFrame::default() };
-        if field.coverage() != [clouds.coverage, clouds.veil] {
-            Arc::make_mut(field).set_coverage([clouds.coverage, clouds.veil]);
+        let coverages = coverages(clouds);
+        if field.coverage() != coverages {
+            Arc::make_mut(field).set_coverage(coverages);
         }
         let field = field.clone();
         let (before, share) = keyframes(time_secs);
-        if clouds.coverage > 0.0 || clouds.veil > 0.0 {
+        // Fog is in the ground map.
+        if coverages[..3].iter().any(|coverage| *coverage > 0.0) {
             self.bring(queue, &field, before);
             if share > 0.0 {
                 self.bring(queue, &field, before + 1);
@@ -116,8 +120,8 @@ impl CloudMaps {
         }
         let is_odd = before.rem_euclid(2) == 1;
         let odd_share = if is_odd { 1.0 - share } else { share } as f32;
-        let [offset, veil_offset] = field.offsets().map(|offset| offset as f32);
-        CloudFrame { offset, veil_offset, odd_share, least_level: self.least_level as f32 }
+        let offsets = Vec4::from_array(field.offsets().map(|offset| offset as f32));
+        CloudFrame { offsets, odd_share, least_level: self.least_level as f32 }
     }
 
     /// Makes sure that a keyframe is in its cube, and asks for the one after it.

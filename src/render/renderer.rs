@@ -14,6 +14,7 @@ use super::targets::{self, Owned, Target, Targets};
 use super::terrain::Indices;
 use super::uniforms::{self, Drawn, UniformBuffer};
 use super::{FrameStats, Metering, RenderError, exposure, gpu, shaders};
+use crate::clouds::coverages;
 use crate::lod::Quality;
 use crate::tiles::Surface;
 use std::collections::{HashMap, HashSet};
@@ -254,7 +255,7 @@ impl Renderer {
             let mut values = uniforms::body(scene, body, drawn, number == 0);
             let terrain = &*body.surface.terrain;
             let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene);
-            (values.cloud_offset, values.veil_offset) = (clouds.offset, clouds.veil_offset);
+            values.cloud_offsets = clouds.offsets;
             (values.cloud_odd_share, values.cloud_least_level) = (clouds.odd_share, clouds.least_level);
             body_view.nearness = Nearness::of(&values, frame_values.pixel_rad);
             let body_written = body_view.uniforms.write(queue, &values);
@@ -387,7 +388,11 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
     order.sort_by(|&a, &b| away_m(&scene.bodies[b]).total_cmp(&away_m(&scene.bodies[a])));
     let planned = |(number, index): (usize, usize)| {
         let body = &scene.bodies[index];
-        let clouds = body.planet().clouds.as_ref().is_some_and(|clouds| clouds.coverage.max(clouds.veil) > 0.0)
+        let clouds = body
+            .planet()
+            .clouds
+            .as_ref()
+            .is_some_and(|clouds| coverages(clouds).iter().any(|coverage| *coverage > 0.0))
             && body.marked.is_none();
         let sea = body.planet().water.is_some();
         let aurora = body.planet().atmosphere.as_ref().is_some_and(|air| air.aurora > 0.0) && body.marked.is_none();

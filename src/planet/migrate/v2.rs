@@ -157,7 +157,25 @@ frozen! {
         puff_km: f64 = 6.0,
         color: [f64; 3] = [0.98, 0.98, 0.98],
         wind_km_h: f64 = 60.0,
-    } adding { storms: 0.0, veil: 0.0 }
+    } adding {
+        storms: 0.0,
+        cyclones: 24,
+        layering: 0.0,
+        towers: 0.0,
+        rain: 0.0,
+        middle: 0.0,
+        middle_gap_km: 1.0,
+        middle_thickness_km: 0.6,
+        middle_density: 4.0,
+        middle_puff_km: 1.5,
+        veil: 0.0,
+        veil_gap_km: 3.0,
+        veil_density: 0.6,
+        fog: 0.0,
+        fog_altitude_km: 0.0,
+        fog_thickness_km: 0.3,
+        fog_density: 6.0,
+    }
 }
 
 frozen! {

@@ -20,11 +20,24 @@ pub(crate) const VARIATION_PERIODS_M: [f64; VARIATION_OCTAVES] = [2.6e6, 330e3, 
 pub(crate) const VARIATION_OCTAVES: usize = 8;
 /// Octaves of the border jitter.
 pub(crate) const BORDER_OCTAVES: usize = border::OCTAVES;
-/// Bands of the noise that shapes clouds, widest first; each is turned against the one before, so that the repeats of
-/// their tile never coincide.
-pub(crate) const CLOUD_BANDS: usize = 6;
+/// Layers of clouds through which rays march, lowest first: fog, rain, low clouds, middle clouds.
+pub(crate) const CLOUD_LAYERS: usize = 4;
+pub(crate) const FOG_LAYER: u32 = 0;
+pub(crate) const RAIN_LAYER: u32 = 1;
+pub(crate) const LOW_LAYER: u32 = 2;
+pub(crate) const MIDDLE_LAYER: u32 = 3;
+/// Bands of the noise that shapes low clouds, widest first; each is turned against the one before, so that the repeats
+/// of their tile never coincide.
+pub(crate) const LOW_BANDS: usize = 6;
 /// The band that makes puffs.
-pub(crate) const CLOUD_PUFF_BAND: i32 = 3;
+pub(crate) const LOW_PUFF_BAND: usize = 3;
+/// Bands of middle clouds: groups, puffs and their edges.
+pub(crate) const MIDDLE_BANDS: usize = 3;
+/// Bands of fog and of rain.
+pub(crate) const FOG_BANDS: usize = 2;
+pub(crate) const RAIN_BANDS: usize = 1;
+/// Bands of all layers: low clouds, middle clouds, fog, rain.
+pub(crate) const CLOUD_BANDS: usize = LOW_BANDS + MIDDLE_BANDS + FOG_BANDS + RAIN_BANDS;
 /// Biomes in a mixture: four cells of the biome table, each with the biome of its steep ground, beach and snow.
 pub(crate) const MIXTURE_ENTRIES: u32 = 10;
 /// Bytes of the morphed values of a vertex: vertical shift, and three values.

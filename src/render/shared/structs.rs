@@ -1,8 +1,8 @@
 //! The structs of uniform buffers, declared once for Rust and WGSL.
 
-use super::constants::{BORDER_OCTAVES, CLOUD_BANDS, MAX_SUNS, VARIATION_OCTAVES, WAVES};
+use super::constants::{BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_SUNS, VARIATION_OCTAVES, WAVES};
 use crate::render::wgsl::uniform_struct;
-use glam::{Mat4, UVec2, Vec2, Vec3};
+use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
 
 uniform_struct! {
     /// Uniforms of a frame.
@@ -172,37 +172,31 @@ uniform_struct! {
         floe_eye: Vec3,
         floes_per_m: f32,
         cloud_color: Vec3,
-        /// Of the layer from top to bottom.
-        cloud_optical_depth: f32,
-        cloud_bottom_km: f32,
-        cloud_top_km: f32,
-        /// Share of the sky that clouds cover; 0 without clouds.
-        cloud_coverage: f32,
-        /// Period of the noise band that makes puffs.
-        cloud_puff_period_km: f32,
-        /// Bands of the noise that shapes clouds, widest first; periods in km.
+        /// Layers through which rays march: FOG_LAYER, ...
+        cloud_layers: [CloudLayer; CLOUD_LAYERS],
+        /// Bands of the noise that shapes clouds, by layer; periods in km.
         cloud_bands: [Octave; CLOUD_BANDS],
-        cloud_steps: f32,
-        /// 1 where the layer is thinner than a pixel.
-        cloud_is_far: u32,
-        /// Parts of a step within a cloud; 1: such steps are neither searched nor parted.
-        cloud_parts: f32,
-        /// First step of a march that begins in the layer, and the ratio of each step to the one before.
-        cloud_first_step_km: f32,
-        cloud_step_growth: f32,
-        /// Height of the veil, a thin sheet of ice clouds.
-        veil_km: f32,
+        /// Shares of the sky that low clouds, middle clouds, veil and fog cover; 0 without clouds.
+        cloud_coverages: Vec4,
+        /// Offsets of the log-odds with which the mean covers are those.
+        cloud_offsets: Vec4,
         /// Cosine and sine of the drift about the pole.
         cloud_drift: Vec2,
-        /// Offset of the log-odds with which the mean cover is the coverage; the same for the veil.
-        cloud_offset: f32,
-        veil_offset: f32,
+        /// Height of the veil, a thin sheet of ice clouds, and its optical depth.
+        veil_km: f32,
+        veil_depth: f32,
+        /// Height above which there are no low and middle clouds.
+        cloud_top_km: f32,
+        /// Type of low clouds: -1 heaps, 1 decks.
+        cloud_layering: f32,
+        /// How far thunderclouds tower over the others, 0 to 1.
+        cloud_towers: f32,
+        /// 1 where the low clouds are thinner than a pixel.
+        cloud_is_far: u32,
         /// Share of the odd keyframe in the cloud maps.
         cloud_odd_share: f32,
         /// The finest mip level of the cloud maps that is there.
         cloud_least_level: f32,
-        /// Share of the sky that the veil covers; 0 without clouds.
-        veil_coverage: f32,
         /// 1 where a solved wind blows over the sea.
         has_wind: u32,
         /// Octaves of the macro variation; periods in metres.
@@ -253,6 +247,25 @@ uniform_struct! {
         reach: f32,
         /// Share of that distance over which a vertex morphs.
         width_share: f32,
+    }
+}
+
+uniform_struct! {
+    /// A layer of clouds.
+    CloudLayer {
+        bottom_km: f32,
+        top_km: f32,
+        /// From top to bottom.
+        optical_depth: f32,
+        /// Steps of a march through it; 0 where there is none.
+        steps: f32,
+        /// x: first step of a march that begins in the layer, km; y: ratio of each step to the one before; z: parts of a
+        /// step within a cloud (1: such steps are neither searched nor parted).
+        stride: Vec4,
+        /// Bands of its noise: the first, the one that makes puffs, and the one after the last.
+        first_band: u32,
+        puff_band: u32,
+        end_band: u32,
     }
 }
 

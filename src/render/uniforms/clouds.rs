@@ -1,10 +1,14 @@
-//! Uniforms of the cloud layer.
+//! Uniforms of the layers of clouds.
 
 use super::{Body, octave, rgb};
+use crate::clouds::coverages;
 use crate::lod::Quality;
-use crate::planet::Planet;
+use crate::planet::{Clouds, Planet};
 use crate::render::scene::Scene;
-use crate::render::shared::CLOUD_PUFF_BAND;
+use crate::render::shared::{
+    CLOUD_LAYERS, CloudLayer, FOG_BANDS, FOG_LAYER, LOW_BANDS, LOW_LAYER, LOW_PUFF_BAND, MIDDLE_BANDS, MIDDLE_LAYER,
+    RAIN_BANDS, RAIN_LAYER,
+};
 use crate::terrain::border::OCTAVE_TURN;
 use glam::{DVec3, Vec2};
 use std::f64::consts::TAU;
@@ -17,46 +21,137 @@ const PUFFS_PER_TILE: f64 = 4.0;
 const FIRST_STEP: f64 = 0.06;
 /// Steps of a march through a layer that is thinner than a pixel.
 const FAR_STEPS: f64 = 3.0;
+/// Size of the waves on top of fog, and of shafts of rain, in thicknesses of the fog and in puffs.
+const FOG_WAVE: f64 = 8.0;
+const SHAFT: f64 = 0.4;
+/// Optical depth of the densest rain, from the clouds to the reference sphere.
+const RAIN_DEPTH: f64 = 3.0;
+/// Height of the eye from which rain is not seen, in heights of the cloud tops.
+const RAIN_FROM: f64 = 3.0;
 
-/// Sets the clouds around an eye; without clouds the coverage stays 0.
+/// A layer before the eye is known.
+struct Layer {
+    index: u32,
+    coverage: f64,
+    bottom_km: f64,
+    thickness_km: f64,
+    optical_depth: f64,
+    /// Steps and parts of a step.
+    effort: [f64; 2],
+    /// Bands before, and from the band that makes puffs.
+    bands: [usize; 2],
+    /// Period of the band that makes puffs.
+    puff_period_km: f64,
+}
+
+/// Sets the clouds around an eye; without clouds the coverages stay 0.
 pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Scene<'_>, pixel_rad: f32) {
     out.has_wind = u32::from(planet.structure.as_ref().is_some_and(|structure| structure.weather_share > 0.0));
     let Some(clouds) = &planet.clouds else { return };
-    let (steps, parts) = match scene.quality {
-        Quality::Low => (7.0, 3.0),
-        Quality::Medium => (14.0, 4.0),
-        Quality::High => (22.0, 6.0),
-    };
     let eye_km = eye_m * 1e-3;
-    let (bottom_km, top_km) = (clouds.altitude_km, clouds.altitude_km + clouds.thickness_km);
     let angle = clouds.wind_km_h / 3600.0 * scene.time_secs / planet.radius_km;
     let (s, c) = angle.rem_euclid(TAU).sin_cos();
-    // One choice for the whole picture: where the layer is thinner than a pixel, few samples give its mean.
-    let away_km = eye_km.length() - planet.radius_km - top_km;
-    let is_thin = away_km * f64::from(pixel_rad) > 0.5 * clouds.thickness_km;
+    let drifted_km = DVec3::new(c * eye_km.x + s * eye_km.y, c * eye_km.y - s * eye_km.x, eye_km.z);
     out.cloud_color = rgb(clouds.color);
-    out.cloud_optical_depth = clouds.density as f32;
-    (out.cloud_bottom_km, out.cloud_top_km) = (bottom_km as f32, top_km as f32);
-    out.cloud_coverage = clouds.coverage as f32;
-    let puff_period_km = clouds.puff_km * PUFFS_PER_TILE;
-    out.cloud_puff_period_km = puff_period_km as f32;
-    let mut position_km = DVec3::new(c * eye_km.x + s * eye_km.y, c * eye_km.y - s * eye_km.x, eye_km.z);
-    for (band, slot) in out.cloud_bands.iter_mut().enumerate() {
-        *slot = octave(position_km, puff_period_km * BAND_RATIO.powi(CLOUD_PUFF_BAND - band as i32));
-        position_km = OCTAVE_TURN * position_km;
-    }
-    // The longest way within the layer goes from its top down to its bottom and up again.
-    let longest_km = 2.0 * (2.0 * (planet.radius_km + top_km) * clouds.thickness_km).sqrt();
-    let first_km = FIRST_STEP * clouds.thickness_km;
-    let (steps, parts) = if is_thin { (FAR_STEPS, 1.0) } else { (steps, parts) };
-    out.cloud_is_far = u32::from(is_thin);
-    out.cloud_steps = steps as f32;
-    out.cloud_parts = parts as f32;
-    out.cloud_first_step_km = first_km as f32;
-    out.cloud_step_growth = step_growth(longest_km / first_km, steps) as f32;
+    out.cloud_coverages = coverages(clouds).map(|coverage| coverage as f32).into();
     out.cloud_drift = Vec2::new(c as f32, s as f32);
-    // Ice clouds lie well over the layer.
-    (out.veil_km, out.veil_coverage) = ((top_km + clouds.thickness_km) as f32, clouds.veil as f32);
+    out.cloud_layering = clouds.layering as f32;
+    let layers = layers(planet, clouds, scene.quality);
+    let low_top_km = clouds.altitude_km + clouds.thickness_km;
+    let middle_top_km = low_top_km + clouds.middle_gap_km + clouds.middle_thickness_km;
+    let top_km = if clouds.middle > 0.0 { middle_top_km } else { low_top_km };
+    out.cloud_top_km = top_km as f32;
+    (out.veil_km, out.veil_depth) = ((low_top_km + clouds.veil_gap_km).max(top_km) as f32, clouds.veil_density as f32);
+    let eye_altitude_km = eye_km.length() - planet.radius_km;
+    let mut first_band = 0;
+    for layer in layers {
+        let top_km = layer.bottom_km + layer.thickness_km;
+        // One choice for the whole picture: where the layer is thinner than a pixel, few samples give its mean.
+        let is_thin = (eye_altitude_km - top_km) * f64::from(pixel_rad) > 0.5 * layer.thickness_km;
+        let is_hidden = layer.index == RAIN_LAYER && eye_altitude_km > RAIN_FROM * low_top_km;
+        let [steps, parts] = if is_thin { [FAR_STEPS.min(layer.effort[0]), 1.0] } else { layer.effort };
+        let [before, after] = layer.bands;
+        let mut position_km = drifted_km;
+        for band in 0..before + after {
+            let period_km = layer.puff_period_km * BAND_RATIO.powi(before as i32 - band as i32);
+            out.cloud_bands[first_band + band] = octave(position_km, period_km);
+            position_km = OCTAVE_TURN * position_km;
+        }
+        // The longest way within the layer goes from its top down to its bottom and up again.
+        let longest_km = 2.0 * (2.0 * (planet.radius_km + top_km).max(0.0) * layer.thickness_km).sqrt();
+        let first_km = FIRST_STEP * layer.thickness_km;
+        out.cloud_layers[layer.index as usize] = CloudLayer {
+            bottom_km: layer.bottom_km as f32,
+            top_km: top_km as f32,
+            optical_depth: layer.optical_depth as f32,
+            steps: if layer.coverage > 0.0 && !is_hidden { steps as f32 } else { 0.0 },
+            stride: DVec3::new(first_km, step_growth(longest_km / first_km, steps), parts).as_vec3().extend(0.0),
+            first_band: first_band as u32,
+            puff_band: (first_band + before) as u32,
+            end_band: (first_band + before + after) as u32,
+        };
+        first_band += before + after;
+        if layer.index == LOW_LAYER {
+            out.cloud_is_far = u32::from(is_thin);
+            // Few samples would miss low decks.
+            out.cloud_towers = if is_thin { 0.0 } else { clouds.towers as f32 };
+        }
+    }
+}
+
+/// The layers of a planet.
+fn layers(planet: &Planet, clouds: &Clouds, quality: Quality) -> [Layer; CLOUD_LAYERS] {
+    let at = |low: [f64; 2], medium: [f64; 2], high: [f64; 2]| match quality {
+        Quality::Low => low,
+        Quality::Medium => medium,
+        Quality::High => high,
+    };
+    let puff_period_km = clouds.puff_km * PUFFS_PER_TILE;
+    let sea_km = planet.water.as_ref().map_or(0.0, |water| water.level_m * 1e-3);
+    // Rain falls to the sea, or to the reference sphere.
+    let rain_bottom_km = sea_km.min(clouds.altitude_km - 0.01);
+    [
+        Layer {
+            index: LOW_LAYER,
+            coverage: clouds.coverage,
+            bottom_km: clouds.altitude_km,
+            thickness_km: clouds.thickness_km,
+            optical_depth: clouds.density,
+            effort: at([7.0, 3.0], [14.0, 4.0], [22.0, 6.0]),
+            bands: [LOW_PUFF_BAND, LOW_BANDS - LOW_PUFF_BAND],
+            puff_period_km,
+        },
+        Layer {
+            index: MIDDLE_LAYER,
+            coverage: clouds.middle,
+            bottom_km: clouds.altitude_km + clouds.thickness_km + clouds.middle_gap_km,
+            thickness_km: clouds.middle_thickness_km,
+            optical_depth: clouds.middle_density,
+            effort: at([3.0, 1.0], [6.0, 1.0], [9.0, 2.0]),
+            bands: [1, MIDDLE_BANDS - 1],
+            puff_period_km: clouds.middle_puff_km * PUFFS_PER_TILE,
+        },
+        Layer {
+            index: FOG_LAYER,
+            coverage: clouds.fog,
+            bottom_km: clouds.fog_altitude_km,
+            thickness_km: clouds.fog_thickness_km,
+            optical_depth: clouds.fog_density,
+            effort: at([4.0, 1.0], [7.0, 1.0], [10.0, 2.0]),
+            bands: [1, FOG_BANDS - 1],
+            puff_period_km: clouds.fog_thickness_km * FOG_WAVE * PUFFS_PER_TILE,
+        },
+        Layer {
+            index: RAIN_LAYER,
+            coverage: clouds.rain * clouds.coverage,
+            bottom_km: rain_bottom_km,
+            thickness_km: clouds.altitude_km - rain_bottom_km,
+            optical_depth: clouds.rain * RAIN_DEPTH,
+            effort: at([3.0, 1.0], [6.0, 1.0], [10.0, 1.0]),
+            bands: [0, RAIN_BANDS],
+            puff_period_km: puff_period_km * SHAFT,
+        },
+    ]
 }
 
 /// Ratio of each of `steps` steps to the one before when their sum is `sum` first steps; above 1.
