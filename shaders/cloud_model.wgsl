@@ -163,7 +163,7 @@ fn depth_over(number: u32, sky: Sky) -> f32 {
     return veil + select(0.0, middle, number < MIDDLE_LAYER) + select(0.0, low, number < LOW_LAYER);
 }
 
-// Share of direct sunlight that clouds transmit to a point. `rel`: point relative to the eye, km; `h`: its altitude, km.
+// Share of direct sunlight that clouds transmit to a point. `rel`: point relative to the eye, km; `h`: altitude, km.
 fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     if all(body.cloud_coverages <= vec4f(0.0)) || h >= body.cloud_top_km { return 1.0; }
     let radius = body.radius_km;
