@@ -248,15 +248,25 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
 
 struct Output {
     @location(0) light: vec4f,
+    // x: mean distance of the clouds; y: where the ray ends
     @location(1) distance: vec4f,
+}
+
+// The middle of the pixel for which a texel marches: of each block of pixels one is marched (cloud_gather.wgsl).
+fn marched_pixel(texel: vec2f) -> vec2f {
+    if body.march_block == 1u { return texel; }
+    let inside = vec2f(body.march_place) + 0.5;
+    let last = frame.origin_px + frame.size_px - 0.5;
+    return min(frame.origin_px + floor(texel) * f32(body.march_block) + inside, last);
 }
 
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> Output {
-    let ray = pixel_ray(position.xy);
+    let pixel = marched_pixel(position.xy);
+    let ray = pixel_ray(pixel);
     let ray_length = length(ray);
     let dir = ray / ray_length;
-    let far = surface_distance(vec2i(position.xy), ray_length);
+    let far = surface_distance(vec2i(pixel), ray_length);
     let radius = body.radius_km;
     let h = body.eye_altitude_km;
     let mu = dot(dir, body.eye_up);
@@ -285,7 +295,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         }
     }
     // Jitter between neighbouring pixels hides the steps, which would show as terraces.
-    let jitter = gradient_noise(position.xy);
+    let jitter = gradient_noise(pixel);
     var light = vec3f(0.0);
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
     for (var i = 0u; i < body.sun_count; i++) {
@@ -311,6 +321,6 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     var out: Output;
     out.light = vec4f(min(light, vec3f(60000.0)), transmittance);
-    out.distance = vec4f(select(NOTHING_KM, state.distance / state.weight, state.weight > 0.0), 0.0, 0.0, 0.0);
+    out.distance = vec4f(select(NOTHING_KM, state.distance / state.weight, state.weight > 0.0), far, 0.0, 0.0);
     return out;
 }

@@ -25,11 +25,12 @@ fn decode_srgb(c: vec3f) -> vec3f {
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
     var light = vec3f(0.0);
-    if frame.render_scale == 1.0 {
+    let scale = frame.render_scale * frame.still_scale;
+    if scale == 1.0 {
         light = textureLoad(shown, pixel, 0).rgb;
     } else {
         // At render scale 2, the sample lies between four pixels and is their mean; at 0.5, it is bilinear.
-        let at = position.xy * frame.render_scale / vec2f(textureDimensions(shown));
+        let at = position.xy * scale / vec2f(textureDimensions(shown));
         light = textureSampleLevel(shown, clamped, at, 0.0).rgb;
     }
     if TARGET_IS_LINEAR { return vec4f(saturate(light), 1.0); }

@@ -1,5 +1,6 @@
 // A triangle that covers the whole target, and the ray through each pixel.
 #include "uniforms.wgsl"
+#include "math.wgsl"
 
 @vertex
 fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -10,7 +11,8 @@ fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f 
 // Noise from 0 to 1 of which any 3x3 pixels have all values: the jitter of marches (interleaved gradient noise,
 // Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
 fn gradient_noise(pixel: vec2f) -> f32 {
-    return fract(52.9829189 * fract(dot(floor(pixel) - frame.origin_px, vec2f(0.06711056, 0.00583715))));
+    let place = floor(pixel) - frame.origin_px;
+    return fract(52.9829189 * fract(dot(place, vec2f(0.06711056, 0.00583715))) + frame.noise_shift);
 }
 
 // Offset in metres from the point `rel_m` of a plane with normal `n` to the point of the plane one pixel away.
@@ -21,6 +23,13 @@ fn pixel_step(rel_m: vec3f, n: vec3f, across: vec3f) -> vec3f {
     // For a plane seen edge-on the step would be infinite.
     let towards = max(-dot(ray, n), 0.02 * length(ray));
     return away_m * (across + ray * (dot(across, n) / towards));
+}
+
+// Distance in km along a ray, from reverse-Z depth; NOTHING_KM where nothing was drawn. `ray_length`: length of the ray
+// at unit depth.
+fn distance_of(depth: f32, ray_length: f32) -> f32 {
+    if depth <= 0.0 { return NOTHING_KM; }
+    return frame.near_m / depth * ray_length * 0.001;
 }
 
 // Ray through a pixel of the scene, not normalised: its depth (distance along the view axis) is 1.

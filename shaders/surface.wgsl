@@ -5,12 +5,9 @@
 @group(2) @binding(0) var scene_color: texture_2d<f32>;
 @group(2) @binding(1) var scene_depth: texture_depth_2d;
 
-// Distance in km along a ray, from reverse-Z depth; NOTHING_KM where nothing was drawn. `ray_length`: length of the ray
-// at unit depth.
+// Distance in km along the ray of a pixel; NOTHING_KM where nothing was drawn.
 fn surface_distance(pixel: vec2i, ray_length: f32) -> f32 {
-    let depth = textureLoad(scene_depth, pixel, 0);
-    if depth <= 0.0 { return NOTHING_KM; }
-    return frame.near_m / depth * ray_length * 0.001;
+    return distance_of(textureLoad(scene_depth, pixel, 0), ray_length);
 }
 
 // Inverse of `surface_distance`.

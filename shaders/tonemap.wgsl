@@ -38,7 +38,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let points = textureLoad(stars, vec2i(position.xy), 0).rgb;
     let starlight = clamp(metered.x / STARS_IN_FULL, STARS_IN_SUNLIGHT, 1.0);
     let exposed = (radiance * frame.white * metered.x + points * points * starlight) * frame.exposure;
-    let at = (position.xy - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
+    let at = (position.xy / frame.still_scale - frame.origin_px) / frame.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
     let light = exposed * (1.0 - frame.bloom) + scattered(at);
     let shown = toned(light * shaded_by_lens(at), frame.tone);
     return vec4f(shown, sqrt(max(luminance(shown), 0.0)));

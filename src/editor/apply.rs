@@ -84,6 +84,7 @@ fn set(state: &mut State, setting: Setting) {
         Setting::Vignette(vignette) => settings.post.vignette = vignette,
         Setting::Bloom(bloom) => settings.post.bloom = bloom,
         Setting::AutoExposure(automatic) => settings.auto_exposure = automatic,
+        Setting::Refine(refine) => settings.refine = refine,
         Setting::TimeSpeed(time_speed) => settings.time_speed = time_speed,
     }
 }

@@ -95,6 +95,8 @@ pub enum Setting {
     Bloom(f64),
     /// Whether the exposure follows the picture's brightness.
     AutoExposure(bool),
+    /// Whether still pictures get finer.
+    Refine(bool),
     /// Seconds of the planet for each second of the clock.
     TimeSpeed(f64),
 }

@@ -11,6 +11,8 @@
 //!   `horizon_pool`; then `water`
 //! - air stage: `clouds`, `air`, `aurora`; `copy` where there is no air
 //! - post-process: `exposure` (compute), `bloom`, `tonemap` with `tone` and `white_balance`, `antialias`, `display`
+//! - `history`: what a view keeps for its next frame: clouds while the camera moves, and `still`, the mean of a still
+//!   scene
 //! - `photo`: pictures of any size, in tiles, of many samples, through a lens
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
 //!   (of `material_kinds`, by `material_noise`)
@@ -35,6 +37,7 @@ mod error;
 mod exposure;
 mod gpu;
 mod ground_view;
+mod history;
 mod horizon_pool;
 mod layer_pool;
 mod luts;
@@ -54,6 +57,7 @@ mod screen_pass;
 pub mod shaders;
 mod shared;
 mod sky_probe;
+mod still;
 mod targets;
 mod terrain;
 mod tone;
@@ -72,7 +76,9 @@ pub use luts::LutRuns;
 pub use photo::{Develop, Lens, Photo};
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
-pub use scene::{Body, BodyId, DebugView, Matrices, Metering, Post, Projection, Scene, Sun, ViewId, split_position};
+pub use scene::{
+    Body, BodyId, DebugView, Matrices, Metering, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
+};
 pub use shaders::air_wgsl;
 pub use shared::MAX_SUNS;
 pub use sky_probe::SkyAnswer;

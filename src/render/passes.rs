@@ -2,13 +2,14 @@
 
 use super::screen_pass::{ScreenPass, ScreenPipeline, Shared};
 use super::{
-    RenderError, air, antialias, aurora, bloom, clouds, copy, display, exposure, luts, morph, terrain, tonemap, water,
+    RenderError, air, antialias, aurora, bloom, clouds, copy, display, exposure, luts, morph, still, terrain, tonemap,
+    water,
 };
 
 /// Passes of the opaque stage that follow the ground, for each body.
 pub(crate) const OPAQUE: &[&ScreenPass] = &[&water::PASS];
 /// Passes of the air stage, for each body from the farthest to the nearest.
-pub(crate) const AIR: &[&ScreenPass] = &[&clouds::PASS, &air::PASS, &aurora::PASS];
+pub(crate) const AIR: &[&ScreenPass] = &[&clouds::PASS, &clouds::GATHER, &air::PASS, &aurora::PASS];
 /// Passes of the post-process that follow the metering.
 pub(crate) const POST: &[&ScreenPass] = &[&tonemap::PASS, &antialias::PASS, &display::PASS];
 
@@ -21,6 +22,8 @@ pub(crate) struct Pipelines {
     pub(crate) air: Vec<ScreenPipeline>,
     /// Stands in for the air stage where it draws nothing.
     pub(crate) copy: ScreenPipeline,
+    /// The mean of a still scene.
+    pub(crate) still: ScreenPipeline,
     pub(crate) exposure: exposure::ExposurePass,
     pub(crate) bloom: bloom::BloomPass,
     pub(crate) post: Vec<ScreenPipeline>,
@@ -38,6 +41,7 @@ impl Pipelines {
             opaque: make(OPAQUE)?,
             air: make(AIR)?,
             copy: ScreenPipeline::new(device, shared, &copy::PASS)?,
+            still: ScreenPipeline::new(device, shared, &still::PASS)?,
             exposure: exposure::ExposurePass::new(device)?,
             bloom: bloom::BloomPass::new(device, shared.uniforms)?,
             post: make(POST)?,

@@ -1,5 +1,6 @@
 //! A frame whose uniforms, tiles and LUTs are on the GPU: the stages that the caller records.
 
+use super::clouds;
 use super::nearness::Nearness;
 use super::renderer::{Renderer, ViewResources};
 use super::scene::BodyId;
@@ -185,10 +186,18 @@ impl<'r> PreparedFrame<'r> {
                 Target::Depth => Some(depth),
                 other => view.targets.get(Owned::Target(other)),
             };
+            let kept = body_view.clouds.as_ref();
+            let with_kept = |target| kept.and_then(|kept| kept.texture(target, false)).or_else(|| texture(target));
+            let marching = |target| kept.and_then(|kept| kept.texture(target, true)).or_else(|| texture(target));
             let groups = [&body_view.group, resources.luts.group()];
             for pass in self.running(&self.renderer.pipelines.air, &body.work) {
-                let drawing = self.drawing(view, &groups, &texture, number > 0);
-                pass.draw(encoder, &Drawing { keeps_rest: !self.is_whole(), nearness: body_view.nearness, ..drawing })?;
+                let mut drawing = self.drawing(view, &groups, &with_kept, number > 0);
+                (drawing.keeps_rest, drawing.nearness) = (!self.is_whole(), body_view.nearness);
+                if let (Some(kept), true) = (kept, pass.pass.shader == clouds::PASS.shader) {
+                    drawing.texture = &marching;
+                    drawing.viewport_px = kept.marched_px(self.plan.viewport_px);
+                }
+                pass.draw(encoder, &drawing)?;
             }
         }
         if with_air.is_empty() {
@@ -218,22 +227,42 @@ impl<'r> PreparedFrame<'r> {
         targets::check("output", output, None, wgpu::TextureUsages::RENDER_ATTACHMENT)?;
         self.meter(encoder, composite);
         let view = self.view;
-        if self.plan.makes_bloom {
+        let still = view.still.as_ref().filter(|_| view.progress.still > 0);
+        // A still picture keeps the bloom of its first frame.
+        if self.plan.makes_bloom && view.progress.still <= 1 {
             let picture = (composite, &view.exposure.result);
             self.renderer.pipelines.bloom.draw(&self.renderer.device, encoder, &view.bloom, &view.group, picture);
         }
         let smoothed = self.plan.post.shaded && self.plan.post.smooth_edges;
         let picture = if smoothed { Target::Smoothed } else { Target::Toned };
-        let texture = |target| match target {
+        let of_frame = |target| match target {
             Target::Composite => Some(composite),
             Target::Output => Some(output),
             Target::Bloom => view.bloom.light(),
             Target::Picture => view.targets.get(Owned::Target(picture)),
             other => view.targets.get(Owned::Target(other)),
         };
+        let of_still = |target| match (target, still) {
+            (Target::Composite, Some(still)) => still.texture(Target::MeanLight),
+            (Target::Stars, Some(still)) => still.texture(Target::MeanStars),
+            (Target::Picture, Some(still)) => still.texture(picture),
+            (Target::Toned | Target::Smoothed, Some(still)) => still.texture(target),
+            (other, _) => of_frame(other),
+        };
         let groups = [&view.group];
+        let viewport_px = match still {
+            Some(still) => {
+                let [width, height] = still.targets.size_px;
+                let texture = |target| still.texture(target).or_else(|| of_frame(target));
+                let drawing = self.drawing(view, &groups, &texture, false);
+                let viewport_px = [0, 0, width, height];
+                self.renderer.pipelines.still.draw(encoder, &Drawing { viewport_px, ..drawing })?;
+                viewport_px
+            }
+            None => self.plan.viewport_px,
+        };
         for pass in self.running(&self.renderer.pipelines.post, &self.plan.post) {
-            let mut drawing = self.drawing(view, &groups, &texture, false);
+            let mut drawing = Drawing { viewport_px, ..self.drawing(view, &groups, &of_still, false) };
             if pass.pass.writes.iter().any(|written| written.target == Target::Output) {
                 let texture = output.texture();
                 // A picture that fills its targets fills the output as well, whatever the render scale.

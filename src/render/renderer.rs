@@ -3,11 +3,12 @@
 use super::bloom::Bloom;
 use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
+use super::history::{CloudFrame, CloudHistory, Progress, Still};
 use super::luts::{LutRuns, Luts, Patterns};
 use super::nearness::Nearness;
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
-use super::scene::{Body, BodyId, DebugView, Scene, ViewId};
+use super::scene::{Body, BodyId, DebugView, Reuse, Scene, ViewId};
 use super::screen_pass::{Shared, Work};
 use super::shared::MAX_SUNS;
 use super::targets::{self, Owned, Target, Targets};
@@ -66,6 +67,9 @@ pub(crate) struct ViewResources {
     pub(crate) targets: Targets,
     pub(crate) exposure: exposure::Exposure,
     pub(crate) bloom: Bloom,
+    pub(crate) progress: Progress,
+    /// The mean of the frames of a still scene.
+    pub(crate) still: Option<Still>,
     pub(crate) bodies: HashMap<BodyId, BodyView>,
 }
 
@@ -75,6 +79,8 @@ pub(crate) struct BodyView {
     /// Group 0 of the passes that draw the body.
     pub(crate) group: wgpu::BindGroup,
     pub(crate) ground: GroundView,
+    /// The clouds of the frames before, if they are kept.
+    pub(crate) clouds: Option<CloudHistory>,
     /// How near the eye is to the body in this frame.
     pub(crate) nearness: Nearness,
 }
@@ -191,13 +197,35 @@ impl Renderer {
         if width == 0 || height == 0 || x + width > wide || y + height > high {
             return Err(RenderError::Viewport { viewport_px, target_px });
         }
-        self.prepare_drawn(
-            encoder,
-            scene,
-            target_px,
-            &Drawn { viewport_px, render_scale: 1.0, matrices: scene.matrices() },
-            false,
-        )
+        // Only [`Renderer::render`] makes the mean of a still scene.
+        let reuse = if scene.reuse == Reuse::Still { Reuse::Begin } else { scene.reuse };
+        self.begin_view(scene.view_id, target_px, reuse);
+        let drawn = Drawn { viewport_px, render_scale: 1.0, matrices: scene.matrices() };
+        self.prepare_drawn(encoder, scene, target_px, &drawn, false)
+    }
+
+    /// Begins a frame of a view with targets of a size.
+    fn begin_view(&mut self, id: ViewId, target_px: [u32; 2], reuse: Reuse) -> Progress {
+        let device = &self.device;
+        let view = self.views.entry(id).or_insert_with(|| {
+            let frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
+            let group = self.shared.group(device, &frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"));
+            ViewResources {
+                frame,
+                group,
+                targets: Targets::new(target_px),
+                exposure: exposure::Exposure::new(device),
+                bloom: Bloom::new(device, [1, 1]),
+                progress: Progress::default(),
+                still: None,
+                bodies: HashMap::new(),
+            }
+        });
+        if view.targets.size_px != target_px {
+            view.targets = Targets::new(target_px);
+        }
+        view.progress.begin(reuse);
+        view.progress
     }
 
     fn prepare_drawn(
@@ -216,24 +244,10 @@ impl Renderer {
             return Err(RenderError::BodyTwice(twice.id.0));
         }
         self.reload_shaders();
-        let plan = plan(scene, drawn, has_own_targets);
+        let mut plan = plan(scene, drawn, has_own_targets);
         let (device, queue) = (&self.device, &self.queue);
         let group = |frame: &UniformBuffer, body: &UniformBuffer| self.shared.group(device, frame, body);
-        let view = self.views.entry(scene.view_id).or_insert_with(|| {
-            let frame = UniformBuffer::new::<uniforms::Frame>(device, "frame");
-            let group = group(&frame, &UniformBuffer::new::<uniforms::Body>(device, "no body"));
-            ViewResources {
-                frame,
-                group,
-                targets: Targets::new(target_px),
-                exposure: exposure::Exposure::new(device),
-                bloom: Bloom::new(device, [1, 1]),
-                bodies: HashMap::new(),
-            }
-        });
-        if view.targets.size_px != target_px {
-            view.targets = Targets::new(target_px);
-        }
+        let Some(view) = self.views.get_mut(&scene.view_id) else { return Err(not_there()) };
         let picture_px = [drawn.viewport_px[2], drawn.viewport_px[3]];
         if plan.makes_bloom && !view.bloom.fits(picture_px) {
             view.bloom = Bloom::new(device, picture_px);
@@ -241,16 +255,23 @@ impl Renderer {
         for owned in plan.owned() {
             view.targets.make(device, owned);
         }
-        let frame_values = uniforms::frame(scene, drawn);
+        let mut frame_values = uniforms::frame(scene, drawn);
+        let still_scale = (1.0 / drawn.render_scale).max(1.0);
+        view.progress.write(&mut frame_values, still_scale);
+        let still_px = if still_scale > 1.0 { scene.size_px } else { target_px };
+        view.still = view.still.take().filter(|still| scene.reuse != Reuse::None && still.targets.size_px == still_px);
+        if view.progress.still > 0 {
+            view.still.get_or_insert_with(|| Still::new(device, still_px)).advance();
+        }
         let frame_written = view.frame.write(queue, &frame_values);
-        for (number, planned) in plan.bodies.iter().enumerate() {
+        for (number, planned) in plan.bodies.iter_mut().enumerate() {
             let body = &scene.bodies[planned.index];
             let resources =
                 self.bodies.entry(body.id).or_insert_with(|| BodyResources::new(device, queue, &self.patterns));
             let body_view = view.bodies.entry(body.id).or_insert_with(|| {
                 let uniforms = UniformBuffer::new::<uniforms::Body>(device, "body");
                 let group = group(&view.frame, &uniforms);
-                BodyView { uniforms, group, ground: GroundView::new(device), nearness: Nearness::Ground }
+                BodyView { uniforms, group, ground: GroundView::new(device), clouds: None, nearness: Nearness::Ground }
             });
             let mut values = uniforms::body(scene, body, drawn, number == 0);
             let terrain = &*body.surface.terrain;
@@ -258,6 +279,15 @@ impl Renderer {
             values.cloud_offsets = clouds.offsets;
             (values.cloud_odd_share, values.cloud_least_level) = (clouds.odd_share, clouds.least_level);
             body_view.nearness = Nearness::of(&values, frame_values.pixel_rad);
+            let clouds = CloudFrame {
+                reuse: if planned.work.clouds { scene.reuse } else { Reuse::None },
+                progress: view.progress,
+                size_px: target_px,
+                quality: scene.quality,
+                eye_m: body.eye_planet_m(),
+                drift_rad: uniforms::clouds::drift_rad(body.planet(), scene.time_secs),
+            };
+            planned.work.carries_clouds = CloudHistory::prepare(&mut body_view.clouds, device, &clouds, &mut values);
             let body_written = body_view.uniforms.write(queue, &values);
             resources.luts.runs.uniforms += u64::from(frame_written || body_written);
             resources.begin_view(scene.view_id);
@@ -279,7 +309,7 @@ impl Renderer {
         let renderer: &Self = self;
         match renderer.views.get(&scene.view_id) {
             Some(view) => Ok(PreparedFrame::new(renderer, view, plan)),
-            None => Err(RenderError::Device("the view is not there".to_owned())),
+            None => Err(not_there()),
         }
     }
 
@@ -296,8 +326,12 @@ impl Renderer {
         let (device, queue) = (self.device.clone(), self.queue.clone());
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let viewport_px = [0, 0, size_px[0], size_px[1]];
+        let jitter_px = self.begin_view(scene.view_id, size_px, scene.reuse).jitter_px() / f64::from(render_scale);
+        let mut scene = scene.clone();
+        scene.projection.jitter_px[0] += jitter_px.x;
+        scene.projection.jitter_px[1] += jitter_px.y;
         let drawn = Drawn { viewport_px, render_scale, matrices: scene.matrices() };
-        let frame = self.prepare_drawn(&mut encoder, scene, size_px, &drawn, true)?;
+        let frame = self.prepare_drawn(&mut encoder, &scene, size_px, &drawn, true)?;
         let (stats, radiance) = frame.draw_all(&mut encoder, target)?;
         self.newest = Some((scene.view_id, radiance));
         queue.submit([encoder.finish()]);
@@ -380,6 +414,10 @@ impl BodyResources {
     }
 }
 
+fn not_there() -> RenderError {
+    RenderError::Device("the view is not there".to_owned())
+}
+
 /// What the stages of a frame have to draw.
 fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
     let shaded = scene.debug_view == DebugView::Shaded;
@@ -396,7 +434,7 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
             && body.marked.is_none();
         let sea = body.planet().water.is_some();
         let aurora = body.planet().atmosphere.as_ref().is_some_and(|air| air.aurora > 0.0) && body.marked.is_none();
-        let work = Work { shaded, sea, clouds, aurora, smooth_edges: scene.post.smooth_edges };
+        let work = Work { shaded, sea, clouds, carries_clouds: false, aurora, smooth_edges: scene.post.smooth_edges };
         // The farthest body brings the stars, whether it has air or not.
         let has_air = shaded && (number == 0 || clouds || body.planet().atmosphere.is_some());
         PlannedBody { id: body.id, index, work, has_air }
@@ -410,7 +448,7 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         lines: scene.debug_view == DebugView::Wireframe,
         makes_bloom: shaded && scene.post.bloom > 0.0 && scene.whole.is_none(),
         metering: if shaded { scene.post.metering } else { Metering::Manual },
-        post: Work { shaded, sea: false, clouds: false, aurora: false, smooth_edges: scene.post.smooth_edges },
+        post: Work { shaded, smooth_edges: scene.post.smooth_edges, ..Work::default() },
     }
 }
 

@@ -196,6 +196,22 @@ impl Default for Post {
     }
 }
 
+/// What a frame takes from the frames of its view before it. Anything but [`Reuse::None`] keeps textures for the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reuse {
+    /// Nothing: equal scenes give equal pictures.
+    #[default]
+    None,
+    /// Nothing, but the next frame may take something from this one.
+    Begin,
+    /// Clouds: the camera moved or time went on, and all else is as it was. A share of the pixels is marched anew, one
+    /// of sixteen from medium quality on and one of four at low quality; the others are carried over by reprojection.
+    Moving,
+    /// Everything: the scene is that of the frame before, and only the metering may differ. The picture is the mean of
+    /// all frames since, each with its own place within the pixels. At low quality it comes to have all pixels.
+    Still,
+}
+
 /// What is drawn in one frame.
 #[derive(Clone)]
 #[non_exhaustive]
@@ -222,6 +238,8 @@ pub struct Scene<'a> {
     pub drafts: bool,
     /// Of a tile of a photograph: the projection of the whole.
     pub(crate) whole: Option<Projection>,
+    /// What the frame takes from those before it.
+    pub reuse: Reuse,
     /// How radiance becomes a picture.
     pub post: Post,
 }
@@ -241,6 +259,7 @@ impl<'a> Scene<'a> {
             debug_view: DebugView::Shaded,
             drafts: false,
             whole: None,
+            reuse: Reuse::None,
             post: Post::default(),
         }
     }

@@ -48,11 +48,14 @@ pub(crate) const fn writes(target: Target) -> Output {
 pub(crate) enum Scope {
     /// The frame and one body. Groups: uniforms, LUTs, inputs.
     Body,
+    /// The same without the LUTs. Groups: uniforms, inputs.
+    BodyAlone,
     /// The frame alone. Groups: uniforms, inputs.
     View,
 }
 
 /// What there is to draw: decides which passes run.
+#[derive(Default)]
 pub(crate) struct Work {
     /// The planets, not a debug view.
     pub(crate) shaded: bool,
@@ -60,6 +63,8 @@ pub(crate) struct Work {
     pub(crate) sea: bool,
     /// The body has clouds.
     pub(crate) clouds: bool,
+    /// The clouds of most pixels are those of the frame before.
+    pub(crate) carries_clouds: bool,
     /// The body has an aurora.
     pub(crate) aurora: bool,
     /// Edges are smoothed.
@@ -135,7 +140,7 @@ impl ScreenPipeline {
         let inputs = gpu::layout(device, pass.shader, &slots);
         let groups = match pass.scope {
             Scope::Body => vec![shared.uniforms, shared.luts, &inputs],
-            Scope::View => vec![shared.uniforms, &inputs],
+            Scope::BodyAlone | Scope::View => vec![shared.uniforms, &inputs],
         };
         let layout = gpu::pipeline_layout(device, pass.shader, &groups);
         let module = shaders::module(device, pass.shader)?;
@@ -228,7 +233,8 @@ impl ScreenPipeline {
             ..wgpu::RenderPassDescriptor::default()
         });
         draw.set_pipeline(&pipeline);
-        for (i, group) in (0..).zip(with.groups.iter().copied().chain([&inputs])) {
+        let groups = if pass.scope == Scope::BodyAlone { &with.groups[..1] } else { with.groups };
+        for (i, group) in (0..).zip(groups.iter().copied().chain([&inputs])) {
             draw.set_bind_group(i, group, &[]);
         }
         gpu::set_viewport(&mut draw, with.viewport_px);

@@ -27,8 +27,14 @@ pub(crate) enum Target {
     Depth,
     /// Radiance of the clouds, and their transmittance.
     CloudLight,
-    /// Distance of the clouds, km.
+    /// Distance of the clouds, and of the end of the ray, km.
     CloudDistance,
+    /// Both of one pixel of each block: see `history`.
+    MarchedLight,
+    MarchedDistance,
+    /// Both of the frame before.
+    LightBefore,
+    DistanceBefore,
     /// Radiance that the air of a body is laid over.
     BeforeAir,
     /// The same with that air.
@@ -37,6 +43,12 @@ pub(crate) enum Target {
     Stars,
     /// Radiance of the whole scene: the caller's.
     Composite,
+    /// Mean radiance and stars of the frames of a still scene; alpha: sum of the weights.
+    MeanLight,
+    MeanStars,
+    /// Both without the newest frame.
+    MeanLightBefore,
+    MeanStarsBefore,
     /// Light that the lens scatters, exposed.
     Bloom,
     /// The picture after the tone curve, linear; alpha: perceived brightness.
@@ -54,7 +66,7 @@ impl Target {
     pub(crate) fn format(self) -> Option<wgpu::TextureFormat> {
         Some(match self {
             Target::GroundDepth | Target::Depth => DEPTH_FORMAT,
-            Target::CloudDistance => wgpu::TextureFormat::R32Float,
+            Target::CloudDistance | Target::MarchedDistance | Target::DistanceBefore => wgpu::TextureFormat::Rg32Float,
             Target::Stars => wgpu::TextureFormat::Rgba8Unorm,
             Target::Output => return None,
             _ => RADIANCE_FORMAT,
@@ -62,11 +74,14 @@ impl Target {
     }
 }
 
-/// A texture that a view owns: a target, or one of two radiance textures that pass the scene from body to body.
+/// A texture that a view owns: a target, or one of two that change places: radiance that passes the scene from body to
+/// body, and the mean of a still scene with its stars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Owned {
     Target(Target),
     Between(usize),
+    Mean(usize),
+    MeanStars(usize),
 }
 
 /// The textures that a view owns, made when they are first needed.
@@ -85,7 +100,7 @@ impl Targets {
         let size_px = self.size_px;
         let format = match owned {
             Owned::Target(target) => target.format().unwrap_or(RADIANCE_FORMAT),
-            Owned::Between(_) => RADIANCE_FORMAT,
+            Owned::Between(_) | Owned::Mean(_) | Owned::MeanStars(_) => RADIANCE_FORMAT,
         };
         self.textures.entry(owned).or_insert_with(|| gpu::target(device, &format!("{owned:?}"), size_px, format));
     }

@@ -3,7 +3,7 @@
 //! [`frame`] and [`body`] compute them; `shaders/uniforms.wgsl` binds them.
 
 mod air;
-mod clouds;
+pub(crate) mod clouds;
 mod ground;
 mod water;
 
@@ -70,6 +70,8 @@ pub(crate) fn frame(scene: &Scene<'_>, drawn: &Drawn) -> Frame {
         air_steps,
         pattern_quality,
         mixture_entries: MIXTURE_ENTRIES,
+        still_scale: 1.0,
+        ..Frame::default()
     }
 }
 
@@ -83,7 +85,7 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, is_
     let planet = body.planet();
     let eye_m = body.eye_planet_m();
     let body_from_view = body.scene_from_body.inverse() * scene.scene_from_view;
-    let mut out = planet_only(planet);
+    let mut out = Body { march_block: 1, ..planet_only(planet) };
     place(&mut out, scene, drawn, planet.radius_m(), eye_m, body_from_view);
     out.is_backmost = u32::from(is_backmost);
     let (low_m, high_m) = height_range_m(body.surface);

@@ -7,6 +7,7 @@
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `lakes`: water of planets with a structure
 //! - `night`: aurora, lights of settlements
+//! - `history`: clouds carried over while the camera moves, and still pictures that converge
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
 //! - `planets`: the shipped presets, against goldens
 //! - `photo`: photographs: tiles, samples, the lens
@@ -21,6 +22,7 @@ mod biomes;
 mod clouds;
 mod colours;
 mod edges;
+mod history;
 mod lakes;
 mod lod_pictures;
 mod materials;

@@ -9,7 +9,7 @@
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
 //!   dragged
-//! - [`adaptation`]: exposure that adapts gradually
+//! - [`adaptation`]: exposure that adapts gradually; [`refinement`]: still pictures that get finer
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, its parts, the time of each frame
 
 pub mod adaptation;
@@ -23,6 +23,7 @@ mod outline;
 mod picture;
 mod plate_drag;
 pub mod pointer;
+pub mod refinement;
 pub mod settings;
 pub mod swap;
 pub mod target;
@@ -173,6 +174,11 @@ impl Viewport {
         self.picture.stats()
     }
 
+    /// Samples that a still picture has, and those of a finished one; none where pictures are not refined.
+    pub fn refinement(&self) -> Option<(u32, u32)> {
+        self.settings.refine.then(|| self.picture.refinement.progress())
+    }
+
     /// How many pictures have been drawn since the start.
     pub fn pictures(&self) -> u64 {
         self.picture.count()
@@ -257,6 +263,10 @@ impl Viewport {
         self.moving = moved.animating;
         self.advance_time(ui);
 
+        let (now_secs, touched) = ui.input(|i| (i.time, !i.events.is_empty() || i.pointer.any_down()));
+        if touched {
+            self.picture.refinement.touched(now_secs);
+        }
         let view = self.view(ui.ctx(), rect, &ground);
         self.frozen = self.settings.freeze_detail.then(|| self.frozen.unwrap_or(view));
         // The camera stands over the surface on screen. A planet of another radius is asked for at the same distance
@@ -267,7 +277,10 @@ impl Viewport {
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
         if let Some(surface) = surface {
-            self.draw(surface, valid, view, ui.input(|input| input.pointer.any_down()));
+            self.draw(surface, valid, view, ui.input(|input| input.pointer.any_down()), now_secs);
+        }
+        if let Some(wait) = self.picture.refines_after(&self.settings, now_secs).filter(|_| !self.is_busy()) {
+            ui.ctx().request_repaint_after(wait);
         }
         if let Some(texture) = self.picture.texture() {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
@@ -315,14 +328,15 @@ impl Viewport {
         }
     }
 
-    fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View, drafts: bool) {
+    fn draw(&mut self, surface: Arc<Surface>, valid: &Arc<Planet>, view: View, drafts: bool, now_secs: f64) {
         if !self.newest.as_ref().is_some_and(|newest| Arc::ptr_eq(newest.planet(), valid)) {
             self.newest = Revision::try_new(valid.clone()).ok();
         }
         // The sea, air and light of one planet over the ground of another would flash until the new tiles are there.
         let revision = self.revision_over(&surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
-        let subject = Subject { surface, revision, view, frozen: self.frozen, settings, marked, drafts };
+        let (frozen, is_busy) = (self.frozen, self.is_busy());
+        let subject = Subject { surface, revision, view, frozen, settings, marked, drafts, is_busy, now_secs };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });
     }

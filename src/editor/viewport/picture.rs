@@ -3,13 +3,16 @@
 use super::adaptation::{self, Adaptation};
 use super::clock::{EditClock, FrameMeter};
 use super::frames::FrameLog;
+use super::refinement::Refinement;
 use super::settings::ViewSettings;
 use super::swap::{Swap, UPLOAD_BUDGET_BYTES};
 use super::target::Target;
 use super::timeline::{self, Span};
 use crate::lod::{Quality, View};
 use crate::planet::Planet;
-use crate::render::{BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Post, RenderError, Renderer, Scene};
+use crate::render::{
+    BodyId, DebugView, FrameStats, LutRuns, MarkedCells, Metering, Post, RenderError, Renderer, Reuse, Scene,
+};
 use crate::terrain::Revision;
 use crate::tiles::{Leaf, Surface};
 use eframe::egui::{self, TextureId};
@@ -30,6 +33,10 @@ pub(super) struct Subject<'a> {
     pub(super) marked: Option<Arc<MarkedCells>>,
     /// Whether cloud maps may be coarse: a button of the pointer is down.
     pub(super) drafts: bool,
+    /// Whether a finer surface is on its way.
+    pub(super) is_busy: bool,
+    /// Time of the frame.
+    pub(super) now_secs: f64,
 }
 
 /// The measurements that drawing takes part in.
@@ -54,6 +61,7 @@ pub(super) struct Picture {
     target: Option<Target>,
     drawn: Option<PictureKey>,
     adaptation: Adaptation,
+    pub(super) refinement: Refinement,
     stats: FrameStats,
     count: u64,
 }
@@ -69,14 +77,16 @@ impl Picture {
             None => Drawing::Failed("There is no graphics device to draw with.".to_owned()),
         };
         // On a software adapter the pictures between the first and the adapted one take too long.
-        let gradual = render_state.is_some_and(|state| state.adapter.get_info().device_type != wgpu::DeviceType::Cpu);
+        let is_cpu = |state: &RenderState| state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let is_software = render_state.is_none_or(is_cpu);
         Self {
             drawing,
             swap: Swap::default(),
             upload: None,
             target: None,
             drawn: None,
-            adaptation: Adaptation::new(gradual),
+            adaptation: Adaptation::new(!is_software),
+            refinement: Refinement::new(is_software),
             stats: FrameStats::default(),
             count: 0,
         }
@@ -136,6 +146,12 @@ impl Picture {
         (settings.auto_exposure && self.adaptation.is_under_way()).then_some(adaptation::PAUSE)
     }
 
+    /// How long to wait for the next sample of a still picture.
+    pub(super) fn refines_after(&self, settings: &ViewSettings, now_secs: f64) -> Option<Duration> {
+        let is_drawn = settings.refine && self.drawn.is_some() && matches!(self.drawing, Drawing::Ready(..));
+        is_drawn.then(|| self.refinement.due_after(now_secs)).flatten()
+    }
+
     /// Uploads one frame's share of the newest surface, and shows it once all of its tiles are uploaded.
     pub(super) fn advance(&mut self, newest: Option<&Arc<Surface>>, frames: &mut FrameLog, ctx: &egui::Context) {
         let (drawing, upload) = (&mut self.drawing, &mut self.upload);
@@ -163,7 +179,9 @@ impl Picture {
         let resized = target.resize(key.view.size_px);
         let changed = resized || !self.drawn.as_ref().is_some_and(|drawn| drawn.same(&key));
         let adapting = settings.auto_exposure && self.adaptation.is_under_way();
-        if !changed && !adapting {
+        let is_due = self.refinement.due_after(subject.now_secs) == Some(Duration::ZERO);
+        let refining = settings.refine && !subject.is_busy && is_due;
+        if !changed && !adapting && !refining {
             if !self.swap.is_uploading() {
                 self.upload = None;
             }
@@ -175,7 +193,19 @@ impl Picture {
         scene.time_secs = key.time_secs;
         scene.debug_view = key.debug_view;
         scene.drafts = key.drafts;
-        scene.post = Post { metering: self.adaptation.metering(settings.auto_exposure, changed), ..key.post };
+        let is_sample = !changed && !adapting;
+        let metering = match settings.auto_exposure && is_sample {
+            // A further sample keeps the exposure.
+            true => Metering::Adapting { secs: 0.0 },
+            false => self.adaptation.metering(settings.auto_exposure, changed),
+        };
+        scene.post = Post { metering, ..key.post };
+        scene.reuse = match &self.drawn {
+            _ if !settings.refine => Reuse::None,
+            _ if !changed => Reuse::Still,
+            Some(drawn) if !resized && drawn.only_moved(&key) => Reuse::Moving,
+            _ => Reuse::Begin,
+        };
         for body in &mut scene.bodies {
             body.frozen = key.frozen;
             body.marked.clone_from(&key.marked);
@@ -189,6 +219,10 @@ impl Picture {
             }
         }
         self.count += 1;
+        self.refinement.drew(!changed);
+        if is_sample {
+            return;
+        }
         meters.frame_meter.drawn();
         let draw = Span::since(begin);
         meters.frames.drew(draw.end - draw.begin);
@@ -256,6 +290,18 @@ impl PictureKey {
             && self.debug_view == other.debug_view
             && self.marked == other.marked
             // What was drawn with drafts is drawn again without.
+            && (!self.drafts || other.drafts)
+    }
+
+    /// Whether another picture is of the same planet, drawn in the same way: it differs by the camera, the time or the
+    /// tiles alone.
+    fn only_moved(&self, other: &PictureKey) -> bool {
+        let of_planet = self.debug_view == DebugView::Shaded && Arc::ptr_eq(&self.planet, &other.planet);
+        of_planet
+            && self.debug_view == other.debug_view
+            && (self.view.size_px, self.view.quality) == (other.view.size_px, other.view.quality)
+            && self.post == other.post
+            && self.marked == other.marked
             && (!self.drafts || other.drafts)
     }
 }

@@ -16,6 +16,9 @@ pub struct ViewSettings {
     pub post: Post,
     /// Whether the exposure follows the brightness of the picture; [`Post::exposure_ev`] then corrects it.
     pub auto_exposure: bool,
+    /// Whether pictures take something from those before them: clouds while the camera moves, and more samples while
+    /// nothing does.
+    pub refine: bool,
     /// Seconds since time zero.
     pub time_secs: f64,
     /// Whether time passes.
@@ -33,6 +36,7 @@ impl ViewSettings {
             freeze_detail: false,
             post: Post::default(),
             auto_exposure: true,
+            refine: true,
             time_secs: 0.0,
             playing: false,
             // Ten minutes of the planet for each second: a day of 24 hours takes 2.4 minutes.

@@ -110,6 +110,12 @@ fn settings(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
             }
         }
     });
+    let mut refine = settings.refine;
+    let told = "Still pictures get finer while you touch nothing, and clouds are carried over from picture to picture \
+                while the camera moves; off, each picture is drawn by itself";
+    if ui.checkbox(&mut refine, "Refine pictures").on_hover_text(told).changed() {
+        commands.push(Action::Set(Setting::Refine(refine)));
+    }
     let tones = ui.menu_button(format!("Tones: {}", settings.post.tone.label()), |ui| {
         for tone in Tone::ALL {
             if ui.radio(settings.post.tone == tone, tone.label()).clicked() {

@@ -43,9 +43,15 @@ fn figures(ui: &mut egui::Ui, state: &State) {
     ui.label(quality).on_hover_text(format!("Quality. Drawn by {}", state.adapter));
     let frames = match viewport.frame_meter.interval_secs() {
         Some(secs) => format!("{:.0} fps, {:.1} ms", 1.0 / secs.max(1e-4), secs * 1000.0),
-        None => "idle".to_owned(),
+        None => match viewport.refinement() {
+            Some((drawn, most)) if 0 < drawn && drawn < most => format!("refining {drawn}/{most}"),
+            _ => "idle".to_owned(),
+        },
     };
-    ui.label(frames).on_hover_text("Pictures per second while something moves; nothing is drawn while nothing changes");
+    ui.label(frames).on_hover_text(
+        "Pictures per second while something moves, then samples of the still picture; nothing is drawn while nothing \
+         changes",
+    );
     if let Some(duration) = viewport.edit_clock.last() {
         ui.label(format!("edit {:.1} ms", duration.as_secs_f64() * 1000.0))
             .on_hover_text("From the last edit to its complete picture");

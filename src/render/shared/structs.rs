@@ -19,6 +19,14 @@ uniform_struct! {
         pixel_rad: f32,
         /// Pixels drawn for each pixel shown, in one direction: 2, 1 or 0.5.
         render_scale: f32,
+        /// Pixels developed for each pixel drawn, in one direction: 2 for a still picture at render scale 0.5, else 1.
+        still_scale: f32,
+        /// Number of the frame among those of a still picture, from 1; 0 for other frames.
+        still_number: u32,
+        /// Offset of the picture within its pixels, drawn pixels right and down.
+        still_jitter_px: Vec2,
+        /// Added to the noise of marches, 0 to 1: another for each frame.
+        noise_shift: f32,
         /// Seconds since time zero.
         time_secs: f32,
         /// Factor on radiance, set by hand.
@@ -92,6 +100,14 @@ uniform_struct! {
         eye_high_m: Vec3,
         /// 1 for the body farthest away: behind it are stars.
         is_backmost: u32,
+        /// Of the frame before: metres from its eye to its clip space, and its eye seen from this one.
+        before_clip_from_rel_m: Mat4,
+        eye_before_rel_m: Vec3,
+        /// Angle about the pole by which the wind has carried the clouds since.
+        cloud_turn_rad: f32,
+        /// Clouds are marched for one pixel of each block: side of the block, and the place of that pixel.
+        march_block: u32,
+        march_place: UVec2,
         eye_low_m: Vec3,
         /// The eye from the body's centre.
         eye_km: Vec3,

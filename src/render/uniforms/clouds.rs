@@ -49,8 +49,7 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
     out.has_wind = u32::from(planet.structure.as_ref().is_some_and(|structure| structure.weather_share > 0.0));
     let Some(clouds) = &planet.clouds else { return };
     let eye_km = eye_m * 1e-3;
-    let angle = clouds.wind_km_h / 3600.0 * scene.time_secs / planet.radius_km;
-    let (s, c) = angle.rem_euclid(TAU).sin_cos();
+    let (s, c) = drift_rad(planet, scene.time_secs).sin_cos();
     let drifted_km = DVec3::new(c * eye_km.x + s * eye_km.y, c * eye_km.y - s * eye_km.x, eye_km.z);
     out.cloud_color = rgb(clouds.color);
     out.cloud_coverages = coverages(clouds).map(|coverage| coverage as f32).into();
@@ -97,6 +96,12 @@ pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, scene: &Sc
             out.cloud_towers = if is_thin { 0.0 } else { clouds.towers as f32 };
         }
     }
+}
+
+/// Angle about the pole by which the wind has carried the clouds at a time.
+pub(crate) fn drift_rad(planet: &Planet, time_secs: f64) -> f64 {
+    let wind_km_h = planet.clouds.as_ref().map_or(0.0, |clouds| clouds.wind_km_h);
+    (wind_km_h / 3600.0 * time_secs / planet.radius_km).rem_euclid(TAU)
 }
 
 /// The layers of a planet.
