@@ -28,7 +28,8 @@ struct Clouds {
 }
 
 // Mean over the clouds of 3x3 pixels. The march is jittered so that any 3x3 pixels together sample the whole ray (see
-// the noise in clouds.wgsl). Pixels whose ground is at another distance are left out.
+// the noise in clouds.wgsl). Pixels whose ground is at another distance are left out. From the second frame of a still
+// picture on, the mean over the frames takes its place.
 fn clouds_around(pixel: vec2i) -> Clouds {
     let first = vec2i(frame.origin_px);
     let last = first + vec2i(frame.size_px) - 1;
@@ -37,8 +38,10 @@ fn clouds_around(pixel: vec2i) -> Clouds {
     var distance = 0.0;
     var seen = 0.0;
     var count = 0.0;
-    for (var i = 0; i < 9; i++) {
-        let at = clamp(pixel + vec2i(i % 3 - 1, i / 3 - 1), first, last);
+    let reach = select(1, 0, frame.still_number > 1u);
+    let side = 2 * reach + 1;
+    for (var i = 0; i < side * side; i++) {
+        let at = clamp(pixel + vec2i(i % side, i / side) - reach, first, last);
         let there = textureLoad(scene_depth, at, 0);
         if min(depth, there) * 1.25 < max(depth, there) { continue; }
         let clouds = textureLoad(cloud_light, at, 0);

@@ -60,6 +60,10 @@ impl Progress {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         out.still_number = self.still;
         out.still_scale = if self.still > 0 { still_scale } else { 1.0 };
+        // Together, the frames resolve the pixels that are developed.
+        if self.still > 1 {
+            out.pixel_rad /= still_scale;
+        }
         out.still_jitter_px = self.jitter_px().as_vec2();
         out.noise_shift = (f64::from(self.frames.saturating_sub(1)) * GOLDEN).fract() as f32;
     }

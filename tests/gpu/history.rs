@@ -71,7 +71,7 @@ fn still_pictures_converge() {
     let planet = cloudy();
     let camera = among_clouds(&planet, 0.0);
     let mut gpu = gpu();
-    for (quality, gain) in [(Quality::Low, 1.8), (Quality::Medium, 1.8)] {
+    for (quality, gain) in [(Quality::Low, 2.0), (Quality::Medium, 1.02)] {
         let mut series = Series { gpu: &mut gpu, planet: planet.clone(), quality, id: ViewId(72) };
         let first = series.draw(camera, Reuse::Begin);
         let mut still = Vec::new();
