@@ -388,7 +388,7 @@ fn inland_radiance(facet: Facet, floor: vec3f, depth_m: f32, temperature_c: f32,
     let variance = body.wave_slope_variance * mix(0.1, 0.4, clear);
     return water_radiance(Water(
         facet.rel_km, -facet.v, floor, vec2f(depth_m), temperature_c, visible, facet.altitude_km, absorption_per_m,
-        color, variance, 0.0, 0.0, 0.0,
+        color, variance, 0.0, 0.0, 0.0, Column(vec3f(0.0), depth_m, vec3f(0.0), ice_on(temperature_c)),
     ));
 }
 

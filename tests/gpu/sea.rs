@@ -5,7 +5,7 @@ use crate::support::{camera, earth, frame, frame_of, gpu, lights, surface, surfa
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::{Planet, Water};
-use tellus::sea::Waves;
+use tellus::sea::{Column, Waves};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
@@ -37,7 +37,7 @@ fn the_surface_is_drawn_where_queries_find_it() {
         let middle = (SIZE_PX[0] * (SIZE_PX[1] + 1) / 2) as usize;
         let distance_m = 0.5 / f64::from(stages.depths(&gpu)[middle]);
         let drawn_m = 9.0 - distance_m;
-        let asked_m = waves.surface(place.direction(), scene.time_secs, 100.0).wave_m;
+        let asked_m = waves.surface(place.direction(), scene.time_secs, &Column::DEEP).wave_m;
         assert!((drawn_m - asked_m).abs() < 0.12, "at {} s: {drawn_m} m drawn, {asked_m} m found", scene.time_secs);
         (lowest_m, highest_m) = (lowest_m.min(asked_m), highest_m.max(asked_m));
     }
