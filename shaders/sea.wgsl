@@ -47,7 +47,7 @@ struct Water {
     foam: f32,
     // Height of the waves at the pixel, metres
     lift_m: f32,
-    // 1 where ice breaks into floes
+    // 1 in the sea, where ice breaks into floes; 0 where it is closed
     floes: f32,
     // Depth, bed and ice, for waves
     column: Column,
@@ -154,9 +154,9 @@ fn surf(waves: WaveSum, depths_m: vec2f, noise: f32) -> f32 {
     if zone <= 0.0 { return 0.0; }
     // 0 at a crest, and on to 1 at the next one behind
     let behind = fract(atan2(-waves.bores_m.y, waves.bores_m.x) / (2.0 * PI));
-    let bore = max(exp(-4.0 * behind), smoothstep(0.9, 1.0, behind));
+    let bore = max(exp(-2.8 * behind), smoothstep(0.88, 1.0, behind));
     // The mean height of the crests of a sea is that much greater than its deviation.
-    let high = smoothstep(0.3, 1.2, length(waves.bores_m) / sqrt(max(2.0 * waves.bore_variance.x, 1e-8)));
+    let high = smoothstep(0.0, 0.9, length(waves.bores_m) / sqrt(max(2.0 * waves.bore_variance.x, 1e-8)));
     let drawn = smoothstep(0.2, 0.8, waves.bore_variance.x / max(waves.bore_variance.y, 1e-8));
     return zone * mix(0.3, bore * high, drawn);
 }

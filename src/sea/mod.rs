@@ -15,9 +15,7 @@ mod wind;
 
 pub use column::Column;
 #[cfg(feature = "render")]
-pub(crate) use column::{
-    BED_REACH_M, BREAKING, CROWDED, DEEP, ICE_COLDER_C, ICE_DAMPING_M, LEE, TURN, TURN_FALL,
-};
+pub(crate) use column::{BED_REACH_M, BREAKING, CROWDED, DEEP, ICE_COLDER_C, ICE_DAMPING_M, LEE, TURN, TURN_FALL};
 #[cfg(feature = "render")]
 pub(crate) use waves::{LEAST_SKEWED, MOST_WAVES, SKEW};
 pub use waves::{WaterSurface, Waves};
