@@ -89,6 +89,7 @@ fn a_lake_is_drawn_as_level_water() {
 fn lakes_freeze() {
     let planet = Planet {
         structure: Some(Structure { grids: 1, ..Structure::default() }),
+        water: Some(Water::default()),
         clouds: None::<Clouds>,
         ..Planet::default()
     };
