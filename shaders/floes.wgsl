@@ -59,9 +59,9 @@ fn fresh_ice(colder_c: f32, rel_m: vec3f, footprint_m: f32, variation: f32, broa
         if seen <= 0.0 { break; }
         let at = (body.floe_eye + rel_m * body.floes_per_m) * PLATES[size] + bend;
         let plate = floe_at(at, FLOE_GRID * PLATES[size], size + 11u);
-        let crack = 1.0 - smoothstep(0.006, 0.02 + width_cells, plate.x);
+        let crack = 1.0 - smoothstep(0.004, 0.014 + 0.5 * width_cells, plate.x);
         // Snow hides most of them.
-        albedo = mix(albedo, body.ice_color, crack * seen * (0.9 - 0.6 * snowed));
+        albedo = mix(albedo, body.ice_color, crack * seen * (0.5 - 0.4 * snowed));
         albedo *= 1.0 + 0.1 * (plate.y - 0.5) * seen * (1.0 - snowed);
     }
     return Ice(share, albedo);
