@@ -1,4 +1,4 @@
-// Ice on water: floes, leads between them, thin ice, ridges.
+// Ice on water: floes of the sea, leads between them, thin ice, ridges; closed ice of lakes and rivers.
 
 // Ice at a pixel.
 struct Ice {
@@ -39,11 +39,40 @@ fn floe_at(at: vec3f, grid: f32, seed: u32) -> vec2f {
     return vec2f(second - nearest.x, nearest.y);
 }
 
+// How much warmer fresh water freezes than that of the sea, °C.
+const FRESH_WARMER_C: f32 = 1.9;
+// Plates between the cracks of lake ice, to a width of the greatest floe.
+const PLATES: vec2f = vec2f(8.0, 64.0);
+
+// Ice of lakes and rivers: closed, with snow in drifts and pale cracks. `colder_c`: than it freezes.
+fn fresh_ice(colder_c: f32, rel_m: vec3f, footprint_m: f32, variation: f32, broad: f32) -> Ice {
+    let share = smoothstep(-0.4, 0.4, colder_c);
+    // Young ice is dark and bare.
+    let bare = body.ice_color * mix(vec3f(0.40, 0.50, 0.56), vec3f(0.66, 0.76, 0.82), smoothstep(0.0, 6.0, colder_c));
+    let snowed = smoothstep(-0.45, 0.25, variation + 0.5 * broad) * smoothstep(0.0, 4.0, colder_c);
+    var albedo = mix(bare, min(body.ice_color * 1.12, vec3f(0.9)), snowed);
+    if NEARNESS == FROM_ORBIT || body.floes_per_m <= 0.0 || share <= 0.0 { return Ice(share, albedo); }
+    let bend = vec3f(variation, broad, variation - broad) * 0.15;
+    for (var size = 0u; size < 2u; size++) {
+        let width_cells = footprint_m * body.floes_per_m * PLATES[size];
+        let seen = 1.0 - smoothstep(0.05, 0.25, width_cells);
+        if seen <= 0.0 { break; }
+        let at = (body.floe_eye + rel_m * body.floes_per_m) * PLATES[size] + bend;
+        let plate = floe_at(at, FLOE_GRID * PLATES[size], size + 11u);
+        let crack = 1.0 - smoothstep(0.004, 0.014 + 0.5 * width_cells, plate.x);
+        // Snow hides most of them.
+        albedo = mix(albedo, body.ice_color, crack * seen * (0.5 - 0.4 * snowed));
+        albedo *= 1.0 + 0.1 * (plate.y - 0.5) * seen * (1.0 - snowed);
+    }
+    return Ice(share, albedo);
+}
+
 // `footprint_m`: width of a pixel; `variation` and `broad`: noise, about -1 to 1.
 fn ice_at(water: Water, rel_m: vec3f, up: vec3f, footprint_m: f32, variation: f32, broad: f32) -> Ice {
     let colder = body.freezing_c - (water.temperature_c + broad * 3.0 + variation * 1.2);
     let thick = body.ice_color * (1.0 + 0.18 * variation);
-    if water.floes <= 0.0 || body.floes_per_m <= 0.0 {
+    if water.floes <= 0.0 { return fresh_ice(colder + FRESH_WARMER_C, rel_m, footprint_m, variation, broad); }
+    if body.floes_per_m <= 0.0 {
         return Ice(smoothstep(-0.4, 0.4, colder), thick);
     }
     let closed = smoothstep(-0.5 * ICE_EDGE_C, 0.5 * ICE_EDGE_C, colder);

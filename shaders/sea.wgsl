@@ -47,8 +47,10 @@ struct Water {
     foam: f32,
     // Height of the waves at the pixel, metres
     lift_m: f32,
-    // 1 where ice breaks into floes
+    // 1 in the sea, where ice breaks into floes; 0 where it is closed
     floes: f32,
+    // Depth, bed and ice, for waves
+    column: Column,
 }
 
 // Light that leaves the water: light of the sea bed through the water, and light scattered by the water itself.
@@ -90,8 +92,9 @@ struct Surface {
     normal: vec3f,
     // Variance of the slope of all waves too small to be drawn
     rest: f32,
-    // Share that breaking crests whiten
+    // Share that breaking crests whiten, on deep water and at the shore
     foam: f32,
+    surf: f32,
 }
 
 // Threshold of a normal distribution that a share of it exceeds (Abramowitz and Stegun 1964, 26.2.23 without its last
@@ -116,15 +119,15 @@ fn lace(share: f32, rel_m: vec3f, footprint_m: f32) -> f32 {
     return mix(drawn, share, smoothstep(0.1, 0.4, footprint_m));
 }
 
-// `variance`: of the slope of all waves at the place; the waves of the eye's place are scaled to it.
-fn water_surface(water: Water, calm_m: vec3f, up: vec3f, variance: f32, noise: f32) -> Surface {
+// `open_variance`: of the slope of all waves at the place without ice; the waves of the eye's place are scaled to it.
+fn water_surface(water: Water, calm_m: vec3f, up: vec3f, open_variance: f32, noise: f32) -> Surface {
     let step_x = pixel_step(calm_m, up, body.pixel_right);
     let step_y = pixel_step(calm_m, up, body.pixel_up);
-    let depth_m = 0.5 * (water.depths_m.x + water.depths_m.y);
-    var waves = waves_at(calm_m, up, step_x, step_y, depth_m);
+    var waves = waves_at(calm_m, up, step_x, step_y, water.column);
     // From afar the few waves that are drawn would make a lattice: there they come in groups.
     let groups = mix(1.0, saturate1(0.75 + 1.1 * noise) + 0.1, smoothstep(300.0, 1500.0, length(calm_m)));
-    let scale = sqrt(variance / max(body.wave_slope_variance, 1e-6)) * groups;
+    let scale = sqrt(open_variance / max(body.wave_slope_variance, 1e-6)) * groups;
+    let variance = ice_calmed(open_variance, water.column.ice);
     waves.slope *= scale;
     waves.slope_variance *= scale * scale;
     let steeper = skewed(waves).y;
@@ -139,28 +142,23 @@ fn water_surface(water: Water, calm_m: vec3f, up: vec3f, variance: f32, noise: f
     let breaking = smoothstep(limit - 0.5, limit + 1.3, waves.steepness / deviation + patchy);
     let drawn = smoothstep(0.1, 0.45, waves.slope_variance / variance);
     out.foam = mix(white, breaking * saturate1(0.75 + noise), drawn);
+    out.surf = surf(waves, water.depths_m, noise);
     return out;
 }
 
-// Waves that break along the shore: share of foam from the depth. The phase is the time that a wave takes from a depth
-// to the shore over a bed of that slope; crests so follow the lines of equal depth, and draw together towards land.
-const SURF_BED: f32 = 0.035;
-const SURF_SECS: f32 = 9.0;
-
-fn surf(depths_m: vec2f, noise: f32) -> f32 {
+// Waves that break along the shore: share of foam. Each crest is a bore: a white front, and foam that dissolves behind.
+fn surf(waves: WaveSum, depths_m: vec2f, noise: f32) -> f32 {
     let depth_m = max(0.5 * (depths_m.x + depths_m.y), 0.0);
     let breaks_m = clamp(4.5 * body.wave_deviation_m, 0.25, 4.0);
     let zone = 1.0 - smoothstep(0.7 * breaks_m, 1.25 * breaks_m, depth_m * (1.0 + 0.5 * noise));
     if zone <= 0.0 { return 0.0; }
-    let turn = 2.0 * PI / SURF_SECS;
-    let phase = body.shore_phase + turn * 2.0 * sqrt(depth_m / 9.81) / SURF_BED + 5.0 * noise;
-    let spread = 0.5 * (depths_m.y - depths_m.x);
-    let per_pixel = turn * spread / (SURF_BED * sqrt(9.81 * max(depth_m, 0.05)));
-    // A bore: a white front, and foam that dissolves behind it.
-    let behind = fract(phase / (2.0 * PI));
-    let bore = pow(behind, 5.0) + 0.35 * exp(-3.0 * (1.0 - behind));
-    let sharp = 1.0 - smoothstep(0.5, 2.5, per_pixel);
-    return zone * mix(0.3, bore, sharp);
+    // 0 at a crest, and on to 1 at the next one behind
+    let behind = fract(atan2(-waves.bores_m.y, waves.bores_m.x) / (2.0 * PI));
+    let bore = max(exp(-2.8 * behind), smoothstep(0.88, 1.0, behind));
+    // The mean height of the crests of a sea is that much greater than its deviation.
+    let high = smoothstep(0.0, 0.9, length(waves.bores_m) / sqrt(max(2.0 * waves.bore_variance.x, 1e-8)));
+    let drawn = smoothstep(0.2, 0.8, waves.bore_variance.x / max(waves.bore_variance.y, 1e-8));
+    return zone * mix(0.3, bore * high, drawn);
 }
 
 // Share of sunlight that the waves above concentrate at a depth: 1 in the mean. The curvature of the surface is a lens
@@ -219,7 +217,7 @@ fn water_radiance(water: Water) -> vec3f {
     // From near, single waves show the wind.
     let gust = jitter.y * smoothstep(5.0, 50.0, distance_km);
     let slope_variance = gusty(water.slope_variance, gust);
-    var surface = Surface(up, 0.0, 0.0);
+    var surface = Surface(up, 0.0, 0.0, 0.0);
     var fresnel = 0.0;
     var mirror_mu = 0.0;
     var mirrored = up;
@@ -264,7 +262,7 @@ fn water_radiance(water: Water) -> vec3f {
             here.floor *= mix(1.0, caustics(calm_m, up, depth_m, footprint_m, LENS_PER_M), saturate1(lit));
         }
         light = water_body(here, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
-        let white = saturate1(max(surf(water.depths_m, variation), surface.foam) * water.foam);
+        let white = saturate1(max(surface.surf, surface.foam) * water.foam);
         light = mix(light, vec3f(0.75) * downwelling / PI, lace(white, rel_m, footprint_m));
         light += body.water_glow;
     }

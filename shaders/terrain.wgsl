@@ -386,9 +386,10 @@ fn inland_radiance(facet: Facet, floor: vec3f, depth_m: f32, temperature_c: f32,
     let absorption_per_m = body.water_absorption_per_m * mix(4.0, 1.5, clear) + SILT_PER_M * silt;
     let color = body.water_color + SILT_COLOR * mix(1.0, 0.3, clear);
     let variance = body.wave_slope_variance * mix(0.1, 0.4, clear);
+    let column = Column(vec3f(0.0), depth_m, vec3f(0.0), ice_on(temperature_c - FRESH_WARMER_C));
     return water_radiance(Water(
         facet.rel_km, -facet.v, floor, vec2f(depth_m), temperature_c, visible, facet.altitude_km, absorption_per_m,
-        color, variance, 0.0, 0.0, 0.0,
+        color, variance, 0.0, 0.0, 0.0, column,
     ));
 }
 

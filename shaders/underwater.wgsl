@@ -24,6 +24,12 @@ fn altitude_over_sea_m(dir: vec3f, distance_km: f32, sine: f32) -> f32 {
     return body.eye_over_sea_km * 1000.0 + at_m * sine + at_m * at_m * (1.0 - sine * sine) / (2.0 * radius_m);
 }
 
+// The water around the eye.
+fn eye_column() -> Column {
+    let calm_m = -body.eye_up * body.eye_over_sea_km * 1000.0;
+    return Column(calm_m, body.eye_depth_m, body.eye_deepening, body.eye_ice);
+}
+
 // Light that comes down through the surface: straight from the suns, and from the sky.
 struct Downwelling {
     straight: vec3f,
@@ -84,12 +90,12 @@ fn from_below(dir: vec3f, surface_km: f32, up: vec3f, deep: vec3f) -> vec3f {
     let calm_m = rel_m - up * lift_m;
     let step_x = pixel_step(calm_m, up, body.pixel_right);
     let step_y = pixel_step(calm_m, up, body.pixel_up);
-    let waves = waves_at(calm_m, up, step_x, step_y, 1e4);
+    let waves = waves_at(calm_m, up, step_x, step_y, eye_column());
     let normal = normalize(up - waves.slope * skewed(waves).y);
     let cosine = max(dot(dir, normal), 0.02);
     let bent = INDEX * INDEX * (1.0 - cosine * cosine);
     // Waves too small to be drawn blur the edge of the window.
-    let rest = max(body.wave_slope_variance - waves.slope_variance, 0.0004);
+    let rest = max(ice_calmed(body.wave_slope_variance, body.eye_ice) - waves.slope_variance, 0.0004);
     let blur = 0.5 * sqrt(rest);
     let window = smoothstep(-blur, blur, 1.0 - bent);
     let mirror = mirrored_below(dir, normal, up, deep);

@@ -4,7 +4,7 @@
 use super::points::Points;
 use super::{Failure, args, load, maps, print};
 use crate::clouds::{CloudCover, CloudField};
-use crate::sea::{WaterSurface, Waves};
+use crate::sea::{Column, WaterSurface, Waves};
 use crate::sphere::LatLon;
 use crate::sphere::geo::east_north;
 use crate::terrain::{River, Sample, Terrain};
@@ -91,9 +91,9 @@ impl Moment {
 
     /// The surface of the sea, where the sample is of the sea, and the significant wave height.
     fn sea(&self, terrain: &Terrain, dir: DVec3, sample: &Sample) -> Option<(WaterSurface, f64)> {
-        let level_m = terrain.planet().sea_level_m().filter(|level_m| sample.water_level_m == Some(*level_m))?;
+        terrain.planet().sea_level_m().filter(|level_m| sample.water_level_m == Some(*level_m))?;
         let waves = Waves::near(terrain, dir);
-        let surface = waves.surface(dir, self.time_secs, level_m - sample.height_m);
+        let surface = waves.surface(dir, self.time_secs, &Column::at(terrain, dir));
         Some((surface, waves.significant_height_m()))
     }
 }

@@ -13,7 +13,6 @@ use super::shared::{MAX_SUNS, MIXTURE_ENTRIES, Octave, Sun};
 use super::white_balance::{camera_balance, white_balance};
 use super::{gpu, wgsl};
 use crate::lod::Quality;
-use crate::sea::Waves;
 use glam::{DQuat, DVec2, DVec3, Mat4, UVec2, Vec2, Vec3};
 use std::f64::consts::PI;
 
@@ -105,9 +104,8 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, is_
     let marked = body.marked.is_some();
     out.marked = u32::from(marked);
     ground::from_eye(&mut out, planet, eye_m);
-    let weather = body.surface.terrain.weather().map(|weather| &**weather);
-    let waves = Waves::of(planet, weather, eye_m.normalize_or(DVec3::Z));
-    water::from_eye(&mut out, planet, &waves, eye_m, (scene.time_secs, scene.quality));
+    let moment = (scene.time_secs, scene.quality);
+    water::from_eye(&mut out, &body.surface.terrain, planet, eye_m, moment);
     if !marked {
         clouds::from_eye(&mut out, planet, eye_m, scene, pixel_rad(scene, drawn));
     }

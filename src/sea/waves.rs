@@ -1,5 +1,6 @@
 //! The waves of a place, and the water's height.
 
+use super::column::Column;
 use super::spectrum::{GRAVITY_M_S2, Spectrum};
 use super::wind::relative_wind;
 use crate::planet::Planet;
@@ -105,20 +106,18 @@ impl Waves {
         4.0 * self.deviation_m
     }
 
-    /// The surface at a unit direction, `time_secs` after time zero. `depth_m`: depth of the calm water there; waves
-    /// longer than twice the depth are lower.
-    pub fn surface(&self, dir_planet: DVec3, time_secs: f64, depth_m: f64) -> WaterSurface {
+    /// The surface at a unit direction, `time_secs` after time zero, over a column of water: [`Column::at`] there.
+    pub fn surface(&self, dir_planet: DVec3, time_secs: f64, column: &Column) -> WaterSurface {
         let at_m = dir_planet * (self.radius_m + self.level_m);
         let (mut height_m, mut slope, mut variance) = (0.0, DVec3::ZERO, 0.0);
         for wave in &self.waves {
-            let along = wave.vector_per_m.reject_from(dir_planet);
-            let k = along.length();
-            let amplitude_m = wave.amplitude_m * libm::tanh(k * depth_m.max(0.0));
-            let (sin, cos) = libm::sincos(wave.phase_at(at_m, time_secs));
+            let shoaled = column.shoal(wave, dir_planet, self.deviation_m);
+            let amplitude_m = wave.amplitude_m * shoaled.amplitude;
+            let (sin, cos) = libm::sincos(wave.phase_at(at_m, time_secs) + shoaled.turned_rad);
             height_m += amplitude_m * cos;
             variance += 0.5 * amplitude_m * amplitude_m;
-            if k < TAU / TILTING_M {
-                slope -= along * (amplitude_m * sin);
+            if shoaled.along_per_m.length() < TAU / TILTING_M {
+                slope -= shoaled.along_per_m * (amplitude_m * sin);
             }
         }
         let (wave_m, steeper) = skewed(height_m, libm::sqrt(variance));
@@ -255,7 +254,7 @@ mod tests {
             let (mut sum, mut square) = (0.0, 0.0);
             for i in 0..400 {
                 let at = (dir + DVec3::new(0.3, -0.7, 0.5) * 1e-4 * f64::from(i)).normalize();
-                let wave_m = waves.surface(at, f64::from(i) * 3.7, 1e4).wave_m;
+                let wave_m = waves.surface(at, f64::from(i) * 3.7, &Column::DEEP).wave_m;
                 (sum, square) = (sum + wave_m / 400.0, square + wave_m * wave_m / 400.0);
             }
             let ratio = 4.0 * square.sqrt() / waves.significant_height_m();
@@ -274,16 +273,16 @@ mod tests {
         let near = (dir + DVec3::Z * 1e-4).normalize();
         let (here, there) = (Waves::near(&terrain, dir), Waves::near(&terrain, near));
         for time_secs in [0.0, 1e6, 1e9] {
-            let [a, b] = [&here, &there].map(|waves| waves.surface(dir, time_secs, 500.0));
+            let [a, b] = [&here, &there].map(|waves| waves.surface(dir, time_secs, &Column::DEEP));
             assert!((a.wave_m - b.wave_m).abs() < 0.02, "{a:?} {b:?}");
             assert!((a.normal_planet.length() - 1.0).abs() < 1e-9 && a.normal_planet.dot(dir) > 0.8);
-            let later = here.surface(dir, time_secs + 0.02, 500.0);
+            let later = here.surface(dir, time_secs + 0.02, &Column::DEEP);
             assert!((later.wave_m - a.wave_m).abs() < 0.05);
         }
         // In the shallows waves are low; without a sea there are none.
-        assert!(here.surface(dir, 5.0, 0.0).wave_m.abs() < 1e-12);
+        assert!(here.surface(dir, 5.0, &Column { depth_m: 0.0, ..Column::DEEP }).wave_m.abs() < 1e-6);
         let dry = Terrain::try_new(Arc::new(Planet { layers: Vec::new(), ..Planet::default() })).unwrap();
-        assert_eq!(Waves::near(&dry, dir).surface(dir, 3.0, 100.0).wave_m, 0.0);
+        assert_eq!(Waves::near(&dry, dir).surface(dir, 3.0, &Column::DEEP).wave_m, 0.0);
     }
 
     #[test]
@@ -295,10 +294,10 @@ mod tests {
         let (east, north) = crate::sphere::geo::east_north(dir);
         let step = 0.1 / terrain.planet().radius_m();
         for time_secs in [0.0, 3.0, 11.0] {
-            let at = |v: DVec3| waves.surface((dir + v).normalize(), time_secs, 1e3).height_m;
+            let at = |v: DVec3| waves.surface((dir + v).normalize(), time_secs, &Column::DEEP).height_m;
             let rise = |v: DVec3| (at(v * step) - at(-v * step)) / 0.2;
             let normal = (dir - east * rise(east) - north * rise(north)).normalize();
-            let found = waves.surface(dir, time_secs, 1e3).normal_planet;
+            let found = waves.surface(dir, time_secs, &Column::DEEP).normal_planet;
             assert!(found.angle_between(normal) < 2e-3, "{found} for {normal}");
         }
     }

@@ -84,6 +84,39 @@ fn a_lake_is_drawn_as_level_water() {
     assert!(apart > 0.05, "{:?} {wet:?}", ground[middle]);
 }
 
+/// A lake is frozen, and bright, where it is cold enough.
+#[test]
+fn lakes_freeze() {
+    let planet = Planet {
+        structure: Some(Structure { grids: 1, ..Structure::default() }),
+        water: Some(Water::default()),
+        clouds: None::<Clouds>,
+        ..Planet::default()
+    };
+    let terrain = Terrain::try_new(planet.clone().into()).unwrap();
+    let (_, place) = lake(&terrain);
+    let temperature_c = terrain.sample(place.direction()).temperature_c;
+    let camera = camera_over(&terrain, place, PIXEL_M * f64::from(SIDE_PX), [0.0, -std::f64::consts::FRAC_PI_2]);
+    let view = View { camera, size_px: [SIDE_PX; 2], quality: Quality::Medium };
+    let mut gpu = gpu();
+    let mut green = |freezing_c: f64| {
+        let water = Some(Water { freezing_c, ..Water::default() });
+        let planet = Arc::new(Planet { water, ..planet.clone() });
+        let surface = surface_of(&planet, &view);
+        // A sun aside, so that open water is dark.
+        let sun = (place.direction() + place.direction().any_orthonormal_vector()).normalize();
+        gpu.draw_only(&frame_of(&surface, &planet, view, sun), 1);
+        let ([width, height], lit) = gpu.renderer.radiance().unwrap();
+        f64::from(lit[(height / 2 * width + width / 2) as usize][1])
+    };
+    // The noise that bends edges of ice moves them by up to 4 °C.
+    let [open, frozen] = [temperature_c - 10.0, temperature_c + 10.0].map(&mut green);
+    assert!(frozen > 0.3 && frozen > 4.0 * open, "{open} open, {frozen} frozen");
+    let steps = [-7.0, -4.0, -2.0, 0.0, 2.0, 4.0].map(|warmer_c| green(temperature_c + warmer_c));
+    assert!(steps[0] < 1.5 * open && steps[5] > 3.0 * open, "{steps:?}");
+    assert!(steps.is_sorted_by(|a, b| *b > a - 0.02), "{steps:?}");
+}
+
 #[test]
 fn without_a_structure_tiles_have_no_water() {
     let planet = Arc::new(preset(LAYERED));

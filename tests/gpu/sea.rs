@@ -5,7 +5,7 @@ use crate::support::{camera, earth, frame, frame_of, gpu, lights, surface, surfa
 use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::{Planet, Water};
-use tellus::sea::Waves;
+use tellus::sea::{Column, Waves};
 use tellus::sphere::LatLon;
 use tellus::terrain::Terrain;
 
@@ -16,32 +16,55 @@ fn sea(water: Water) -> Arc<Planet> {
     Arc::new(Planet { layers: Vec::new(), clouds: None, atmosphere: None, water: Some(water), ..earth() })
 }
 
-/// A boat floats on the water that is drawn.
-#[test]
-fn the_surface_is_drawn_where_queries_find_it() {
-    let planet = sea(Water { level_m: 100.0, wind_m_s: 14.0, swell_m: 3.0, ..Water::default() });
+/// Heights of the water under an eye 9 m over it, at 12 times: drawn, and found by a query.
+fn heights_m(planet: &Arc<Planet>, place: LatLon) -> Vec<(f64, f64)> {
     let terrain = Terrain::try_new(planet.clone()).unwrap();
-    let place = LatLon::from_degrees(31.0, 47.0);
     let waves = Waves::near(&terrain, place.direction());
-    let camera = camera(&planet, 31.0, 47.0, 9.0, 20.0, -90.0);
+    let column = Column::at(&terrain, place.direction());
+    let (lat_deg, lon_deg) = place.to_degrees();
+    let camera = camera(planet, lat_deg, lon_deg, 9.0, 20.0, -90.0);
     let view = View { camera, size_px: SIZE_PX, quality: Quality::High };
-    let surface = surface_of(&planet, &view);
+    let surface = surface_of(planet, &view);
     let mut gpu = gpu();
     let stages = Stages::new(&gpu, SIZE_PX);
-    let (mut lowest_m, mut highest_m) = (f64::MAX, f64::MIN);
-    for step in 0..12 {
-        let mut scene = frame_of(&surface, &planet, view, LatLon::from_degrees(50.0, 20.0).direction());
+    let at = |step: i32| {
+        let mut scene = frame_of(&surface, planet, view, LatLon::from_degrees(50.0, 20.0).direction());
         scene.time_secs = f64::from(step) * 2.3;
         scene.projection.near_m = Some(0.5);
         stages.draw(&mut gpu, &scene, [0, 0, SIZE_PX[0], SIZE_PX[1]], false).unwrap();
         let middle = (SIZE_PX[0] * (SIZE_PX[1] + 1) / 2) as usize;
-        let distance_m = 0.5 / f64::from(stages.depths(&gpu)[middle]);
-        let drawn_m = 9.0 - distance_m;
-        let asked_m = waves.surface(place.direction(), scene.time_secs, 100.0).wave_m;
-        assert!((drawn_m - asked_m).abs() < 0.12, "at {} s: {drawn_m} m drawn, {asked_m} m found", scene.time_secs);
-        (lowest_m, highest_m) = (lowest_m.min(asked_m), highest_m.max(asked_m));
-    }
-    assert!(highest_m - lowest_m > 1.0, "{lowest_m} to {highest_m} m");
+        let drawn_m = 9.0 - 0.5 / f64::from(stages.depths(&gpu)[middle]);
+        (drawn_m, waves.surface(place.direction(), scene.time_secs, &column).wave_m)
+    };
+    (0..12).map(at).collect()
+}
+
+/// Highest less lowest of the heights that were found.
+fn range_m(heights_m: &[(f64, f64)]) -> f64 {
+    let found = || heights_m.iter().map(|(_, found_m)| *found_m);
+    found().fold(f64::MIN, f64::max) - found().fold(f64::MAX, f64::min)
+}
+
+/// A boat floats on the water that is drawn: in the open, near the shore and between floes.
+#[test]
+fn the_surface_is_drawn_where_queries_find_it() {
+    let place = LatLon::from_degrees(31.0, 47.0);
+    let rough = Water { level_m: 100.0, wind_m_s: 14.0, swell_m: 3.0, freezing_c: -100.0, ..Water::default() };
+    let range_of = |water: Water, most_m: f64| {
+        let heights_m = heights_m(&sea(water), place);
+        for (drawn_m, found_m) in &heights_m {
+            assert!((drawn_m - found_m).abs() < most_m, "{drawn_m} m drawn, {found_m} m found");
+        }
+        range_m(&heights_m)
+    };
+    let open_m = range_of(rough.clone(), 0.12);
+    assert!(open_m > 1.0, "{open_m} m");
+    // Where the depth is 3 m, waves have broken.
+    let shallow_m = range_of(Water { level_m: 3.0, ..rough.clone() }, 0.12);
+    assert!(shallow_m > 0.3 && shallow_m < 0.8 * open_m, "{shallow_m} m of {open_m} m");
+    // Ice leaves the longest waves alone.
+    let icy_m = range_of(Water { freezing_c: 100.0, ..rough }, 0.12);
+    assert!(icy_m < 0.35 * open_m, "{icy_m} m of {open_m} m");
 }
 
 /// From below, the sky is a bright window overhead; beyond it the surface mirrors dark water.

@@ -10,6 +10,8 @@ pub(crate) const WAVES: usize = sea::MOST_WAVES;
 /// How much higher crests of the sea are than troughs are deep; the least factor on slopes that it leaves.
 pub(crate) const WAVE_SKEW: f64 = sea::SKEW;
 pub(crate) const LEAST_SKEWED: f64 = sea::LEAST_SKEWED;
+/// What the bed and ice do to waves of the sea.
+pub(crate) use sea::{BED_REACH_M, BREAKING, CROWDED, DEEP, ICE_COLDER_C, ICE_DAMPING_M, LEE, TURN, TURN_FALL};
 /// Phase difference from one pixel to the next, radians, at which a wave has faded into roughness.
 pub(crate) const WAVE_LOST: f64 = 1.9;
 /// Least share of a wave's phase difference that one of the two pixel steps shows: a wave may run between them, at 45°.

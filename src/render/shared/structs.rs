@@ -180,8 +180,10 @@ uniform_struct! {
         wave_deviation_m: f32,
         /// 1 where the eye is under the waves.
         eye_is_under: u32,
-        /// Phase of the waves that break along the shore.
-        shore_phase: f32,
+        /// Depth of the sea under the eye, its gradient and the share of ice there.
+        eye_depth_m: f32,
+        eye_deepening: Vec3,
+        eye_ice: f32,
         /// Radiance that the sea gives off.
         water_glow: Vec3,
         /// The eye in the grid of the greatest floes, modulo FLOE_GRID cells; 1 over the width of a cell.

@@ -4,14 +4,15 @@ use super::{Body, rgb, wrapped};
 use crate::lod::Quality;
 use crate::planet::{Planet, Water};
 use crate::render::shared::{CALM_SLOPE_VARIANCE, FLOE_GRID, Wave};
-use crate::sea::Waves;
+use crate::sea::{Column, Waves};
+use crate::terrain::Terrain;
 use glam::{DVec3, Vec3};
 use std::f64::consts::TAU;
 
-/// Period of the waves that break along the shore, seconds.
-const SHORE_PERIOD_SECS: f64 = 9.0;
 /// Altitude up to which the surface of the sea is displaced, in standard deviations of its height.
 const DISPLACED_UP_TO: f64 = 2000.0;
+/// Depth that counts as any greater one, metres.
+const DEEPEST_M: f64 = 1e4;
 /// Resolution in altitudes of the eye of the waves that are drawn: shorter ones are less than a pixel everywhere.
 const LEAST_ANGLE: f64 = 5e-4;
 
@@ -33,11 +34,11 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
     (out.equator_c, out.pole_c) = (planet.climate.equator_c as f32, planet.climate.pole_c as f32);
 }
 
-/// Sets the waves at a time around an eye, from the waves of its place.
+/// Sets the waves of a planet at a time around an eye.
 pub(super) fn from_eye(
     out: &mut Body,
+    terrain: &Terrain,
     planet: &Planet,
-    waves: &Waves,
     eye_m: DVec3,
     (time_secs, quality): (f64, Quality),
 ) {
@@ -46,6 +47,7 @@ pub(super) fn from_eye(
     let over_m = eye_m.length().max(1.0) - planet.radius_m() - water.level_m;
     out.eye_over_sea_km = (over_m * 1e-3) as f32;
     let up = eye_m.normalize_or(DVec3::Z);
+    let waves = Waves::of(planet, terrain.weather().map(|weather| &**weather), up);
     let shown = waves.all().iter().filter(|wave| TAU / wave.vector_per_m.length() > LEAST_ANGLE * over_m.abs());
     out.wave_count = 0;
     for (slot, wave) in out.waves.iter_mut().zip(shown) {
@@ -64,9 +66,12 @@ pub(super) fn from_eye(
         Quality::High => 12,
     };
     out.wave_deviation_m = waves.deviation_m() as f32;
-    let surface_m = if out.wave_steps > 0 { waves.surface(up, time_secs, f64::INFINITY).wave_m } else { 0.0 };
+    let column = if is_near { Column::of(planet, terrain, up) } else { Column::DEEP };
+    out.eye_depth_m = column.depth_m.min(DEEPEST_M) as f32;
+    out.eye_deepening = column.deepening_planet.as_vec3();
+    out.eye_ice = column.ice as f32;
+    let surface_m = if out.wave_steps > 0 { waves.surface(up, time_secs, &column).wave_m } else { 0.0 };
     out.eye_is_under = u32::from(planet.water.is_some() && over_m < surface_m);
-    out.shore_phase = (TAU * (time_secs / SHORE_PERIOD_SECS).rem_euclid(1.0)) as f32;
     out.floes_per_m = if water.floe_m > 0.0 { (1.0 / water.floe_m) as f32 } else { 0.0 };
     out.floe_eye = if water.floe_m > 0.0 {
         (wrapped(eye_m / (water.floe_m * FLOE_GRID)) * FLOE_GRID).as_vec3()
