@@ -1,5 +1,5 @@
-// LUT of light scattered twice or more: the guess, corrected for how much brighter or darker it is in the surroundings.
-// That light is smooth, so few directions and steps suffice.
+// LUT of light scattered twice or more: the guess, corrected for how much brighter or darker it is in the surroundings,
+// and for the light of the sky on the ground. That light is smooth, so few directions and steps suffice.
 #include "screen.wgsl"
 #include "gather.wgsl"
 
@@ -15,10 +15,9 @@ const NODES: array<vec2f, 5> = array<vec2f, 5>(
 const STEPS: u32 = 6u;
 
 // Radiance of the ground in light from the sky. On the ground, half of all directions see the sky, and half see the
-// ground: guess = (sky + ground) / 2, with ground = sunlit ground + albedo * sky.
+// sunlit ground.
 fn skylit_ground(sun_mu: f32) -> vec3f {
-    let albedo = body.ground_albedo;
-    return albedo * max((2.0 * multiscatter(0.0, sun_mu) - sunlit_ground(sun_mu)) / (1.0 + albedo), vec3f(0.0));
+    return body.ground_albedo * max(2.0 * multiscatter(0.0, sun_mu) - sunlit_ground(sun_mu), vec3f(0.0));
 }
 
 // While this LUT is drawn, multiscatter() reads the guess.
@@ -48,10 +47,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         }
         if ring.hits {
             let mus = sun_cosines(at.x, at.y, ring, ring.path_km, 0.0);
-            let albedo = body.ground_albedo;
-            let change = skylit_ground(mus.x) + skylit_ground(mus.y) - 2.0 * albedo * here;
-            correction += transmittance * change * ring.share;
-            returned += transmittance * 2.0 * albedo * ring.share;
+            correction += transmittance * (skylit_ground(mus.x) + skylit_ground(mus.y)) * ring.share;
         }
     }
     returned = min(returned, vec3f(0.999));

@@ -1,5 +1,6 @@
 // LUT of light scattered twice or more, the mean over all directions, by the sun's cosine to the zenith and altitude: a
-// first guess, as if light were as bright everywhere as at the point (Hillaire 2020, section 5.5).
+// first guess, as if light were as bright everywhere as at the point, and the sky did not light the ground (Hillaire
+// 2020, section 5.5).
 #include "screen.wgsl"
 #include "gather.wgsl"
 
@@ -54,7 +55,6 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         if ring.hits {
             let mus = sun_cosines(at.x, at.y, ring, ring.path_km, 0.0);
             second += transmittance * (sunlit_ground(mus.x) + sunlit_ground(mus.y)) * ring.share;
-            returned += transmittance * 2.0 * body.ground_albedo * ring.share;
         }
     }
     // Each further order of scattering returns the same share, so the sum is a geometric series.

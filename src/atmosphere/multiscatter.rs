@@ -1,9 +1,10 @@
 //! Light that is scattered twice or more, as a LUT by altitude and sun elevation: the mean over all directions, because
 //! scattering blurs (Hillaire 2020, section 5.5). Directions and steps are those of the shaders, in f64.
 //!
-//! Hillaire's sum over all orders assumes that light is as bright everywhere as at the point. That is the first
-//! [`guess`]. It is too dark at twilight, when air higher up is far brighter. The correction gathers the guess from
-//! all around once: one step of Picard's iteration for the equation of radiative transfer.
+//! Hillaire's sum over all orders assumes that light is as bright everywhere as at the point, and that the sky does not
+//! light the ground. That is the first [`guess`]. It is too dark by up to a third in the blue of twilight. The
+//! correction gathers the guess from all around once: one step of the iteration that solves the equation of radiative
+//! transfer.
 
 use super::depth::bilinear;
 use super::line::{Line, horizon_mu};
@@ -119,14 +120,14 @@ impl Gather<'_> {
         sum
     }
 
-    /// The share of isotropic light from the point that air and ground scatter back to it (f_ms), less than 1.
+    /// The share of isotropic light from the point that air scatters back to it (f_ms), less than 1.
     fn returned(&self, quadrature: &Quadrature) -> DVec3 {
-        let returned = self.mean(quadrature, |air, _, _, _| air.scattering(), |_| self.medium.ground_albedo);
+        let returned = self.mean(quadrature, |air, _, _, _| air.scattering(), |_| DVec3::ZERO);
         returned.min(DVec3::splat(MAX_RETURNED))
     }
 }
 
-/// The share of isotropic light from a point that air and ground scatter back to it (f_ms), less than 1.
+/// The share of isotropic light from a point that air scatters back to it (f_ms), less than 1.
 pub(super) fn returned(medium: &Medium, radius: f64, altitude: f64) -> DVec3 {
     Gather { medium, radius, altitude, sun_mu: 1.0 }.returned(&FINE)
 }
@@ -190,18 +191,16 @@ fn guess(lit: &SunlitAir, at: &Gather<'_>) -> DVec3 {
     second / (1.0 - at.returned(&FINE))
 }
 
-/// The guess, corrected for how much brighter or darker it is in the surroundings.
+/// The guess, corrected for how much brighter or darker it is in the surroundings, and for the light of the sky on the
+/// ground.
 fn corrected(lit: &SunlitAir, at: &Gather<'_>, guess: &MultiscatterLut) -> DVec3 {
     let here = guess.at(at.altitude, at.sun_mu);
-    let albedo = lit.medium.ground_albedo;
-    let shine = |air: &Coefficients, altitude: f64, sun_mu: f64, _: f64| {
-        air.scattering() * (guess.at(altitude, sun_mu) - here)
-    };
-    // On the ground, half of all directions see the sky, and half see the ground: guess = (sky + ground) / 2, with
-    // ground = sunlit ground + albedo * sky.
+    let shine =
+        |air: &Coefficients, altitude: f64, sun_mu: f64, _: f64| air.scattering() * (guess.at(altitude, sun_mu) - here);
+    // On the ground, half of all directions see the sky, and half see the sunlit ground.
     let ground = |sun_mu: f64| {
-        let sky = (2.0 * guess.at(0.0, sun_mu) - sunlit_ground(lit, sun_mu)) / (1.0 + albedo);
-        albedo * (sky.max(DVec3::ZERO) - here)
+        let sky = 2.0 * guess.at(0.0, sun_mu) - sunlit_ground(lit, sun_mu);
+        lit.medium.ground_albedo * sky.max(DVec3::ZERO)
     };
     let correction = at.mean(&COARSE, shine, ground);
     let returned = at.returned(&COARSE);
