@@ -14,8 +14,7 @@ const NODES: array<vec2f, 4> = array<vec2f, 4>(
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     set_lut_sun();
     let x = (pixel.xy - 0.5) / (IRRADIANCE_SIZE - 1.0);
-    let root = x.x * 2.0 - 1.0;
-    let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
+    let sun_mu = sun_cosine_at(x.x);
     let h = x.y * x.y * body.air_height_km * 0.9999;
     if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
     var sum = vec3f(0.0);

@@ -32,15 +32,24 @@ fn all_is_dark(h: f32, sun_mu: f32) -> bool {
     return asin(sun_mu) < -dips - max(active_sun.radius_rad, 0.0015) - 0.02;
 }
 
-// The square root gives LUTs more texels around the terminator.
-fn signed_root(x: f32) -> f32 { return sign(x) * sqrt(abs(x)); }
+// LUTs have most columns around the terminator: at this cosine of the sun to the zenith, a quarter as many as there.
+const TWILIGHT: f32 = 0.15;
+
+// Where a cosine of the sun to the zenith lies between the first column of a LUT (0) and the last one (1).
+fn unit_of_sun(mu: f32) -> f32 { return 0.5 + 0.5 * (1.0 + TWILIGHT) * mu / (abs(mu) + TWILIGHT); }
+
+// The inverse of unit_of_sun.
+fn sun_cosine_at(x: f32) -> f32 {
+    let y = (2.0 * x - 1.0) / (1.0 + TWILIGHT);
+    return clamp(TWILIGHT * y / (1.0 - abs(y)), -1.0, 1.0);
+}
 
 // Scales the dim light of deep twilight into the range of 16-bit floats.
 const MULTISCATTER_SCALE: f32 = 1024.0;
 
 // Radiance from two or more scatterings, the mean over all directions, for unit irradiance.
 fn multiscatter(h: f32, mu: f32) -> vec3f {
-    let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / body.air_height_km)));
+    let x = vec2f(unit_of_sun(mu), sqrt(saturate1(h / body.air_height_km)));
     let at = texel_from_unit(x, MULTISCATTER_SIZE);
     return textureSampleLevel(multiscatter_lut, clamped, at, 0.0).rgb / MULTISCATTER_SCALE;
 }
@@ -59,7 +68,7 @@ fn sky_irradiance(h: f32, mu: f32) -> vec3f {
     // Night light counts once, however many suns there are.
     let night = select(vec3f(0.0), PI * NIGHT_SKY, is_first_sun);
     if body.air_height_km <= 0.0 { return night; }
-    let x = vec2f(signed_root(mu) * 0.5 + 0.5, sqrt(saturate1(h / body.air_height_km)));
+    let x = vec2f(unit_of_sun(mu), sqrt(saturate1(h / body.air_height_km)));
     let table = textureSampleLevel(irradiance_lut, clamped, texel_from_unit(x, IRRADIANCE_SIZE), 0.0).rgb;
     return table * active_sun.irradiance + night;
 }
@@ -68,7 +77,7 @@ fn sky_irradiance(h: f32, mu: f32) -> vec3f {
 fn sky_radiance(view_mu: f32, sun_mu: f32) -> vec3f {
     let night = select(vec3f(0.0), NIGHT_SKY, is_first_sun);
     if body.air_height_km <= 0.0 { return night; }
-    let x = vec2f(signed_root(sun_mu) * 0.5 + 0.5, sqrt(saturate1(view_mu)));
+    let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(view_mu)));
     let table = textureSampleLevel(sky_lut, clamped, texel_from_unit(x, SKY_SIZE), 0.0).rgb;
     return table * active_sun.irradiance + night;
 }

@@ -1,81 +1,58 @@
-// LUT of light scattered twice or more (Hillaire 2020, section 5.5), by the sun's cosine to the zenith and altitude.
+// LUT of light scattered twice or more: the guess, corrected for how much brighter or darker it is in the surroundings,
+// and for the light of the sky on the ground. That light is smooth, so few directions and steps suffice.
 #include "screen.wgsl"
-#include "light.wgsl"
+#include "gather.wgsl"
 
-// Directions are sampled in rings of equal elevation, as in src/atmosphere/multiscatter.rs. Radiance jumps at the
-// horizon, so each side of it has its own Gauss-Legendre nodes between the horizon (0) and the zenith or nadir (1),
-// with their weights.
-const UPPER: u32 = 7u;
-const LOWER: u32 = 5u;
-const NODES: array<vec2f, 12> = array<vec2f, 12>(
-    vec2f(0.0254460438, 0.0647424831),
-    vec2f(0.1292344072, 0.1398526957),
-    vec2f(0.2970774243, 0.1909150253),
-    vec2f(0.5, 0.2089795918),
-    vec2f(0.7029225757, 0.1909150253),
-    vec2f(0.8707655928, 0.1398526957),
-    vec2f(0.9745539562, 0.0647424831),
-    vec2f(0.0469100770, 0.1184634425),
-    vec2f(0.2307653449, 0.2393143352),
-    vec2f(0.5, 0.2844444444),
-    vec2f(0.7692346551, 0.2393143352),
-    vec2f(0.9530899230, 0.1184634425),
+const UPPER: u32 = 3u;
+const LOWER: u32 = 2u;
+const NODES: array<vec2f, 5> = array<vec2f, 5>(
+    vec2f(0.1127016654, 0.2777777778),
+    vec2f(0.5, 0.4444444444),
+    vec2f(0.8872983346, 0.2777777778),
+    vec2f(0.2113248654, 0.5),
+    vec2f(0.7886751346, 0.5),
 );
-// Points along half of each ring, a quarter of the ring apart; the other half is its mirror image.
-const ASIDE: f32 = 0.70710678;
-const STEPS: u32 = 14u;
+const STEPS: u32 = 6u;
 
+// Radiance of the ground in light from the sky. On the ground, half of all directions see the sky, and half see the
+// sunlit ground.
+fn skylit_ground(sun_mu: f32) -> vec3f {
+    return body.ground_albedo * max(2.0 * multiscatter(0.0, sun_mu) - sunlit_ground(sun_mu), vec3f(0.0));
+}
+
+// While this LUT is drawn, multiscatter() reads the guess.
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     set_lut_sun();
-    let x = (pixel.xy - 0.5) / (MULTISCATTER_SIZE - 1.0);
-    let root = x.x * 2.0 - 1.0;
-    let sun_mu = clamp(sign(root) * root * root, -1.0, 1.0);
-    let radius = body.radius_km;
-    let top = body.air_height_km;
-    let h = clamp(x.y * x.y * top, top * 1e-5, top * 0.9999);
-    if all_is_dark(h, sun_mu) { return vec4f(0.0, 0.0, 0.0, 1.0); }
-    let sun_flat = sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
-    let horizon = horizon_cosine(h);
-
-    var second = vec3f(0.0);
+    let at = point_of_texel(pixel);
+    if all_is_dark(at.x, at.y) { return vec4f(0.0, 0.0, 0.0, 1.0); }
+    let here = multiscatter(at.x, at.y);
+    var correction = vec3f(0.0);
     var returned = vec3f(0.0);
     for (var i = 0u; i < UPPER + LOWER; i++) {
-        let node = NODES[i];
-        let hits = i >= UPPER;
-        let span = select(1.0 - horizon, -1.0 - horizon, hits);
-        let mu = horizon + span * node.x;
-        let share = 0.5 * abs(span) * node.y;
-        let b = (radius + h) * mu;
-        let shell = ray_sphere(b, (h - top) * (2.0 * radius + h + top));
-        let ground = ray_sphere(b, h * (2.0 * radius + h));
-        let path_km = select(shell.y, ground.x, hits);
-        let middle = clamp(-b, 0.0, path_km);
-        let start = -sqrt(middle);
-        let step = (sqrt(path_km - middle) - start) / f32(STEPS);
-        let ahead = ASIDE * sqrt(1.0 - mu * mu) * sun_flat;
-        let cosines = mu * sun_mu + vec2f(ahead, -ahead);
+        let ring = ring_around(at.x, at.y, NODES[i], i >= UPPER, STEPS);
         var transmittance = vec3f(1.0);
         for (var s = 0u; s < STEPS; s++) {
-            let w = start + f32(s) * step;
-            let length_km = bent(w + step, middle) - bent(w, middle);
-            let t = bent(w + 0.5 * step, middle);
-            let height = altitude_along(radius, h, mu, t);
+            let w = ring.start + f32(s) * ring.step;
+            let length_km = bent(w + ring.step, ring.middle) - bent(w, ring.middle);
+            let t = bent(w + 0.5 * ring.step, ring.middle);
+            let height = altitude_along(body.radius_km, at.x, ring.mu, t);
             let air = air_at(height);
-            let inside = transmittance * (air.rayleigh + air.mie) * shining_length(air.extinction, length_km);
-            let mus = clamp(((radius + h) * sun_mu + t * cosines) / (radius + height), vec2f(-1.0), vec2f(1.0));
-            let light = sun_transmittance(height, mus.x) + sun_transmittance(height, mus.y);
-            second += inside * light * (share / (8.0 * PI));
-            returned += inside * share;
+            let inside =
+                transmittance * (air.rayleigh + air.mie) * shining_length(air.extinction, length_km) * ring.share;
+            let mus = sun_cosines(at.x, at.y, ring, t, height);
+            correction += inside * (multiscatter(height, mus.x) + multiscatter(height, mus.y) - 2.0 * here);
+            returned += inside * 2.0;
             transmittance *= exp(-air.extinction * length_km);
         }
-        if hits {
-            let mus = clamp(((radius + h) * sun_mu + path_km * cosines) / radius, vec2f(-1.0), vec2f(1.0));
-            let light = sun_transmittance(0.0, mus.x) * max(mus.x, 0.0)
-                + sun_transmittance(0.0, mus.y) * max(mus.y, 0.0);
-            second += transmittance * light * body.ground_albedo * (share / (2.0 * PI));
+        if ring.hits {
+            let mus = sun_cosines(at.x, at.y, ring, ring.path_km, 0.0);
+            correction += transmittance * (skylit_ground(mus.x) + skylit_ground(mus.y)) * ring.share;
         }
     }
-    // Each further order of scattering returns the same share, so the sum is a geometric series.
-    return vec4f(second / (1.0 - min(returned, vec3f(0.999))) * MULTISCATTER_SCALE, 1.0);
+    returned = min(returned, vec3f(0.999));
+    // The correction is scattered on too. Its sum over all orders is limited to thin air: in dense air, it differs too
+    // much from place to place. The result is no less than the first term of the series.
+    let all = max(here + correction / (1.0 - min(returned, vec3f(0.4))), here * (1.0 - returned));
+    return vec4f(min(all * MULTISCATTER_SCALE, vec3f(60000.0)), 1.0);
 }

@@ -21,14 +21,25 @@ use crate::world::{MapPicture, MapView};
 use std::sync::Arc;
 
 /// The LUTs of the air in order of dependence: name, shader, size.
-const AIR_LUTS: [(&str, &str, [u32; 2]); 4] = [
+const AIR_LUTS: [(&str, &str, [u32; 2]); 5] = [
     ("optical depth", "optical_depth.wgsl", OPTICAL_DEPTH_SIZE),
+    ("multiscatter guess", "multiscatter_guess.wgsl", MULTISCATTER_SIZE),
     ("multiscatter", "multiscatter.wgsl", MULTISCATTER_SIZE),
     ("irradiance", "irradiance.wgsl", IRRADIANCE_SIZE),
     ("sky", "sky.wgsl", SKY_SIZE),
 ];
-/// Number of earlier LUTs in the list that each LUT of the air reads.
-const AIR_LUTS_READ: [usize; 4] = [0, 1, 2, 2];
+/// Number of earlier LUTs in the list that must be ready when each LUT of the air is drawn.
+const AIR_LUTS_READ: [usize; AIR_LUTS.len()] = [0, 1, 2, 3, 3];
+/// The first LUT in the list of each key: optical depth, multiple scattering, light of the sky.
+const FIRST_OF_KEY: [usize; 3] = [0, 1, 3];
+
+/// The LUTs that shaders see in the slots of `luts.wgsl` when the first ones of the list are ready. The guess stands in
+/// for multiple scattering until that is ready.
+fn air_slots(ready: usize) -> [usize; 4] {
+    // A texture must not be bound while it is drawn, so the first LUT stands in for the others.
+    let slot = |i: usize| if i < ready { i } else { 0 };
+    [0, slot(2).max(slot(1)), slot(3), slot(4)]
+}
 
 /// Number of times that each texture of a body, and its uniforms, have been written since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,7 +51,9 @@ pub struct LutRuns {
     pub weather: u64,
     /// The LUT of the optical depth of the air.
     pub optical_depth: u64,
-    /// The three LUTs of scattered light.
+    /// The LUT of light that the air scatters twice or more.
+    pub multiscatter: u64,
+    /// The two LUTs of the light of the sky.
     pub air: u64,
     /// The uniforms of the body and of the frame.
     pub uniforms: u64,
@@ -104,19 +117,19 @@ pub(crate) struct Luts {
     map_picture: wgpu::TextureView,
     shown_map: Option<(MapView, [Option<Key>; 2])>,
     groups: Groups,
-    depth_key: Option<Key>,
-    /// The planet's key, and the bits of the widest sun's angular radius, which softens the terminator.
-    air_key: Option<(Key, u32)>,
+    /// For optical depth, multiple scattering and the light of the sky: the planet's key, and the bits of the widest
+    /// sun's angular radius, which softens the terminator.
+    air_keys: [Option<(Key, u32)>; FIRST_OF_KEY.len()],
     biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
 }
 
-/// Bind groups with all LUTs for drawing, and with the first ones only, for drawing the other LUTs of the air.
+/// Bind groups with all LUTs for drawing, and with the first one, two and three only, for drawing the other LUTs of the
+/// air.
 struct Groups {
     all: wgpu::BindGroup,
-    first_of_air: wgpu::BindGroup,
-    first_two_of_air: wgpu::BindGroup,
+    first_of_air: [wgpu::BindGroup; 3],
 }
 
 impl Luts {
@@ -135,8 +148,7 @@ impl Luts {
             map_picture,
             shown_map: None,
             groups,
-            depth_key: None,
-            air_key: None,
+            air_keys: Default::default(),
             biome_key: None,
             biome_texels,
             runs: LutRuns::default(),
@@ -150,7 +162,7 @@ impl Luts {
 
     /// Makes the next frame draw everything again, because shaders have changed.
     pub(crate) fn forget(&mut self) {
-        (self.depth_key, self.air_key) = (None, None);
+        self.air_keys = Default::default();
     }
 
     /// Updates everything that a revision has made stale. `uniforms`: those of the body, already written.
@@ -171,14 +183,17 @@ impl Luts {
             self.write_biomes(device, queue, patterns, texels);
             self.biome_key = biome_key;
         }
-        let air_key = Some((keys.air_tables(), sun_radius_rad.to_bits()));
-        if planet.atmosphere.is_some() && self.air_key != air_key {
-            let depth_key = Some(keys.optical_depth());
-            let has_depth = self.depth_key == depth_key;
-            self.fill_air(encoder, uniforms, pipelines, usize::from(has_depth));
-            self.runs.optical_depth += u64::from(!has_depth);
-            (self.depth_key, self.air_key) = (depth_key, air_key);
-            self.runs.air += 1;
+        if planet.atmosphere.is_some() {
+            let sun = sun_radius_rad.to_bits();
+            let air_keys = [(keys.optical_depth(), 0), (keys.multiscatter(), sun), (keys.air_tables(), sun)].map(Some);
+            // Each key includes the ones before it.
+            if let Some(stale) = (0..air_keys.len()).find(|i| self.air_keys[*i] != air_keys[*i]) {
+                self.fill_air(encoder, uniforms, pipelines, FIRST_OF_KEY[stale]);
+                self.air_keys = air_keys;
+                self.runs.optical_depth += u64::from(stale == 0);
+                self.runs.multiscatter += u64::from(stale <= 1);
+                self.runs.air += 1;
+            }
         }
     }
 
@@ -246,8 +261,7 @@ impl Luts {
         for (i, (name, ..)) in AIR_LUTS.iter().enumerate().skip(first) {
             let groups = match AIR_LUTS_READ[i] {
                 0 => vec![uniforms],
-                1 => vec![uniforms, &self.groups.first_of_air],
-                _ => vec![uniforms, &self.groups.first_two_of_air],
+                ready => vec![uniforms, &self.groups.first_of_air[ready - 1]],
             };
             gpu::draw_screen(encoder, name, &pipelines.air[i], &groups, &[&self.air[i]]);
         }
@@ -279,14 +293,13 @@ impl Groups {
         biomes: &BiomeTextures,
     ) -> Self {
         let (noise, materials) = (&patterns.noise, &patterns.materials);
-        // A texture must not be bound while it is drawn, so the first LUT stands in for those not ready yet.
         let bind = |ready: usize| {
-            let air = (0..air.len()).map(|i| &air[if i < ready { i } else { 0 }]);
+            let air = air_slots(ready).into_iter().map(|i| &air[i]);
             let (ids, params) = (&biomes.ids, &biomes.params);
             let rest = [clouds, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
             gpu::group(device, "LUTs", &patterns.layout, views)
         };
-        Self { all: bind(air.len()), first_of_air: bind(1), first_two_of_air: bind(2) }
+        Self { all: bind(air.len()), first_of_air: [1, 2, 3].map(bind) }
     }
 }

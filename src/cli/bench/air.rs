@@ -13,8 +13,8 @@ use std::sync::Arc;
 /// Small: the LUTs have the same size whatever the picture is.
 const SIZE_PX: [u32; 2] = [16, 16];
 
-/// `tables_ms`: the median time that new LUTs of the air add to a frame, with drawing waited for. `None` without a
-/// GPU or air.
+/// `tables_ms`: the median time that new LUTs of scattered light add to a frame, with drawing waited for. `None`
+/// without a GPU or air.
 pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
     let gpu = Gpu::open(SIZE_PX).ok()?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).ok()?;
@@ -25,7 +25,7 @@ pub(super) fn measure(planet: &Arc<Planet>) -> Option<Value> {
     let mut times = |change: bool| {
         repeat(|| {
             if let Some(air) = planet.atmosphere.as_mut().filter(|_| change) {
-                air.mie_anisotropy = if air.mie_anisotropy > 0.7 { 0.65 } else { 0.75 };
+                air.ground_albedo = if air.ground_albedo[0] > 0.3 { [0.25; 3] } else { [0.35; 3] };
             }
             let Ok(revision) = Revision::try_new(Arc::new(planet.clone())) else { return };
             let scene = Scene::of_revision(revision, &surface, view, planet.star.place(0.0).direction());

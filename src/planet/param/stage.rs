@@ -21,7 +21,9 @@ pub enum Stage {
     CloudMap,
     /// LUT of the optical depth of the air.
     OpticalDepth,
-    /// LUTs of scattered light.
+    /// LUT of light that the air scatters twice or more.
+    Multiscatter,
+    /// LUTs of the light of the sky.
     AirTables,
     /// Uniforms: water, star, rock, cloud drift, climate by height.
     Uniform,
@@ -31,7 +33,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 10] = [
+    pub const ALL: [Stage; 11] = [
         Stage::Field,
         Stage::Height,
         Stage::ClimateNoise,
@@ -39,6 +41,7 @@ impl Stage {
         Stage::Material,
         Stage::CloudMap,
         Stage::OpticalDepth,
+        Stage::Multiscatter,
         Stage::AirTables,
         Stage::Uniform,
         Stage::Label,
@@ -50,7 +53,8 @@ impl Stage {
             Stage::Field => Stages::of(&[Stage::Height, Stage::Climate]),
             Stage::Height | Stage::ClimateNoise => Stages::of(&[Stage::Climate]),
             // The shaders that fill these textures read the parameters from uniforms.
-            Stage::OpticalDepth => Stages::of(&[Stage::AirTables, Stage::Uniform]),
+            Stage::OpticalDepth => Stages::of(&[Stage::Multiscatter, Stage::AirTables, Stage::Uniform]),
+            Stage::Multiscatter => Stages::of(&[Stage::AirTables, Stage::Uniform]),
             Stage::CloudMap | Stage::AirTables => Stages::of(&[Stage::Uniform]),
             Stage::Climate | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
         }

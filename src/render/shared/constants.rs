@@ -46,7 +46,7 @@ pub(crate) const MIXTURE_ENTRIES: u32 = 10;
 pub(crate) const SHOWN_BYTES: u64 = 4 * 4;
 /// Size of each LUT of the air, texels.
 pub(crate) const OPTICAL_DEPTH_SIZE: [u32; 2] = [256, 64];
-pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 32];
+pub(crate) const MULTISCATTER_SIZE: [u32; 2] = [32, 16];
 pub(crate) const IRRADIANCE_SIZE: [u32; 2] = [64, 16];
 pub(crate) const SKY_SIZE: [u32; 2] = [64, 20];
 /// Texels along a face of a cloud map.
