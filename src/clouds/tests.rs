@@ -72,15 +72,19 @@ fn each_zone_is_as_covered_as_its_climate_asks() {
 }
 
 /// Clouds from orbit are of all sizes, as real ones: the number of clouds of greater perimeter falls as a power of the
-/// perimeter. Its exponent is 1.26 for real clouds (DeWitt, Garrett and Rees 2024), a little less for these, which have
-/// fewer small ones; that of popcorn of one size is 3 and more.
+/// perimeter. Its exponent is 1.26 for real clouds (DeWitt, Garrett and Rees 2024), a little less for these; that of
+/// popcorn of one size is 3 and more. Clouds near the finest octave, 4 texels wide, are left out, as in measurements
+/// from satellites.
 #[test]
 fn clouds_are_of_all_sizes() {
     const SIDE: usize = 384;
-    const LEAST: usize = 14;
+    const LEAST: usize = 28;
     let field = CloudField::with(&planet(Clouds { coverage: 0.35, wind_km_h: 0.0, ..Clouds::default() }), None);
     let mut perimeters: Vec<f64> = Vec::new();
-    for (face, time_secs) in [(DVec3::X, 0.0), (DVec3::Y, 4e6), (DVec3::NEG_X, 9e6)] {
+    let times_secs = [0.0, 4e6, 9e6, 12e6, 15e6, 18e6];
+    for (face, time_secs) in
+        [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::X, DVec3::Y].into_iter().zip(times_secs)
+    {
         let (east, north) = crate::sphere::geo::east_north(face);
         let at = |i: usize| (i as f64 + 0.5) / SIDE as f64 - 0.5;
         let dir = |i: usize| (face + east * at(i % SIDE) + north * at(i / SIDE)).normalize();
@@ -112,7 +116,7 @@ fn clouds_are_of_all_sizes() {
     // Maximum likelihood (Hill 1975). A perimeter is an even number: one less is the middle of what rounds to it.
     let exponent =
         perimeters.len() as f64 / perimeters.iter().map(|p| (p * LEAST as f64 / (LEAST - 1) as f64).ln()).sum::<f64>();
-    assert!(perimeters.len() > 100 && (0.9..1.36).contains(&exponent), "{exponent} of {} clouds", perimeters.len());
+    assert!(perimeters.len() > 100 && (1.1..1.36).contains(&exponent), "{exponent} of {} clouds", perimeters.len());
 }
 
 /// Clouds change, but from one minute to the next no cover jumps; a keyframe is no seam in time.
