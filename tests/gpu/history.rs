@@ -65,25 +65,24 @@ fn clouds_are_carried_over_to_where_they_are() {
     }
 }
 
-/// A still picture comes close to one of many samples; at low quality from half of its pixels.
+/// A still picture comes close to one of many samples, from frames with half of its pixels.
 #[test]
 fn still_pictures_converge() {
     let planet = cloudy();
     let camera = among_clouds(&planet, 0.0);
     let mut gpu = gpu();
-    for (quality, gain) in [(Quality::Low, 2.0), (Quality::Medium, 1.02)] {
-        let mut series = Series { gpu: &mut gpu, planet: planet.clone(), quality, id: ViewId(72) };
-        let first = series.draw(camera, Reuse::Begin);
-        let mut still = Vec::new();
-        for _ in 0..16 {
-            still = series.draw(camera, Reuse::Still);
-        }
-        let reference = many_samples(series.gpu, &planet, camera, quality);
-        let [before, after] = [&first, &still].map(|picture| difference(picture, &reference));
-        assert!(before > gain * after, "{quality:?}: {before} became {after}");
-        let again = series.draw(camera, Reuse::Begin);
-        assert!(difference(&again, &first) < 0.5 * before, "{quality:?}: another picture begins anew");
+    let quality = Quality::Low;
+    let mut series = Series { gpu: &mut gpu, planet: planet.clone(), quality, id: ViewId(72) };
+    let first = series.draw(camera, Reuse::Begin);
+    let mut still = Vec::new();
+    for _ in 0..12 {
+        still = series.draw(camera, Reuse::Still);
     }
+    let reference = many_samples(series.gpu, &planet, camera, quality);
+    let [before, after] = [&first, &still].map(|picture| difference(picture, &reference));
+    assert!(before > 2.0 * after, "{before} became {after}");
+    let again = series.draw(camera, Reuse::Begin);
+    assert!(difference(&again, &first) < 0.5 * before, "another picture begins anew");
 }
 
 /// A photograph of twice the size, of 9 samples to a pixel, shrunk.
