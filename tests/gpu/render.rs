@@ -236,8 +236,8 @@ fn at_night_the_ground_is_lit_by_the_sky() {
 fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     let planet = Arc::new(full_planet());
     let mut gpu = gpu();
-    // From here clouds are thicker than a pixel, so that all of their parameters count.
-    let camera = camera(&planet, 10.0, 10.0, 2e4, 40.0, -90.0);
+    // Among the clouds all of their parameters count.
+    let camera = camera(&planet, 10.0, 10.0, 3e3, 40.0, -90.0);
     // LUTs depend on the planet, not on tiles, so one surface and a very small picture suffice.
     let surface = surface(&planet, &camera);
     let view = View { camera, size_px: [32, 18], quality: Quality::Low };

@@ -15,7 +15,7 @@ pub fn full_planet() -> Planet {
         // A young sea, whose waves grow with the fetch, and that glows.
         water: Some(Water { fetch_km: 8.0, glow: 0.1, ..Water::default() }),
         atmosphere: Some(Atmosphere::default()),
-        clouds: Some(Clouds::default()),
+        clouds: Some(Clouds { middle: 0.2, ..Clouds::default() }),
         ..Planet::default()
     };
     // A height map without its picture has no effect.
