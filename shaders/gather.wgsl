@@ -44,6 +44,21 @@ fn ring_around(h: f32, sun_mu: f32, node: vec2f, hits: bool, steps: u32) -> Ring
     return Ring(mu, share, mu * sun_mu + vec2f(ahead, -ahead), path_km, hits, middle, start, step);
 }
 
+// A step along a ring: its middle, its length, and the altitude of its middle.
+struct Part {
+    at_km: f32,
+    length_km: f32,
+    height: f32,
+}
+
+// `h`: altitude of the point.
+fn part_of(ring: Ring, h: f32, number: u32) -> Part {
+    let w = ring.start + f32(number) * ring.step;
+    let at_km = bent(w + 0.5 * ring.step, ring.middle);
+    let length_km = bent(w + ring.step, ring.middle) - bent(w, ring.middle);
+    return Part(at_km, length_km, altitude_along(body.radius_km, h, ring.mu, at_km));
+}
+
 // Cosines of the sun to the zenith at distance `t` along both points of a ring.
 fn sun_cosines(h: f32, sun_mu: f32, ring: Ring, t: f32, height: f32) -> vec2f {
     let radius = body.radius_km;

@@ -40,17 +40,14 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         let ring = ring_around(at.x, at.y, NODES[i], i >= UPPER, STEPS);
         var transmittance = vec3f(1.0);
         for (var s = 0u; s < STEPS; s++) {
-            let w = ring.start + f32(s) * ring.step;
-            let length_km = bent(w + ring.step, ring.middle) - bent(w, ring.middle);
-            let t = bent(w + 0.5 * ring.step, ring.middle);
-            let height = altitude_along(body.radius_km, at.x, ring.mu, t);
-            let air = air_at(height);
-            let inside = transmittance * shining_length(air.extinction, length_km) * ring.share;
-            let mus = sun_cosines(at.x, at.y, ring, t, height);
+            let part = part_of(ring, at.x, s);
+            let air = air_at(part.height);
+            let inside = transmittance * shining_length(air.extinction, part.length_km) * ring.share;
+            let mus = sun_cosines(at.x, at.y, ring, part.at_km, part.height);
             second += inside
-                * (sunlit_air(air, height, mus.x, ring.cosines.x) + sunlit_air(air, height, mus.y, ring.cosines.y));
+                * (sunlit_air(air, part.height, mus.x, ring.cosines.x) + sunlit_air(air, part.height, mus.y, ring.cosines.y));
             returned += inside * 2.0 * (air.rayleigh + air.mie);
-            transmittance *= exp(-air.extinction * length_km);
+            transmittance *= exp(-air.extinction * part.length_km);
         }
         if ring.hits {
             let mus = sun_cosines(at.x, at.y, ring, ring.path_km, 0.0);

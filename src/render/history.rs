@@ -134,10 +134,15 @@ impl CloudHistory {
         let eye = Eye { position_m: of.eye_m, clip_from_rel_m: out.clip_from_rel_m, drift_rad: of.drift_rad };
         let kept = history.take().filter(|kept| kept.size_px == of.size_px && kept.quality == of.quality);
         let Some(mut kept) = kept else {
-            let pictures = [(); 2].map(|()| CloudPicture::new(device, of.size_px));
-            let carries = false;
-            let (size_px, quality) = (of.size_px, of.quality);
-            *history = Some(Self { size_px, pictures, marched: None, newest: 0, eye, carries, quality });
+            *history = Some(Self {
+                size_px: of.size_px,
+                pictures: [(); 2].map(|()| CloudPicture::new(device, of.size_px)),
+                marched: None,
+                newest: 0,
+                eye,
+                carries: false,
+                quality: of.quality,
+            });
             return false;
         };
         kept.newest = 1 - kept.newest;

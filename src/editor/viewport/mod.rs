@@ -263,8 +263,8 @@ impl Viewport {
         self.moving = moved.animating;
         self.advance_time(ui);
 
-        let (now_secs, touched) = ui.input(|i| (i.time, !i.events.is_empty() || i.pointer.any_down()));
-        if touched {
+        let (now_secs, pressed) = ui.input(|i| (i.time, i.pointer.any_down()));
+        if pressed || ui.input(|i| !i.events.is_empty()) {
             self.picture.refinement.touched(now_secs);
         }
         let view = self.view(ui.ctx(), rect, &ground);
@@ -277,7 +277,7 @@ impl Viewport {
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
         if let Some(surface) = surface {
-            self.draw(surface, valid, view, ui.input(|input| input.pointer.any_down()), now_secs);
+            self.draw(surface, valid, view, pressed, now_secs);
         }
         if let Some(wait) = self.picture.refines_after(&self.settings, now_secs).filter(|_| !self.is_busy()) {
             ui.ctx().request_repaint_after(wait);
