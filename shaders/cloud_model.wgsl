@@ -9,8 +9,9 @@ fn drifted(p: vec3f) -> vec3f {
     return vec3f(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
 }
 
-// Shift of look-ups in the cloud maps, texels over the noise.
-const SHIFT: f32 = 3.5;
+// Shift of look-ups in the cloud maps, periods of a band. More would fold the maps: every cloud would have loops for
+// borders.
+const SHIFT: f32 = 0.1;
 
 // The cloud maps at a direction from the centre.
 struct Sky {
@@ -35,11 +36,16 @@ fn cover_of(rank: vec4f, odds: vec4f) -> vec4f {
 fn shifted(dir: vec3f, texel_km: f32, footprint: f32) -> vec3f {
     let share = 1.0 - smoothstep(0.3, 1.0, footprint / texel_km);
     if NEARNESS == FROM_ORBIT || share <= 0.0 { return vec3f(0.0); }
-    let band = body.cloud_bands[1];
-    let rel = drifted(dir * body.radius_km - body.eye_km);
-    let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1.0));
-    let n = textureSampleLevel(noise_tile, repeated, band.offset + rel / band.period, lod).rg - 0.5;
-    return vec3f(n, n.x - n.y) * (share * SHIFT * texel_km / body.radius_km);
+    var position = drifted(dir * body.radius_km - body.eye_km);
+    var shift = vec3f(0.0);
+    for (var i = 0u; i < 2u; i++) {
+        let band = body.cloud_bands[i];
+        let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1.0));
+        let n = textureSampleLevel(noise_tile, repeated, band.offset + position / band.period, lod).rg - 0.5;
+        shift += vec3f(n, n.x - n.y) * min(SHIFT * band.period, 2.0 * texel_km);
+        position = OCTAVE_TURN * position;
+    }
+    return shift * (share / body.radius_km);
 }
 
 // Tops of decks and of small heaps where thunderclouds tower over them, 0 to 1 in the layer.
@@ -77,15 +83,29 @@ fn sky_over(dir: vec3f, footprint: f32) -> Sky {
     return Sky(vec4f(covers.w, rain, covers.xy), covers.z, layered, top);
 }
 
-// Cover at the height of anvils, over that at the base.
+// Logarithm of the ratio of the optical depths of thick and thin columns of one cloud.
+const SPREAD: f32 = 1.6;
+// Optical depth of columns over that of the layer, at the edge of weather systems and in their middle.
+const THIN: f32 = 0.4;
+const THICK: f32 = 1.2;
+// Height of the base of anvils in the layer, and cover there over that at the base of the layer.
+const ANVIL_BASE: f32 = 0.78;
 const ANVIL_COVERS: vec2f = vec2f(0.35, 0.7);
 
-// Density (0..1; more where the layer's depth is squeezed into less than its thickness) at a point relative to the eye
-// (km) and at a height in the layer (0..1), under the sky of its direction. `footprint`: size in km below which nothing
-// is resolved; finer noise is replaced by its mean, and the edge widens.
-fn cloud_density(number: u32, rel: vec3f, sky: Sky, height: f32, footprint: f32) -> f32 {
+// A cloud at a point.
+struct Cloud {
+    // Over that of closed cloud; more where the layer's depth is squeezed into less than its thickness
+    density: f32,
+    // Optical depth of the column through the point over that of closed cloud
+    column: f32,
+}
+
+// The cloud at a point relative to the eye (km) and at a height in the layer (0..1), under the sky of its direction.
+// `footprint`: size in km below which nothing is resolved; finer noise is replaced by its mean, and the edge widens.
+// `extent`: heights over which the density is a mean, so that few steps do not miss a thin anvil.
+fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footprint: f32) -> Cloud {
     var cover = sky.covers[number];
-    if cover <= 0.0 { return 0.0; }
+    if cover <= 0.0 { return Cloud(0.0, 0.0); }
     let layered = vec4f(1.0, 0.5, sky.layered, 0.6 * sky.layered)[number];
     var position = drifted(rel);
     // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
@@ -100,7 +120,7 @@ fn cloud_density(number: u32, rel: vec3f, sky: Sky, height: f32, footprint: f32)
         let band = body.cloud_bands[i];
         let lod = log2(max(footprint * NOISE_TILE_SIDE / band.period, 1e-6));
         // A band fades out before its tile is small enough on screen for the repetition to show.
-        var share = 1.0 - smoothstep(-1.0, 2.0, lod);
+        var share = 1.0 - smoothstep(-0.5, 2.6, lod);
         if share <= 0.0 { break; }
         let n = textureSampleLevel(noise_tile, repeated, band.offset + position / band.period, lod);
         if i < puff {
@@ -120,11 +140,14 @@ fn cloud_density(number: u32, rel: vec3f, sky: Sky, height: f32, footprint: f32)
     let depth = body.cloud_layers[number].optical_depth;
     // Low clouds: flat bases, heaps that narrow upwards, anvils over thunderclouds.
     let risen = height / sky.top;
-    let anvil = body.cloud_towers * (1.0 - layered) * smoothstep(0.74, 0.82, height)
+    let low = max(height - 0.5 * max(extent, 0.08), 0.0);
+    let high = min(height + 0.5 * max(extent, 0.08), 1.0);
+    let anvil = body.cloud_towers * (1.0 - layered) * saturate1((high - max(low, ANVIL_BASE)) / (high - low))
         * smoothstep(ANVIL_COVERS.x, ANVIL_COVERS.y, base);
     var narrowed = 0.55 * max(risen - 0.25, 0.0);
     // Tops of decks and of small heaps are uneven; the ice of an anvil is thin.
-    var envelope = max(saturate1((1.1 + 0.5 * (carve - 0.5) - risen) * 6.0) / sky.top, 0.45 * anvil);
+    let under = (1.02 + 0.5 * (carve - 0.5) - risen) / (0.17 + extent / sky.top);
+    var envelope = max(saturate1(under + 0.5) / sky.top, 0.45 * anvil);
     if number == MIDDLE_LAYER {
         let off = 2.0 * height - 1.0;
         narrowed = 0.6 * off * off;
@@ -142,14 +165,19 @@ fn cloud_density(number: u32, rel: vec3f, sky: Sky, height: f32, footprint: f32)
     cover = mix(base, max(base, anvil), f32(number == LOW_LAYER));
     let n = clamp(carve - (1.0 - cover) * narrowed, 0.0, 1.0);
     let width = mix(0.3, 0.55, layered);
-    // Even overcast cloud varies in thickness.
-    let bulk = 0.5 + n + 2.0 * bend * cover;
-    let sharp = saturate1((n - 1.0 + cover) / width + cover * cover * cover) * max(bulk, 0.25);
+    // Even overcast cloud varies in thickness. Optical depths are distributed log-normally (Barker, Wielicki, Parker, A
+    // parameterization for computing grid-averaged solar fluxes, 1996).
+    let bulk = exp(SPREAD * (n - 0.5 + bend * cover));
+    let closed = cover * cover * cover;
+    let sharp = saturate1((n - 1.0 + cover) / width + closed) * bulk;
+    let column = saturate1((carve - 1.0 + cover) / width + closed) * bulk;
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-depth);
     // Of a dense layer no light is left in 32 bits.
     let mean = -log(max(1.0 - cover * opaque, 1e-7)) / depth;
-    return mix(sharp, mean, blurred) * envelope;
+    let mapped = sky.covers[number];
+    let thickness = mix(THIN, THICK, mapped * mapped);
+    return Cloud(mix(sharp, mean, blurred) * envelope, mix(column, 1.0, blurred) * thickness);
 }
 
 // Share of the veil's scattered light that goes on so nearly straight that it counts as direct.
@@ -175,7 +203,7 @@ fn cloud_shadow(rel: vec3f, h: f32, sun_mu: f32, footprint: f32) -> f32 {
     let up = normalize(body.eye_km + point);
     let sky = sky_over(up, footprint);
     let band_km = body.cloud_bands[low.puff_band].period;
-    let density = cloud_density(LOW_LAYER, point, sky, 0.5 * sky.top, max(footprint, band_km * 0.02));
+    let density = cloud_at(LOW_LAYER, point, sky, 0.5 * sky.top, 0.0, max(footprint, band_km * 0.02)).density;
     let left = saturate1((low.top_km - h) / (low.top_km - low.bottom_km));
     let fog = body.cloud_layers[FOG_LAYER];
     let fog_left = saturate1((fog.top_km - h) / (fog.top_km - fog.bottom_km));

@@ -13,12 +13,14 @@ fn lobe(cosine: f32, g: f32) -> f32 {
 // parameterization for the absorption of solar radiation, 1974) give for its optical depth.
 const BRIGHTNESS: f32 = 1.8;
 
-// Light sent back by a layer of an optical depth, over that of a thick layer, of which BRIGHTNESS is. The optical
-// depth counts from above only. `sine`: of the view ray over the horizon.
-fn sent_back(sine: f32, depth: f32) -> f32 {
+// Light sent back upwards by a column of an optical depth, over that of a thick layer, of which BRIGHTNESS is.
+fn sent_back(depth: f32) -> f32 {
     let turned = 0.13 * depth;
-    return mix(1.0, 1.087 * turned / (1.0 + turned), saturate1(-2.0 * sine));
+    return 1.087 * turned / (1.0 + turned);
 }
+
+// Height of tops over the optical depth of their column, by the layer's thickness.
+const RELIEF: f32 = 0.3;
 
 // Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
 // and grow by a constant ratio. Steps that depend on the distance to the far end would be longest along the horizon and
@@ -53,7 +55,7 @@ fn shade(rel: vec3f, cover: f32, sun_mu: f32, footprint: f32) -> f32 {
 // Density below which there is no cloud.
 const LEAST_DENSITY: f32 = 0.002;
 // Width of what a step resolves, in steps.
-const BLUR: f32 = 0.3;
+const BLUR: f32 = 0.45;
 // Halvings of a step to find where a ray enters a cloud.
 const SEARCH: i32 = 3;
 
@@ -73,10 +75,12 @@ fn height_in_layer(way: Way, at_km: f32) -> f32 {
     return saturate1((altitude_km - bottom) / (body.cloud_layers[way.layer].top_km - bottom));
 }
 
-// Density at a distance along a ray, as steps of a length resolve it.
-fn density_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> f32 {
+// The cloud at a distance along a ray, as steps of a length resolve it.
+fn cloud_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> Cloud {
     let footprint = max(at_km * frame.pixel_rad, step_km * BLUR);
-    return cloud_density(way.layer, way.dir * at_km, sky, height_in_layer(way, at_km), footprint);
+    let height = height_in_layer(way, at_km);
+    let extent = abs(height_in_layer(way, at_km + step_km) - height);
+    return cloud_at(way.layer, way.dir * at_km, sky, height, extent, footprint);
 }
 
 struct March {
@@ -115,7 +119,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         1.0 / (4.0 * PI),
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
-    let returned = sent_back(dot(dir, up), layer.optical_depth);
+    let from_above = saturate1(-2.0 * dot(dir, up));
     // From above, one sees tops that a low sun only grazes (law of Lommel and Seeliger); the march is too coarse to
     // resolve this.
     let high = max(sun_mu, 0.0) + 0.02;
@@ -129,9 +133,9 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let t = from_km + mix((i + jitter) / steps * span, min(grown_km(layer, i + jitter), span), bend);
         if t1 <= t0 { break; }
         let sky_here = sky_over(normalize(body.eye_km + dir * t), t * frame.pixel_rad);
-        var found = 0.0;
-        if sky_here.covers[way.layer] > 0.0 { found = density_on(way, t, sky_here, t1 - t0); }
-        if found <= LEAST_DENSITY {
+        var found = Cloud(0.0, 0.0);
+        if sky_here.covers[way.layer] > 0.0 { found = cloud_on(way, t, sky_here, t1 - t0); }
+        if found.density <= LEAST_DENSITY {
             before = t;
             was_empty = true;
             continue;
@@ -143,7 +147,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             enter = before;
             for (var k = 0; k < SEARCH; k++) {
                 let middle = 0.5 * (enter + inside);
-                let density = density_on(way, middle, sky_here, (t1 - t0) / layer.stride.z);
+                let density = cloud_on(way, middle, sky_here, (t1 - t0) / layer.stride.z).density;
                 if density > LEAST_DENSITY { inside = middle; } else { enter = middle; }
             }
             enter = mix(enter, inside, jitter);
@@ -161,12 +165,13 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             let at = enter + (t1 - enter) * shares * sqrt(shares);
             let length_km = at.z - at.x;
             var here = at.y;
-            var density = found;
+            var cloud = found;
             if layer.stride.z > 1.0 {
-                density = density_on(way, here, sky_here, length_km);
+                cloud = cloud_on(way, here, sky_here, length_km);
             } else {
                 here = t;
             }
+            let density = cloud.density;
             if density <= LEAST_DENSITY { continue; }
             let rel = dir * here;
             let height = height_in_layer(way, here);
@@ -174,22 +179,22 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             // A second density sample towards the sun shapes light and shade. Its distance is at least about a pixel.
             let reach = max(thickness * 0.4, here * frame.pixel_rad * 1.2);
             let ahead_height = saturate1(height + reach * sun_mu / thickness);
-            let ahead = cloud_density(way.layer, rel + sun * reach, sky_here, ahead_height, footprint);
+            let ahead = cloud_at(way.layer, rel + sun * reach, sky_here, ahead_height, 0.0, footprint);
             let room = max(select(1.0, sky_here.top, way.layer == LOW_LAYER) - height, 0.05) * thickness * to_sun;
             let beyond = max(room - reach * 0.5, 0.0);
-            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead * beyond * 0.55) + over * to_sun;
+            let sun_depth = extinction * (density * min(room, reach) * 0.45 + ahead.density * beyond * 0.55) + over * to_sun;
             // Each further order of scattering has a lower extinction and a more isotropic phase (Wrenninge, Oz: The
             // Great and Volumetric).
             let direct = phases.x * exp(-sun_depth) + 0.75 * phases.y * exp(-0.3 * sun_depth)
                 + 1.5 * phases.z * exp(-0.07 * sun_depth);
             let ambient = (sky * ((0.45 + 0.55 * height) * sky_left) + diffuse + below * (1.0 - height)) / PI;
-            // Thin cloud sends back less light; by eye.
-            let cover = sky_here.covers[way.layer];
-            let bulk = mix(0.7, 1.0, smoothstep(0.3, 1.0, cover));
-            var lit = bulk;
-            if way.layer == LOW_LAYER { lit *= shade(rel, cover, sun_mu, footprint); }
-            let shine = body.cloud_color
-                * (sunlight * direct * (BRIGHTNESS * returned * grazed * lit) + ambient * returned);
+            var lit = grazed;
+            if way.layer == LOW_LAYER { lit *= shade(rel, sky_here.covers[way.layer], sun_mu, footprint); }
+            // Tops that fall off towards the sun are brighter.
+            let rise = (ahead.column - cloud.column) * thickness * RELIEF / (reach * max(sun_mu, 0.15));
+            lit *= mix(1.0, clamp(1.0 - rise, 0.35, 1.5), from_above);
+            let returned = mix(1.0, sent_back(layer.optical_depth * cloud.column), from_above);
+            let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * lit) + ambient) * returned;
             let passed = exp(-extinction * density * length_km);
             let seen = out.transmittance * (1.0 - passed);
             out.light += seen * shine;

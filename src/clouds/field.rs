@@ -225,12 +225,13 @@ impl CloudField {
         let effects: Vec<Effect> = dirs
             .iter()
             .map(|&dir| {
-                let mut effect = Effect { dir, extra: 0.0, layered: 0.0 };
-                systems.iter().for_each(|system| system.act(&mut effect));
+                let mut effect = Effect::default();
+                systems.iter().for_each(|system| system.act(dir, &mut effect));
                 effect
             })
             .collect();
-        let unwound: Vec<DVec3> = effects.iter().map(|effect| effect.dir).collect();
+        let unwound: Vec<DVec3> = 
+            dirs.iter().zip(&effects).map(|(dir, effect)| (*dir + effect.moved).normalize()).collect();
         let mut noises = [Noises::default(); CHUNK];
         self.swirls.evaluate(&unwound, days, noise, &mut noises);
         for (i, (effect, mut value)) in effects.iter().zip(noises).enumerate() {

@@ -9,7 +9,8 @@ use crate::terrain::noise::Noise;
 use half::f16;
 use rayon::prelude::*;
 
-/// Cells of the grid on which the ground map is evaluated; between them it is linear. The weather is no finer.
+/// Cells of the grid on which climate and wind of the ground map are evaluated; between them they are linear. The weather
+/// is no finer.
 const GROUND_CELLS: usize = 128;
 
 /// The texels of six faces, rows from the top.
@@ -62,30 +63,40 @@ pub(crate) fn keyframe(field: &CloudField, number: i64, side: usize) -> Keyframe
 pub(crate) fn ground_map(planet: &Planet, field: &CloudField, side: usize) -> Texels {
     let cells = GROUND_CELLS.min(side);
     let along = cells + 1;
-    let values: Vec<[f64; 4]> = (0..6 * along * along)
+    let values: Vec<[f64; 3]> = (0..6 * along * along)
         .into_par_iter()
         .with_min_len(along)
-        .map_init(Box::<Noise>::default, |noise, i| {
+        .map(|i| {
             let (x, y) = ((i % along) as f64, (i / along % along) as f64);
             let dir = texture_direction(i / (along * along), cells, x, y);
-            let mut fog_rank = 0.0;
-            field.fog_ranks(&[dir], noise, |_, rank| fog_rank = f64::from(rank));
             let wind = relative_wind(planet, field.weather(), dir).length();
-            [field.odds(dir), wind, field.fog_odds(dir), fog_rank]
+            [field.odds(dir), wind, field.fog_odds(dir)]
         })
         .collect();
     let step = cells as f64 / side as f64;
-    let texel = |i: usize| {
-        let (face, x, y) = (i / (side * side), i % side, i / side % side);
+    let smooth = |face: usize, x: usize, y: usize| -> [f64; 3] {
         let [x, y] = [x, y].map(|at| (at as f64 + 0.5) * step);
         let (column, row) = ((x as usize).min(cells - 1), (y as usize).min(cells - 1));
         let at = |dx: usize, dy: usize| values[(face * along + row + dy) * along + column + dx];
         let (u, v) = (x - column as f64, y - row as f64);
-        let value = |k: usize| {
+        std::array::from_fn(|k| {
             let (top, bottom) = (at(0, 0)[k] * (1.0 - u) + at(1, 0)[k] * u, at(0, 1)[k] * (1.0 - u) + at(1, 1)[k] * u);
-            f16::from_f64(top * (1.0 - v) + bottom * v)
-        };
-        std::array::from_fn(value)
+            top * (1.0 - v) + bottom * v
+        })
     };
-    (0..6 * side * side).into_par_iter().with_min_len(side).map(texel).collect()
+    let mut texels = vec![[f16::ZERO; 4]; 6 * side * side];
+    texels.par_chunks_mut(side).enumerate().for_each_init(Box::<Noise>::default, |noise, (row, texels)| {
+        let (face, y) = (row / side, row % side);
+        for (start, texels) in texels.chunks_mut(CHUNK).enumerate() {
+            let columns = start * CHUNK..start * CHUNK + texels.len();
+            let dirs: Vec<_> =
+                columns.clone().map(|x| texture_direction(face, side, x as f64 + 0.5, y as f64 + 0.5)).collect();
+            field.fog_ranks(&dirs, noise, |i, rank| texels[i][3] = f16::from_f32(rank));
+            for (texel, x) in texels.iter_mut().zip(columns) {
+                let [odds, wind, fog_odds] = smooth(face, x, y).map(f16::from_f64);
+                texel[..3].copy_from_slice(&[odds, wind, fog_odds]);
+            }
+        }
+    });
+    texels
 }

@@ -11,7 +11,7 @@ use glam::DVec3;
 const SWIRLS: [(f64, f64); 2] = [(0.7, 0.13), (1.9, 0.04)];
 /// Octaves of clouds: the last is as fine as the texels of the cube map.
 const OCTAVES: usize = 9;
-const GAIN: f32 = 0.8;
+const GAIN: f32 = 0.85;
 const LACUNARITY: f64 = 2.03;
 /// Fronts are stretched along the parallels.
 const STRETCH: DVec3 = DVec3::new(0.85, 0.85, 1.3);

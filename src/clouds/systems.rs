@@ -41,11 +41,11 @@ pub(super) struct System {
     tropical: bool,
 }
 
-/// The effect of systems at a direction.
-#[derive(Clone, Copy, Debug)]
+/// The effect of systems at a direction. Effects of several systems add up, in any order.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Effect {
-    /// The direction whose noise is here.
-    pub(super) dir: DVec3,
+    /// From the direction to the one whose noise is here.
+    pub(super) moved: DVec3,
     /// Added to the noise, in its standard deviations.
     pub(super) extra: f64,
     /// Share of layered cloud, 0 to 1.
@@ -116,12 +116,13 @@ impl System {
     #[cfg(feature = "render")]
     /// Whether it reaches into a cap around a direction.
     pub(super) fn reaches(&self, dir: DVec3, angle_rad: f64) -> bool {
-        self.center.dot(dir) > libm::cos((REACH * self.radius_rad + angle_rad).min(PI))
+        // `act` measures distances on the plane that touches the sphere at the center.
+        let reach_rad = libm::asin((REACH * self.radius_rad).min(1.0));
+        self.center.dot(dir) > libm::cos((reach_rad + angle_rad).min(PI))
     }
 
-    /// Adds the system to the effect of others.
-    pub(super) fn act(&self, effect: &mut Effect) {
-        let dir = effect.dir;
+    /// Adds the system to the effect of others at a direction.
+    pub(super) fn act(&self, dir: DVec3, effect: &mut Effect) {
         if self.center.dot(dir) <= 0.0 {
             return;
         }
@@ -136,7 +137,7 @@ impl System {
         let (s, c) = (libm::sin(turn), libm::cos(turn));
         let unwound = DVec2::new(c * at.x - s * at.y, s * at.x + c * at.y);
         let moved = (unwound - at) * self.radius_rad;
-        effect.dir = (dir + self.ahead * moved.x + self.poleward * moved.y).normalize();
+        effect.moved += self.ahead * moved.x + self.poleward * moved.y;
         let rim = inside * inside * (3.0 - 2.0 * inside);
         let extra = if self.tropical { hurricane(r, unwound) } else { comma(r, unwound) };
         effect.extra += self.strength * extra * rim.min(0.5) * 2.0;
@@ -189,10 +190,10 @@ mod tests {
             for system in systems.iter().filter(|system| system.strength > 0.3) {
                 let (east, north) = east_north(system.center);
                 let near = (system.center + east * (0.3 * system.radius_rad)).normalize();
-                let mut effect = Effect { dir: near, extra: 0.0, layered: 0.0 };
-                system.act(&mut effect);
+                let mut effect = Effect::default();
+                system.act(near, &mut effect);
                 // What is here came from the place before the turn: clockwise from here if it turned counterclockwise.
-                let came_from_north = (effect.dir - near).dot(north);
+                let came_from_north = effect.moved.dot(north);
                 let hemisphere = system.center.z.signum();
                 assert!(came_from_north * hemisphere * expected < -1e-4, "{came_from_north} {}", system.center);
             }
