@@ -82,7 +82,6 @@ fn escape_ends_typing_before_it_closes_a_window() {
 #[test]
 fn keys_stay_in_the_list_that_is_open() {
     let mut harness = editor(vec![]);
-    let pose = |harness: &Editor| harness.state().viewport().pose(harness.state().document().valid_planet());
     let before = pose(&harness);
     click(&mut harness, "Planet");
     for list in ["Precision of planet", "View"] {

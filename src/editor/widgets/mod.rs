@@ -1,10 +1,11 @@
 //! Widgets. They know parameters, but no part of the planet by name.
 //!
 //! - [`param_row`]: a parameter as a row: label, slider, number, reset
-//! - [`params_grid`]: all parameters of a part
+//! - [`params_grid`]: all parameters of a part; [`row_view`]: the filter of a panel, the row that was searched for
 //! - [`curve_edit`]: a curve through points
 //! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
+//! - [`pick_list`]: a list with a cursor
 //! - [`number`]: numbers as text, with units; [`typed`]: number fields that say why they refuse a text
 
 pub mod curve_edit;
@@ -13,6 +14,8 @@ pub mod icon;
 pub mod number;
 pub mod param_row;
 pub mod params_grid;
+pub mod pick_list;
+pub mod row_view;
 pub mod typed;
 
 use crate::planet::param::ParamPath;

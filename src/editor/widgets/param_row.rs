@@ -7,6 +7,7 @@ use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
 use super::number::{format_digits, suffix};
 use super::random_seed;
+use super::row_view::RowView;
 use super::typed::{Allowed, typed_field};
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
@@ -85,8 +86,12 @@ fn label_width(total: f32) -> f32 {
     (total * 0.34).clamp(84.0, 150.0)
 }
 
-/// A row of other widgets, aligned with the rows of parameters. The label's id gives them their accessible names.
-pub fn labelled_row(ui: &mut egui::Ui, text: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
+/// A row of other widgets, aligned with the rows of parameters. The label's id gives them their accessible names. A
+/// filter hides the row unless the label fits.
+pub fn labelled_row(ui: &mut egui::Ui, shown: &RowView<'_>, text: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
+    if !shown.filter.passes(&[text]) {
+        return;
+    }
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         let size = egui::vec2(label_width(ui.available_width()), ui.spacing().interact_size.y);
