@@ -16,8 +16,8 @@ use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
 use super::viewport::Viewport;
+use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
-use super::views::palette::Palette;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
 use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, status};
@@ -41,7 +41,7 @@ pub struct EditorApp {
     commands: Commands,
     panels: PanelState,
     prompts: Prompts,
-    palette: Palette,
+    finder: FinderWindow,
     history: HistoryWindow,
     place: PlaceWindow,
     surveyor: Surveyor,
@@ -83,7 +83,7 @@ impl EditorApp {
             commands: Commands::default(),
             panels: PanelState::default(),
             prompts: Prompts::default(),
-            palette: Palette::default(),
+            finder: FinderWindow::default(),
             history: HistoryWindow::default(),
             place: PlaceWindow::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
@@ -289,7 +289,7 @@ impl eframe::App for EditorApp {
         photo::show(&ctx, &self.state, &mut self.commands);
         self.history.show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
-        self.palette.show(&ctx, &self.state, &mut self.commands);
+        self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);
         self.settle(&ctx);
         self.plan_next_frame(&ctx);

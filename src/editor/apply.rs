@@ -63,7 +63,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::Controls) => state.shows.controls = false,
         Action::Close(Window::Performance) => state.shows.performance = false,
         Action::Close(Window::Photo) => state.shows.photo = false,
-        Action::Close(Window::Palette) => state.search(None),
+        Action::Close(Window::Finder) => state.search(None),
         Action::Close(Window::History) => state.shows.history = false,
         Action::Close(Window::Place) => state.shows.place = false,
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,

@@ -24,7 +24,7 @@ pub enum Command {
     Undo,
     Redo,
     History,
-    Palette,
+    Finder,
     /// Type into the filter of the open tab.
     Filter,
     ResetView,
@@ -59,7 +59,7 @@ pub enum Action {
     OpenShipped(usize),
     /// Choose a file for the parameter at this path.
     Browse(ParamPath),
-    /// Open the command palette with this text.
+    /// Open the finder with this text.
     Search(String),
     /// Change what the side panel shows.
     Panel(PanelAction),
@@ -90,8 +90,8 @@ pub enum Window {
     Performance,
     /// Photographs and films.
     Photo,
-    /// The command palette.
-    Palette,
+    /// The finder.
+    Finder,
     /// The undo steps.
     History,
     /// The location to go to.

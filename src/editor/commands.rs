@@ -216,10 +216,10 @@ fn file_and_edit() -> Vec<Row> {
         .within(Menu::Edit, 0)
         .keys([ctrl(Key::H)]),
         Row::new(
-            Command::Palette,
+            Command::Finder,
             "Find anything…",
             "Find a command, a planet, a bookmark or a parameter by its name.",
-            |s, _| s.search((!s.shows.palette).then(String::new)),
+            |s, _| s.search((!s.shows.finder).then(String::new)),
         )
         .within(Menu::Edit, 1)
         .keys([ctrl(Key::K), ctrl(Key::P)]),

@@ -4,7 +4,7 @@
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
-//! - `palette`: the command palette; `finding`: filters, and the row of a parameter that was searched for
+//! - `finder`: commands, planets, bookmarks and parameters by name; `finding`: filters, and the row of a parameter that was searched for
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture
@@ -14,13 +14,13 @@
 mod app;
 mod disk;
 mod files;
+mod finder;
 mod finding;
 mod history;
 mod input;
 #[path = "../support/layered.rs"]
 mod layered;
 mod painter;
-mod palette;
 mod photo;
 mod place;
 mod plates;
@@ -28,7 +28,7 @@ mod viewport;
 
 use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, type_text, undo_label, undo_len};
 use eframe::egui;
-use eframe::egui::accesskit::Role;
+use eframe::egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
 use tellus::editor::command::Command;
@@ -67,7 +67,7 @@ fn listed(harness: &Editor) -> Vec<(String, bool)> {
     let rows = harness.query_all_by_role(Role::ListBoxOption);
     let row = |row: egui_kittest::Node<'_>| {
         let node = row.accesskit_node();
-        (node.label().unwrap_or_default(), node.is_selected() == Some(true))
+        (node.label().unwrap_or_default(), node.toggled() == Some(Toggled::True))
     };
     rows.map(row).collect()
 }

@@ -57,7 +57,7 @@ fn a_bad_location_is_explained_and_escape_closes_the_window() {
 }
 
 #[test]
-fn the_palette_takes_a_location_too() {
+fn the_finder_takes_a_location_too() {
     let mut harness = editor(vec![]);
     press(&mut harness, egui::Modifiers::COMMAND, egui::Key::K);
     type_text(&mut harness, "12°30'N 45°W @ 900 km");

@@ -116,9 +116,9 @@ pub fn list(state: &State, ctx: &egui::Context) -> Vec<Entry> {
     entries
 }
 
-/// The commands, but for the palette itself, and for those that fly to bookmarks: the bookmarks stand for them.
+/// The commands, but for the finder itself, and for those that fly to bookmarks: the bookmarks stand for them.
 fn commands_now(state: &State, ctx: &egui::Context) -> Vec<Entry> {
-    let rows = COMMANDS.iter().filter(|row| !matches!(row.command, Command::Palette | Command::GoTo(_)));
+    let rows = COMMANDS.iter().filter(|row| !matches!(row.command, Command::Finder | Command::GoTo(_)));
     rows.map(|row| {
         let menu = row.menu.map_or("Commands", |(menu, _)| menu.label());
         let hint = row.shortcuts.first().map_or_else(String::new, |shortcut| ctx.format_shortcut(shortcut));
@@ -260,7 +260,7 @@ mod tests {
         );
     }
 
-    /// The palette answers within a frame of the largest shipped planet.
+    /// The finder answers within a frame of the largest shipped planet.
     #[test]
     fn the_answer_takes_less_than_a_frame() {
         const FRAME: Duration = Duration::from_millis(16);

@@ -60,20 +60,19 @@ impl Finding {
         if escaped {
             text.clear();
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             // The room for the button is always there, so that the field keeps its width.
-            let width = ui.available_width() - 22.0;
-            if text.is_empty() {
-                ui.add_space(22.0);
-            } else if icon_button(ui, Icon::Close, "Clear filter", "Show all parameters again (Escape)").clicked() {
-                text.clear();
-            }
             let hint = format!("Filter {}", label.to_lowercase());
-            let edit = egui::TextEdit::singleline(text).id(id).hint_text(hint).desired_width(width);
-            let field = ui.add(edit).accessible_name(format!("Filter of {label}"));
+            let edit = egui::TextEdit::singleline(text).id(id).hint_text(hint);
+            let field = ui.add(edit.desired_width(ui.available_width() - 32.0));
+            let field = field.accessible_name(format!("Filter of {label}"));
             if std::mem::take(&mut self.wants_focus) {
                 field.request_focus();
+            }
+            let told = "Show all parameters again (Escape)";
+            if !text.is_empty() && icon_button(ui, Icon::Close, "Clear filter", told).clicked() {
+                text.clear();
             }
         });
         ui.add_space(2.0);
@@ -86,7 +85,7 @@ impl Finding {
         ui.add_space(12.0);
         ui.vertical_centered(|ui| {
             ui.weak(format!("No parameter matches \u{201c}{}\u{201d} here.", text.trim()));
-            if ui.button("Search everywhere").on_hover_text("Open the command palette").clicked() {
+            if ui.button("Search everywhere").on_hover_text("Open the finder").clicked() {
                 draft.commands.push(Action::Search(text.clone()));
             }
         });

@@ -63,8 +63,8 @@ pub struct Shows {
     pub performance: bool,
     /// Photographs and films.
     pub photo: bool,
-    /// The command palette.
-    pub palette: bool,
+    /// The finder.
+    pub finder: bool,
     /// The undo steps.
     pub history: bool,
     /// The location to go to.
@@ -78,7 +78,7 @@ impl Shows {
         controls: false,
         performance: false,
         photo: false,
-        palette: false,
+        finder: false,
         history: false,
         place: false,
     };
@@ -104,7 +104,7 @@ pub struct State {
     pub messages: Vec<Message>,
     /// The parts of the window that are shown.
     pub shows: Shows,
-    /// The text with which the command palette opens.
+    /// The text with which the finder opens.
     pub search: String,
     /// What the side panel is asked to show.
     pub panel_asks: Vec<PanelAction>,
@@ -179,9 +179,9 @@ impl State {
         ctx.request_repaint();
     }
 
-    /// Opens the command palette with a text, or closes it.
+    /// Opens the finder with a text, or closes it.
     pub fn search(&mut self, text: Option<String>) {
-        self.shows.palette = text.is_some();
+        self.shows.finder = text.is_some();
         self.search = text.unwrap_or_default();
     }
 

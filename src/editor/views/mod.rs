@@ -4,15 +4,15 @@
 //! - [`status`]: the status bar
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`history`], [`place`]: windows; [`palette`]: the command palette
+//! - [`controls`], [`performance`], [`photo`], [`history`], [`place`], [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
 pub mod controls;
+pub mod finder;
 pub mod history;
 pub mod look;
 pub mod menus;
-pub mod palette;
 mod path_field;
 pub mod performance;
 pub mod photo;

@@ -35,8 +35,8 @@ pub fn take(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Comma
 fn take_shortcuts(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     // Letters and digits choose biomes while the table has the focus.
     let typing = ctx.text_edit_focused() || biomes::has_keys(ctx);
-    // While the palette is open, its own shortcut closes it, and all other keys are its text.
-    let taken = |command| !state.shows.palette || command == Command::Palette;
+    // While the finder is open, its own shortcut closes it, and all other keys are its text.
+    let taken = |command| !state.shows.finder || command == Command::Finder;
     for (shortcut, row) in commands::all_shortcuts().into_iter().filter(|(_, row)| taken(row.command)) {
         if !(typing && row.yields_to_text) && ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
             commands.send(row.command);
@@ -44,9 +44,9 @@ fn take_shortcuts(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     }
 }
 
-/// Escape closes the window on top, or else removes the filter of the open tab. The palette and fields take their own.
+/// Escape closes the window on top, or else removes the filter of the open tab. The finder and fields take their own.
 fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Commands) {
-    if keys.was_typing || state.shows.palette {
+    if keys.was_typing || state.shows.finder {
         return;
     }
     let windows = [

@@ -6,8 +6,10 @@
 //! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
 //! - [`pick_list`]: a list with a cursor
-//! - [`number`]: numbers as text, with units; [`typed`]: number fields that say why they refuse a text
+//! - [`number`]: numbers as text, with units; [`arithmetic`]: calculations; [`value_text`]: any value as text
+//! - [`typed`]: number fields that say why they refuse a text
 
+pub mod arithmetic;
 pub mod curve_edit;
 pub mod drag_row;
 pub mod icon;
@@ -17,6 +19,7 @@ pub mod params_grid;
 pub mod pick_list;
 pub mod row_view;
 pub mod typed;
+pub mod value_text;
 
 use crate::planet::param::ParamPath;
 use eframe::egui;

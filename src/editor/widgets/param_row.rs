@@ -8,7 +8,8 @@ use super::icon::{Icon, icon_button};
 use super::number::{format_digits, suffix};
 use super::random_seed;
 use super::row_view::RowView;
-use super::typed::{Allowed, typed_field};
+use super::typed::{self, Allowed, typed_field};
+use super::value_text::{read_value, value_text};
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
@@ -55,7 +56,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
             if let Some(default) = resets_to(row)
                 && value.get() != *default
             {
-                let tooltip = format!("Back to {}", value_text(row.param, default, &value));
+                let tooltip = format!("Back to {}", value_text(row.param, default, value.as_ref().names()));
                 if icon_button(ui, Icon::Reset, &format!("Reset {}", name(row)), &tooltip).clicked() {
                     value.set(default);
                 }
@@ -108,7 +109,7 @@ fn name(row: &Row<'_>) -> String {
     format!("{} of {}", row.param.label, row.owner)
 }
 
-/// The name of the parameter. Its tooltip explains the parameter; its context menu copies and resets the value.
+/// The name of the parameter. Its tooltip explains the parameter; its context menu copies, pastes and resets the value.
 fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32) {
     let color = if row.problem.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
     let text = egui::RichText::new(row.param.label).color(color);
@@ -120,9 +121,14 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
         })
         .inner;
     let response = response.on_hover_ui(|ui| tooltip(ui, row, value));
+    Paste::take(ui, row, value, &response);
     response.context_menu(|ui| {
         if ui.button("Copy value").clicked() {
-            ui.ctx().copy_text(value_text(row.param, &value.get(), value));
+            ui.ctx().copy_text(value_text(row.param, &value.get(), value.as_ref().names()));
+            ui.close();
+        }
+        if ui.button("Paste value").clicked() {
+            Paste::ask(ui, row);
             ui.close();
         }
         if ui.button("Copy path").clicked() {
@@ -130,12 +136,57 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
             ui.close();
         }
         if let Some(default) = resets_to(row)
-            && ui.button("Reset").clicked()
+            && ui.button("Reset to default").clicked()
         {
             value.set(default);
             ui.close();
         }
     });
+}
+
+/// The row that waits for the text of the clipboard: the desktop gives it in a later frame.
+#[derive(Clone, PartialEq)]
+struct Paste {
+    path: String,
+    name: &'static str,
+}
+
+impl Paste {
+    fn of(row: &Row<'_>) -> Self {
+        Self { path: row.path.to_string(), name: row.param.name }
+    }
+
+    fn place() -> egui::Id {
+        egui::Id::unique("paste value")
+    }
+
+    /// Asks for the text of the clipboard.
+    fn ask(ui: &egui::Ui, row: &Row<'_>) {
+        ui.data_mut(|data| data.insert_temp(Self::place(), Self::of(row)));
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
+    }
+
+    /// Takes the text into the row that has asked for it. What is wrong with the text shows below the label.
+    fn take(ui: &egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, label: &egui::Response) {
+        typed::tell(ui, label);
+        let Some(waiting) = ui.data(|data| data.get_temp::<Self>(Self::place())) else { return };
+        if waiting != Self::of(row) {
+            return;
+        }
+        let text = ui.input(|input| {
+            input.events.iter().find_map(|event| match event {
+                egui::Event::Paste(text) => Some(text.clone()),
+                _ => None,
+            })
+        });
+        let Some(text) = text else { return };
+        ui.data_mut(|data| data.remove::<Self>(Self::place()));
+        let keys: Vec<char> = row.biomes.iter().map(|(key, _)| *key).collect();
+        match read_value(row.param, &value.as_ref(), &text, &keys) {
+            Ok(new) => value.set(&new),
+            Err(why) => typed::refuse(ui, label.id, why),
+        }
+    }
 }
 
 fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
@@ -146,27 +197,9 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
         ui.weak(format!("Range: {range}"));
     }
     if let Some(default) = resets_to(row) {
-        ui.weak(format!("Default: {}", value_text(row.param, default, value)));
+        ui.weak(format!("Default: {}", value_text(row.param, default, value.as_ref().names())));
     }
     ui.weak(egui::RichText::new(row.path.to_string()).monospace());
-}
-
-fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
-    let unit = suffix(param.unit);
-    match value {
-        Value::Number(v) => format!("{v}{unit}"),
-        Value::Count(v) => format!("{v}{unit}"),
-        Value::Flag(v) => if *v { "on" } else { "off" }.to_owned(),
-        Value::Triple([r, g, b]) => format!("({r}, {g}, {b}){unit}"),
-        Value::Text(v) => v.clone(),
-        Value::Letter(v) => v.to_string(),
-        Value::Curve(points) if points.is_empty() => "no curve".to_owned(),
-        Value::Curve(points) => points.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(", "),
-        Value::Choice(index) => match place {
-            ValueMut::Choice(choice) => choice.names().get(*index).copied().unwrap_or_default().to_owned(),
-            _ => index.to_string(),
-        },
-    }
 }
 
 /// Shows the control of the parameter's domain. Gives whether the user wants to choose a file.

@@ -1,4 +1,4 @@
-//! The command palette.
+//! The finder.
 
 use super::*;
 use tellus::editor::commands::COMMANDS;
@@ -7,7 +7,7 @@ fn is_open(harness: &Editor) -> bool {
     harness.query_by_role_and_label(Role::TextInput, "Find anything").is_some()
 }
 
-/// Opens the palette and types.
+/// Opens the finder and types.
 fn find(harness: &mut Editor, text: &str) {
     press(harness, egui::Modifiers::COMMAND, egui::Key::K);
     type_text(harness, text);
@@ -18,7 +18,7 @@ fn enter(harness: &mut Editor) {
 }
 
 #[test]
-fn the_palette_opens_and_closes_by_keys_and_by_the_mouse() {
+fn the_finder_opens_and_closes_by_keys_and_by_the_mouse() {
     let mut harness = editor(vec![]);
     for key in [egui::Key::K, egui::Key::P] {
         press(&mut harness, egui::Modifiers::COMMAND, key);
@@ -46,7 +46,7 @@ fn the_palette_opens_and_closes_by_keys_and_by_the_mouse() {
 fn every_command_is_found_by_its_name() {
     let mut harness = editor(vec![]);
     find(&mut harness, "");
-    for row in COMMANDS.iter().filter(|row| !matches!(row.command, Command::Palette | Command::GoTo(_))) {
+    for row in COMMANDS.iter().filter(|row| !matches!(row.command, Command::Finder | Command::GoTo(_))) {
         press(&mut harness, egui::Modifiers::COMMAND, egui::Key::A);
         type_text(&mut harness, row.label);
         let place = row.menu.map_or("Commands", |(menu, _)| menu.label());
@@ -139,7 +139,7 @@ fn what_was_used_last_comes_first() {
 }
 
 #[test]
-fn no_key_gets_past_the_palette() {
+fn no_key_gets_past_the_finder() {
     let mut harness = editor(vec![]);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F3);
     harness.run_steps(60);
@@ -163,7 +163,7 @@ fn no_key_gets_past_the_palette() {
 }
 
 #[test]
-fn the_palette_is_on_top_of_windows_for_escape() {
+fn the_finder_is_on_top_of_windows_for_escape() {
     let mut harness = editor(vec![]);
     press(&mut harness, egui::Modifiers::NONE, egui::Key::F8);
     find(&mut harness, "");
@@ -175,7 +175,7 @@ fn the_palette_is_on_top_of_windows_for_escape() {
 }
 
 #[test]
-fn the_palette_fits_the_smallest_window() {
+fn the_finder_fits_the_smallest_window() {
     let mut harness = app::open([800.0, 500.0], vec![]);
     find(&mut harness, "");
     let rows = || harness.query_all_by_role(Role::ListBoxOption);
@@ -185,7 +185,7 @@ fn the_palette_fits_the_smallest_window() {
 }
 
 #[test]
-fn every_sign_of_the_palette_is_in_the_fonts() {
+fn every_sign_of_the_finder_is_in_the_fonts() {
     let harness = editor(vec![]);
     assert!(harness.ctx.fonts_mut(|fonts| fonts.has_glyphs(&egui::FontId::default(), "›…°“”")));
 }

@@ -1,4 +1,4 @@
-//! The command palette: one field, and below it everything that fits what is typed. Locations can be typed too.
+//! The finder: one field, and below it everything that fits what is typed. Locations can be typed too.
 
 use crate::editor::command::{Action, Commands, Window};
 use crate::editor::finder::entries::{self, Entry, Found};
@@ -15,9 +15,9 @@ const ROW_HEIGHT: f32 = 24.0;
 /// Most rows in view.
 const MOST_ROWS: f32 = 14.0;
 
-/// The palette. It makes its list when it opens, and searches when the text changes.
+/// The window. It makes its list when it opens, and searches when the text changes.
 #[derive(Default)]
-pub struct Palette {
+pub struct FinderWindow {
     open: bool,
     text: String,
     /// The text for which `found` was searched.
@@ -29,10 +29,10 @@ pub struct Palette {
     used: Vec<Action>,
 }
 
-impl Palette {
-    /// Shows the palette while it is open.
+impl FinderWindow {
+    /// Shows the window while it is open.
     pub fn show(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
-        if !state.shows.palette {
+        if !state.shows.finder {
             *self = Self { used: std::mem::take(&mut self.used), ..Self::default() };
             return;
         }
@@ -46,7 +46,7 @@ impl Palette {
         let room = ctx.content_rect();
         let rows = MOST_ROWS.min(((room.height() - 140.0) / ROW_HEIGHT).floor()).max(3.0);
         let entered = self.list.take_keys(ctx, self.found.len(), rows as usize - 1, false);
-        let area = egui::Area::new(egui::Id::unique("command palette"))
+        let area = egui::Area::new(egui::Id::unique("finder"))
             .anchor(egui::Align2::CENTER_TOP, [0.0, 36.0])
             .order(egui::Order::Foreground);
         let shown = area.show(ctx, |ui| {
@@ -75,17 +75,17 @@ impl Palette {
             self.used.retain(|used| *used != action);
             self.used.insert(0, action.clone());
             self.used.truncate(MOST_USED);
-            commands.push(Action::Close(Window::Palette));
+            commands.push(Action::Close(Window::Finder));
             commands.push(action);
         } else if escaped || beside {
-            commands.push(Action::Close(Window::Palette));
+            commands.push(Action::Close(Window::Finder));
         }
     }
 
     /// The field. It keeps the focus: the keys of the list work while one types.
     fn field(&mut self, ui: &mut egui::Ui) {
         let edit = egui::TextEdit::singleline(&mut self.text)
-            .id(egui::Id::unique("palette field"))
+            .id(egui::Id::unique("finder field"))
             .hint_text("Find a command, planet, bookmark or parameter, or type a place: 12.5 N 45 W")
             .font(FontId::proportional(15.0))
             .margin(egui::Margin::symmetric(8, 6))
