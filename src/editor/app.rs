@@ -262,7 +262,7 @@ impl eframe::App for EditorApp {
         state.pictures.poll(&mut state.document, ctx);
         answers::close_request(state, ctx, &mut self.commands);
         self.panels.keep_to_document(state.document_number);
-        self.panels.finding.forget_old(ctx.input(|input| input.time));
+        self.panels.finding.pass_time(ctx.input(|input| f64::from(input.unstable_dt)));
         for asked in state.panel_asks.drain(..) {
             self.panels.take(state.document.planet(), asked);
         }

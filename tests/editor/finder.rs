@@ -97,6 +97,9 @@ fn a_parameter_is_found_shown_and_highlighted() {
     let slider = harness.get_by_role_and_label(Role::Slider, &format!("Amplitude of {name}")).rect();
     let row = harness.state().revealed().unwrap();
     assert!(row.contains(slider.center()), "{row:?} {slider:?}");
+    type_text(&mut harness, "1234");
+    enter(&mut harness);
+    assert_eq!(planet(&harness).layers.last().unwrap().amplitude_m, 1234.0, "one can type its value at once");
     harness.run_steps(90);
     assert_eq!(harness.state().revealed(), None, "the highlight has faded");
     send(&mut harness, Command::TogglePanel);

@@ -24,7 +24,8 @@ fn edited() -> (Editor, Vec<Planet>) {
 fn the_steps_are_listed_and_a_click_goes_to_one() {
     let (mut harness, planets) = edited();
     send(&mut harness, Command::History);
-    let names = ["Step 0: Begin", "Step 1: Change radius", "Step 2: Change radius", "Step 3: Change settlements"];
+    let names =
+        ["Step 0: Before all changes", "Step 1: Change radius", "Step 2: Change radius", "Step 3: Change settlements"];
     assert_eq!(steps(&harness), names);
     assert_eq!(chosen(&harness), names[3]);
     harness.check_accessibility();

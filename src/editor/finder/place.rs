@@ -169,6 +169,11 @@ fn halves(signs: &[Sign]) -> Result<(&[Sign], &[Sign]), String> {
     }
 }
 
+/// Whether a letter comes before the numbers.
+fn leads(signs: &[Sign]) -> bool {
+    matches!(signs.first(), Some(Sign::Letter(_)))
+}
+
 /// An angle in degrees, with its letter.
 fn angle(signs: &[Sign]) -> Result<(f64, Option<char>), String> {
     let mut letter = None;
@@ -177,6 +182,10 @@ fn angle(signs: &[Sign]) -> Result<(f64, Option<char>), String> {
         match sign {
             Sign::Letter(found) if letter.is_some() => return Err(format!("There is one letter too many: {found}")),
             Sign::Letter(found) => letter = Some(*found),
+            // "N 5" and "5 N" are angles, "5 N 45" is not.
+            Sign::Number { .. } if letter.is_some() && !parts.is_empty() && !leads(signs) => {
+                return Err(format!("There is a number too many: {EXAMPLE}, with a point for decimals"));
+            }
             Sign::Number { value, whole } => parts.push((*value, *whole, None)),
             Sign::Mark(mark) => match parts.last_mut() {
                 Some((.., unset @ None)) => *unset = Some(*mark),
@@ -242,7 +251,7 @@ mod tests {
         ] {
             assert_eq!(at(text), (12.5, -45.0, None), "{text}");
         }
-        assert_eq!(at("-0°30' 0"), (-0.5, 0.0, None));
+        assert_eq!(at("-0°30', 0"), (-0.5, 0.0, None));
         assert_eq!(at("90 S 180 W").1, 180.0, "one way to write that meridian");
     }
 
@@ -265,6 +274,8 @@ mod tests {
             ("5 X 6 E", "\"x\" is no direction"),
             ("1 2 3 4", "not clear where the longitude begins"),
             ("1, 2, 3", "One comma"),
+            ("12,5 N 45", "a point for decimals"),
+            ("12,5 N 45 W", "a point for decimals"),
             ("12°75' 3°", "Minutes are 0 to 59, not 75"),
             ("12.5°30' 3°", "only the last number"),
             ("1.2.3, 4", "\"1.2.3\" is not a number"),

@@ -8,6 +8,9 @@ use crate::planet::param::ParamPath;
 use eframe::egui;
 use std::rc::Rc;
 
+/// Width of the button that clears a filter, inside the field.
+const CLEAR_WIDTH: f32 = 22.0;
+
 /// Filters, and the parameter that was searched for.
 #[derive(Default)]
 pub struct Finding {
@@ -28,9 +31,9 @@ impl Finding {
         self.revealed.clone()
     }
 
-    /// Forgets the parameter that was searched for once its highlight has gone.
-    pub fn forget_old(&mut self, now_secs: f64) {
-        self.revealed = self.revealed.take().filter(|revealed| !revealed.is_over(now_secs));
+    /// Lets the time of a frame pass. The parameter that was searched for is forgotten once its highlight has gone.
+    pub fn pass_time(&mut self, frame_secs: f64) {
+        self.revealed = self.revealed.take().filter(|revealed| !revealed.is_over_after(frame_secs));
     }
 
     /// Highlights a parameter of a tab. The filter of the tab would hide it.
@@ -60,21 +63,23 @@ impl Finding {
         if escaped {
             text.clear();
         }
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            // The room for the button is always there, so that the field keeps its width.
-            let hint = format!("Filter {}", label.to_lowercase());
-            let edit = egui::TextEdit::singleline(text).id(id).hint_text(hint);
-            let field = ui.add(edit.desired_width(ui.available_width() - 32.0));
-            let field = field.accessible_name(format!("Filter of {label}"));
-            if std::mem::take(&mut self.wants_focus) {
-                field.request_focus();
-            }
-            let told = "Show all parameters again (Escape)";
-            if !text.is_empty() && icon_button(ui, Icon::Close, "Clear filter", told).clicked() {
+        let hint = format!("Filter {}", label.to_lowercase());
+        let margin = egui::Margin { right: CLEAR_WIDTH as i8, ..egui::Margin::symmetric(4, 2) };
+        let edit = egui::TextEdit::singleline(text).id(id).hint_text(hint).margin(margin);
+        // Room for the scroll bar of the panel, so that the field ends where the rows do.
+        let field = ui.add(edit.desired_width(ui.available_width() - 10.0));
+        let field = field.accessible_name(format!("Filter of {label}"));
+        if std::mem::take(&mut self.wants_focus) {
+            field.request_focus();
+        }
+        let told = "Show all parameters again (Escape)";
+        let right = egui::Rect::from_min_max(field.rect.right_top() - egui::vec2(CLEAR_WIDTH, 0.0), field.rect.max);
+        if !text.is_empty() {
+            let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(right));
+            if icon_button(&mut inside, Icon::Close, "Clear filter", told).clicked() {
                 text.clear();
             }
-        });
+        }
         ui.add_space(2.0);
     }
 

@@ -145,10 +145,12 @@ impl Default for PanelState {
 }
 
 impl PanelState {
-    /// Forgets selections and texts if they belong to another document than the one of this number.
+    /// Forgets selections and texts if they belong to another document than the one of this number. Filters stay: one
+    /// may look at the same parameters of many random planets.
     pub fn keep_to_document(&mut self, document_number: u64) {
         if self.document_number != document_number {
-            *self = Self { tab: self.tab, document_number, ..Self::default() };
+            let finding = std::mem::take(&mut self.finding);
+            *self = Self { tab: self.tab, document_number, finding, ..Self::default() };
         }
     }
 

@@ -12,6 +12,8 @@ const MOST_USED: usize = 8;
 /// Width of the window and height of a row, in points.
 const WIDTH: f32 = 560.0;
 const ROW_HEIGHT: f32 = 24.0;
+/// Size of the place and the hint of an entry, in points.
+const SMALL: f32 = 11.5;
 /// Most rows in view.
 const MOST_ROWS: f32 = 14.0;
 
@@ -77,7 +79,8 @@ impl FinderWindow {
             self.used.truncate(MOST_USED);
             commands.push(Action::Close(Window::Finder));
             commands.push(action);
-        } else if escaped || beside {
+        } else if escaped || beside || ctx.memory(|memory| memory.top_modal_layer().is_some()) {
+            // A question that opens meanwhile needs the focus.
             commands.push(Action::Close(Window::Finder));
         }
     }
@@ -137,8 +140,8 @@ impl FinderWindow {
 /// Paints an entry: its name with the typed letters marked, its place, and its hint at the right.
 fn paint(ui: &egui::Ui, entry: &Entry, letters: &[usize], rect: Rect) {
     let visuals = ui.visuals();
-    let (body, small) = (TextStyle::Body.resolve(ui.style()), TextStyle::Small.resolve(ui.style()));
-    let weak = visuals.weak_text_color();
+    let (body, small) = (TextStyle::Body.resolve(ui.style()), FontId::proportional(SMALL));
+    let weak = if entry.enabled { visuals.text_color().gamma_multiply(0.85) } else { visuals.weak_text_color() };
     let plain = if entry.enabled { visuals.strong_text_color() } else { weak };
     let marked = if entry.enabled { visuals.hyperlink_color } else { weak };
     let inner = rect.shrink2(egui::vec2(8.0, 0.0));

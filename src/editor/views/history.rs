@@ -5,6 +5,8 @@ use crate::editor::state::State;
 use crate::editor::widgets::pick_list::PickList;
 use eframe::egui::{self, Align2, TextStyle};
 
+/// Width of the window and height of a row, in points.
+const WIDTH: f32 = 260.0;
 const ROW_HEIGHT: f32 = 22.0;
 /// Most rows in view.
 const MOST_ROWS: f32 = 16.0;
@@ -42,9 +44,10 @@ impl HistoryWindow {
             self.seen = Some((done, count));
         }
         let mut open = true;
-        let window = egui::Window::new("History").id(id()).open(&mut open).default_pos([12.0, 40.0]);
+        let window =
+            egui::Window::new("History").id(id()).open(&mut open).default_pos([12.0, 40.0]).default_width(WIDTH);
         window.resizable(false).collapsible(false).show(ctx, |ui| {
-            ui.set_width(280.0);
+            ui.set_width(ui.available_width());
             let rows = MOST_ROWS.min(((ctx.content_rect().height() - 160.0) / ROW_HEIGHT).floor()).max(3.0);
             let focus = ui.interact(ui.max_rect(), id().with("keys"), egui::Sense::focusable_noninteractive());
             focus.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ListBox, true, "Undo steps"));
@@ -59,7 +62,7 @@ impl HistoryWindow {
                 chosen = entered.then(|| self.list.cursor());
             }
             let has_focus = focus.has_focus();
-            let labels: Vec<&str> = std::iter::once("Begin").chain(history.labels()).collect();
+            let labels: Vec<&str> = std::iter::once("Before all changes").chain(history.labels()).collect();
             let clicked = self.list.show(ui, (count, ROW_HEIGHT, rows * ROW_HEIGHT), |ui, row, rect, response| {
                 let label = labels.get(row).copied().unwrap_or_default();
                 response.widget_info(|| {
@@ -69,7 +72,7 @@ impl HistoryWindow {
                 let visuals = ui.visuals();
                 let color = match row {
                     row if row == done => visuals.strong_text_color(),
-                    row if row > done => visuals.weak_text_color(),
+                    row if row > done => visuals.text_color().gamma_multiply(0.6),
                     _ => visuals.text_color(),
                 };
                 let font = TextStyle::Body.resolve(ui.style());
@@ -85,7 +88,7 @@ impl HistoryWindow {
             }
             ui.add_space(4.0);
             let hint = if has_focus { "Arrow keys choose, Enter goes there" } else { "Click a step to go there" };
-            ui.weak(egui::RichText::new(hint).small());
+            ui.weak(egui::RichText::new(hint).size(11.5));
             if let Some(steps) = clicked.or(chosen).filter(|steps| *steps != done) {
                 commands.push(Action::Jump(steps));
             }

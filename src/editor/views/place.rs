@@ -3,6 +3,7 @@
 use crate::editor::command::{Action, Commands, Window};
 use crate::editor::finder::place;
 use crate::editor::state::State;
+use crate::editor::widgets::select_all;
 use eframe::egui;
 
 /// The window's layer.
@@ -52,7 +53,7 @@ impl PlaceWindow {
             .inner;
         if opens {
             field.request_focus();
-            select_all(ui.ctx(), field.id, &self.text);
+            select_all(&field);
         }
         if field.changed() {
             self.asked = false;
@@ -77,12 +78,4 @@ impl PlaceWindow {
             Err(why) => ui.weak(why),
         };
     }
-}
-
-/// What is typed next replaces the text.
-fn select_all(ctx: &egui::Context, field: egui::Id, text: &str) {
-    let mut state = egui::TextEdit::load_state(ctx, field).unwrap_or_default();
-    let [begin, end] = [0, text.chars().count()].map(egui::text::CCursor::new);
-    state.cursor.set_char_range(Some(egui::text::CCursorRange::two(begin, end)));
-    state.store(ctx, field);
 }

@@ -64,6 +64,14 @@ pub fn menu_button<'a, R>(
     })
 }
 
+/// Selects the text of a field: what is typed next replaces it.
+pub fn select_all(field: &egui::Response) {
+    let mut state = egui::TextEdit::load_state(&field.ctx, field.id).unwrap_or_default();
+    let [begin, end] = [0, usize::MAX].map(egui::text::CCursor::new);
+    state.cursor.set_char_range(Some(egui::text::CCursorRange::two(begin, end)));
+    state.store(&field.ctx, field.id);
+}
+
 /// The first problem of the parameter at `path`.
 pub fn problem_at<'a>(problems: &'a [(ParamPath, String)], path: &ParamPath) -> Option<&'a str> {
     problems.iter().find(|(at, _)| at == path).map(|(_, message)| message.as_str())

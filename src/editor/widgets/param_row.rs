@@ -6,10 +6,10 @@
 use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
 use super::number::{format_digits, suffix};
-use super::random_seed;
 use super::row_view::RowView;
 use super::typed::{self, Allowed, typed_field};
 use super::value_text::{read_value, value_text};
+use super::{random_seed, select_all};
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
@@ -27,6 +27,8 @@ pub struct Row<'a> {
     pub problem: Option<&'a str>,
     /// Key and name of each biome of the palette, for a parameter that refers to one.
     pub biomes: &'a [(char, String)],
+    /// Whether the field for a number or a text takes the focus now.
+    pub takes_focus: bool,
 }
 
 const RESET_WIDTH: f32 = 20.0;
@@ -205,21 +207,27 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
 /// Shows the control of the parameter's domain. Gives whether the user wants to choose a file.
 fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     let name = name(row);
+    let focus = |response: egui::Response| {
+        if row.takes_focus {
+            response.request_focus();
+            select_all(&response);
+        }
+    };
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
             // A logarithmic range that begins at zero needs a least value: a hundred-thousandth of the range is
             // finer than a pixel of the slider.
             add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-5));
-            number_field(ui, &name, row.param, v, min, max, logarithmic);
+            focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
         }
         (Domain::Count { min, max }, ValueMut::Count(v)) => {
             add_slider(ui, &name, egui::Slider::new(&mut **v, min..=max));
-            count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number"));
+            focus(count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number")));
         }
         (Domain::Seed, ValueMut::Count(v)) => {
             // As wide as the longest number, so that the dice button stays under the pointer.
-            count_field(ui, v, 1.0, Allowed::whole(0, u32::MAX)).accessible_name(&name);
+            focus(count_field(ui, v, 1.0, Allowed::whole(0, u32::MAX)).accessible_name(&name));
             if icon_button(ui, Icon::Dice, &format!("Random {name}"), "A random seed").clicked() {
                 **v = random_seed() as u32;
             }
@@ -231,7 +239,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
         }
         (Domain::BiomeKey, ValueMut::Letter(key)) => biome_box(ui, &name, key, row.biomes),
         (_, ValueMut::Flag(v)) => {
-            ui.add(egui::Checkbox::without_text(v)).accessible_name(&name);
+            focus(ui.add(egui::Checkbox::without_text(v)).accessible_name(&name));
         }
         (_, ValueMut::Choice(choice)) => choice_box(ui, &name, *choice),
         (Domain::Letter, ValueMut::Letter(letter)) => {
@@ -247,7 +255,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
         (domain, ValueMut::Text(text)) => {
             let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
-            ui.add(edit).accessible_name(&name);
+            focus(ui.add(edit).accessible_name(&name));
         }
         (Domain::Curve { .. }, ValueMut::Curve(curve)) => {
             // The curve itself is below the row, over its whole width.
@@ -289,7 +297,15 @@ fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) {
     ui.add(slider.show_value(false).clamping(egui::SliderClamping::Edits)).accessible_name(name);
 }
 
-fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, min: f64, max: f64, logarithmic: bool) {
+fn number_field(
+    ui: &mut egui::Ui,
+    name: &str,
+    param: &Param,
+    value: &mut f64,
+    min: f64,
+    max: f64,
+    logarithmic: bool,
+) -> egui::Response {
     let speed = if logarithmic { (value.abs() * 0.01).max(max.abs() * 1e-7) } else { (max - min) * 0.002 };
     let (now, shown) = (*value, format_digits(*value, NUMBER_DIGITS));
     let number = egui::DragValue::from_get_set(get_set(value, NUMBER_DIGITS))
@@ -299,7 +315,7 @@ fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, m
         .custom_formatter(|v, _| format_digits(v, NUMBER_DIGITS));
     let size = egui::vec2(NUMBER_WIDTH, ui.spacing().interact_size.y);
     typed_field(ui, Some(size), number, Allowed::numbers(param.unit, min, max), &shown, now)
-        .accessible_name(format!("{name} as a number"));
+        .accessible_name(format!("{name} as a number"))
 }
 
 fn count_field(ui: &mut egui::Ui, value: &mut u32, speed: f64, allowed: Allowed<'_>) -> egui::Response {

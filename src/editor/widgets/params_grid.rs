@@ -43,7 +43,8 @@ pub fn params_grid(
         // The path alone does not tell: the kind of a landform has the path of the part itself.
         let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
         let problem = problem_at(grid.shown.problems, path);
-        let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes };
+        let takes_focus = grid.shown.takes_focus(path, param.name);
+        let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes, takes_focus };
         if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
             browse = Some(path.clone());
         }

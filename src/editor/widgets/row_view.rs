@@ -9,6 +9,8 @@ const MARKED_SECS: f64 = 1.5;
 const STEADY_SECS: f64 = 0.6;
 /// Seconds for which the panel keeps scrolling to the row: sections above it may unfold meanwhile.
 const SCROLLING_SECS: f64 = 0.3;
+/// Longest step of the highlight's time in a frame: slow frames must not swallow it.
+const LONGEST_FRAME_SECS: f64 = 0.2;
 
 /// The words that a user typed to narrow a panel down.
 #[derive(Debug, Default)]
@@ -54,15 +56,19 @@ pub struct Revealed {
     pub path: ParamPath,
     /// Its name: the kind of a landform has the path of the part itself.
     pub name: &'static str,
-    /// When the row was shown first, on egui's clock.
-    since_secs: Cell<Option<f64>>,
+    /// Time since the row was shown first.
+    age_secs: Cell<Option<f64>>,
     rect: Cell<Option<Rect>>,
 }
 
 impl Revealed {
     /// A parameter that is searched for now.
     pub fn new(path: ParamPath, name: &'static str) -> Self {
-        Self { path, name, since_secs: Cell::default(), rect: Cell::default() }
+        Self { path, name, age_secs: Cell::default(), rect: Cell::default() }
+    }
+
+    fn is_of(&self, path: &ParamPath, name: &str) -> bool {
+        self.path == *path && self.name == name
     }
 
     /// The row on screen; None until it is shown.
@@ -70,18 +76,18 @@ impl Revealed {
         self.rect.get()
     }
 
-    /// Whether the highlight has gone.
-    pub fn is_over(&self, now_secs: f64) -> bool {
-        self.since_secs.get().is_some_and(|since_secs| now_secs - since_secs > MARKED_SECS)
+    /// Lets the time of a frame pass. Gives whether the highlight has gone.
+    pub fn is_over_after(&self, frame_secs: f64) -> bool {
+        let age_secs = self.age_secs.get().map(|age_secs| age_secs + frame_secs.min(LONGEST_FRAME_SECS));
+        self.age_secs.set(age_secs);
+        age_secs.is_some_and(|age_secs| age_secs > MARKED_SECS)
     }
 
     /// Scrolls to the row, and highlights it with the shape at `place`, which is behind the row.
     fn mark(&self, ui: &egui::Ui, rect: Rect, place: egui::layers::ShapeIdx) {
-        let now_secs = ui.input(|input| input.time);
-        let since_secs = self.since_secs.get().unwrap_or(now_secs);
-        self.since_secs.set(Some(since_secs));
+        let age_secs = self.age_secs.get().unwrap_or(0.0);
+        self.age_secs.set(Some(age_secs));
         self.rect.set(Some(rect));
-        let age_secs = now_secs - since_secs;
         if age_secs <= SCROLLING_SECS {
             ui.scroll_to_rect(rect, Some(egui::Align::Center));
         }
@@ -127,13 +133,18 @@ impl RowView<'_> {
         name: &str,
         add: impl FnOnce(&mut egui::Ui) -> R,
     ) -> R {
-        let Some(revealed) = self.revealed.filter(|revealed| revealed.path == *path && revealed.name == name) else {
-            return add(ui);
-        };
         let place = ui.painter().add(egui::Shape::Noop);
+        // Always in a scope: the ids of the widgets must not change when the highlight goes.
         let shown = ui.scope(add);
-        revealed.mark(ui, shown.response.rect, place);
+        if let Some(revealed) = self.revealed.filter(|revealed| revealed.is_of(path, name)) {
+            revealed.mark(ui, shown.response.rect, place);
+        }
         shown.inner
+    }
+
+    /// Whether the parameter at `path` has just been searched for: its field takes the focus, so that one can type.
+    pub fn takes_focus(&self, path: &ParamPath, name: &str) -> bool {
+        self.revealed.is_some_and(|revealed| revealed.is_of(path, name) && revealed.age_secs.get().is_none())
     }
 
     /// Whether the parameter that was searched for is at `path` or below it.
