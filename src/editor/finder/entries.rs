@@ -20,8 +20,8 @@ use std::path::Path;
 /// parameters, of which there are many.
 const IN_NAME: i32 = 12;
 const NO_PARAMETER: i32 = 4;
-/// Points of a word that only the description has.
-const IN_DESCRIPTION: i32 = 1;
+/// Points of a word of the description.
+const IN_DESCRIPTION: i32 = 14;
 /// Points of an entry that was used lately.
 const USED: i32 = 5;
 /// Shortest word that is looked for in descriptions: shorter ones are in too many.
@@ -86,12 +86,12 @@ impl Entry {
         for word in words {
             let in_name = self.name_text.fit(word).map(|fit| (fit.points + IN_NAME, fit.letters));
             let in_place = self.place_text.fit(word).map(|fit| (fit.points, Vec::new()));
-            let best = in_name.into_iter().chain(in_place).max_by_key(|(points, _)| *points);
-            let (more, marked) = best.or_else(|| {
-                let text: String = word.iter().collect();
-                let described = word.len() >= LEAST_DESCRIBED && self.description.contains(&text);
-                described.then_some((IN_DESCRIPTION, Vec::new()))
-            })?;
+            let text: String = word.iter().collect();
+            let is_described = word.len() >= LEAST_DESCRIBED && self.description.contains(&text);
+            let described = is_described.then(|| (IN_DESCRIPTION, Vec::new()));
+            // Of equal points the last would be taken: the name is.
+            let ways = described.into_iter().chain(in_place).chain(in_name);
+            let (more, marked) = ways.max_by_key(|(points, _)| *points)?;
             points += more;
             letters.extend(marked);
         }
@@ -135,7 +135,8 @@ pub fn parameters(planet: &Planet) -> Vec<Entry> {
         let hidden = planet.structure.is_none() && NEED_STRUCTURE.contains(&param.name);
         let Some(place) = place_of(planet, path).filter(|_| !hidden) else { return };
         let action = Action::Panel(PanelAction::Reveal { path: path.clone(), name: param.name });
-        let description = format!("{} {path}", param.doc);
+        let part = Planet::PARTS.iter().find(|part| path.segments().first() == Some(&Segment::Field(part.name)));
+        let description = format!("{} {path} {}", param.doc, part.map_or("", |part| part.doc));
         let hint = value_text(param, &value);
         entries.push(Entry { hint, ..Entry::new(param.label, &place, &description, action) });
     });
@@ -231,6 +232,8 @@ mod tests {
         assert_eq!(names(&entries, "axial", &[])[0], "Star › Axial tilt");
         assert_eq!(names(&entries, "radius", &[])[0], "Planet › Radius");
         assert!(names(&entries, "sea level", &[]).contains(&"Water › Level".to_owned()), "by its description");
+        let seas = names(&entries, "sea col", &[]);
+        assert_eq!(seas[0], "Water › Deep colour", "what belongs to the sea comes before strewn letters: {seas:?}");
         assert!(names(&entries, "xyzzy", &[]).is_empty());
     }
 

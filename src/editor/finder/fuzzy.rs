@@ -6,8 +6,8 @@
 const FIRST: i32 = 4;
 const BEGIN: i32 = 8;
 const NEXT: i32 = 6;
-/// Points that a gap costs.
-const GAP: i32 = 3;
+/// Points that a gap costs: a word with two gaps is worth less than one in a description.
+const GAP: i32 = 8;
 /// So many letters that were not typed cost a point.
 const SPARE: usize = 6;
 

@@ -18,23 +18,9 @@ pub fn show(
 ) -> Option<String> {
     let mut label = None;
     let others: Vec<&String> = names.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, name)| name).collect();
-    let filtered = shown.filter.is_active();
-    ui.horizontal(|ui| {
-        if filtered {
-            return;
-        }
-        ui.strong("Masks");
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let button = ui.add_enabled(layer.masks.len() < MAX_MASKS, egui::Button::new("Add mask"));
-            if button.on_hover_text("Limit where this layer acts").clicked() {
-                layer.masks.push(match others.first() {
-                    Some(other) => Mask::Layer(LayerMask { layer: (*other).clone(), ..LayerMask::default() }),
-                    None => Mask::Height(HeightMask::default()),
-                });
-                label = Some("Add mask".to_owned());
-            }
-        });
-    });
+    if !shown.filter.is_active() {
+        label = head(ui, layer, &others);
+    }
     let mut removed = None;
     for (number, mask) in layer.masks.iter_mut().enumerate() {
         let owner = format!("mask {} of {}", number + 1, layer.name);
@@ -76,5 +62,24 @@ pub fn show(
         layer.masks.remove(number);
         label = Some("Remove mask".to_owned());
     }
+    label
+}
+
+/// The heading, with the button that adds a mask. Gives the name of the edit.
+fn head(ui: &mut egui::Ui, layer: &mut Layer, others: &[&String]) -> Option<String> {
+    let mut label = None;
+    ui.horizontal(|ui| {
+        ui.strong("Masks");
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let button = ui.add_enabled(layer.masks.len() < MAX_MASKS, egui::Button::new("Add mask"));
+            if button.on_hover_text("Limit where this layer acts").clicked() {
+                layer.masks.push(match others.first() {
+                    Some(other) => Mask::Layer(LayerMask { layer: (*other).clone(), ..LayerMask::default() }),
+                    None => Mask::Height(HeightMask::default()),
+                });
+                label = Some("Add mask".to_owned());
+            }
+        });
+    });
     label
 }

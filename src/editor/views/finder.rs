@@ -132,31 +132,32 @@ impl FinderWindow {
                 let name = entry.accessible_name();
                 egui::WidgetInfo::selected(egui::Role::ListBoxOption, entry.enabled, cursor == row, name)
             });
-            paint(ui, entry, &found.letters, rect);
+            paint(ui, entry, &found.letters, rect, cursor == row);
         })
     }
 }
 
-/// Paints an entry: its name with the typed letters marked, its place, and its hint at the right.
-fn paint(ui: &egui::Ui, entry: &Entry, letters: &[usize], rect: Rect) {
+/// Paints an entry: its name with the typed letters marked, its place, and its hint at the right. The row with the
+/// cursor has a background on which a line marks better than a colour.
+fn paint(ui: &egui::Ui, entry: &Entry, letters: &[usize], rect: Rect, has_cursor: bool) {
     let visuals = ui.visuals();
     let (body, small) = (TextStyle::Body.resolve(ui.style()), FontId::proportional(SMALL));
     let weak = if entry.enabled { visuals.text_color().gamma_multiply(0.85) } else { visuals.weak_text_color() };
     let plain = if entry.enabled { visuals.strong_text_color() } else { weak };
-    let marked = if entry.enabled { visuals.hyperlink_color } else { weak };
+    let colored = if visuals.dark_mode { visuals.hyperlink_color } else { visuals.selection.stroke.color };
+    let marked = if entry.enabled && !has_cursor { colored } else { plain };
+    let line = egui::Stroke::new(if has_cursor { 1.0 } else { 0.0 }, marked);
     let inner = rect.shrink2(egui::vec2(8.0, 0.0));
     let hint = ui.painter().layout_no_wrap(entry.hint.clone(), small.clone(), weak);
     let hint_width = hint.size().x;
     let wrap = egui::text::TextWrapping::truncate_at_width(inner.width() - hint_width - 16.0);
     let mut job = egui::text::LayoutJob { wrap, ..Default::default() };
     let mut buffer = [0; 4];
+    let plain_format = TextFormat { valign: egui::Align::Center, ..TextFormat::simple(body, plain) };
+    let marked_format = TextFormat { color: marked, underline: line, ..plain_format.clone() };
     for (index, letter) in entry.name.chars().enumerate() {
-        let color = if letters.contains(&index) { marked } else { plain };
-        job.append(
-            letter.encode_utf8(&mut buffer),
-            0.0,
-            TextFormat { valign: egui::Align::Center, ..TextFormat::simple(body.clone(), color) },
-        );
+        let format = if letters.contains(&index) { &marked_format } else { &plain_format };
+        job.append(letter.encode_utf8(&mut buffer), 0.0, format.clone());
     }
     let place = TextFormat { valign: egui::Align::Center, ..TextFormat::simple(small, weak) };
     job.append(&entry.place, 10.0, place);

@@ -31,8 +31,7 @@ impl PlaceWindow {
         self.open = state.shows.place;
         let mut open = self.open;
         let window = egui::Window::new("Go to place").id(id()).open(&mut open).collapsible(false).resizable(false);
-        let middle = ctx.content_rect().center_top() + egui::vec2(-170.0, 60.0);
-        window.default_pos(middle).show(ctx, |ui| {
+        window.anchor(egui::Align2::CENTER_TOP, [0.0, 60.0]).show(ctx, |ui| {
             ui.set_width(340.0_f32.min(ctx.content_rect().width() - 60.0));
             self.content(ui, opens, commands);
         });
