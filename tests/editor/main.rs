@@ -4,7 +4,8 @@
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
-//! - `finder`: commands, planets, bookmarks and parameters by name; `finding`: filters, and the row of a parameter that was searched for
+//! - `finder`: commands, planets, bookmarks and parameters by name
+//! - `finding`: filters, and the row of a parameter that was searched for
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture
