@@ -4,7 +4,7 @@
 //! carries out the commands of the last frame. `ui` shows the views, and makes an undo step of a changed draft.
 
 use super::apply::apply_all;
-use super::command::{Command, Commands};
+use super::command::{Action, Command, Commands};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::handlers::{answers, open_file, opening, shooting};
 use super::painter::survey::Surveyor;
@@ -16,7 +16,12 @@ use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
 use super::viewport::Viewport;
-use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, shortcuts, status};
+use super::views::finder::FinderWindow;
+use super::views::history::HistoryWindow;
+use super::views::place::PlaceWindow;
+use super::views::shortcuts::{self, Keys};
+use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, status};
+use super::widgets::row_view::RowView;
 use crate::planet::{Planet, shipped};
 use crate::terrain::MapStore;
 use eframe::egui;
@@ -36,6 +41,9 @@ pub struct EditorApp {
     commands: Commands,
     panels: PanelState,
     prompts: Prompts,
+    finder: FinderWindow,
+    history: HistoryWindow,
+    place: PlaceWindow,
     surveyor: Surveyor,
     /// Where solved world maps are kept.
     maps: Option<Arc<MapStore>>,
@@ -75,6 +83,9 @@ impl EditorApp {
             commands: Commands::default(),
             panels: PanelState::default(),
             prompts: Prompts::default(),
+            finder: FinderWindow::default(),
+            history: HistoryWindow::default(),
+            place: PlaceWindow::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
             maps,
             was_typing: false,
@@ -124,9 +135,19 @@ impl EditorApp {
         &mut self.state.photo
     }
 
+    /// The row of the parameter that was searched for, while it is highlighted.
+    pub fn revealed(&self) -> Option<egui::Rect> {
+        self.panels.finding.revealed().and_then(|revealed| revealed.rect())
+    }
+
     /// Asks for a command, as a menu does.
     pub fn send(&mut self, command: Command) {
         self.commands.send(command);
+    }
+
+    /// Asks for an action, as a view does.
+    pub fn push(&mut self, action: Action) {
+        self.commands.push(action);
     }
 
     /// The name of the graphics adapter.
@@ -150,26 +171,29 @@ impl EditorApp {
             self.surveyor.ask(&surface.terrain);
         }
         let mut planet = (**state.document.planet()).clone();
+        let mut label = None;
         let problems = [state.document.problems(), state.pictures.problems()].concat();
-        let mut draft = Draft {
-            label: None,
-            problems: &problems,
-            under_pointer: state.viewport.under_pointer(),
-            survey: self.surveyor.survey(),
-            commands: &mut self.commands,
-            eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
-            time_secs: state.viewport.settings.time_secs,
-            planet: &mut planet,
-        };
         egui::Panel::right("parts").default_size(PANEL_WIDTH).size_range(320.0..=560.0).show(ui, |ui| {
             // The user sets the width, never the content: wide content is cut off.
             let rect = ui.available_rect_before_wrap();
             ui.advance_cursor_after_rect(rect);
             let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(rect));
             ui.shrink_clip_rect(rect.expand(4.0));
+            panels.head(ui);
+            let (filter, revealed) = (panels.finding.filter(panels.tab()), panels.finding.revealed());
+            let mut draft = Draft {
+                label: None,
+                shown: RowView { problems: &problems, filter: &filter, revealed: revealed.as_deref() },
+                under_pointer: state.viewport.under_pointer(),
+                survey: self.surveyor.survey(),
+                commands: &mut self.commands,
+                eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
+                time_secs: state.viewport.settings.time_secs,
+                planet: &mut planet,
+            };
             panels.show(ui, &mut draft);
+            label = draft.label;
         });
-        let label = draft.label;
         self.state.edit(planet, label);
     }
 
@@ -225,7 +249,8 @@ impl eframe::App for EditorApp {
             let waker = ctx.clone();
             state.viewport.edit_clock.frame_began(&render_state.device, move || waker.request_repaint());
         }
-        shortcuts::take(ctx, state, self.was_typing, &mut self.commands);
+        let filtered = state.shows.panel && self.panels.finding.filter(self.panels.tab()).is_active();
+        shortcuts::take(ctx, state, Keys { was_typing: self.was_typing, filtered }, &mut self.commands);
         answers::poll_dialogs(state, ctx);
         open_file::poll(state, ctx);
         shooting::poll(state);
@@ -237,6 +262,10 @@ impl eframe::App for EditorApp {
         state.pictures.poll(&mut state.document, ctx);
         answers::close_request(state, ctx, &mut self.commands);
         self.panels.keep_to_document(state.document_number);
+        self.panels.finding.pass_time(ctx.input(|input| f64::from(input.unstable_dt)));
+        for asked in state.panel_asks.drain(..) {
+            self.panels.take(state.document.planet(), asked);
+        }
         self.update_title(ctx);
     }
 
@@ -258,6 +287,9 @@ impl eframe::App for EditorApp {
         controls::show(&ctx, &self.state, &mut self.commands);
         performance::show(&ctx, &self.state, &mut self.commands);
         photo::show(&ctx, &self.state, &mut self.commands);
+        self.history.show(&ctx, &self.state, &mut self.commands);
+        self.place.show(&ctx, &self.state, &mut self.commands);
+        self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);
         self.settle(&ctx);
         self.plan_next_frame(&ctx);

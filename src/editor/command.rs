@@ -3,6 +3,7 @@
 //! This file knows neither views nor handlers. [`commands`](super::commands) gives each command its name, its shortcut
 //! and its handler; [`apply`](super::apply) carries out the actions.
 
+use super::finder::place::Place;
 use super::state::shooting::{PhotoSettings, Subject};
 use super::viewport::camera::Mode;
 use crate::lod::Quality;
@@ -22,7 +23,12 @@ pub enum Command {
     Quit,
     Undo,
     Redo,
+    History,
+    Finder,
+    /// Type into the filter of the open tab.
+    Filter,
     ResetView,
+    GoToPlace,
     PlayPause,
     TogglePanel,
     TogglePerformance,
@@ -53,6 +59,14 @@ pub enum Action {
     OpenShipped(usize),
     /// Choose a file for the parameter at this path.
     Browse(ParamPath),
+    /// Open the finder with this text.
+    Search(String),
+    /// Change what the side panel shows.
+    Panel(PanelAction),
+    /// Undo or redo until this number of steps is done.
+    Jump(usize),
+    /// Fly to a location.
+    GoToPlace(Place),
     /// Change a bookmark, or fly to it.
     Bookmark(BookmarkAction),
     /// Take a picture.
@@ -76,6 +90,28 @@ pub enum Window {
     Performance,
     /// Photographs and films.
     Photo,
+    /// The finder.
+    Finder,
+    /// The undo steps.
+    History,
+    /// The location to go to.
+    Place,
+}
+
+/// A change of what the side panel shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PanelAction {
+    /// Open the tab of a parameter, scroll to its row and highlight it.
+    Reveal {
+        /// The path of the parameter.
+        path: ParamPath,
+        /// Its name: the kind of a landform has the path of the part itself.
+        name: &'static str,
+    },
+    /// Type into the filter of the open tab.
+    TypeFilter,
+    /// Remove the filter of the open tab.
+    ClearFilter,
 }
 
 /// A setting of the view, and its new value. Settings are no part of the document.

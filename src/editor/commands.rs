@@ -3,7 +3,7 @@
 //! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a
 //! row here.
 
-use super::command::Command;
+use super::command::{Command, PanelAction};
 use super::handlers::{biome_table, bookmarks, opening, saving, window};
 use super::state::State;
 use super::state::describe::lower_first;
@@ -165,6 +165,7 @@ pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows.extend(GO_TO.iter().enumerate().map(|(index, (label, key))| {
         Row::new(Command::GoTo(index), label, "Fly to this bookmark.", move |state, _| bookmarks::go_to(state, index))
             .keys([ctrl(*key)])
+            .enabled_when(move |state| index < state.document.bookmarks().len())
     }));
     rows
 });
@@ -209,6 +210,24 @@ fn file_and_edit() -> Vec<Row> {
             .enabled_when(|s| s.document.history().redo_label().is_some())
             .renamed(|s| s.document.history().redo_label().map(|step| format!("Redo: {}", lower_first(step))))
             .yielding_to_text(),
+        Row::new(Command::History, "History", "List the undo steps; a click goes to one.", |s, _| {
+            s.shows.history ^= true;
+        })
+        .within(Menu::Edit, 0)
+        .keys([ctrl(Key::H)]),
+        Row::new(
+            Command::Finder,
+            "Find anything…",
+            "Find a command, a planet, a bookmark or a parameter by its name.",
+            |s, _| s.search((!s.shows.finder).then(String::new)),
+        )
+        .within(Menu::Edit, 1)
+        .keys([ctrl(Key::K), ctrl(Key::P)]),
+        Row::new(Command::Filter, "Filter parameters", "Show only the parameters with these words.", |s, _| {
+            s.ask_panel(PanelAction::TypeFilter);
+        })
+        .within(Menu::Edit, 1)
+        .keys([ctrl(Key::F)]),
     ]
 }
 
@@ -302,6 +321,11 @@ fn camera() -> Vec<Row> {
         })
         .within(Menu::Camera, 1)
         .keys([ctrl(Key::Num0)]),
+        Row::new(Command::GoToPlace, "Go to place…", "Fly to a latitude and longitude.", |s, _| {
+            s.shows.place ^= true;
+        })
+        .within(Menu::Camera, 2)
+        .keys([ctrl(Key::G)]),
     ]
 }
 

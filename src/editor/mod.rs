@@ -7,6 +7,7 @@
 //! - [`state`]: the document, its undo steps, questions, notices, the working copy
 //! - [`handlers`]: the effects of the commands
 //! - [`files`]: file dialogs, changes on disk, other windows
+//! - [`finder`]: finding things by name: what the finder searches, locations as text
 //! - [`views`]: menus, status bar, questions, windows
 //! - [`panels`], [`widgets`]: the side panel; the rows it is made of
 //! - [`painter`]: painting the biome table, apart from any widget
@@ -17,6 +18,7 @@ pub mod apply;
 pub mod command;
 pub mod commands;
 pub mod files;
+pub mod finder;
 pub mod handlers;
 pub mod painter;
 pub mod panels;

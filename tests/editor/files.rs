@@ -197,7 +197,7 @@ fn a_random_planet_is_a_step_and_never_a_question() {
     }
     assert!(rolled[0] != first && rolled[1] != rolled[0]);
     assert_eq!(harness.state().document().path(), None, "a roll never goes over the file of another planet");
-    assert_eq!((undo_len(&harness), undo_label(&harness)), (2, "Random planet".to_owned()));
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (2, format!("Random planet: {}", rolled[1].name)));
     send(&mut harness, Command::Undo);
     assert_eq!(planet(&harness), rolled[0]);
     send(&mut harness, Command::Undo);

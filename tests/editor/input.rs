@@ -82,7 +82,6 @@ fn escape_ends_typing_before_it_closes_a_window() {
 #[test]
 fn keys_stay_in_the_list_that_is_open() {
     let mut harness = editor(vec![]);
-    let pose = |harness: &Editor| harness.state().viewport().pose(harness.state().document().valid_planet());
     let before = pose(&harness);
     click(&mut harness, "Planet");
     for list in ["Precision of planet", "View"] {
@@ -198,4 +197,62 @@ fn every_sign_of_the_colour_picker_is_in_the_fonts() {
     let harness = editor(vec![]);
     let font = egui::FontId::default();
     assert!(harness.ctx.fonts_mut(|fonts| fonts.has_glyphs(&font, "📋…×•°−–")));
+}
+
+#[test]
+fn a_number_field_calculates_and_says_what_it_cannot() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Star");
+    for (typed, value) in [("3600/240", 15.0), ("2*(10+5)", 30.0), ("-1/4°", -0.25)] {
+        enter(&mut harness, "Latitude of star as a number", typed);
+        assert_eq!(planet(&harness).star.latitude_deg, value, "{typed}");
+    }
+    for (typed, why) in
+        [("3*", "a number is missing after *"), ("2*50", "100 is out of range"), ("1/0", "not a finite")]
+    {
+        enter(&mut harness, "Latitude of star as a number", typed);
+        assert!(harness.query_by_label_contains(why).is_some(), "{typed}");
+        assert_eq!(planet(&harness).star.latitude_deg, -0.25, "{typed}");
+    }
+}
+
+#[test]
+fn a_value_is_copied_and_pasted_into_another_parameter() {
+    let mut harness = editor(vec![]);
+    click(&mut harness, "Star");
+    let menu = |harness: &mut Editor, label: &str, entry: &str| {
+        harness.get_by_label(label).click_secondary();
+        harness.run_steps(3);
+        click(harness, entry);
+    };
+    enter(&mut harness, "Longitude of star as a number", "33.5");
+    harness.get_by_label("Longitude").click_secondary();
+    harness.run_steps(3);
+    harness.get_by_label("Copy value").click();
+    let copied = (0..3).find_map(|_| {
+        harness.step();
+        copied(&harness)
+    });
+    assert_eq!(copied.as_deref(), Some("33.5°"));
+    let paste = |harness: &mut Editor, text: &str| {
+        menu(harness, "Latitude", "Paste value");
+        harness.event(egui::Event::Paste(text.to_owned()));
+        harness.run_steps(3);
+    };
+    paste(&mut harness, "33.5°");
+    assert_eq!(planet(&harness).star.latitude_deg, 33.5);
+    assert_eq!(undo_label(&harness), "Change latitude of star");
+    paste(&mut harness, "seven");
+    assert!(harness.query_by_label_contains("\"seven\" is not a number").is_some());
+    assert_eq!(planet(&harness).star.latitude_deg, 33.5);
+    menu(&mut harness, "Latitude", "Reset to default");
+    assert_eq!(planet(&harness).star.latitude_deg, Planet::default().star.latitude_deg);
+}
+
+/// The text that was copied in the last frame.
+fn copied(harness: &Editor) -> Option<String> {
+    harness.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    })
 }

@@ -4,6 +4,9 @@
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
+//! - `finder`: commands, planets, bookmarks and parameters by name
+//! - `finding`: filters, and the row of a parameter that was searched for
+//! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -12,18 +15,22 @@
 mod app;
 mod disk;
 mod files;
+mod finder;
+mod finding;
+mod history;
 mod input;
 #[path = "../support/layered.rs"]
 mod layered;
 mod painter;
 mod photo;
+mod place;
 mod plates;
 mod viewport;
 
-use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, undo_label, undo_len};
+use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, type_text, undo_label, undo_len};
 use eframe::egui;
-use eframe::egui::accesskit::Role;
-use egui_kittest::kittest::Queryable;
+use eframe::egui::accesskit::{Role, Toggled};
+use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
 use tellus::editor::command::Command;
 use tellus::editor::viewport::camera::Mode;
@@ -48,6 +55,32 @@ fn slide(harness: &mut Editor, label: &str, value: f64) {
 fn press(harness: &mut Editor, modifiers: egui::Modifiers, key: egui::Key) {
     harness.key_press_modifiers(modifiers, key);
     harness.run_steps(3);
+}
+
+/// Presses Escape, and lets a window that closes fade away.
+fn escape(harness: &mut Editor) {
+    press(harness, egui::Modifiers::NONE, egui::Key::Escape);
+    harness.run_steps(20);
+}
+
+/// The rows in view of the list that is open, and whether each is the chosen one.
+fn listed(harness: &Editor) -> Vec<(String, bool)> {
+    let rows = harness.query_all_by_role(Role::ListBoxOption);
+    let row = |row: egui_kittest::Node<'_>| {
+        let node = row.accesskit_node();
+        (node.label().unwrap_or_default(), node.toggled() == Some(Toggled::True))
+    };
+    rows.map(row).collect()
+}
+
+/// The chosen row of the list that is open.
+fn chosen(harness: &Editor) -> String {
+    listed(harness).into_iter().find_map(|(name, chosen)| chosen.then_some(name)).unwrap_or_default()
+}
+
+/// Position and orientation of the eye.
+fn pose(harness: &Editor) -> tellus::lod::pose::Pose {
+    harness.state().viewport().pose(harness.state().document().valid_planet())
 }
 
 #[test]

@@ -91,6 +91,18 @@ pub fn open_planet_with_picture(size: [f32; 2], planet: Planet) -> Editor {
     start(builder, move |cc| EditorApp::with_planet(cc, planet, None, None))
 }
 
+/// An editor without a picture of a planet.
+pub fn open_planet(size: [f32; 2], planet: Planet) -> Editor {
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 60.0);
+    start(builder, move |cc| EditorApp::with_planet(cc, planet, None, None))
+}
+
+/// Types a text into the field with the focus.
+pub fn type_text(harness: &mut Editor, text: &str) {
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(3);
+}
+
 /// Steps until a condition holds.
 pub fn until(harness: &mut Editor, what: &str, holds: impl Fn(&Editor) -> bool) {
     const PATIENCE: Duration = Duration::from_secs(120);

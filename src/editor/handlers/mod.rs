@@ -8,6 +8,7 @@
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps
 //! - [`bookmarks`]: views kept in the preset
+//! - [`place`]: the flight to a location
 //! - [`window`]: full screen and theme
 
 pub mod answers;
@@ -16,6 +17,7 @@ pub mod bookmarks;
 pub mod open_file;
 pub mod opening;
 pub mod pictures;
+pub mod place;
 pub mod saving;
 pub mod shooting;
 pub mod window;

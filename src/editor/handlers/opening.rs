@@ -97,7 +97,10 @@ fn show(state: &mut State, path: &Path, document: Result<Document, LoadError>) {
 
 /// Replaces the planet by a random one: one undo step.
 pub fn roll(state: &mut State) {
-    state.roll(scout::random_planet(random_seed()), "Random planet");
+    let planet = scout::random_planet(random_seed());
+    // The name tells the rolls apart in the list of undo steps.
+    let label = format!("Random planet: {}", planet.name);
+    state.roll(planet, &label);
 }
 
 /// Opens the first working copy that a crash left behind, or deletes it.

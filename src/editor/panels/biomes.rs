@@ -2,7 +2,7 @@
 
 use super::biome_palette::PaletteState;
 use super::biome_table::{PainterState, Shown, TableOutput};
-use super::{Draft, biome_edit, biome_palette, biome_table};
+use super::{Draft, biome_edit, biome_palette, biome_table, owner_box};
 use crate::editor::command::Command;
 use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
@@ -88,6 +88,14 @@ impl BiomesState {
 pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     let last = draft.planet.biomes.palette.len().saturating_sub(1);
     state.palette.selected = state.palette.selected.min(last);
+    if draft.shown.filter.is_active() {
+        state.light_up(None);
+        let names = draft.planet.biomes.palette.iter().map(|biome| biome.name.as_str());
+        owner_box(ui, "Biome", names, &mut state.palette.selected);
+        selected(ui, &mut state.palette, draft);
+        table_params(ui, draft);
+        return;
+    }
     toolbar(ui, state, draft);
     let output = table(ui, state, draft);
     ui.separator();
@@ -104,10 +112,15 @@ pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     ui.separator();
     ui.strong("Table");
     sides(ui, draft);
+    table_params(ui, draft);
+}
+
+/// The axes of the table, and the surface rules.
+fn table_params(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     let base = ParamPath::from(vec![Segment::Field("biomes")]);
     let names = names(&draft.planet.biomes);
     let skip = &["palette", "table"];
-    let grid = Grid { base, owner: "biomes", skip, problems: draft.problems, biomes: &names };
+    let grid = Grid { base, owner: "biomes", skip, shown: draft.shown, biomes: &names };
     params_grid(ui, &grid, &mut draft.planet.biomes, &mut Biomes::default());
 }
 
@@ -203,7 +216,7 @@ fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> T
         (None, None) => "Right click or a biome's letter picks. Ctrl and click on the planet paints there.".to_owned(),
     };
     ui.add(egui::Label::new(egui::RichText::new(text).small().weak()).truncate());
-    for (path, problem) in draft.problems {
+    for (path, problem) in draft.shown.problems {
         if path.segments().get(1) == Some(&Segment::Field("table")) {
             ui.colored_label(ui.visuals().error_fg_color, problem);
         }
@@ -224,10 +237,13 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
         let path = base.join("key");
         let default = Value::Letter(biome.key);
         let problem = state.refused.as_ref().map(|(_, why)| why.as_str());
-        let row = Row { param, path: &path, owner: &name, default: Some(&default), problem, biomes: &[] };
-        param_row(ui, &row, key.value_mut());
+        let takes_focus = draft.shown.takes_focus(&path, param.name);
+        let row = Row { param, path: &path, owner: &name, default: Some(&default), problem, biomes: &[], takes_focus };
+        if draft.shown.passes(&path, param) {
+            draft.shown.marked(ui, &path, param.name, |ui| param_row(ui, &row, key.value_mut()));
+        }
     }
-    let grid = Grid { base, owner: &name, skip: &["key"], problems: draft.problems, biomes: &names };
+    let grid = Grid { base, owner: &name, skip: &["key"], shown: draft.shown, biomes: &names };
     let mut default = Biome { name: name.clone(), ..Biome::default() };
     params_grid(ui, &grid, biome, &mut default);
     if key != biome.key {

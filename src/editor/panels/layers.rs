@@ -1,6 +1,6 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
-use super::{Draft, layer_edit, masks};
+use super::{Draft, layer_edit, masks, owner_box};
 use crate::editor::command::Action;
 use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button};
@@ -11,6 +11,9 @@ use crate::planet::layers::layer_path;
 use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Shape};
 use eframe::egui::{self, AtomExt};
+
+/// Parameters of a layer that have no effect without a structure: they are not shown then.
+pub const NEED_STRUCTURE: [&str; 3] = ["under", "folding", "follow_wind"];
 
 /// Index of the row that is dragged.
 #[derive(Clone, Copy)]
@@ -29,9 +32,14 @@ pub struct LayersState {
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     state.selected = state.selected.min(draft.planet.layers.len().saturating_sub(1));
-    toolbar(ui, state, draft);
-    list(ui, state, draft);
-    ui.separator();
+    if draft.shown.filter.is_active() {
+        let names = draft.planet.layers.iter().map(|layer| layer.name.as_str());
+        owner_box(ui, "Layer", names, &mut state.selected);
+    } else {
+        toolbar(ui, state, draft);
+        list(ui, state, draft);
+        ui.separator();
+    }
     if state.selected < draft.planet.layers.len() {
         selected(ui, state, draft);
     } else {
@@ -86,9 +94,11 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let mut moved = None;
     for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
         ui.horizontal(|ui| {
-            ui.add(egui::Checkbox::without_text(&mut layer.enabled))
-                .on_hover_text("Whether the layer changes the height; off, it can still be a mask")
-                .accessible_name(format!("Enabled of {}", layer.name));
+            draft.shown.marked(ui, &layer_path(index).join("enabled"), "enabled", |ui| {
+                ui.add(egui::Checkbox::without_text(&mut layer.enabled))
+                    .on_hover_text("Whether the layer changes the height; off, it can still be a mask")
+                    .accessible_name(format!("Enabled of {}", layer.name));
+            });
             let change_m = changes_m.and_then(|changes| changes.get(index)).filter(|_| layer.enabled);
             let details = egui::RichText::new(details(layer, change_m.copied())).weak().small();
             let name = egui::RichText::new(&layer.name);
@@ -129,22 +139,23 @@ fn details(layer: &Layer, change_m: Option<f64>) -> String {
 
 fn selected(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let index = state.selected;
-    name_field(ui, state, draft);
-    let problems = draft.problems;
+    let shown = draft.shown;
+    if !shown.filter.is_active() {
+        let name_path = layer_path(index).join("name");
+        shown.marked(ui, &name_path, "name", |ui| name_field(ui, state, draft));
+    }
     let names: Vec<String> = draft.planet.layers.iter().map(|layer| layer.name.clone()).collect();
     let has_structure = draft.planet.structure.is_some();
     let Some(layer) = draft.planet.layers.get_mut(index) else { return };
     let name = layer.name.clone();
-    // What needs a structure is not shown without one.
-    let skip = ["name", "enabled", "masks", "under", "folding", "follow_wind"];
-    let skip = if has_structure { &skip[..3] } else { &skip[..] };
-    let grid = Grid { base: layer_path(index), owner: &name, skip, problems, biomes: &[] };
+    let skip = [&["name", "enabled", "masks"][..], if has_structure { &[] } else { &NEED_STRUCTURE }].concat();
+    let grid = Grid { base: layer_path(index), owner: &name, skip: &skip, shown, biomes: &[] };
     let shape = Shape::of_kind(layer.shape.index()).unwrap_or_default();
     let mut default = Layer { shape, ..Layer::default() };
     let browse = params_grid(ui, &grid, layer, &mut default);
     draft.commands.extend(browse.map(Action::Browse));
     ui.add_space(6.0);
-    if let Some(label) = masks::show(ui, index, layer, &names, problems) {
+    if let Some(label) = masks::show(ui, index, layer, &names, shown) {
         draft.name_edit(label);
     }
 }

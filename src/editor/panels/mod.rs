@@ -3,6 +3,7 @@
 //! Panels change a draft of the planet; the application makes an undo step of a changed draft. [`PANELS`] lists the
 //! tabs: a new panel is a file and a row there.
 //!
+//! - [`finding`]: filters, and the parameter that was searched for
 //! - [`parts`]: planet, star, climate, and the optional parts; [`structure`]: plates, weather, rivers
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
 //! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
@@ -13,24 +14,29 @@ pub mod biome_edit;
 pub mod biome_palette;
 pub mod biome_table;
 pub mod biomes;
+pub mod finding;
 pub mod layer_edit;
 pub mod layers;
 pub mod masks;
 pub mod parts;
 pub mod structure;
 
-use crate::editor::command::Commands;
+use crate::editor::command::{Commands, PanelAction};
 use crate::editor::painter::survey::Survey;
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, TabLink};
+use crate::editor::widgets::row_view::RowView;
 use crate::planet::Planet;
-use crate::planet::param::ParamPath;
+use crate::planet::param::{ParamPath, Segment};
 use eframe::egui;
+use finding::Finding;
 
 /// A tab of the side panel.
 pub struct Panel {
     /// The name of the tab.
     pub label: &'static str,
+    /// The part of the planet that the tab shows: the field of a preset; empty for the planet's own parameters.
+    pub part: &'static str,
     /// Whether the tab paints the biome table.
     pub paints: bool,
     /// Whether the tab changes plates.
@@ -39,8 +45,21 @@ pub struct Panel {
 }
 
 impl Panel {
-    const fn new(label: &'static str, show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>)) -> Self {
-        Self { label, paints: false, plates: false, show }
+    const fn new(
+        label: &'static str,
+        part: &'static str,
+        show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
+    ) -> Self {
+        Self { label, part, paints: false, plates: false, show }
+    }
+
+    /// Index of the tab with the parameter at `path`; None if no tab shows it.
+    pub fn of(path: &ParamPath) -> Option<usize> {
+        let part = match path.segments() {
+            [Segment::Field(part), _, ..] => part,
+            _ => "",
+        };
+        PANELS.iter().position(|panel| panel.part == part)
     }
 
     const fn painting(self) -> Self {
@@ -54,18 +73,18 @@ impl Panel {
 
 /// The tabs, in the order shown.
 pub static PANELS: [Panel; 9] = [
-    Panel::new("Planet", |ui, _, draft| parts::planet(ui, draft)),
-    Panel::new("Terrain", |ui, state, draft| layers::show(ui, &mut state.layers, draft)),
-    Panel::new("Structure", |ui, state, draft| {
+    Panel::new("Planet", "", |ui, _, draft| parts::planet(ui, draft)),
+    Panel::new("Terrain", "layers", |ui, state, draft| layers::show(ui, &mut state.layers, draft)),
+    Panel::new("Structure", "structure", |ui, state, draft| {
         structure::show(ui, &mut state.structure, &mut state.turned_off, draft);
     })
     .of_plates(),
-    Panel::new("Climate", |ui, _, draft| parts::climate(ui, draft)),
-    Panel::new("Biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft)).painting(),
-    Panel::new("Water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
-    Panel::new("Atmosphere", |ui, state, draft| parts::atmosphere(ui, &mut state.turned_off, draft)),
-    Panel::new("Clouds", |ui, state, draft| parts::clouds(ui, &mut state.turned_off, draft)),
-    Panel::new("Star", |ui, _, draft| parts::star(ui, draft)),
+    Panel::new("Climate", "climate", |ui, _, draft| parts::climate(ui, draft)),
+    Panel::new("Biomes", "biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft)).painting(),
+    Panel::new("Water", "water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
+    Panel::new("Atmosphere", "atmosphere", |ui, state, draft| parts::atmosphere(ui, &mut state.turned_off, draft)),
+    Panel::new("Clouds", "clouds", |ui, state, draft| parts::clouds(ui, &mut state.turned_off, draft)),
+    Panel::new("Star", "star", |ui, _, draft| parts::star(ui, draft)),
 ];
 
 /// Index of the tab that is open at the start: the terrain.
@@ -77,8 +96,8 @@ pub struct Draft<'a> {
     pub planet: &'a mut Planet,
     /// The name of the edit; None names it after the changed parameters.
     pub label: Option<String>,
-    /// Everything wrong with the document's planet.
-    pub problems: &'a [(ParamPath, String)],
+    /// Problems of the document's planet, the filter, and the parameter that was searched for.
+    pub shown: RowView<'a>,
     /// The ground under the pointer.
     pub under_pointer: Option<&'a UnderPointer>,
     /// How the planet's land is spread over its biome table.
@@ -102,6 +121,8 @@ impl Draft<'_> {
 pub struct PanelState {
     tab: usize,
     document_number: u64,
+    /// Filters, and the parameter that was searched for.
+    pub finding: Finding,
     layers: layers::LayersState,
     /// The biomes tab.
     pub biomes: biomes::BiomesState,
@@ -114,6 +135,7 @@ impl Default for PanelState {
         Self {
             tab: FIRST_TAB,
             document_number: 0,
+            finding: Finding::default(),
             layers: layers::LayersState::default(),
             biomes: biomes::BiomesState::default(),
             structure: structure::StructureState::default(),
@@ -123,10 +145,12 @@ impl Default for PanelState {
 }
 
 impl PanelState {
-    /// Forgets selections and texts if they belong to another document than the one of this number.
+    /// Forgets selections and texts if they belong to another document than the one of this number. Filters stay: one
+    /// may look at the same parameters of many random planets.
     pub fn keep_to_document(&mut self, document_number: u64) {
         if self.document_number != document_number {
-            *self = Self { tab: self.tab, document_number, ..Self::default() };
+            let finding = std::mem::take(&mut self.finding);
+            *self = Self { tab: self.tab, document_number, finding, ..Self::default() };
         }
     }
 
@@ -153,18 +177,63 @@ impl PanelState {
         self.biomes.clicked(planet, click, under)
     }
 
-    /// Shows the tabs and the open one.
-    pub fn show(&mut self, ui: &mut egui::Ui, draft: &mut Draft<'_>) {
+    /// Shows the tabs, and the filter of the open one.
+    pub fn head(&mut self, ui: &mut egui::Ui) {
         self.tabs(ui);
         ui.separator();
+        if let Some(panel) = PANELS.get(self.tab) {
+            self.finding.field(ui, self.tab, panel.label);
+        }
+    }
+
+    /// Shows the open tab.
+    pub fn show(&mut self, ui: &mut egui::Ui, draft: &mut Draft<'_>) {
         let Some(panel) = PANELS.get(self.tab) else { return };
         egui::ScrollArea::vertical().id_salt(panel.label).auto_shrink([false, false]).show(ui, |ui| {
             // Room for the scroll bar, so that it never covers a control.
             ui.set_max_width(ui.available_width() - 10.0);
             ui.add_space(2.0);
             (panel.show)(ui, self, draft);
+            self.finding.tell_if_empty(ui, self.tab, draft);
             ui.add_space(8.0);
         });
+    }
+
+    /// Does what another part of the editor has asked for.
+    pub fn take(&mut self, planet: &Planet, asked: PanelAction) {
+        match asked {
+            PanelAction::Reveal { path, name } => self.reveal(planet, &path, name),
+            PanelAction::TypeFilter => self.finding.take_focus(),
+            PanelAction::ClearFilter => self.finding.clear(self.tab),
+        }
+    }
+
+    /// Opens the tab of a parameter, and selects its layer, biome or plate there.
+    fn reveal(&mut self, planet: &Planet, path: &ParamPath, name: &'static str) {
+        let Some(tab) = Panel::of(path) else { return };
+        self.tab = tab;
+        self.finding.reveal(tab, path.clone(), name);
+        match path.segments() {
+            [Segment::Field("layers"), Segment::Index(index), ..] => self.layers.selected = *index,
+            [Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index), ..] => {
+                self.biomes.palette.selected = *index;
+            }
+            [
+                Segment::Field("structure"),
+                Segment::Field("plates"),
+                Segment::Field("by_hand"),
+                Segment::Index(index),
+                ..,
+            ] => {
+                self.structure.choose(planet, *index);
+            }
+            _ => {}
+        }
+    }
+
+    /// Index of the open tab.
+    pub fn tab(&self) -> usize {
+        self.tab
     }
 
     fn tabs(&mut self, ui: &mut egui::Ui) {
@@ -182,5 +251,40 @@ impl PanelState {
                 }
             });
         }
+    }
+}
+
+/// A list to choose one of several owners of parameters, in the place of the panel's own list while a filter hides it.
+fn owner_box<'n>(ui: &mut egui::Ui, kind: &str, names: impl Iterator<Item = &'n str>, selected: &mut usize) {
+    let names: Vec<&str> = names.collect();
+    ui.horizontal(|ui| {
+        ui.label(kind);
+        egui::ComboBox::from_id_salt(kind)
+            .selected_text(names.get(*selected).copied().unwrap_or("none"))
+            .width(ui.available_width() - 8.0)
+            .truncate()
+            .show_ui(ui, |ui| {
+                for (index, name) in names.iter().enumerate() {
+                    ui.selectable_value(selected, index, *name);
+                }
+            })
+            .response
+            .accessible_name(format!("{kind} with these parameters"));
+    });
+    ui.add_space(4.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_part_of_a_planet_has_a_tab_but_the_editors_own() {
+        for part in Planet::PARTS.iter().filter(|part| part.name != "editor") {
+            let path = ParamPath::default().join(part.name).join("any");
+            assert!(Panel::of(&path).is_some(), "{}", part.name);
+        }
+        assert_eq!(Panel::of(&ParamPath::default().join("radius_km")), Some(0));
+        assert_eq!(Panel::of(&ParamPath::default().join("editor").join("bookmarks")), None);
     }
 }

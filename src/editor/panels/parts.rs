@@ -5,6 +5,7 @@ use super::Draft;
 use crate::editor::widgets::menu_button;
 use crate::editor::widgets::param_row::labelled_row;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
+use crate::editor::widgets::row_view::RowView;
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
@@ -26,13 +27,13 @@ pub struct TurnedOff {
 pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     // Parts have panels of their own, or none.
     let skip: Vec<&str> = Planet::PARTS.iter().map(|part| part.name).collect();
-    let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, problems: draft.problems, biomes: &[] };
+    let grid = Grid { base: ParamPath::default(), owner: "planet", skip: &skip, shown: draft.shown, biomes: &[] };
     params_grid(ui, &grid, draft.planet, &mut Planet::default());
 }
 
 /// The star.
 pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    labelled_row(ui, "Temperature", |ui, label| {
+    labelled_row(ui, &draft.shown, "Temperature", |ui, label| {
         let mut kelvin = star_kelvin(draft.planet.star.color).round();
         let allowed = Allowed::numbers(Unit::None, *STAR_KELVIN.start(), *STAR_KELVIN.end()).marked(" K");
         let response = plain_field(ui, &mut kelvin, 20.0, 5, allowed).labelled_by(label);
@@ -43,23 +44,25 @@ pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     });
     calendar(ui, draft);
     ui.add_space(4.0);
-    whole(ui, "star", &mut draft.planet.star, &mut Star::default(), draft.problems);
-    ui.add_space(4.0);
-    ui.weak("Shift and drag on the planet turns the star.");
+    whole(ui, "star", &mut draft.planet.star, &mut Star::default(), draft.shown);
+    if !draft.shown.filter.is_active() {
+        ui.add_space(4.0);
+        ui.weak("Shift and drag on the planet turns the star.");
+    }
 }
 
 /// The location under the star, by the hour below the eye and by the season.
 fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    let (lon_deg, time_secs) = (draft.eye_lon_deg, draft.time_secs);
+    let (lon_deg, time_secs, shown) = (draft.eye_lon_deg, draft.time_secs, draft.shown);
     let star = &mut draft.planet.star;
-    labelled_row(ui, "Hour here", |ui, label| {
+    labelled_row(ui, &shown, "Hour here", |ui, label| {
         let mut hour = (star.hour(lon_deg, time_secs) * 100.0).round() / 100.0;
         let response = plain_field(ui, &mut hour, 0.02, 4, Allowed::numbers(Unit::Hours, 0.0, 24.0)).labelled_by(label);
         if response.on_hover_text("The hour of a day of 24 below the camera; sets the star's longitude").changed() {
             star.set_hour(hour, lon_deg, time_secs);
         }
     });
-    labelled_row(ui, "Season", |ui, label| {
+    labelled_row(ui, &shown, "Season", |ui, label| {
         let mut season_deg = star.season_deg().round();
         let allowed = Allowed::numbers(Unit::Degrees, -90.0, 90.0);
         let response = plain_field(ui, &mut season_deg, 0.5, 3, allowed).labelled_by(label);
@@ -72,12 +75,12 @@ fn calendar(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 }
 
 /// A scattering coefficient as a colour and a strength: another way to set red, green and blue.
-fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
+fn scatterer(ui: &mut egui::Ui, shown: &RowView<'_>, name: &str, per_km: &mut [f64; 3]) {
     let strength = per_km.iter().copied().fold(0.0, f64::max);
     let share = |c: &f64| if strength > 0.0 { (c / strength) as f32 } else { 1.0 };
     let mut color: [f32; 3] = std::array::from_fn(|i| share(&per_km[i]));
     let mut changed = strength;
-    labelled_row(ui, &format!("{name} colour"), |ui, label| {
+    labelled_row(ui, shown, &format!("{name} colour"), |ui, label| {
         let button = ui.color_edit_button_rgb(&mut color).labelled_by(label);
         let allowed = Allowed::numbers(Unit::PerKilometre, 0.0, 2.0);
         let drag = plain_field(ui, &mut changed, strength.max(1e-4) * 0.01, 4, allowed).labelled_by(label);
@@ -93,10 +96,10 @@ fn scatterer(ui: &mut egui::Ui, name: &str, per_km: &mut [f64; 3]) {
 
 /// The climate.
 pub fn climate(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-    whole(ui, "climate", &mut draft.planet.climate, &mut Climate::default(), draft.problems);
+    whole(ui, "climate", &mut draft.planet.climate, &mut Climate::default(), draft.shown);
 }
 
-/// A menu of values that a part may start from.
+/// A menu of values that a part may start from. A filter hides it.
 fn start_from<T>(
     ui: &mut egui::Ui,
     draft: &mut Draft<'_>,
@@ -104,6 +107,9 @@ fn start_from<T>(
     all: &[Starting<T>],
     set: impl Fn(&mut Planet, T),
 ) {
+    if draft.shown.filter.is_active() {
+        return;
+    }
     menu_button(ui, "Start from …", |ui| {
         for one in all {
             if ui.button(one.name).on_hover_text(one.note).clicked() {
@@ -123,7 +129,7 @@ pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_
         planet.water = Some(Water { level_m, ..sea });
     });
     ui.add_space(4.0);
-    let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.problems);
+    let label = optional(ui, "water", &mut draft.planet.water, &mut turned_off.water, draft.shown);
     draft.label = label.or(draft.label.take());
 }
 
@@ -131,12 +137,12 @@ pub fn water(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_
 pub fn atmosphere(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
     start_from(ui, draft, "air", STARTING_AIRS, |planet, air| planet.atmosphere = Some(air));
     if let Some(air) = &mut draft.planet.atmosphere {
-        scatterer(ui, "Rayleigh", &mut air.rayleigh_per_km);
-        scatterer(ui, "Mie", &mut air.mie_scattering_per_km);
+        scatterer(ui, &draft.shown, "Rayleigh", &mut air.rayleigh_per_km);
+        scatterer(ui, &draft.shown, "Mie", &mut air.mie_scattering_per_km);
     }
     ui.add_space(4.0);
     let (part, kept) = (&mut draft.planet.atmosphere, &mut turned_off.atmosphere);
-    let label = optional(ui, "atmosphere", part, kept, draft.problems);
+    let label = optional(ui, "atmosphere", part, kept, draft.shown);
     draft.label = label.or(draft.label.take());
 }
 
@@ -148,19 +154,13 @@ pub fn clouds(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'
         planet.clouds = Some(Clouds { seed, wind_km_h, ..sky });
     });
     ui.add_space(4.0);
-    let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut turned_off.clouds, draft.problems);
+    let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut turned_off.clouds, draft.shown);
     draft.label = label.or(draft.label.take());
 }
 
-fn whole(
-    ui: &mut egui::Ui,
-    field: &'static str,
-    part: &mut dyn Params,
-    default: &mut dyn Params,
-    problems: &[(ParamPath, String)],
-) {
+fn whole(ui: &mut egui::Ui, field: &'static str, part: &mut dyn Params, default: &mut dyn Params, shown: RowView<'_>) {
     let base = ParamPath::from(vec![Segment::Field(field)]);
-    params_grid(ui, &Grid { base, owner: field, skip: &[], problems, biomes: &[] }, part, default);
+    params_grid(ui, &Grid { base, owner: field, skip: &[], shown, biomes: &[] }, part, default);
 }
 
 /// A part with a switch. A part that is turned off and on again keeps its values. Gives the name of the edit if the
@@ -170,22 +170,26 @@ fn optional<T: Params + Default + Clone>(
     field: &'static str,
     part: &mut Option<T>,
     kept: &mut Option<T>,
-    problems: &[(ParamPath, String)],
+    shown: RowView<'_>,
 ) -> Option<String> {
-    let label = switch(ui, field, part, kept);
+    let label = switch(ui, &shown, field, part, kept);
     if let Some(part) = part {
-        whole(ui, field, part, &mut T::default(), problems);
+        whole(ui, field, part, &mut T::default(), shown);
     }
     label
 }
 
-/// The switch of such a part.
+/// The switch of such a part. A filter hides it unless the part is off: then there is nothing to filter.
 pub(super) fn switch<T: Default + Clone>(
     ui: &mut egui::Ui,
+    shown: &RowView<'_>,
     field: &'static str,
     part: &mut Option<T>,
     kept: &mut Option<T>,
 ) -> Option<String> {
+    if shown.filter.is_active() && part.is_some() {
+        return None;
+    }
     let mut label = None;
     let mut on = part.is_some();
     let text = match field {

@@ -38,6 +38,14 @@ impl StructureState {
         TabLink { plates: true, ..TabLink::default() }
     }
 
+    /// Chooses the plate of this entry of the plates that are changed by hand.
+    pub fn choose(&mut self, planet: &Planet, index: usize) {
+        let plates = planet.structure.as_ref().map(|structure| &structure.plates);
+        let layout = layout_of(planet);
+        let entry = plates.and_then(|plates| plates.by_hand.get(index));
+        self.picked = entry.map(|entry| Picked { plate: entry.plate, laid_out: None, layout });
+    }
+
     /// A click on the planet: chooses the plate there.
     pub fn clicked(&mut self, planet: &Planet, under: &UnderPointer) {
         let layout = layout_of(planet);
@@ -48,15 +56,25 @@ impl StructureState {
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, state: &mut StructureState, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
-    ui.weak("Plates push up land, winds rain on it, rivers carve it. Layers lie over it, or under it.");
-    ui.add_space(4.0);
-    let label = switch(ui, "structure", &mut draft.planet.structure, &mut turned_off.structure);
+    let shown = draft.shown;
+    if !shown.filter.is_active() {
+        ui.weak("Plates push up land, winds rain on it, rivers carve it. Layers lie over it, or under it.");
+        ui.add_space(4.0);
+    }
+    let label = switch(ui, &shown, "structure", &mut draft.planet.structure, &mut turned_off.structure);
     draft.label = label.or(draft.label.take());
     if draft.planet.structure.is_none() {
         return;
     }
     for (title, field) in [("Plates", "plates"), ("Weather", "weather"), ("Rivers", "rivers")] {
-        egui::CollapsingHeader::new(title).default_open(field == "plates").show(ui, |ui| {
+        let base = ParamPath::from(vec![Segment::Field("structure"), Segment::Field(field)]);
+        if shown.filter.is_active() {
+            // Folded sections would hide what was found.
+            filtered(ui, title, &base, draft);
+            continue;
+        }
+        let header = egui::CollapsingHeader::new(title).default_open(field == "plates");
+        header.open(shown.reveals_in(&base).then_some(true)).show(ui, |ui| {
             part(ui, field, draft);
             if field == "plates" {
                 ui.add_space(4.0);
@@ -67,9 +85,26 @@ pub fn show(ui: &mut egui::Ui, state: &mut StructureState, turned_off: &mut Turn
     ui.add_space(4.0);
     let base = ParamPath::from(vec![Segment::Field("structure")]);
     let skip: Vec<&str> = Structure::PARTS.iter().map(|part| part.name).collect();
-    let grid = Grid { base, owner: "structure", skip: &skip, problems: draft.problems, biomes: &[] };
+    let grid = Grid { base, owner: "structure", skip: &skip, shown: draft.shown, biomes: &[] };
     if let Some(structure) = &mut draft.planet.structure {
         params_grid(ui, &grid, structure, &mut Structure::default());
+    }
+}
+
+/// The parameters of a section that pass the filter, if there are any.
+fn filtered(ui: &mut egui::Ui, title: &str, base: &ParamPath, draft: &mut Draft<'_>) {
+    let Some(&Segment::Field(field)) = base.segments().last() else { return };
+    let passes = draft.planet.structure.as_ref().is_some_and(|structure| {
+        let part: &dyn Params = match field {
+            "plates" => &structure.plates,
+            "weather" => &structure.weather,
+            _ => &structure.rivers,
+        };
+        draft.shown.passes_any(base, part, &["by_hand"])
+    });
+    if passes {
+        ui.strong(title);
+        part(ui, field, draft);
     }
 }
 
@@ -81,8 +116,14 @@ fn part(ui: &mut egui::Ui, field: &'static str, draft: &mut Draft<'_>) {
         _ => (&mut structure.rivers, &mut defaults.rivers),
     };
     let base = ParamPath::from(vec![Segment::Field("structure"), Segment::Field(field)]);
-    let grid = Grid { base, owner: field, skip: &["by_hand"], problems: draft.problems, biomes: &[] };
+    let grid = Grid { base, owner: field, skip: &["by_hand"], shown: draft.shown, biomes: &[] };
     params_grid(ui, &grid, part, default);
+}
+
+/// The path of a plate that is changed by hand.
+fn by_hand_path(index: usize) -> ParamPath {
+    let path = ["structure", "plates", "by_hand"].map(Segment::Field).into_iter().chain([Segment::Index(index)]);
+    ParamPath::from(path.collect::<Vec<_>>())
 }
 
 /// The plates that are changed by hand, and the one that is chosen.
@@ -100,6 +141,7 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
     if state.picked.as_ref().is_some_and(|picked| picked.layout != layout) {
         state.picked = None;
     }
+    let shown = draft.shown;
     let Some(structure) = &mut draft.planet.structure else { return };
     let plates = &mut structure.plates;
     let picked = state.picked.as_ref().map(|picked| picked.plate);
@@ -107,7 +149,10 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
     for (index, entry) in plates.by_hand.iter().enumerate() {
         ui.horizontal(|ui| {
             let name = format!("Plate {}", entry.plate);
-            if ui.selectable_label(picked == Some(entry.plate), &name).clicked() {
+            let row = shown.marked(ui, &by_hand_path(index).join("plate"), "plate", |ui| {
+                ui.selectable_label(picked == Some(entry.plate), &name)
+            });
+            if row.clicked() {
                 state.picked = Some(Picked { plate: entry.plate, laid_out: None, layout });
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -134,9 +179,7 @@ fn by_hand(ui: &mut egui::Ui, state: &mut StructureState, draft: &mut Draft<'_>)
     if found.is_none() {
         ui.strong(format!("Plate {}", entry.plate));
     }
-    let path = ["structure", "plates", "by_hand"].map(Segment::Field).into_iter().chain([Segment::Index(index)]);
-    let base = ParamPath::from(path.collect::<Vec<_>>());
-    let grid = Grid { base, owner: &owner, skip: &["plate"], problems: draft.problems, biomes: &[] };
+    let grid = Grid { base: by_hand_path(index), owner: &owner, skip: &["plate"], shown: draft.shown, biomes: &[] };
     params_grid(ui, &grid, &mut entry, &mut laid_out);
     if entry != before {
         draft.label = Some(format!("Change {owner}"));

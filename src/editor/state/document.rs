@@ -196,6 +196,17 @@ impl Document {
         }
     }
 
+    /// Undoes or redoes until this number of steps is done.
+    pub fn jump(&mut self, steps: usize) {
+        self.settle();
+        while self.history.undo_len() > steps {
+            self.undo();
+        }
+        while self.history.undo_len() < steps && self.history.redo_label().is_some() {
+            self.redo();
+        }
+    }
+
     /// Notes that the file at `path` holds `planet`. Paths of pictures are relative to its folder from now on.
     pub fn mark_saved(&mut self, planet: &Planet, path: PathBuf) {
         let folder = folder_of(&path);
@@ -277,6 +288,24 @@ mod tests {
         assert_eq!((document.path(), document.is_dirty()), (Some(Path::new("a.ron")), false));
         document.redo();
         assert_eq!((document.path(), document.planet().seed), (None, 5));
+    }
+
+    #[test]
+    fn a_jump_goes_through_the_steps_and_their_files() {
+        let mut document = Document::new(seeded(0), None);
+        document.mark_saved(&seeded(0), PathBuf::from("a.ron"));
+        for seed in 1..4 {
+            document.edit(seeded(seed), None);
+            document.settle();
+        }
+        document.roll(seeded(9), "Random planet");
+        let labels: Vec<&str> = document.history().labels().collect();
+        assert_eq!(labels, ["Change seed", "Change seed", "Change seed", "Random planet"]);
+        for (steps, seed, path) in [(1, 1, Some("a.ron")), (4, 9, None), (0, 0, Some("a.ron")), (99, 9, None)] {
+            document.jump(steps);
+            assert_eq!((document.planet().seed, document.path()), (seed, path.map(Path::new)), "{steps}");
+            assert_eq!(document.history().labels().count(), 4, "a jump forgets nothing");
+        }
     }
 
     fn seeded(seed: u32) -> Planet {

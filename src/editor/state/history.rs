@@ -135,6 +135,21 @@ impl History {
         self.redo.last().map(|step| step.label.as_str())
     }
 
+    /// The names of all steps, the oldest first: those that are done, then those that can be redone.
+    pub fn labels(&self) -> impl Iterator<Item = &str> {
+        self.undo.iter().chain(self.redo.iter().rev()).map(|step| step.label.as_str())
+    }
+
+    /// Number of all steps.
+    pub fn len(&self) -> usize {
+        self.undo.len() + self.redo.len()
+    }
+
+    /// Whether there is no step.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Number of steps that can be undone.
     pub fn undo_len(&self) -> usize {
         self.undo.len()

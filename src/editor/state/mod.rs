@@ -20,6 +20,7 @@ pub mod questions;
 pub mod recovery;
 pub mod shooting;
 
+use super::command::PanelAction;
 use super::files::dialogs::FileDialogs;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
@@ -62,6 +63,25 @@ pub struct Shows {
     pub performance: bool,
     /// Photographs and films.
     pub photo: bool,
+    /// The finder.
+    pub finder: bool,
+    /// The undo steps.
+    pub history: bool,
+    /// The location to go to.
+    pub place: bool,
+}
+
+impl Shows {
+    /// The side panel alone.
+    pub const PANEL: Shows = Shows {
+        panel: true,
+        controls: false,
+        performance: false,
+        photo: false,
+        finder: false,
+        history: false,
+        place: false,
+    };
 }
 
 /// The state of the editor.
@@ -84,6 +104,10 @@ pub struct State {
     pub messages: Vec<Message>,
     /// The parts of the window that are shown.
     pub shows: Shows,
+    /// The text with which the finder opens.
+    pub search: String,
+    /// What the side panel is asked to show.
+    pub panel_asks: Vec<PanelAction>,
     /// What a photographer set.
     pub photo: PhotoSettings,
     /// The photographs that are being taken.
@@ -112,7 +136,9 @@ impl State {
             notices: Notices::default(),
             pictures: Pictures::default(),
             messages: Vec::new(),
-            shows: Shows { panel: true, controls: false, performance: false, photo: false },
+            shows: Shows::PANEL,
+            search: String::new(),
+            panel_asks: Vec::new(),
             photo: PhotoSettings::default(),
             shooting: None,
             renaming: None,
@@ -144,6 +170,25 @@ impl State {
         self.document.redo();
         self.start_edit_clock();
         ctx.request_repaint();
+    }
+
+    /// Undoes or redoes until this number of steps is done.
+    pub fn jump(&mut self, ctx: &egui::Context, steps: usize) {
+        self.document.jump(steps);
+        self.start_edit_clock();
+        ctx.request_repaint();
+    }
+
+    /// Opens the finder with a text, or closes it.
+    pub fn search(&mut self, text: Option<String>) {
+        self.shows.finder = text.is_some();
+        self.search = text.unwrap_or_default();
+    }
+
+    /// Asks the side panel to show something.
+    pub fn ask_panel(&mut self, asked: PanelAction) {
+        self.shows.panel |= asked != PanelAction::ClearFilter;
+        self.panel_asks.push(asked);
     }
 
     /// Replaces the planet by the content of its file: one undo step.

@@ -15,7 +15,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 6] = [
             ("Scroll", "Orbit: move towards the point under the pointer. Fly: faster or slower"),
             ("Double click", "Fly there; any key stops"),
             ("Shift and drag, middle drag", "Turn the star"),
-            ("Right click on a name in the panel", "Copy or reset a value"),
+            ("Right click on a name in the panel", "Copy, paste or reset a value"),
         ],
     ),
     (

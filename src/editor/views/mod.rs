@@ -4,16 +4,19 @@
 //! - [`status`]: the status bar
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`]: windows
+//! - [`controls`], [`performance`], [`photo`], [`history`], [`place`], [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
 pub mod controls;
+pub mod finder;
+pub mod history;
 pub mod look;
 pub mod menus;
 mod path_field;
 pub mod performance;
 pub mod photo;
+pub mod place;
 pub mod problems;
 pub mod prompts;
 mod rename;

@@ -15,6 +15,7 @@ pub enum Icon {
     Down,
     Duplicate,
     Remove,
+    Close,
 }
 
 /// A button with an icon; `name` is its accessible name.
@@ -65,6 +66,10 @@ fn paint(painter: &egui::Painter, icon: Icon, rect: Rect, color: Color32) {
         Icon::Duplicate => {
             painter.rect_stroke(Rect::from_min_max(at(0.0, 0.3), at(0.7, 1.0)), 1.0, stroke, StrokeKind::Inside);
             line(vec![at(0.3, 0.15), at(0.3, 0.03), at(0.97, 0.03), at(0.97, 0.7), at(0.85, 0.7)]);
+        }
+        Icon::Close => {
+            line(vec![at(0.15, 0.15), at(0.85, 0.85)]);
+            line(vec![at(0.85, 0.15), at(0.15, 0.85)]);
         }
         Icon::Remove => {
             line(vec![at(0.0, 0.2), at(1.0, 0.2)]);

@@ -1,19 +1,25 @@
 //! Widgets. They know parameters, but no part of the planet by name.
 //!
 //! - [`param_row`]: a parameter as a row: label, slider, number, reset
-//! - [`params_grid`]: all parameters of a part
+//! - [`params_grid`]: all parameters of a part; [`row_view`]: the filter of a panel, the row that was searched for
 //! - [`curve_edit`]: a curve through points
 //! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
-//! - [`number`]: numbers as text, with units; [`typed`]: number fields that say why they refuse a text
+//! - [`pick_list`]: a list with a cursor
+//! - [`number`]: numbers as text, with units; [`arithmetic`]: calculations; [`value_text`]: any value as text
+//! - [`typed`]: number fields that say why they refuse a text
 
+pub mod arithmetic;
 pub mod curve_edit;
 pub mod drag_row;
 pub mod icon;
 pub mod number;
 pub mod param_row;
 pub mod params_grid;
+pub mod pick_list;
+pub mod row_view;
 pub mod typed;
+pub mod value_text;
 
 use crate::planet::param::ParamPath;
 use eframe::egui;
@@ -56,6 +62,14 @@ pub fn menu_button<'a, R>(
         let area = egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room);
         area.show(ui, |ui| beside.show(ui, content).inner).inner
     })
+}
+
+/// Selects the text of a field: what is typed next replaces it.
+pub fn select_all(field: &egui::Response) {
+    let mut state = egui::TextEdit::load_state(&field.ctx, field.id).unwrap_or_default();
+    let [begin, end] = [0, usize::MAX].map(egui::text::CCursor::new);
+    state.cursor.set_char_range(Some(egui::text::CCursorRange::two(begin, end)));
+    state.store(&field.ctx, field.id);
 }
 
 /// The first problem of the parameter at `path`.

@@ -1,5 +1,6 @@
 //! Numbers as text: short, with an optional unit.
 
+use super::arithmetic::evaluate;
 use crate::planet::param::Unit;
 
 /// A number with about five significant digits and no trailing zeros.
@@ -20,41 +21,50 @@ pub fn format_digits(value: f64, digits: i32) -> String {
     if text.is_empty() || text == "-0" || text == "0" { format!("{value:e}") } else { text.to_owned() }
 }
 
-/// Reads a number with an optional unit, and converts it to `unit`: `"1.5 km"` is 1500 for metres.
+/// Reads a number or a calculation with an optional unit, and converts it to `unit`: `"1.5 km"` is 1500 for metres.
 ///
 /// # Errors
 /// Why the text is no such number.
 pub fn read_number(typed: &str, unit: Unit) -> Result<f64, String> {
     let typed = typed.trim();
-    let text: String = typed.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
+    let text = typed.replace('−', "-");
     if text.is_empty() {
         return Err("nothing was typed".to_owned());
     }
-    // The longest prefix that is a number: "1e3m" is 1000 m.
-    let (number, rest) = text
-        .char_indices()
-        .map(|(i, c)| i + c.len_utf8())
-        .rev()
-        .find_map(|end| Some((text[..end].parse::<f64>().ok()?, &text[end..])))
-        .ok_or_else(|| format!("{typed:?} is not a number"))?;
-    let factor = match (unit, rest) {
-        (_, "") => 1.0,
-        (_, rest) if rest == unit.symbol() => 1.0,
-        (Unit::Metres, "km") => 1000.0,
-        (Unit::Metres, "cm") => 0.01,
-        (Unit::Metres, "mm") | (Unit::Kilometres, "m") => 0.001,
-        (Unit::Millimetres, "m") => 1000.0,
-        (Unit::Millimetres, "cm") => 10.0,
-        (Unit::Degrees, "deg") | (Unit::Celsius, "C" | "°") => 1.0,
-        (Unit::MetresPerSecond, "km/h") => 1.0 / 3.6,
-        (Unit::KilometresPerHour, "m/s") => 3.6,
-        (Unit::PerKilometre, "1/m") => 1000.0,
-        (Unit::PerMetre, "1/km") => 0.001,
-        (Unit::None, _) => return Err(format!("{typed:?} has a unit, but this is a plain number")),
-        _ => return Err(format!("{typed:?} is not in {}", unit.symbol())),
+    let mut why = String::new();
+    for (symbol, factor) in units_read(unit) {
+        let Some(number) = text.strip_suffix(symbol).filter(|number| !number.trim().is_empty()) else { continue };
+        match evaluate(number) {
+            Ok(value) if (value * factor).is_finite() => return Ok(value * factor),
+            Ok(_) => return Err(format!("{typed:?} is not a finite number")),
+            Err(wrong) => why = wrong,
+        }
+    }
+    let calculates = text.trim_start_matches(['-', '+']).contains(['+', '*', '/', '(', ')', '^', '×', '÷']);
+    let has_number = text.trim_start_matches(['-', '+', '.', '(']).starts_with(|c: char| c.is_ascii_digit());
+    Err(match unit {
+        _ if calculates => format!("{typed:?}: {why}"),
+        _ if !has_number => format!("{typed:?} is not a number"),
+        Unit::None => format!("{typed:?} has a unit, but this is a plain number"),
+        _ => format!("{typed:?} is not in {}", unit.symbol()),
+    })
+}
+
+/// The units that a number may have, with their factors; longer ones come before their own ends.
+fn units_read(unit: Unit) -> Vec<(&'static str, f64)> {
+    let others: &[(&str, f64)] = match unit {
+        Unit::Metres => &[("km", 1000.0), ("cm", 0.01), ("mm", 0.001)],
+        Unit::Kilometres => &[("km", 1.0), ("m", 0.001)],
+        Unit::Millimetres => &[("mm", 1.0), ("cm", 10.0), ("m", 1000.0)],
+        Unit::Degrees => &[("deg", 1.0)],
+        Unit::Celsius => &[("°C", 1.0), ("°", 1.0), ("C", 1.0)],
+        Unit::MetresPerSecond => &[("km/h", 1.0 / 3.6)],
+        Unit::KilometresPerHour => &[("m/s", 3.6)],
+        Unit::PerKilometre => &[("1/m", 1000.0)],
+        Unit::PerMetre => &[("1/km", 0.001)],
+        _ => &[],
     };
-    let value = number * factor;
-    if value.is_finite() { Ok(value) } else { Err(format!("{typed:?} is not a finite number")) }
+    others.iter().copied().chain([(unit.symbol(), 1.0), ("", 1.0)]).collect()
 }
 
 /// The unit as a suffix of a number.
@@ -108,6 +118,12 @@ mod tests {
         assert_eq!(read_number("500 m", Unit::Kilometres), Ok(0.5));
         assert_eq!(read_number("−12 °C", Unit::Celsius), Ok(-12.0));
         assert_eq!(read_number("3", Unit::None), Ok(3.0));
+        assert_eq!(read_number("0.5 1/km", Unit::PerKilometre), Ok(0.5));
+        assert_eq!(read_number("36 km/h", Unit::MetresPerSecond), Ok(10.0));
+        assert_eq!(read_number("(1+2)*2 km", Unit::Metres), Ok(6000.0));
+        assert_eq!(read_number("1/4", Unit::None), Ok(0.25));
+        assert_eq!(read_number("3600*", Unit::None), Err("\"3600*\": a number is missing after *".to_owned()));
+        assert_eq!(read_number("1/0", Unit::None), Err("\"1/0\" is not a finite number".to_owned()));
         for bad in ["", "km", "3 parsecs", "NaN", "inf"] {
             assert!(read_number(bad, Unit::Kilometres).is_err(), "{bad:?}");
         }

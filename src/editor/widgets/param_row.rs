@@ -6,8 +6,10 @@
 use super::curve_edit::CurveEdit;
 use super::icon::{Icon, icon_button};
 use super::number::{format_digits, suffix};
-use super::random_seed;
-use super::typed::{Allowed, typed_field};
+use super::row_view::RowView;
+use super::typed::{self, Allowed, typed_field};
+use super::value_text::{read_value, value_text};
+use super::{random_seed, select_all};
 use crate::planet::param::{Choice, Domain, Param, ParamPath, Unit, Value, ValueMut};
 use eframe::egui;
 
@@ -25,6 +27,8 @@ pub struct Row<'a> {
     pub problem: Option<&'a str>,
     /// Key and name of each biome of the palette, for a parameter that refers to one.
     pub biomes: &'a [(char, String)],
+    /// Whether the field for a number or a text takes the focus now.
+    pub takes_focus: bool,
 }
 
 const RESET_WIDTH: f32 = 20.0;
@@ -54,7 +58,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
             if let Some(default) = resets_to(row)
                 && value.get() != *default
             {
-                let tooltip = format!("Back to {}", value_text(row.param, default, &value));
+                let tooltip = format!("Back to {}", value_text(row.param, default, value.as_ref().names()));
                 if icon_button(ui, Icon::Reset, &format!("Reset {}", name(row)), &tooltip).clicked() {
                     value.set(default);
                 }
@@ -85,8 +89,12 @@ fn label_width(total: f32) -> f32 {
     (total * 0.34).clamp(84.0, 150.0)
 }
 
-/// A row of other widgets, aligned with the rows of parameters. The label's id gives them their accessible names.
-pub fn labelled_row(ui: &mut egui::Ui, text: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
+/// A row of other widgets, aligned with the rows of parameters. The label's id gives them their accessible names. A
+/// filter hides the row unless the label fits.
+pub fn labelled_row(ui: &mut egui::Ui, shown: &RowView<'_>, text: &str, add: impl FnOnce(&mut egui::Ui, egui::Id)) {
+    if !shown.filter.passes(&[text]) {
+        return;
+    }
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         let size = egui::vec2(label_width(ui.available_width()), ui.spacing().interact_size.y);
@@ -103,7 +111,7 @@ fn name(row: &Row<'_>) -> String {
     format!("{} of {}", row.param.label, row.owner)
 }
 
-/// The name of the parameter. Its tooltip explains the parameter; its context menu copies and resets the value.
+/// The name of the parameter. Its tooltip explains the parameter; its context menu copies, pastes and resets the value.
 fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32) {
     let color = if row.problem.is_some() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
     let text = egui::RichText::new(row.param.label).color(color);
@@ -115,9 +123,14 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
         })
         .inner;
     let response = response.on_hover_ui(|ui| tooltip(ui, row, value));
+    Paste::take(ui, row, value, &response);
     response.context_menu(|ui| {
         if ui.button("Copy value").clicked() {
-            ui.ctx().copy_text(value_text(row.param, &value.get(), value));
+            ui.ctx().copy_text(value_text(row.param, &value.get(), value.as_ref().names()));
+            ui.close();
+        }
+        if ui.button("Paste value").clicked() {
+            Paste::ask(ui, row);
             ui.close();
         }
         if ui.button("Copy path").clicked() {
@@ -125,12 +138,57 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
             ui.close();
         }
         if let Some(default) = resets_to(row)
-            && ui.button("Reset").clicked()
+            && ui.button("Reset to default").clicked()
         {
             value.set(default);
             ui.close();
         }
     });
+}
+
+/// The row that waits for the text of the clipboard: the desktop gives it in a later frame.
+#[derive(Clone, PartialEq)]
+struct Paste {
+    path: String,
+    name: &'static str,
+}
+
+impl Paste {
+    fn of(row: &Row<'_>) -> Self {
+        Self { path: row.path.to_string(), name: row.param.name }
+    }
+
+    fn place() -> egui::Id {
+        egui::Id::unique("paste value")
+    }
+
+    /// Asks for the text of the clipboard.
+    fn ask(ui: &egui::Ui, row: &Row<'_>) {
+        ui.data_mut(|data| data.insert_temp(Self::place(), Self::of(row)));
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
+    }
+
+    /// Takes the text into the row that has asked for it. What is wrong with the text shows below the label.
+    fn take(ui: &egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, label: &egui::Response) {
+        typed::tell(ui, label);
+        let Some(waiting) = ui.data(|data| data.get_temp::<Self>(Self::place())) else { return };
+        if waiting != Self::of(row) {
+            return;
+        }
+        let text = ui.input(|input| {
+            input.events.iter().find_map(|event| match event {
+                egui::Event::Paste(text) => Some(text.clone()),
+                _ => None,
+            })
+        });
+        let Some(text) = text else { return };
+        ui.data_mut(|data| data.remove::<Self>(Self::place()));
+        let keys: Vec<char> = row.biomes.iter().map(|(key, _)| *key).collect();
+        match read_value(row.param, &value.as_ref(), &text, &keys) {
+            Ok(new) => value.set(&new),
+            Err(why) => typed::refuse(ui, label.id, why),
+        }
+    }
 }
 
 fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
@@ -141,47 +199,35 @@ fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
         ui.weak(format!("Range: {range}"));
     }
     if let Some(default) = resets_to(row) {
-        ui.weak(format!("Default: {}", value_text(row.param, default, value)));
+        ui.weak(format!("Default: {}", value_text(row.param, default, value.as_ref().names())));
     }
     ui.weak(egui::RichText::new(row.path.to_string()).monospace());
-}
-
-fn value_text(param: &Param, value: &Value, place: &ValueMut<'_>) -> String {
-    let unit = suffix(param.unit);
-    match value {
-        Value::Number(v) => format!("{v}{unit}"),
-        Value::Count(v) => format!("{v}{unit}"),
-        Value::Flag(v) => if *v { "on" } else { "off" }.to_owned(),
-        Value::Triple([r, g, b]) => format!("({r}, {g}, {b}){unit}"),
-        Value::Text(v) => v.clone(),
-        Value::Letter(v) => v.to_string(),
-        Value::Curve(points) if points.is_empty() => "no curve".to_owned(),
-        Value::Curve(points) => points.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(", "),
-        Value::Choice(index) => match place {
-            ValueMut::Choice(choice) => choice.names().get(*index).copied().unwrap_or_default().to_owned(),
-            _ => index.to_string(),
-        },
-    }
 }
 
 /// Shows the control of the parameter's domain. Gives whether the user wants to choose a file.
 fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
     let name = name(row);
+    let focus = |response: egui::Response| {
+        if row.takes_focus {
+            response.request_focus();
+            select_all(&response);
+        }
+    };
     match (row.param.domain, value) {
         (Domain::Number { min, max, logarithmic }, ValueMut::Number(v)) => {
             let slider = egui::Slider::from_get_set(min..=max, get_set(v, NUMBER_DIGITS)).logarithmic(logarithmic);
             // A logarithmic range that begins at zero needs a least value: a hundred-thousandth of the range is
             // finer than a pixel of the slider.
             add_slider(ui, &name, slider.smallest_positive(max.abs() * 1e-5));
-            number_field(ui, &name, row.param, v, min, max, logarithmic);
+            focus(number_field(ui, &name, row.param, v, min, max, logarithmic));
         }
         (Domain::Count { min, max }, ValueMut::Count(v)) => {
             add_slider(ui, &name, egui::Slider::new(&mut **v, min..=max));
-            count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number"));
+            focus(count_field(ui, v, 0.1, Allowed::whole(min, max)).accessible_name(format!("{name} as a number")));
         }
         (Domain::Seed, ValueMut::Count(v)) => {
             // As wide as the longest number, so that the dice button stays under the pointer.
-            count_field(ui, v, 1.0, Allowed::whole(0, u32::MAX)).accessible_name(&name);
+            focus(count_field(ui, v, 1.0, Allowed::whole(0, u32::MAX)).accessible_name(&name));
             if icon_button(ui, Icon::Dice, &format!("Random {name}"), "A random seed").clicked() {
                 **v = random_seed() as u32;
             }
@@ -193,7 +239,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
         }
         (Domain::BiomeKey, ValueMut::Letter(key)) => biome_box(ui, &name, key, row.biomes),
         (_, ValueMut::Flag(v)) => {
-            ui.add(egui::Checkbox::without_text(v)).accessible_name(&name);
+            focus(ui.add(egui::Checkbox::without_text(v)).accessible_name(&name));
         }
         (_, ValueMut::Choice(choice)) => choice_box(ui, &name, *choice),
         (Domain::Letter, ValueMut::Letter(letter)) => {
@@ -209,7 +255,7 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
         (domain, ValueMut::Text(text)) => {
             let max_chars = if let Domain::Text { max_chars } = domain { max_chars } else { usize::MAX };
             let edit = egui::TextEdit::singleline(&mut **text).char_limit(max_chars).desired_width(f32::INFINITY);
-            ui.add(edit).accessible_name(&name);
+            focus(ui.add(edit).accessible_name(&name));
         }
         (Domain::Curve { .. }, ValueMut::Curve(curve)) => {
             // The curve itself is below the row, over its whole width.
@@ -251,7 +297,15 @@ fn add_slider(ui: &mut egui::Ui, name: &str, slider: egui::Slider<'_>) {
     ui.add(slider.show_value(false).clamping(egui::SliderClamping::Edits)).accessible_name(name);
 }
 
-fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, min: f64, max: f64, logarithmic: bool) {
+fn number_field(
+    ui: &mut egui::Ui,
+    name: &str,
+    param: &Param,
+    value: &mut f64,
+    min: f64,
+    max: f64,
+    logarithmic: bool,
+) -> egui::Response {
     let speed = if logarithmic { (value.abs() * 0.01).max(max.abs() * 1e-7) } else { (max - min) * 0.002 };
     let (now, shown) = (*value, format_digits(*value, NUMBER_DIGITS));
     let number = egui::DragValue::from_get_set(get_set(value, NUMBER_DIGITS))
@@ -261,7 +315,7 @@ fn number_field(ui: &mut egui::Ui, name: &str, param: &Param, value: &mut f64, m
         .custom_formatter(|v, _| format_digits(v, NUMBER_DIGITS));
     let size = egui::vec2(NUMBER_WIDTH, ui.spacing().interact_size.y);
     typed_field(ui, Some(size), number, Allowed::numbers(param.unit, min, max), &shown, now)
-        .accessible_name(format!("{name} as a number"));
+        .accessible_name(format!("{name} as a number"))
 }
 
 fn count_field(ui: &mut egui::Ui, value: &mut u32, speed: f64, allowed: Allowed<'_>) -> egui::Response {

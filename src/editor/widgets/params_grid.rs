@@ -2,6 +2,7 @@
 
 use super::param_row::{Row, param_row};
 use super::problem_at;
+use super::row_view::RowView;
 use crate::planet::param::{ParamPath, Params, Segment, Value};
 use eframe::egui;
 
@@ -13,8 +14,8 @@ pub struct Grid<'a> {
     pub owner: &'a str,
     /// Fields that are not shown.
     pub skip: &'a [&'a str],
-    /// Everything wrong with the planet.
-    pub problems: &'a [(ParamPath, String)],
+    /// Problems, the filter, and the row that was searched for.
+    pub shown: RowView<'a>,
     /// Key and name of each biome of the palette, if a parameter refers to one.
     pub biomes: &'a [(char, String)],
 }
@@ -36,11 +37,15 @@ pub fn params_grid(
         {
             return;
         }
+        if !grid.shown.passes(path, param) {
+            return;
+        }
         // The path alone does not tell: the kind of a landform has the path of the part itself.
         let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
-        let problem = problem_at(grid.problems, path);
-        let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes };
-        if param_row(ui, &row, value) {
+        let problem = problem_at(grid.shown.problems, path);
+        let takes_focus = grid.shown.takes_focus(path, param.name);
+        let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes, takes_focus };
+        if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
             browse = Some(path.clone());
         }
     });

@@ -110,8 +110,7 @@ pub fn typed_field(
         None => ui.add(number),
     };
     if let Some(why) = refused.take() {
-        let since_secs = ui.input(|input| input.time);
-        ui.data_mut(|data| data.insert_temp(place(), Refusal { field: response.id, why, since_secs }));
+        refuse(ui, response.id, why);
     }
     tell(ui, &response);
     response
@@ -134,8 +133,14 @@ pub fn plain_field(
     typed_field(ui, None, number, allowed, &shown, now)
 }
 
+/// Notes why a field has refused a text.
+pub fn refuse(ui: &egui::Ui, field: egui::Id, why: String) {
+    let since_secs = ui.input(|input| input.time);
+    ui.data_mut(|data| data.insert_temp(place(), Refusal { field, why, since_secs }));
+}
+
 /// Shows below a field why it has refused a text.
-fn tell(ui: &egui::Ui, field: &egui::Response) {
+pub fn tell(ui: &egui::Ui, field: &egui::Response) {
     let Some(refusal) = ui.data(|data| data.get_temp::<Refusal>(place())).filter(|refusal| refusal.field == field.id)
     else {
         return;
