@@ -11,6 +11,7 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
     let path_km = max(ray_sphere(b, (h - top) * (2.0 * radius + h + top)).y, 0.0);
     let step = sqrt(path_km) / f32(steps);
     let flat = sqrt(max(0.0, 1.0 - mu * mu)) * sqrt(max(0.0, 1.0 - sun_mu * sun_mu));
+    let moments = haze_moments();
     var sum = vec3f(0.0);
     var transmittance = vec3f(1.0);
     // Distance and altitude of the previous step, for the change of the sun's elevation along the step.
@@ -22,7 +23,7 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
         let t = bent(w + 0.5 * step, 0.0);
         let height = altitude_along(radius, h, mu, t);
         let air = air_at(height);
-        let scattering = air.rayleigh + air.mie;
+        let local_mu = ((radius + h) * mu + t) / (radius + height);
         let horizon = horizon_cosine(height);
         let last_horizon = horizon_cosine(last_height);
         var shine = vec3f(0.0);
@@ -33,7 +34,8 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
             let over = mus - vec2f(horizon, last_horizon);
             let visible = disc_share(over.x, select(over.x - over.y, 0.0, i == 0u));
             let direct = air.rayleigh * rayleigh_phase(cosine) + air.mie * mie_phase(cosine);
-            shine += scattering * multiscatter(height, mus.x) + direct * clear_transmittance(height, mus.x) * visible;
+            let light = scattered_light(height, mus.x);
+            shine += scattered(air, light, moments, local_mu, cosine) + direct * beam_transmittance(height, mus.x) * visible;
         }
         sum += transmittance * shine * shining_length(air.extinction, length_km);
         transmittance *= exp(-air.extinction * length_km);
