@@ -94,8 +94,8 @@ pub(super) struct Light {
 
 impl Light {
     /// Radiance that molecules and haze scatter into a ray, per scattering coefficient: the moments of the light times
-    /// those of the phase function. `sun_mu`: cosine of the sun's zenith angle.
-    pub(super) fn scattered(&self, haze: &Haze, to: Direction, sun_mu: f64) -> (DVec3, DVec3) {
+    /// those of the phase function.
+    pub(super) fn scattered(&self, haze: &Haze, to: Direction) -> (DVec3, DVec3) {
         let Direction { mu, cosine } = to;
         let (around, zenith) = (self.along * self.along * squared(cosine), self.zenith * (1.5 * squared(mu)));
         let rayleigh = 0.75 * (around + zenith) + 1.0;
@@ -221,7 +221,8 @@ impl Point {
                 returned += inside * air.scattering() * ring.share;
             });
             for (quarter, (scattered, cosine)) in scattered.into_iter().zip(ring.cosines).enumerate() {
-                let ground = ring.line.ground().map_or(DVec3::ZERO, |t| sunlit_ground(lit, self.sun_mu_at(t, 0.0, cosine)));
+                let ground =
+                    ring.line.ground().map_or(DVec3::ZERO, |t| sunlit_ground(lit, self.sun_mu_at(t, 0.0, cosine)));
                 // Phase functions change faster around the ring than sunlight does, so each quarter has two of each.
                 for eighth in [0.5, 1.5] {
                     let azimuth = (2.0 * quarter as f64 + eighth) * FRAC_PI_4;
@@ -284,7 +285,10 @@ impl MultiscatterLut {
     pub(super) fn new(lit: &SunlitAir) -> Self {
         let guess = Self::filled(lit, |_, point| guess(lit, point));
         (0..CORRECTIONS).fold(guess, |before, number| {
-            Self::filled(lit, |i, point| Texel { all: corrected(lit, point, (&before, number), &before.texels[i]), ..before.texels[i] })
+            Self::filled(lit, |i, point| Texel {
+                all: corrected(lit, point, (&before, number), &before.texels[i]),
+                ..before.texels[i]
+            })
         })
     }
 
@@ -308,12 +312,7 @@ impl MultiscatterLut {
         let y = (altitude / self.top).clamp(0.0, 1.0).sqrt() * (ROWS - 1) as f64;
         let mean = |of: &dyn Fn(&Light) -> DVec3| bilinear(x, y, COLUMNS, ROWS, |i| of(part(&self.texels[i])));
         let shape = mean(&|light| DVec3::new(light.along, light.up, 0.0));
-        Light {
-            mean: mean(&|light| light.mean),
-            along: shape.x,
-            up: shape.y,
-            zenith: mean(&|light| light.zenith),
-        }
+        Light { mean: mean(&|light| light.mean), along: shape.x, up: shape.y, zenith: mean(&|light| light.zenith) }
     }
 }
 
@@ -362,7 +361,7 @@ fn corrected(lit: &SunlitAir, point: &Point, before: (&MultiscatterLut, usize), 
             let mu = ((point.radius + point.altitude) * ring.line.mu + t) / (point.radius + altitude);
             for (gathered, cosine) in gathered.iter_mut().zip(ring.cosines) {
                 let sun_mu = point.sun_mu_at(t, altitude, cosine);
-                let light = before.0.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine }, sun_mu);
+                let light = before.0.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine });
                 *gathered += inside * (air.rayleigh * light.0 + air.mie * light.1);
             }
             returned += inside * air.scattering() * ring.share;
@@ -370,7 +369,12 @@ fn corrected(lit: &SunlitAir, point: &Point, before: (&MultiscatterLut, usize), 
         for (gathered, cosine) in gathered.into_iter().zip(ring.cosines) {
             let at = |t: f64| skylit_ground(lit, before, point.sun_mu_at(t, 0.0, cosine));
             let ground = ring.line.ground().map_or(DVec3::ZERO, at);
-            sums.add(gathered + through * ground, Direction { mu: ring.line.mu, cosine }, point.sun_mu, ring.share / 2.0);
+            sums.add(
+                gathered + through * ground,
+                Direction { mu: ring.line.mu, cosine },
+                point.sun_mu,
+                ring.share / 2.0,
+            );
         }
     }
     sums.add_light(&own.once, point.sun_mu);

@@ -94,7 +94,7 @@ fn radiance(lit: &SunlitAir, multiscatter: &MultiscatterLut, ray: &SkyRay) -> DV
         let mu = ((lit.radius + line.altitude) * line.mu + t) / (lit.radius + altitude);
         // The forward peak of haze is part of the beam: scattered once more, it counts as scattered once.
         let beam = lit.beam(altitude, sun_mu);
-        let light = multiscatter.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine }, sun_mu);
+        let light = multiscatter.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine });
         let source = air.rayleigh * (beam * phases.0 + light.0) + air.mie * (beam * phases.1 + light.1);
         let passed = (-air.extinction * length).exp();
         radiance += transmittance * source * (1.0 - passed) / air.extinction.max(DVec3::splat(1e-300));

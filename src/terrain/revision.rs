@@ -217,8 +217,7 @@ fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
 /// Keys of the parameters that the biome textures, the cloud coverage map, and the LUTs of optical depth and of
 /// scattered light read.
 fn texture_keys(planet: &Planet) -> [Key; 4] {
-    const STAGES: [Stage; 4] =
-        [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
+    const STAGES: [Stage; 4] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
     let mut read: [Vec<(ParamPath, Value)>; 4] = Default::default();
     planet.each_value(&mut |path, param, value| {
         for (stage, read) in STAGES.iter().zip(&mut read) {

@@ -260,13 +260,7 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
     draw(&planet);
     // An invalid planet has no revision to draw.
     for edit in every_edit(&planet).into_iter().filter(|edit| edit.planet.check().is_ok()) {
-        let stages = [
-            Stage::Uniform,
-            Stage::Material,
-            Stage::CloudMap,
-            Stage::OpticalDepth,
-            Stage::AirTables,
-        ];
+        let stages = [Stage::Uniform, Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
         let mut declared = stages.map(|stage| u64::from(edit.declared.contains(stage)));
         // Renaming a biome's key everywhere changes nothing that is drawn.
         if edit.path.ends_with("].key") {
