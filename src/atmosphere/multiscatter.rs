@@ -21,7 +21,7 @@ const ROWS: usize = 16;
 /// Columns are densest at the terminator; at this cosine of the sun's zenith angle, they are a quarter as dense.
 const TWILIGHT: f64 = 0.15;
 /// Number of corrections, as in the shaders.
-const CORRECTIONS: usize = 2;
+const CORRECTIONS: usize = 4;
 /// Upper limit of f_ms: the sum over all orders of scattering diverges at 1.
 const MAX_RETURNED: f64 = 0.999;
 /// Upper limit of f_ms in the sum over all orders of a correction. It holds for thin air only: in dense air, a

@@ -36,10 +36,12 @@ const AIR_LUTS: [(&str, [u32; 2], u32); 5] = [
 ];
 /// The passes that draw them, in order: shader, the LUT drawn, and for shaders that read LUTs, the LUT that they see as
 /// the one of multiple scattering. Each correction of that reads one LUT and draws the other.
-const AIR_PASSES: [(&str, usize, Option<usize>); 6] = [
+const AIR_PASSES: [(&str, usize, Option<usize>); 8] = [
     ("optical_depth.wgsl", DEPTH, None),
     ("multiscatter_guess.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
     ("multiscatter_first.wgsl", OTHER_MULTISCATTER, Some(MULTISCATTER)),
+    ("multiscatter.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
+    ("multiscatter.wgsl", OTHER_MULTISCATTER, Some(MULTISCATTER)),
     ("multiscatter.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
     ("irradiance.wgsl", IRRADIANCE, Some(MULTISCATTER)),
     ("sky.wgsl", SKY, Some(MULTISCATTER)),
