@@ -1,5 +1,6 @@
-// LUT of the optical depth from an altitude to the top of the air, and of the haze in the way, by cosine to the zenith. Optical depth is stored,
-// not transmittance: it is smoother between texels, and 16 bits hold the depth of the deepest red sunset.
+// LUT of the optical depth from an altitude to the top of the air, and of the haze in the way, by cosine to the zenith.
+// Optical depth is stored, not transmittance: it is smoother between texels, and 16 bits hold the depth of the deepest
+// red sunset.
 #include "screen.wgsl"
 #include "air_model.wgsl"
 

@@ -48,7 +48,8 @@ fn ring_light(h: f32, mu: f32, sun_mu: f32, around: u32, steps: u32) -> vec3f {
             let visible = disc_share(over.x, select(over.x - over.y, 0.0, i == 0u));
             let direct = air.rayleigh * phases[k].x + air.mie * phases[k].y;
             let light = scattered_light(height, mus.x);
-            shine += scattered(air, light, moments, local_mu, cosine) + direct * beam_transmittance(height, mus.x) * visible;
+            let beam = beam_transmittance(height, mus.x) * visible;
+            shine += scattered(air, light, moments, local_mu, cosine) + direct * beam;
         }
         sum += transmittance * shine * shining_length(air.extinction, length_km);
         transmittance *= exp(-air.extinction * length_km);
