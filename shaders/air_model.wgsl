@@ -10,11 +10,14 @@ struct Air {
     extinction: vec3f,
 }
 
+// Density of haze at an altitude, as a share of that at the reference sphere.
+fn haze_density(height: f32) -> f32 { return exp(-height / body.mie_scale_km); }
+
 // Scattering and extinction per km at an altitude.
 fn air_at(h: f32) -> Air {
     let height = max(h, 0.0);
     let rayleigh = body.rayleigh_per_km * exp(-height / body.rayleigh_scale_km);
-    let haze = exp(-height / body.mie_scale_km);
+    let haze = haze_density(height);
     let from_absorber = abs(height - body.absorber_height_km) / body.absorber_width_km;
     let absorber = body.absorber_per_km * max(0.0, 1.0 - from_absorber);
     var air: Air;
@@ -22,6 +25,33 @@ fn air_at(h: f32) -> Air {
     air.mie = body.mie_scattering_per_km * haze;
     air.extinction = rayleigh + body.mie_extinction_per_km * haze + absorber;
     return air;
+}
+
+// Share of light scattered by haze that is in the forward peak: the fourth moment of the phase function of Henyey and
+// Greenstein. Light in the peak counts as not scattered (delta-M method: Wiscombe, The delta-M method, 1977).
+fn haze_peak() -> f32 {
+    let g = max(body.mie_anisotropy, 0.0);
+    return g * g * g * g;
+}
+
+// The air with haze that does not scatter its forward peak.
+fn without_peak(air: Air) -> Air {
+    let peak = air.mie * haze_peak();
+    return Air(air.rayleigh, air.mie - peak, air.extinction - peak);
+}
+
+// Moments of the Mie phase function: the means of the first two Legendre polynomials of the cosine.
+fn haze_moments() -> vec2f {
+    let g = body.mie_anisotropy;
+    let g2 = g * g;
+    let squared = 1.5 / (2.0 + g2) * ((2.0 * g2 + 1.0) / 3.0 + (8.0 * g2 * g2 + 20.0 * g2 + 7.0) / 35.0);
+    return vec2f(0.6 * g * (4.0 + g2) / (2.0 + g2), 1.5 * squared - 0.5);
+}
+
+// The moments without the forward peak, of what remains.
+fn haze_moments_without_peak() -> vec2f {
+    let peak = haze_peak();
+    return (haze_moments() - peak) / (1.0 - peak);
 }
 
 // Integral of exp(-extinction t) over a segment: the length that contributes light, dimmed by the segment itself. The
@@ -40,6 +70,12 @@ fn mie_phase(cosine: f32) -> f32 {
     let g2 = g * g;
     let base = max(1.0 + g2 - 2.0 * g * cosine, 1e-6);
     return 3.0 / (8.0 * PI) * (1.0 - g2) * (1.0 + cosine * cosine) / ((2.0 + g2) * base * sqrt(base));
+}
+
+// Phase function of Henyey and Greenstein, Diffuse radiation in the galaxy, 1941. `g`: the mean cosine.
+fn henyey_greenstein(g: f32, cosine: f32) -> f32 {
+    let base = max(1.0 + g * g - 2.0 * g * cosine, 1e-6);
+    return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
 }
 
 fn texel_from_unit(x: vec2f, size: vec2f) -> vec2f { return (x * (size - 1.0) + 0.5) / size; }

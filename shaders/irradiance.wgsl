@@ -21,7 +21,7 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     for (var i = 0u; i < 4u; i++) {
         // Nodes are spaced in the squared cosine: the square root weights each ring by its cosine, as irradiance does.
         let node = NODES[i];
-        sum += ring_light(h, sqrt(node.x), sun_mu, 5u, 8u) * node.y;
+        sum += ring_light(h, sqrt(node.x), sun_mu, 3u, 8u) * node.y;
     }
     return vec4f(sum * PI, 1.0);
 }

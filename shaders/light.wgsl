@@ -2,19 +2,29 @@
 #include "air_model.wgsl"
 #include "luts.wgsl"
 
-// Transmittance of the air along a ray that misses the ground, from altitude `h` (km) with cosine `mu` to the zenith.
-fn clear_transmittance(h: f32, mu: f32) -> vec3f {
+// Optical depth (rgb) and haze (a, km of its density at the reference sphere) along a ray that misses the ground, from
+// altitude `h` (km) with cosine `mu` to the zenith.
+fn clear_depth(h: f32, mu: f32) -> vec4f {
     let top = body.air_height_km;
-    if top <= 0.0 { return vec3f(1.0); }
+    if top <= 0.0 { return vec4f(0.0); }
     var at = vec2f(h, mu);
     if h > top {
         // From outer space, the path starts where the ray enters the air, if it does.
         let b = (body.radius_km + h) * mu;
         let discriminant = b * b - (h - top) * (2.0 * body.radius_km + h + top);
-        if b >= 0.0 || discriminant <= 0.0 { return vec3f(1.0); }
+        if b >= 0.0 || discriminant <= 0.0 { return vec4f(0.0); }
         at = vec2f(top, -sqrt(discriminant) / (body.radius_km + top));
     }
-    return exp(-textureSampleLevel(optical_depth_lut, clamped, depth_uv(at.x, at.y), 0.0).rgb);
+    return textureSampleLevel(optical_depth_lut, clamped, depth_uv(at.x, at.y), 0.0);
+}
+
+// Transmittance of the air along such a ray.
+fn clear_transmittance(h: f32, mu: f32) -> vec3f { return exp(-clear_depth(h, mu).rgb); }
+
+// The same, if light that haze scatters into its forward peak counts as not scattered.
+fn beam_transmittance(h: f32, mu: f32) -> vec3f {
+    let depth = clear_depth(h, mu);
+    return exp(body.mie_scattering_per_km * (haze_peak() * depth.a) - depth.rgb);
 }
 
 // Transmittance to the sun, times the share of its disc over the horizon of the smooth planet.
@@ -22,6 +32,13 @@ fn sun_transmittance(h: f32, mu: f32) -> vec3f {
     let visible = disc_share(mu - horizon_cosine(h), 0.0);
     if visible <= 0.0 { return vec3f(0.0); }
     return clear_transmittance(h, mu) * visible;
+}
+
+// The same, with the light that haze has scattered into its forward peak.
+fn sun_beam(h: f32, mu: f32) -> vec3f {
+    let visible = disc_share(mu - horizon_cosine(h), 0.0);
+    if visible <= 0.0 { return vec3f(0.0); }
+    return beam_transmittance(h, mu) * visible;
 }
 
 // Whether the sun has set for all air visible from altitude `h` (km). The farthest such air is where a ray that grazes
@@ -47,11 +64,47 @@ fn sun_cosine_at(x: f32) -> f32 {
 // Scales the dim light of deep twilight into the range of 16-bit floats.
 const MULTISCATTER_SCALE: f32 = 1024.0;
 
-// Radiance from two or more scatterings, the mean over all directions, for unit irradiance.
-fn multiscatter(h: f32, mu: f32) -> vec3f {
-    let x = vec2f(unit_of_sun(mu), sqrt(saturate1(h / body.air_height_km)));
+// Light at a point, for unit irradiance. It comes from around the sun as by the phase function of Henyey and Greenstein,
+// and is brighter or darker upwards and near the zenith or the horizon.
+struct Light {
+    // Mean radiance over all directions
+    mean: vec3f,
+    // Mean cosine to the sun of the light around the sun, 0 to 1
+    along: f32,
+    // Mean squared cosine and mean cosine to the zenith, without the light around the sun
+    zenith: vec3f,
+    up: f32,
+}
+
+fn light_of_texels(light: vec4f, shape: vec4f) -> Light {
+    return Light(light.rgb / MULTISCATTER_SCALE, light.a, shape.rgb, shape.a);
+}
+
+// Light that air and ground have scattered at least once.
+fn scattered_light(h: f32, sun_mu: f32) -> Light {
+    let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(h / body.air_height_km)));
     let at = texel_from_unit(x, MULTISCATTER_SIZE);
-    return textureSampleLevel(multiscatter_lut, clamped, at, 0.0).rgb / MULTISCATTER_SCALE;
+    return light_of_texels(
+        textureSampleLevel(multiscatter_lut, clamped, at, 0, 0.0),
+        textureSampleLevel(multiscatter_lut, clamped, at, 1, 0.0),
+    );
+}
+
+// Square of a cosine, less its mean over all directions.
+fn squared(cosine: f32) -> f32 { return cosine * cosine - 1.0 / 3.0; }
+
+// Mean squared cosine of light to the zenith, less that of even light.
+fn squared_up(light: Light, sun_mu: f32) -> vec3f { return light.zenith + light.along * light.along * squared(sun_mu); }
+
+// Radiance that air scatters into a ray per km: the moments of the light times those of the phase functions. `moments`:
+// of the phase function of haze. `mu` and `cosine`: cosines of the ray to the zenith and to the sun.
+fn scattered(air: Air, light: Light, moments: vec2f, mu: f32, cosine: f32) -> vec3f {
+    let around = light.along * light.along * squared(cosine);
+    let zenith = light.zenith * (1.5 * squared(mu));
+    let rayleigh = 0.75 * (around + zenith) + 1.0;
+    let peaked = 4.0 * PI * henyey_greenstein(moments.x * light.along, cosine);
+    let mie = zenith * (7.5 * moments.y) + (peaked + 3.0 * moments.x * light.up * mu);
+    return light.mean * (air.rayleigh * max(rayleigh, vec3f(0.0)) + air.mie * max(mie, vec3f(0.0)));
 }
 
 // Radiance of the night sky: mean over stars, dust and airglow. Sunlit white ground has radiance 1. On the Earth,

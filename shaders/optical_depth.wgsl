@@ -1,5 +1,6 @@
-// LUT of the optical depth from an altitude to the top of the air, by cosine to the zenith. Optical depth is stored,
-// not transmittance: it is smoother between texels, and 16 bits hold the depth of the deepest red sunset.
+// LUT of the optical depth from an altitude to the top of the air, and of the haze in the way, by cosine to the zenith.
+// Optical depth is stored, not transmittance: it is smoother between texels, and 16 bits hold the depth of the deepest
+// red sunset.
 #include "screen.wgsl"
 #include "air_model.wgsl"
 
@@ -24,11 +25,13 @@ fn fragment(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let middle = clamp(-r * mu, 0.0, path_km);
     let start = -sqrt(middle);
     let step = (sqrt(path_km - middle) - start) / f32(STEPS);
-    var depth = vec3f(0.0);
+    // rgb: optical depth; a: haze as km of its density at the reference sphere
+    var depth = vec4f(0.0);
     for (var i = 0u; i < STEPS; i++) {
         let w = start + f32(i) * step;
         let length_km = bent(w + step, middle) - bent(w, middle);
-        depth += air_at(altitude_along(radius, h, mu, bent(w + 0.5 * step, middle))).extinction * length_km;
+        let height = max(altitude_along(radius, h, mu, bent(w + 0.5 * step, middle)), 0.0);
+        depth += vec4f(air_at(height).extinction, haze_density(height)) * length_km;
     }
-    return vec4f(min(depth, vec3f(60000.0)), 1.0);
+    return min(depth, vec4f(60000.0));
 }

@@ -30,6 +30,7 @@ fn air_light(
     let cosine = dot(dir, sun);
     let phase_rayleigh = rayleigh_phase(cosine);
     let phase_mie = mie_phase(cosine);
+    let moments = haze_moments();
     let sun_up = dot(sun, up);
     let middle = clamp(-(radius + h) * mu, path_km.x, path_km.y);
     let start = -sqrt(middle - path_km.x);
@@ -48,10 +49,11 @@ fn air_light(
         let over = sun_mu - horizon_cosine(height);
         let visible = disc_share(over, select(over - last_over, 0.0, i == 0.0));
         last_over = over;
-        var shine = (air.rayleigh + air.mie) * multiscatter(height, sun_mu);
+        let local_mu = ((radius + h) * mu + t) / (radius + height);
+        var shine = scattered(air, scattered_light(height, sun_mu), moments, local_mu, cosine);
         if visible > 0.0 {
             let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
-            shine += direct * clear_transmittance(height, sun_mu) * visible;
+            shine += direct * beam_transmittance(height, sun_mu) * visible;
         }
         let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
         let inside = out.transmittance * shine * shining_length(air.extinction, length_km);

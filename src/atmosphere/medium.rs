@@ -32,6 +32,15 @@ pub(super) struct Coefficients {
     pub(super) extinction: DVec3,
 }
 
+/// Moments of the phase function of haze.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Haze {
+    /// The mean cosine.
+    pub(super) first: f64,
+    /// The mean of the second Legendre polynomial of the cosine.
+    pub(super) second: f64,
+}
+
 impl Coefficients {
     /// Scattering by molecules and haze.
     pub(super) fn scattering(&self) -> DVec3 {
@@ -67,6 +76,35 @@ impl Medium {
         Coefficients { rayleigh, mie: self.mie_scattering * haze, extinction }
     }
 
+    /// The same air with haze that does not scatter its forward peak: light in the peak counts as not scattered. Haze
+    /// that scatters forward is then nearly even, and the first two moments of its phase function suffice (delta-M
+    /// method: Wiscombe, The delta-M method: rapid yet accurate radiative flux calculations for strongly asymmetric
+    /// phase functions, 1977).
+    pub(super) fn without_peak(&self) -> Self {
+        let peak = self.mie_scattering * self.peak();
+        Self { mie_scattering: self.mie_scattering - peak, mie_extinction: self.mie_extinction - peak, ..self.clone() }
+    }
+
+    /// Share of light scattered by haze that is in the forward peak: the fourth moment of the phase function of Henyey
+    /// and Greenstein.
+    fn peak(&self) -> f64 {
+        self.anisotropy.max(0.0).powi(4)
+    }
+
+    /// Moments of the Mie phase function: the means of the first two Legendre polynomials of the cosine.
+    pub(super) fn haze(&self) -> Haze {
+        let (g, g2) = (self.anisotropy, self.anisotropy * self.anisotropy);
+        // The mean squared cosine, from those of the second and the fourth power over Henyey and Greenstein's function.
+        let squared = 1.5 / (2.0 + g2) * ((2.0 * g2 + 1.0) / 3.0 + (8.0 * g2 * g2 + 20.0 * g2 + 7.0) / 35.0);
+        Haze { first: 0.6 * g * (4.0 + g2) / (2.0 + g2), second: 1.5 * squared - 0.5 }
+    }
+
+    /// The moments without the forward peak, of what remains.
+    pub(super) fn haze_without_peak(&self) -> Haze {
+        let (all, peak) = (self.haze(), self.peak());
+        Haze { first: (all.first - peak) / (1.0 - peak), second: (all.second - peak) / (1.0 - peak) }
+    }
+
     /// Upper bound of the extinction at any altitude.
     pub(super) fn max_extinction(&self) -> DVec3 {
         self.rayleigh + self.mie_extinction + self.absorber
@@ -83,6 +121,12 @@ impl Medium {
     pub(super) fn anisotropy(&self) -> f64 {
         self.anisotropy
     }
+}
+
+/// Henyey and Greenstein, Diffuse radiation in the galaxy, 1941. `g`: the mean cosine.
+pub(super) fn henyey_greenstein(g: f64, cosine: f64) -> f64 {
+    let base = (1.0 + g * g - 2.0 * g * cosine).max(1e-6);
+    (1.0 - g * g) / (4.0 * PI * base * base.sqrt())
 }
 
 pub(super) fn rayleigh_phase(cosine: f64) -> f64 {

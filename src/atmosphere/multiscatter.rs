@@ -1,31 +1,37 @@
-//! Light that is scattered twice or more, as a LUT by altitude and sun elevation: the mean over all directions, because
-//! scattering blurs (Hillaire 2020, section 5.5). Directions and steps are those of the shaders, in f64.
+//! Light that air and ground have scattered, as a LUT by altitude and sun elevation: its mean over all directions, and
+//! how it differs from direction to direction. Scattering blurs, so few numbers suffice. Directions and steps are those
+//! of the shaders, in f64.
 //!
-//! Hillaire's sum over all orders assumes that light is as bright everywhere as at the point, and that the sky does not
-//! light the ground. That is the first [`guess`]. It is too dark by up to a third in the blue of twilight. The
-//! correction gathers the guess from all around once: one step of the iteration that solves the equation of radiative
-//! transfer.
+//! Sunlight scattered once is gathered from all around. Hillaire's sum over all orders (2020, section 5.5) assumes that
+//! light is as bright everywhere as at the point, and that the sky does not light the ground: that is the first
+//! [`guess`]. Each [`correction`](corrected) gathers the light before it from all around once: one step of the iteration
+//! that solves the equation of radiative transfer.
 
 use super::depth::bilinear;
 use super::line::{Line, horizon_mu};
-use super::medium::{Coefficients, Medium, rayleigh_phase};
+use super::medium::{Coefficients, Haze, Medium, henyey_greenstein, rayleigh_phase};
 use super::sunlit::SunlitAir;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Texels along the sun's elevation and along the altitude, as in the shaders.
 const COLUMNS: usize = 32;
 const ROWS: usize = 16;
 /// Columns are densest at the terminator; at this cosine of the sun's zenith angle, they are a quarter as dense.
 const TWILIGHT: f64 = 0.15;
-/// Cosines of the azimuths from the sun of the two directions in half a ring; the other half is their mirror image.
-const AZIMUTH_COSINES: [f64; 2] = [FRAC_1_SQRT_2, -FRAC_1_SQRT_2];
+/// Number of corrections, as in the shaders.
+const CORRECTIONS: usize = 4;
 /// Upper limit of f_ms: the sum over all orders of scattering diverges at 1.
 const MAX_RETURNED: f64 = 0.999;
 /// Upper limit of f_ms in the sum over all orders of a correction. It holds for thin air only: in dense air, a
 /// correction differs too much from place to place.
 const MAX_CORRECTION_RETURNED: f64 = 0.4;
+/// Weight of the second moment in the mean cosine to the sun, where the first one is weighted by the squared sine of the
+/// sun's zenith angle.
+const WEIGHT_OF_SQUARE: f64 = 0.1;
+/// Upper limit of the mean cosine to the sun.
+const MAX_ALONG: f64 = 0.95;
 
 /// Directions of a sum over the sphere in rings of equal elevation, and steps along each direction. Radiance jumps at
 /// the horizon, so each side of it has a quadrature of its own: Gauss-Legendre nodes between 0 (the horizon) and 1
@@ -39,16 +45,6 @@ struct Quadrature {
 /// For sunlight, which ends abruptly at the planet's shadow.
 const FINE: Quadrature = Quadrature {
     upper: &[
-        (0.019_855_071_751_231_9, 0.050_614_268_145_188_1),
-        (0.101_666_761_293_186_6, 0.111_190_517_226_687_2),
-        (0.237_233_795_041_835_5, 0.156_853_322_938_943_6),
-        (0.408_282_678_752_175_1, 0.181_341_891_689_181),
-        (0.591_717_321_247_825, 0.181_341_891_689_181),
-        (0.762_766_204_958_164_5, 0.156_853_322_938_943_6),
-        (0.898_333_238_706_813_4, 0.111_190_517_226_687_2),
-        (0.980_144_928_248_768_1, 0.050_614_268_145_188_1),
-    ],
-    lower: &[
         (0.033_765_242_898_424, 0.085_662_246_189_585_2),
         (0.169_395_306_766_867_7, 0.180_380_786_524_069_3),
         (0.380_690_406_958_401_6, 0.233_956_967_286_345_5),
@@ -56,7 +52,13 @@ const FINE: Quadrature = Quadrature {
         (0.830_604_693_233_132_3, 0.180_380_786_524_069_3),
         (0.966_234_757_101_576, 0.085_662_246_189_585_2),
     ],
-    steps: 14,
+    lower: &[
+        (0.069_431_844_202_973_7, 0.173_927_422_568_726_9),
+        (0.330_009_478_207_571_9, 0.326_072_577_431_273_1),
+        (0.669_990_521_792_428_1, 0.326_072_577_431_273_1),
+        (0.930_568_155_797_026_3, 0.173_927_422_568_726_9),
+    ],
+    steps: 10,
 };
 /// For light that has been scattered before, which is smooth.
 const COARSE: Quadrature = Quadrature {
@@ -69,97 +71,248 @@ const COARSE: Quadrature = Quadrature {
     steps: 6,
 };
 
-/// Light that comes to a point from all directions: air and ground around it, and the sun's place at the point.
-struct Gather<'a> {
-    medium: &'a Medium,
+/// A direction, as cosines to the zenith and to the sun.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Direction {
+    pub(super) mu: f64,
+    pub(super) cosine: f64,
+}
+
+/// Light at a point. It comes from around the sun as by the phase function of Henyey and Greenstein, and is brighter or
+/// darker upwards and near the zenith or the horizon.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Light {
+    /// Mean radiance over all directions.
+    pub(super) mean: DVec3,
+    /// Mean cosine to the sun of the light around the sun, 0 to 1.
+    along: f64,
+    /// Mean cosine to the zenith, without the light around the sun.
+    up: f64,
+    /// Mean squared cosine to the zenith, without the light around the sun.
+    zenith: DVec3,
+}
+
+impl Light {
+    /// Radiance that molecules and haze scatter into a ray, per scattering coefficient: the moments of the light times
+    /// those of the phase function.
+    pub(super) fn scattered(&self, haze: &Haze, to: Direction) -> (DVec3, DVec3) {
+        let Direction { mu, cosine } = to;
+        let (around, zenith) = (self.along * self.along * squared(cosine), self.zenith * (1.5 * squared(mu)));
+        let rayleigh = 0.75 * (around + zenith) + 1.0;
+        let peaked = 4.0 * PI * henyey_greenstein(haze.first * self.along, cosine);
+        let mie = zenith * (7.5 * haze.second) + (peaked + 3.0 * haze.first * self.up * mu);
+        (self.mean * rayleigh.max(DVec3::ZERO), self.mean * mie.max(DVec3::ZERO))
+    }
+
+    /// Mean squared cosine to the zenith, less that of even light.
+    fn squared_up(&self, sun_mu: f64) -> DVec3 {
+        self.zenith + self.along * self.along * squared(sun_mu)
+    }
+}
+
+/// Square of a cosine, less its mean over all directions.
+fn squared(cosine: f64) -> f64 {
+    cosine * cosine - 1.0 / 3.0
+}
+
+/// Sine of an angle by its cosine.
+fn flat(mu: f64) -> f64 {
+    (1.0 - mu * mu).max(0.0).sqrt()
+}
+
+/// Sums over directions that make a [`Light`].
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    mean: DVec3,
+    /// Cosine to the sun's azimuth on the horizon, times the sine of the sun's zenith angle.
+    ahead: f64,
+    /// Cosine to the zenith.
+    up: f64,
+    /// Second Legendre polynomial of the cosine to the sun.
+    around: f64,
+    /// Square of the cosine to the zenith.
+    zenith: DVec3,
+}
+
+impl Sums {
+    /// Adds light from a direction. `share`: of all directions.
+    fn add(&mut self, light: DVec3, from: Direction, sun_mu: f64, share: f64) {
+        let light = light * share;
+        let all = light.element_sum();
+        self.mean += light;
+        self.ahead += all * (from.cosine - from.mu * sun_mu);
+        self.up += all * from.mu;
+        self.around += all * 1.5 * squared(from.cosine);
+        self.zenith += light * squared(from.mu);
+    }
+
+    /// Adds another light.
+    fn add_light(&mut self, light: &Light, sun_mu: f64) {
+        let all = light.mean.element_sum();
+        self.mean += light.mean;
+        self.ahead += all * light.along * (1.0 - sun_mu * sun_mu);
+        self.up += all * (light.up + light.along * sun_mu);
+        self.around += all * light.along * light.along;
+        self.zenith += light.mean * light.squared_up(sun_mu);
+    }
+
+    /// The light if its mean is another one: what it then has more or less is even.
+    fn light(&self, mean: DVec3, sun_mu: f64) -> Light {
+        let all = mean.element_sum().max(1e-300);
+        // Light from the ground counts in the cosine to the sun, but neither in the horizontal part of it, which tells
+        // nothing when the sun is at the zenith, nor much in the square.
+        let by_square = (self.around / all).clamp(0.0, 1.0).sqrt();
+        let weight = 1.0 - sun_mu * sun_mu + WEIGHT_OF_SQUARE;
+        let along = ((self.ahead / all + WEIGHT_OF_SQUARE * by_square) / weight).clamp(0.0, MAX_ALONG);
+        let zenith = self.zenith / mean.max(DVec3::splat(1e-300)) - along * along * squared(sun_mu);
+        Light { mean, along, up: self.up / all - along * sun_mu, zenith }
+    }
+}
+
+/// The point at which light is gathered, and the sun's place there.
+struct Point {
     radius: f64,
     altitude: f64,
     sun_mu: f64,
 }
 
-impl Gather<'_> {
-    /// Mean radiance over all directions. `shine`: light that air emits, per kilometre, by its altitude, the cosine of
-    /// the sun's zenith angle there, and the cosine of the ray to the sun. `ground`: radiance of the ground by the
-    /// cosine of the sun's zenith angle there.
-    fn mean(
-        &self,
-        quadrature: &Quadrature,
-        shine: impl Fn(&Coefficients, f64, f64, f64) -> DVec3,
-        ground: impl Fn(f64) -> DVec3,
-    ) -> DVec3 {
-        let &Self { medium, radius, altitude, sun_mu } = self;
+/// Directions of equal elevation from a point.
+struct Ring {
+    line: Line,
+    /// Share of the ring of all directions.
+    share: f64,
+    /// Cosines to the sun of the middles of the quarters of the ring towards the sun and away from it. The other half of
+    /// the ring is their mirror image.
+    cosines: [f64; 2],
+}
+
+impl Point {
+    fn rings(&self, quadrature: &Quadrature) -> impl Iterator<Item = Ring> {
+        let &Self { radius, altitude, sun_mu } = self;
         let horizon = horizon_mu(radius, altitude);
         let side = |span: f64| move |&(x, weight): &(f64, f64)| (horizon + span * x, weight * 0.5 * span.abs());
         let upper = quadrature.upper.iter().map(side(1.0 - horizon));
-        let rings = upper.chain(quadrature.lower.iter().map(side(-1.0 - horizon)));
-        let flat = |mu: f64| (1.0 - mu * mu).max(0.0).sqrt();
-        let mut sum = DVec3::ZERO;
-        for (mu, share) in rings {
-            let line = Line { radius, altitude, mu };
-            let cosines = AZIMUTH_COSINES.map(|cosine| mu * sun_mu + flat(mu) * flat(sun_mu) * cosine);
-            let share = share / cosines.len() as f64;
-            let sun_mu_at = |t: f64, altitude_there: f64, cosine: f64| {
-                (((radius + altitude) * sun_mu + t * cosine) / (radius + altitude_there)).clamp(-1.0, 1.0)
-            };
-            let mut transmittance = DVec3::ONE;
-            let Some(segment) = line.within(medium.top) else { continue };
-            for (t, length) in segment.steps(quadrature.steps) {
-                let there = line.altitude_at(t);
-                let air = medium.at(there);
-                let passed = (-air.extinction * length).exp();
-                let inside = transmittance * (1.0 - passed) / air.extinction.max(DVec3::splat(1e-300));
-                let shines = cosines.map(|cosine| shine(&air, there, sun_mu_at(t, there, cosine), cosine));
-                sum += inside * shines.into_iter().sum::<DVec3>() * share;
-                transmittance *= passed;
-            }
-            if let Some(t) = line.ground() {
-                let grounds = cosines.map(|cosine| ground(sun_mu_at(t, 0.0, cosine)));
-                sum += transmittance * grounds.into_iter().sum::<DVec3>() * share;
+        upper.chain(quadrature.lower.iter().map(side(-1.0 - horizon))).map(move |(mu, share)| Ring {
+            line: Line { radius, altitude, mu },
+            share,
+            cosines: [FRAC_PI_4, 3.0 * FRAC_PI_4].map(|azimuth| cosine_at(mu, sun_mu, azimuth)),
+        })
+    }
+
+    /// Cosine of the sun's zenith angle at a distance along a ray and an altitude.
+    fn sun_mu_at(&self, t: f64, altitude: f64, cosine: f64) -> f64 {
+        (((self.radius + self.altitude) * self.sun_mu + t * cosine) / (self.radius + altitude)).clamp(-1.0, 1.0)
+    }
+
+    /// Sunlight that air and ground have scattered once, and the share of even light from the point that air scatters
+    /// back to it (f_ms), less than 1.
+    fn first(&self, lit: &SunlitAir) -> (Sums, DVec3) {
+        let (mut sums, mut returned) = (Sums::default(), DVec3::ZERO);
+        let haze = lit.smooth.haze_without_peak();
+        for ring in self.rings(&FINE) {
+            // For both quarters of the ring: sunlight that molecules and haze scatter, without the phase functions.
+            let mut scattered = [(DVec3::ZERO, DVec3::ZERO); 2];
+            let through = march(&lit.smooth, &ring.line, FINE.steps, |t, altitude, air, inside| {
+                for (scattered, cosine) in scattered.iter_mut().zip(ring.cosines) {
+                    let light = inside * lit.beam(altitude, self.sun_mu_at(t, altitude, cosine));
+                    scattered.0 += light * air.rayleigh;
+                    scattered.1 += light * air.mie;
+                }
+                returned += inside * air.scattering() * ring.share;
+            });
+            for (quarter, (scattered, cosine)) in scattered.into_iter().zip(ring.cosines).enumerate() {
+                let ground =
+                    ring.line.ground().map_or(DVec3::ZERO, |t| sunlit_ground(lit, self.sun_mu_at(t, 0.0, cosine)));
+                // Phase functions change faster around the ring than sunlight does, so each quarter has two of each.
+                for eighth in [0.5, 1.5] {
+                    let azimuth = (2.0 * quarter as f64 + eighth) * FRAC_PI_4;
+                    let from = Direction { mu: ring.line.mu, cosine: cosine_at(ring.line.mu, self.sun_mu, azimuth) };
+                    let phases = (rayleigh_phase(from.cosine), henyey_greenstein(haze.first, from.cosine));
+                    let light = scattered.0 * phases.0 + scattered.1 * phases.1 + through * ground;
+                    sums.add(light, from, self.sun_mu, ring.share / 4.0);
+                }
             }
         }
-        sum
-    }
-
-    /// The share of isotropic light from the point that air scatters back to it (f_ms), less than 1.
-    fn returned(&self, quadrature: &Quadrature) -> DVec3 {
-        let returned = self.mean(quadrature, |air, _, _, _| air.scattering(), |_| DVec3::ZERO);
-        returned.min(DVec3::splat(MAX_RETURNED))
+        (sums, returned.min(DVec3::splat(MAX_RETURNED)))
     }
 }
 
-/// The share of isotropic light from a point that air scatters back to it (f_ms), less than 1.
+/// Cosine to the sun of a direction, by its cosine to the zenith and its azimuth from the sun.
+fn cosine_at(mu: f64, sun_mu: f64, azimuth: f64) -> f64 {
+    mu * sun_mu + flat(mu) * flat(sun_mu) * azimuth.cos()
+}
+
+/// Marches along a ray to the ground or out of the air. `step`: gets the distance, the altitude, the coefficients there,
+/// and the length of the step, dimmed by the air up to it and in it. Returns the transmittance.
+fn march(medium: &Medium, line: &Line, steps: u32, mut step: impl FnMut(f64, f64, &Coefficients, DVec3)) -> DVec3 {
+    let mut transmittance = DVec3::ONE;
+    let Some(segment) = line.within(medium.top) else { return transmittance };
+    for (t, length) in segment.steps(steps) {
+        let altitude = line.altitude_at(t);
+        let air = medium.at(altitude);
+        let passed = (-air.extinction * length).exp();
+        step(t, altitude, &air, transmittance * (1.0 - passed) / air.extinction.max(DVec3::splat(1e-300)));
+        transmittance *= passed;
+    }
+    transmittance
+}
+
+/// The share of even light from a point that air scatters back to it (f_ms), less than 1.
 pub(super) fn returned(medium: &Medium, radius: f64, altitude: f64) -> DVec3 {
-    Gather { medium, radius, altitude, sun_mu: 1.0 }.returned(&FINE)
+    let (point, medium) = (Point { radius, altitude, sun_mu: 1.0 }, medium.without_peak());
+    let mut returned = DVec3::ZERO;
+    for ring in point.rings(&FINE) {
+        march(&medium, &ring.line, FINE.steps, |_, _, air, inside| returned += inside * air.scattering() * ring.share);
+    }
+    returned.min(DVec3::splat(MAX_RETURNED))
 }
 
-/// Radiance of light scattered twice or more, the same in all directions.
+/// What a texel holds: the light, and the part of it that has been scattered once.
+#[derive(Clone, Copy, Debug)]
+struct Texel {
+    all: Light,
+    once: Light,
+}
+
+/// Light that air and ground have scattered.
 #[derive(Clone, Debug)]
 pub(super) struct MultiscatterLut {
     top: f64,
-    texels: Vec<DVec3>,
+    texels: Vec<Texel>,
 }
 
 impl MultiscatterLut {
     pub(super) fn new(lit: &SunlitAir) -> Self {
-        let guess = Self::filled(lit, guess);
-        Self::filled(lit, |lit, at| corrected(lit, at, &guess))
+        let guess = Self::filled(lit, |_, point| guess(lit, point));
+        (0..CORRECTIONS).fold(guess, |before, number| {
+            Self::filled(lit, |i, point| Texel {
+                all: corrected(lit, point, (&before, number), &before.texels[i]),
+                ..before.texels[i]
+            })
+        })
     }
 
-    fn filled(lit: &SunlitAir, texel: impl Fn(&SunlitAir, &Gather<'_>) -> DVec3 + Sync) -> Self {
-        let (medium, radius, top) = (&lit.medium, lit.radius, lit.medium.top);
+    fn filled(lit: &SunlitAir, texel: impl Fn(usize, &Point) -> Texel + Sync) -> Self {
+        let (radius, top) = (lit.radius, lit.medium.top);
         let at = |i: usize| {
             let x = (i % COLUMNS) as f64 / (COLUMNS - 1) as f64;
             let altitude = (((i / COLUMNS) as f64 / (ROWS - 1) as f64).powi(2) * top).clamp(top * 1e-5, top * 0.9999);
-            texel(lit, &Gather { medium, radius, altitude, sun_mu: sun_mu_at(x) })
+            texel(i, &Point { radius, altitude, sun_mu: sun_mu_at(x) })
         };
         Self { top, texels: (0..COLUMNS * ROWS).into_par_iter().map(at).collect() }
     }
 
-    /// Radiance at an altitude; `sun_mu`: cosine of the sun's zenith angle.
-    pub(super) fn at(&self, altitude: f64, sun_mu: f64) -> DVec3 {
+    /// Light at an altitude; `sun_mu`: cosine of the sun's zenith angle.
+    pub(super) fn at(&self, altitude: f64, sun_mu: f64) -> Light {
+        self.part(altitude, sun_mu, |texel| &texel.all)
+    }
+
+    fn part(&self, altitude: f64, sun_mu: f64, part: impl Fn(&Texel) -> &Light) -> Light {
         let x = unit_of_sun(sun_mu).clamp(0.0, 1.0) * (COLUMNS - 1) as f64;
         let y = (altitude / self.top).clamp(0.0, 1.0).sqrt() * (ROWS - 1) as f64;
-        bilinear(x, y, COLUMNS, ROWS, |i| self.texels[i])
+        let mean = |of: &dyn Fn(&Light) -> DVec3| bilinear(x, y, COLUMNS, ROWS, |i| of(part(&self.texels[i])));
+        let shape = mean(&|light| DVec3::new(light.along, light.up, 0.0));
+        Light { mean: mean(&|light| light.mean), along: shape.x, up: shape.y, zenith: mean(&|light| light.zenith) }
     }
 }
 
@@ -177,33 +330,56 @@ fn sun_mu_at(x: f64) -> f64 {
 
 /// Radiance of the ground in the sun, without light from the sky.
 fn sunlit_ground(lit: &SunlitAir, sun_mu: f64) -> DVec3 {
-    lit.medium.ground_albedo * lit.sunlight(0.0, sun_mu) * (sun_mu.max(0.0) / PI)
+    lit.medium.ground_albedo * lit.beam(0.0, sun_mu) * (sun_mu.max(0.0) / PI)
 }
 
-/// Light scattered twice or more if it is as bright everywhere as at the point. Each further order is then the same
-/// share of the one before, and the sum is a geometric series.
-fn guess(lit: &SunlitAir, at: &Gather<'_>) -> DVec3 {
-    // Molecules scatter sunlight by their phase function, haze evenly.
-    let shine = |air: &Coefficients, altitude: f64, sun_mu: f64, cosine: f64| {
-        (air.rayleigh * rayleigh_phase(cosine) + air.mie / (4.0 * PI)) * lit.sunlight(altitude, sun_mu)
-    };
-    let second = at.mean(&FINE, shine, |sun_mu| sunlit_ground(lit, sun_mu));
-    second / (1.0 - at.returned(&FINE))
+/// Light if it is as bright everywhere as at the point. Each further order of scattering is then the same share of the
+/// one before, and the sum is a geometric series.
+fn guess(lit: &SunlitAir, point: &Point) -> Texel {
+    let (sums, returned) = point.first(lit);
+    let light = |mean: DVec3| sums.light(mean, point.sun_mu);
+    Texel { all: light(sums.mean / (1.0 - returned)), once: light(sums.mean) }
 }
 
-/// The guess, corrected for how much brighter or darker it is in the surroundings, and for the light of the sky on the
+/// Radiance of the ground in light from the sky. On the ground, half of all directions see the sky, and half see the
 /// ground.
-fn corrected(lit: &SunlitAir, at: &Gather<'_>, guess: &MultiscatterLut) -> DVec3 {
-    let here = guess.at(at.altitude, at.sun_mu);
-    let shine =
-        |air: &Coefficients, altitude: f64, sun_mu: f64, _: f64| air.scattering() * (guess.at(altitude, sun_mu) - here);
-    // On the ground, half of all directions see the sky, and half see the sunlit ground.
-    let ground = |sun_mu: f64| {
-        let sky = 2.0 * guess.at(0.0, sun_mu) - sunlit_ground(lit, sun_mu);
-        lit.medium.ground_albedo * sky.max(DVec3::ZERO)
-    };
-    let correction = at.mean(&COARSE, shine, ground);
-    let returned = at.returned(&COARSE);
+fn skylit_ground(lit: &SunlitAir, (before, number): (&MultiscatterLut, usize), sun_mu: f64) -> DVec3 {
+    let (albedo, light) = (lit.medium.ground_albedo, before.at(0.0, sun_mu));
+    // The mean over the sky weighted by the cosine, if the sky changes with the squared cosine to the zenith.
+    let sky = 2.0 * light.mean - sunlit_ground(lit, sun_mu) + 3.75 * light.mean * light.squared_up(sun_mu);
+    // After the first correction, the ground seen is itself skylit.
+    albedo * sky.max(DVec3::ZERO) / if number == 0 { DVec3::ONE } else { 1.0 + albedo }
+}
+
+/// Light gathered from all around, from that `before`. `own`: the texel of the point.
+fn corrected(lit: &SunlitAir, point: &Point, before: (&MultiscatterLut, usize), own: &Texel) -> Light {
+    let (mut sums, mut returned) = (Sums::default(), DVec3::ZERO);
+    let haze = lit.smooth.haze_without_peak();
+    for ring in point.rings(&COARSE) {
+        let mut gathered = [DVec3::ZERO; 2];
+        let through = march(&lit.smooth, &ring.line, COARSE.steps, |t, altitude, air, inside| {
+            let mu = ((point.radius + point.altitude) * ring.line.mu + t) / (point.radius + altitude);
+            for (gathered, cosine) in gathered.iter_mut().zip(ring.cosines) {
+                let sun_mu = point.sun_mu_at(t, altitude, cosine);
+                let light = before.0.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine });
+                *gathered += inside * (air.rayleigh * light.0 + air.mie * light.1);
+            }
+            returned += inside * air.scattering() * ring.share;
+        });
+        for (gathered, cosine) in gathered.into_iter().zip(ring.cosines) {
+            let at = |t: f64| skylit_ground(lit, before, point.sun_mu_at(t, 0.0, cosine));
+            let ground = ring.line.ground().map_or(DVec3::ZERO, at);
+            sums.add(
+                gathered + through * ground,
+                Direction { mu: ring.line.mu, cosine },
+                point.sun_mu,
+                ring.share / 2.0,
+            );
+        }
+    }
+    sums.add_light(&own.once, point.sun_mu);
+    let here = own.all.mean;
+    let correction = (sums.mean - here) / (1.0 - returned.min(DVec3::splat(MAX_CORRECTION_RETURNED)));
     // No less than the first term of the series.
-    (here + correction / (1.0 - returned.min(DVec3::splat(MAX_CORRECTION_RETURNED)))).max(here * (1.0 - returned))
+    sums.light((here + correction).max(own.once.mean), point.sun_mu)
 }

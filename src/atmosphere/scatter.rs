@@ -3,7 +3,7 @@
 use super::depth;
 use super::line::{Line, horizon_mu};
 use super::medium::{Medium, rayleigh_phase};
-use super::multiscatter::{self, MultiscatterLut};
+use super::multiscatter::{self, Direction, MultiscatterLut};
 use super::sunlit::SunlitAir;
 use crate::planet::{InvalidPlanet, Planet};
 use glam::DVec3;
@@ -85,13 +85,17 @@ fn radiance(lit: &SunlitAir, multiscatter: &MultiscatterLut, ray: &SkyRay) -> DV
     let Some(segment) = line.within(lit.medium.top) else { return DVec3::ZERO };
     let cosine = dir.dot(sun);
     let phases = (rayleigh_phase(cosine), lit.medium.mie_phase(cosine));
+    let haze = lit.medium.haze();
     let (mut radiance, mut transmittance) = (DVec3::ZERO, DVec3::ONE);
     for (t, length) in segment.steps(STEPS) {
         let altitude = line.altitude_at(t);
         let sun_mu = (((lit.radius + line.altitude) * sun.z + t * cosine) / (lit.radius + altitude)).clamp(-1.0, 1.0);
         let air = lit.medium.at(altitude);
-        let direct = (air.rayleigh * phases.0 + air.mie * phases.1) * lit.sunlight(altitude, sun_mu);
-        let source = direct + air.scattering() * multiscatter.at(altitude, sun_mu);
+        let mu = ((lit.radius + line.altitude) * line.mu + t) / (lit.radius + altitude);
+        // The forward peak of haze is part of the beam: scattered once more, it counts as scattered once.
+        let beam = lit.beam(altitude, sun_mu);
+        let light = multiscatter.at(altitude, sun_mu).scattered(&haze, Direction { mu, cosine });
+        let source = air.rayleigh * (beam * phases.0 + light.0) + air.mie * (beam * phases.1 + light.1);
         let passed = (-air.extinction * length).exp();
         radiance += transmittance * source * (1.0 - passed) / air.extinction.max(DVec3::splat(1e-300));
         transmittance *= passed;

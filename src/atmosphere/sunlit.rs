@@ -17,14 +17,19 @@ pub(super) struct SunlitAir {
     pub(super) radius: f64,
     sun_radius_rad: f64,
     depths: DepthLut,
+    /// The air without the forward peak of haze, and its depths.
+    pub(super) smooth: Medium,
+    smooth_depths: DepthLut,
 }
 
 impl SunlitAir {
     pub(super) fn new(planet: &Planet) -> Option<Self> {
         let medium = Medium::new(planet.atmosphere.as_ref()?);
         let radius = planet.radius_km;
-        let depths = DepthLut::new(&medium, radius);
-        Some(Self { medium, radius, sun_radius_rad: planet.star.radius_deg.to_radians(), depths })
+        let smooth = medium.without_peak();
+        let (depths, smooth_depths) = (DepthLut::new(&medium, radius), DepthLut::new(&smooth, radius));
+        let sun_radius_rad = planet.star.radius_deg.to_radians();
+        Some(Self { medium, radius, sun_radius_rad, depths, smooth, smooth_depths })
     }
 
     /// Share of the sun's disc above the horizon, 0 to 1, approximated by the same smooth step as in the shaders.
@@ -37,11 +42,20 @@ impl SunlitAir {
     /// Direct sunlight at an altitude, as a share of the irradiance above the air; `mu`: cosine of the sun's zenith
     /// angle.
     pub(super) fn sunlight(&self, altitude: f64, mu: f64) -> DVec3 {
+        self.through(&self.depths, altitude, mu)
+    }
+
+    /// The same, with the light that haze has scattered into its forward peak.
+    pub(super) fn beam(&self, altitude: f64, mu: f64) -> DVec3 {
+        self.through(&self.smooth_depths, altitude, mu)
+    }
+
+    fn through(&self, depths: &DepthLut, altitude: f64, mu: f64) -> DVec3 {
         let visible = self.share_above_horizon(altitude, mu);
         if visible <= 0.0 {
             return DVec3::ZERO;
         }
         // When the centre has set, light still comes from the part of the disc above the horizon.
-        (-self.depths.at(altitude, mu.max(horizon_mu(self.radius, altitude)))).exp() * visible
+        (-depths.at(altitude, mu.max(horizon_mu(self.radius, altitude)))).exp() * visible
     }
 }

@@ -170,7 +170,7 @@ params! {
         /// Distance from the middle of the absorbing layer to its edges.
         absorber_width_km: f64 = 15.0, "Absorber width", Unit::Kilometres, log(0.01, 500.0), Stage::OpticalDepth;
         /// Albedo of the ground, as the light in the atmosphere assumes it.
-        ground_albedo: [f64; 3] = [0.3, 0.3, 0.3], "Ground albedo", Unit::None, Domain::Color, Stage::Multiscatter;
+        ground_albedo: [f64; 3] = [0.3, 0.3, 0.3], "Ground albedo", Unit::None, Domain::Color, Stage::AirTables;
         /// Brightness of the aurora at night: 1 is a bright one of the Earth, 0 is none.
         aurora: f64 = 0.0, "Aurora", Unit::None, linear(0.0, 10.0), Stage::Uniform;
         /// Magnetic latitude of the aurora. The magnetic poles are 10° from the poles.
@@ -259,7 +259,7 @@ params! {
         /// Brightness of the light on the planet; 1 is the Sun on the Earth.
         brightness: f64 = 1.0, "Brightness", Unit::None, log(0.0, 100.0), Stage::Uniform;
         /// Angular radius of the star's disc.
-        radius_deg: f64 = 0.268, "Angular radius", Unit::Degrees, log(0.01, 20.0), Stage::Multiscatter;
+        radius_deg: f64 = 0.268, "Angular radius", Unit::Degrees, log(0.01, 20.0), Stage::AirTables;
     }
 }
 

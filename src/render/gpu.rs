@@ -83,9 +83,19 @@ pub(crate) fn pipeline_layout(
 
 /// A texture to draw into, to bind, and to copy from.
 pub fn texture(device: &wgpu::Device, label: &str, size_px: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+    layered_texture(device, label, size_px, 1, format)
+}
+
+fn layered_texture(
+    device: &wgpu::Device,
+    label: &str,
+    size_px: [u32; 2],
+    layers: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: size_px[0], height: size_px[1], depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width: size_px[0], height: size_px[1], depth_or_array_layers: layers },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -105,6 +115,27 @@ pub(crate) fn target(
     format: wgpu::TextureFormat,
 ) -> wgpu::TextureView {
     texture(device, label, size_px, format).create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// A texture with several layers: the views of all of them together, and of each for drawing into it.
+pub(crate) fn layered_target(
+    device: &wgpu::Device,
+    label: &str,
+    size_px: [u32; 2],
+    layers: u32,
+    format: wgpu::TextureFormat,
+) -> (wgpu::TextureView, Vec<wgpu::TextureView>) {
+    let texture = layered_texture(device, label, size_px, layers, format);
+    let view = |dimension, base_array_layer, array_layer_count| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(dimension),
+            base_array_layer,
+            array_layer_count: Some(array_layer_count),
+            ..wgpu::TextureViewDescriptor::default()
+        })
+    };
+    let each = (0..layers).map(|layer| view(wgpu::TextureViewDimension::D2, layer, 1)).collect();
+    (view(wgpu::TextureViewDimension::D2Array, 0, layers), each)
 }
 
 /// A pipeline that draws one triangle over all pixels of its targets.

@@ -20,26 +20,34 @@ use crate::terrain::{Revision, Terrain};
 use crate::world::{MapPicture, MapView};
 use std::sync::Arc;
 
-/// The LUTs of the air in order of dependence: name, shader, size.
-const AIR_LUTS: [(&str, &str, [u32; 2]); 5] = [
-    ("optical depth", "optical_depth.wgsl", OPTICAL_DEPTH_SIZE),
-    ("multiscatter guess", "multiscatter_guess.wgsl", MULTISCATTER_SIZE),
-    ("multiscatter", "multiscatter.wgsl", MULTISCATTER_SIZE),
-    ("irradiance", "irradiance.wgsl", IRRADIANCE_SIZE),
-    ("sky", "sky.wgsl", SKY_SIZE),
+/// The LUTs of the air, as indices into [`AIR_LUTS`].
+const DEPTH: usize = 0;
+const MULTISCATTER: usize = 1;
+const OTHER_MULTISCATTER: usize = 2;
+const IRRADIANCE: usize = 3;
+const SKY: usize = 4;
+/// Name, size and number of layers of each.
+const AIR_LUTS: [(&str, [u32; 2], u32); 5] = [
+    ("optical depth", OPTICAL_DEPTH_SIZE, 1),
+    ("multiscatter", MULTISCATTER_SIZE, 4),
+    ("other multiscatter", MULTISCATTER_SIZE, 4),
+    ("irradiance", IRRADIANCE_SIZE, 1),
+    ("sky", SKY_SIZE, 1),
 ];
-/// Number of earlier LUTs in the list that must be ready when each LUT of the air is drawn.
-const AIR_LUTS_READ: [usize; AIR_LUTS.len()] = [0, 1, 2, 3, 3];
-/// The first LUT in the list of each key: optical depth, multiple scattering, light of the sky.
-const FIRST_OF_KEY: [usize; 3] = [0, 1, 3];
-
-/// The LUTs that shaders see in the slots of `luts.wgsl` when the first ones of the list are ready. The guess stands in
-/// for multiple scattering until that is ready.
-fn air_slots(ready: usize) -> [usize; 4] {
-    // A texture must not be bound while it is drawn, so the first LUT stands in for the others.
-    let slot = |i: usize| if i < ready { i } else { 0 };
-    [0, slot(2).max(slot(1)), slot(3), slot(4)]
-}
+/// The passes that draw them, in order: shader, the LUT drawn, and for shaders that read LUTs, the LUT that they see as
+/// the one of multiple scattering. Each correction of that reads one LUT and draws the other.
+const AIR_PASSES: [(&str, usize, Option<usize>); 8] = [
+    ("optical_depth.wgsl", DEPTH, None),
+    ("multiscatter_guess.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
+    ("multiscatter_first.wgsl", OTHER_MULTISCATTER, Some(MULTISCATTER)),
+    ("multiscatter.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
+    ("multiscatter.wgsl", OTHER_MULTISCATTER, Some(MULTISCATTER)),
+    ("multiscatter.wgsl", MULTISCATTER, Some(OTHER_MULTISCATTER)),
+    ("irradiance.wgsl", IRRADIANCE, Some(MULTISCATTER)),
+    ("sky.wgsl", SKY, Some(MULTISCATTER)),
+];
+/// The first pass of each key: optical depth, scattered light.
+const FIRST_OF_KEY: [usize; 2] = [0, 1];
 
 /// Number of times that each texture of a body, and its uniforms, have been written since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,9 +59,7 @@ pub struct LutRuns {
     pub weather: u64,
     /// The LUT of the optical depth of the air.
     pub optical_depth: u64,
-    /// The LUT of light that the air scatters twice or more.
-    pub multiscatter: u64,
-    /// The two LUTs of the light of the sky.
+    /// The LUTs of light that the air scatters, and of the light of the sky.
     pub air: u64,
     /// The uniforms of the body and of the frame.
     pub uniforms: u64,
@@ -71,7 +77,7 @@ pub(crate) struct Patterns {
 impl Patterns {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         use Slot::{Cube, CubeArray, Float2d, Float2dArray, Float3d, Unfiltered2d};
-        let air = [Float2d; 4];
+        let air = [Float2d, Float2dArray, Float2d, Float2d];
         let rest = [CubeArray, Float3d, Unfiltered2d, Unfiltered2d, Float2dArray, Float2dArray, Float3d, Cube];
         Self {
             noise: [noise_tile::upload(device, queue), border_tile::upload(device, queue)],
@@ -88,14 +94,14 @@ pub(crate) struct LutPipelines {
 
 impl LutPipelines {
     pub(crate) fn new(device: &wgpu::Device, shared: Shared<'_>) -> Result<Self, RenderError> {
-        let pipeline = |(i, (_, entry, _)): (usize, &(&str, &'static str, [u32; 2]))| {
+        let pipeline = |&(entry, drawn, read): &(&'static str, usize, Option<usize>)| {
             let groups = [shared.uniforms, shared.luts];
-            let groups = if AIR_LUTS_READ[i] == 0 { &groups[..1] } else { &groups[..] };
+            let groups = if read.is_none() { &groups[..1] } else { &groups[..] };
             let description = gpu::ScreenPipelineDescriptor {
                 entry,
                 layout: &gpu::pipeline_layout(device, entry, groups),
                 module: &shaders::module(device, entry)?,
-                targets: &[Some(RADIANCE_FORMAT.into())],
+                targets: &vec![Some(RADIANCE_FORMAT.into()); AIR_LUTS[drawn].2 as usize],
                 writes_depth: false,
                 encodes_srgb: false,
                 is_linear: false,
@@ -103,39 +109,56 @@ impl LutPipelines {
             };
             gpu::screen_pipeline(device, &description)
         };
-        let air = AIR_LUTS.iter().enumerate().map(pipeline).collect::<Result<_, _>>()?;
+        let air = AIR_PASSES.iter().map(pipeline).collect::<Result<_, _>>()?;
         Ok(Self { air })
+    }
+}
+
+/// The views of a LUT of the air: to read it, and each layer to draw it.
+struct AirLut {
+    all: wgpu::TextureView,
+    layers: Vec<wgpu::TextureView>,
+}
+
+impl AirLut {
+    fn new(device: &wgpu::Device, &(name, size, layers): &(&str, [u32; 2], u32)) -> Self {
+        if layers == 1 {
+            let all = gpu::target(device, name, size, RADIANCE_FORMAT);
+            return Self { layers: vec![all.clone()], all };
+        }
+        let (all, layers) = gpu::layered_target(device, name, size, layers, RADIANCE_FORMAT);
+        Self { all, layers }
     }
 }
 
 /// The LUTs of a body.
 pub(crate) struct Luts {
-    air: Vec<wgpu::TextureView>,
+    air: Vec<AirLut>,
     clouds: CloudMaps,
     biomes: BiomeTextures,
     /// The cube with the world map that a debug view shows, and what is in it.
     map_picture: wgpu::TextureView,
     shown_map: Option<(MapView, [Option<Key>; 2])>,
     groups: Groups,
-    /// For optical depth, multiple scattering and the light of the sky: the planet's key, and the bits of the widest
-    /// sun's angular radius, which softens the terminator.
+    /// For optical depth and scattered light: the planet's key, and the bits of the widest sun's angular radius, which
+    /// softens the terminator.
     air_keys: [Option<(Key, u32)>; FIRST_OF_KEY.len()],
     biome_key: Option<(Key, Option<Arc<MarkedCells>>)>,
     biome_texels: BiomeTexels,
     pub(crate) runs: LutRuns,
 }
 
-/// Bind groups with all LUTs for drawing, and with the first one, two and three only, for drawing the other LUTs of the
-/// air.
+/// Bind groups with all LUTs for drawing, and without the light of the sky for drawing the LUTs of the air: with either
+/// LUT of multiple scattering.
 struct Groups {
     all: wgpu::BindGroup,
-    first_of_air: [wgpu::BindGroup; 3],
+    with_multiscatter: wgpu::BindGroup,
+    with_other: wgpu::BindGroup,
 }
 
 impl Luts {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, patterns: &Patterns) -> Self {
-        let texture = |(name, _, size): &(&str, &str, [u32; 2])| gpu::target(device, name, *size, RADIANCE_FORMAT);
-        let air: Vec<_> = AIR_LUTS.iter().map(texture).collect();
+        let air: Vec<_> = AIR_LUTS.iter().map(|lut| AirLut::new(device, lut)).collect();
         let clouds = CloudMaps::new(device);
         let biome_texels = BiomeTexels::new(&Biomes::default(), None);
         let biomes = BiomeTextures::with(device, queue, &biome_texels);
@@ -185,13 +208,12 @@ impl Luts {
         }
         if planet.atmosphere.is_some() {
             let sun = sun_radius_rad.to_bits();
-            let air_keys = [(keys.optical_depth(), 0), (keys.multiscatter(), sun), (keys.air_tables(), sun)].map(Some);
-            // Each key includes the ones before it.
+            let air_keys = [(keys.optical_depth(), 0), (keys.air_tables(), sun)].map(Some);
+            // The second key includes the first one.
             if let Some(stale) = (0..air_keys.len()).find(|i| self.air_keys[*i] != air_keys[*i]) {
                 self.fill_air(encoder, uniforms, pipelines, FIRST_OF_KEY[stale]);
                 self.air_keys = air_keys;
                 self.runs.optical_depth += u64::from(stale == 0);
-                self.runs.multiscatter += u64::from(stale <= 1);
                 self.runs.air += 1;
             }
         }
@@ -258,12 +280,14 @@ impl Luts {
         pipelines: &LutPipelines,
         first: usize,
     ) {
-        for (i, (name, ..)) in AIR_LUTS.iter().enumerate().skip(first) {
-            let groups = match AIR_LUTS_READ[i] {
-                0 => vec![uniforms],
-                ready => vec![uniforms, &self.groups.first_of_air[ready - 1]],
+        for (pipeline, (shader, drawn, read)) in pipelines.air.iter().zip(AIR_PASSES).skip(first) {
+            let groups = match read {
+                None => vec![uniforms],
+                Some(MULTISCATTER) => vec![uniforms, &self.groups.with_multiscatter],
+                Some(_) => vec![uniforms, &self.groups.with_other],
             };
-            gpu::draw_screen(encoder, name, &pipelines.air[i], &groups, &[&self.air[i]]);
+            let layers: Vec<_> = self.air[drawn].layers.iter().collect();
+            gpu::draw_screen(encoder, shader, pipeline, &groups, &layers);
         }
     }
 }
@@ -288,18 +312,23 @@ impl Groups {
     fn new(
         device: &wgpu::Device,
         patterns: &Patterns,
-        air: &[wgpu::TextureView],
+        air: &[AirLut],
         [clouds, map_picture]: [&wgpu::TextureView; 2],
         biomes: &BiomeTextures,
     ) -> Self {
         let (noise, materials) = (&patterns.noise, &patterns.materials);
-        let bind = |ready: usize| {
-            let air = air_slots(ready).into_iter().map(|i| &air[i]);
+        let bind = |slots: [usize; 4]| {
+            let air = slots.into_iter().map(|i| &air[i].all);
             let (ids, params) = (&biomes.ids, &biomes.params);
             let rest = [clouds, &noise[0], ids, params, &materials.tint, &materials.surface, &noise[1], map_picture];
             let views = air.chain(rest).map(wgpu::BindingResource::TextureView);
             gpu::group(device, "LUTs", &patterns.layout, views)
         };
-        Self { all: bind(air.len()), first_of_air: [1, 2, 3].map(bind) }
+        // A texture must not be bound while it is drawn, so optical depth stands in for the light of the sky.
+        Self {
+            all: bind([DEPTH, MULTISCATTER, IRRADIANCE, SKY]),
+            with_multiscatter: bind([DEPTH, MULTISCATTER, DEPTH, DEPTH]),
+            with_other: bind([DEPTH, OTHER_MULTISCATTER, DEPTH, DEPTH]),
+        }
     }
 }

@@ -66,7 +66,6 @@ pub struct Keys {
     materials: Key,
     cloud_map: Key,
     optical_depth: Key,
-    multiscatter: Key,
     air_tables: Key,
 }
 
@@ -86,12 +85,7 @@ impl Keys {
         self.optical_depth
     }
 
-    /// The key of the LUT of light that the air scatters twice or more. It includes the key of optical depth.
-    pub fn multiscatter(&self) -> Key {
-        self.multiscatter
-    }
-
-    /// The key of the LUTs of the light of the sky. It includes the key of multiple scattering.
+    /// The key of the LUTs of scattered light and of the light of the sky. It includes the key of optical depth.
     pub fn air_tables(&self) -> Key {
         self.air_tables
     }
@@ -109,7 +103,6 @@ impl Keys {
             (Stage::Material, self.materials != before.materials),
             (Stage::CloudMap, self.cloud_map != before.cloud_map),
             (Stage::OpticalDepth, self.optical_depth != before.optical_depth),
-            (Stage::Multiscatter, self.multiscatter != before.multiscatter),
             (Stage::AirTables, self.air_tables != before.air_tables),
         ];
         differs.into_iter().filter(|(_, differs)| *differs).map(|(stage, _)| stage).collect()
@@ -190,7 +183,7 @@ impl Compiled {
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let [materials, cloud_map, optical_depth, multiscatter, air_tables] = texture_keys(planet);
+        let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
             heights: tiles.heights,
@@ -199,7 +192,6 @@ impl Compiled {
             materials,
             cloud_map,
             optical_depth,
-            multiscatter,
             air_tables,
         };
         Self { stack, under, climate, relief, map_inputs, content, keys }
@@ -222,12 +214,11 @@ fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
     }))
 }
 
-/// Keys of the parameters that the biome textures, the cloud coverage map, and the LUTs of optical depth, of multiple
-/// scattering and of the light of the sky read.
-fn texture_keys(planet: &Planet) -> [Key; 5] {
-    const STAGES: [Stage; 5] =
-        [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::Multiscatter, Stage::AirTables];
-    let mut read: [Vec<(ParamPath, Value)>; 5] = Default::default();
+/// Keys of the parameters that the biome textures, the cloud coverage map, and the LUTs of optical depth and of
+/// scattered light read.
+fn texture_keys(planet: &Planet) -> [Key; 4] {
+    const STAGES: [Stage; 4] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
+    let mut read: [Vec<(ParamPath, Value)>; 4] = Default::default();
     planet.each_value(&mut |path, param, value| {
         for (stage, read) in STAGES.iter().zip(&mut read) {
             if param.stages.contains(*stage) {
@@ -235,13 +226,12 @@ fn texture_keys(planet: &Planet) -> [Key; 5] {
             }
         }
     });
-    let [materials, cloud_map, optical_depth, multiscatter, air_tables] = &read;
+    let [materials, cloud_map, optical_depth, air_tables] = &read;
     [
         Key::of(&(materials, &planet.biomes.table)),
         Key::of(cloud_map),
         Key::of(optical_depth),
-        Key::of(&(optical_depth, multiscatter)),
-        Key::of(&(optical_depth, multiscatter, air_tables)),
+        Key::of(&(optical_depth, air_tables)),
     ]
 }
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use tellus::atmosphere::{Air, SkyRay, reference};
 use tellus::planet::param::{Domain, ValueMut};
-use tellus::planet::{Atmosphere, Biomes, Planet};
+use tellus::planet::{Atmosphere, Biomes, Planet, STARTING_AIRS};
 
 fn earth() -> Planet {
     Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap()
@@ -45,12 +45,12 @@ fn transmittance_from_sea_level() {
 /// Ray, path-traced radiance, by how many percent our method is known to differ.
 fn known() -> [(SkyRay, [f64; 3], [f64; 3]); 6] {
     [
-        (ray(2.0, 0.0, 0.0, 0.0), [0.02607, 0.03381, 0.05534], [0.0, 2.0, 2.0]),
-        (ray(2.0, 0.0, 60.0, 0.0), [0.00459, 0.00992, 0.02376], [5.0, 5.0, 5.0]),
-        (ray(2.0, 80.0, 60.0, 180.0), [0.02705, 0.05174, 0.09077], [1.0, 0.0, 1.0]),
+        (ray(2.0, 0.0, 0.0, 0.0), [0.02607, 0.03381, 0.05534], [0.0, 0.0, 0.0]),
+        (ray(2.0, 0.0, 60.0, 0.0), [0.00459, 0.00992, 0.02376], [0.0, 0.0, 0.0]),
+        (ray(2.0, 80.0, 60.0, 180.0), [0.02705, 0.05174, 0.09077], [0.0, 0.0, 0.0]),
         (ray(2.0, 88.0, 85.0, 90.0), [0.02777, 0.02651, 0.01852], [0.0, 0.0, 0.0]),
-        (ray(2_000_000.0, 180.0, 60.0, 0.0), [0.00464, 0.00984, 0.02401], [1.0, 3.0, 4.0]),
-        (limb(), [0.03468, 0.04510, 0.10970], [5.0, 5.0, 2.0]),
+        (ray(2_000_000.0, 180.0, 60.0, 0.0), [0.00464, 0.00984, 0.02401], [0.0, 0.0, 0.0]),
+        (limb(), [0.03468, 0.04510, 0.10970], [1.0, 1.0, 0.0]),
     ]
 }
 
@@ -61,7 +61,7 @@ fn radiance_is_as_near_to_path_tracing_as_the_method_allows() {
         let found = air.radiance(&ray);
         for i in 0..3 {
             let off = (found[i] / expected[i] - 1.0).abs() * 100.0;
-            assert!(off <= percent[i] + 1.0, "{ray:?}: {found:?} instead of {expected:?}");
+            assert!(off <= percent[i] + 2.0, "{ray:?}: {found:?} instead of {expected:?}");
         }
     }
 }
@@ -87,9 +87,28 @@ fn twilight_is_as_bright_as_by_path_tracing() {
     for ray in level.into_iter().chain(others) {
         let (found, expected) = (air.radiance(&ray), reference::radiance(&air, &ray, 200_000));
         for i in 0..3 {
-            // The method itself is within 5%; the noise of the paths is up to 1%.
-            assert!((found[i] / expected[i] - 1.0).abs() < 0.06, "{ray:?}: {found:?} instead of {expected:?}");
+            // The method itself is within 4%; the noise of the paths is up to 1%.
+            assert!((found[i] / expected[i] - 1.0).abs() < 0.05, "{ray:?}: {found:?} instead of {expected:?}");
         }
+    }
+}
+
+/// Haze scatters forward, several times: neither its light nor the light of the ground below it is even.
+#[test]
+fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
+    for (name, radius_km, median, worst) in [("Mars", 3390.0, 0.07, 0.3), ("Titan", 2575.0, 0.1, 0.4)] {
+        let atmosphere = STARTING_AIRS.iter().find(|air| air.name == name).map(|air| air.make());
+        let air = Air::try_new(&Planet { radius_km, atmosphere, ..Planet::default() }).unwrap();
+        let ground = [(0.0, 30.0, 0.0), (30.0, 30.0, 90.0), (60.0, 30.0, 0.0), (0.0, 60.0, 0.0), (60.0, 60.0, 90.0)];
+        let ground = ground.map(|(view, sun, azimuth)| ray(2.0, view, sun, azimuth));
+        let space = [(180.0, 10.0), (180.0, 60.0), (150.0, 60.0)].map(|(view, sun)| ray(2e6, view, sun, 0.0));
+        let mut off = Vec::new();
+        for ray in ground.into_iter().chain(space) {
+            let (found, expected) = (air.radiance(&ray), reference::radiance(&air, &ray, 20_000));
+            off.extend((0..3).map(|i| (found[i] / expected[i] - 1.0).abs()));
+        }
+        off.sort_by(f64::total_cmp);
+        assert!(off[off.len() / 2] < median && off[off.len() - 1] < worst, "{name}: {off:?}");
     }
 }
 

@@ -254,21 +254,13 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
             after.biomes - before.biomes,
             after.weather - before.weather,
             after.optical_depth - before.optical_depth,
-            after.multiscatter - before.multiscatter,
             after.air - before.air,
         ]
     };
     draw(&planet);
     // An invalid planet has no revision to draw.
     for edit in every_edit(&planet).into_iter().filter(|edit| edit.planet.check().is_ok()) {
-        let stages = [
-            Stage::Uniform,
-            Stage::Material,
-            Stage::CloudMap,
-            Stage::OpticalDepth,
-            Stage::Multiscatter,
-            Stage::AirTables,
-        ];
+        let stages = [Stage::Uniform, Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
         let mut declared = stages.map(|stage| u64::from(edit.declared.contains(stage)));
         // Renaming a biome's key everywhere changes nothing that is drawn.
         if edit.path.ends_with("].key") {
@@ -283,7 +275,7 @@ fn each_parameter_makes_the_tables_it_declares_and_no_others() {
         if edit.declared.touches_tiles() && declared[0] == 0 {
             declared[0] = drawn[0];
         }
-        assert_eq!(drawn, declared, "uniforms, biomes, weather, optical depth, multiscatter, air: {}", edit.path);
+        assert_eq!(drawn, declared, "uniforms, biomes, weather, optical depth, air: {}", edit.path);
         draw(&planet);
     }
 }

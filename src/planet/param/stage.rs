@@ -21,9 +21,7 @@ pub enum Stage {
     CloudMap,
     /// LUT of the optical depth of the air.
     OpticalDepth,
-    /// LUT of light that the air scatters twice or more.
-    Multiscatter,
-    /// LUTs of the light of the sky.
+    /// LUTs of light that the air scatters, and of the light of the sky.
     AirTables,
     /// Uniforms: water, star, rock, cloud drift, climate by height.
     Uniform,
@@ -33,7 +31,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 11] = [
+    pub const ALL: [Stage; 10] = [
         Stage::Field,
         Stage::Height,
         Stage::ClimateNoise,
@@ -41,7 +39,6 @@ impl Stage {
         Stage::Material,
         Stage::CloudMap,
         Stage::OpticalDepth,
-        Stage::Multiscatter,
         Stage::AirTables,
         Stage::Uniform,
         Stage::Label,
@@ -53,8 +50,7 @@ impl Stage {
             Stage::Field => Stages::of(&[Stage::Height, Stage::Climate]),
             Stage::Height | Stage::ClimateNoise => Stages::of(&[Stage::Climate]),
             // The shaders that fill these textures read the parameters from uniforms.
-            Stage::OpticalDepth => Stages::of(&[Stage::Multiscatter, Stage::AirTables, Stage::Uniform]),
-            Stage::Multiscatter => Stages::of(&[Stage::AirTables, Stage::Uniform]),
+            Stage::OpticalDepth => Stages::of(&[Stage::AirTables, Stage::Uniform]),
             Stage::CloudMap | Stage::AirTables => Stages::of(&[Stage::Uniform]),
             Stage::Climate | Stage::Material | Stage::Uniform | Stage::Label => Stages::NONE,
         }
