@@ -23,7 +23,7 @@ fn skylit_ground(sun_mu: f32, skylit: bool) -> vec3f {
 }
 
 // Light from the texel of a pixel, in two layers from the given one.
-fn own_light(pixel: vec4f, layer: i32) -> Light {
+fn own_light(pixel: vec4f, layer: i32) -> Diffuse {
     let at = vec2i(pixel.xy);
     return light_of_texels(
         textureLoad(multiscatter_lut, at, layer, 0), textureLoad(multiscatter_lut, at, layer + 1, 0),

@@ -74,7 +74,7 @@ fn sunlit_ground(sun_mu: f32) -> vec3f {
     return body.ground_albedo * sun_beam(0.0, sun_mu) * (max(sun_mu, 0.0) / PI);
 }
 
-// Sums over directions that make a Light.
+// Sums over directions that make a Diffuse.
 struct Sums {
     mean: vec3f,
     // Cosine to the sun's azimuth on the horizon, times the sine of the sun's zenith angle
@@ -107,13 +107,13 @@ const WEIGHT_OF_SQUARE: f32 = 0.1;
 // The light if its mean is another one: what it then has more or less is even. Light from the ground counts in the
 // cosine to the sun, but neither in the horizontal part of it, which tells nothing when the sun is at the zenith, nor
 // much in the square.
-fn light_of(sums: Sums, mean: vec3f, sun_mu: f32) -> Light {
+fn light_of(sums: Sums, mean: vec3f, sun_mu: f32) -> Diffuse {
     let all = max(sum_of(mean), 1e-30);
     let by_square = sqrt(clamp(sums.around / all, 0.0, 1.0));
     let weight = 1.0 - sun_mu * sun_mu + WEIGHT_OF_SQUARE;
     let along = clamp((sums.ahead / all + WEIGHT_OF_SQUARE * by_square) / weight, 0.0, 0.95);
     let zenith = sums.zenith / max(mean, vec3f(1e-30)) - along * along * squared(sun_mu);
-    return Light(mean, along, zenith, sums.up / all - along * sun_mu);
+    return Diffuse(mean, along, zenith, sums.up / all - along * sun_mu);
 }
 
 // A texel of the LUT: light scattered any number of times, and scattered once.
@@ -124,10 +124,10 @@ struct Texel {
     @location(3) once_shape: vec4f,
 }
 
-fn texel_of(all: Light, once: Light) -> Texel {
+fn texel_of(all: Diffuse, once: Diffuse) -> Texel {
     return Texel(mean_of(all), vec4f(all.zenith, all.up), mean_of(once), vec4f(once.zenith, once.up));
 }
 
-fn mean_of(light: Light) -> vec4f { return vec4f(min(light.mean * MULTISCATTER_SCALE, vec3f(60000.0)), light.along); }
+fn mean_of(light: Diffuse) -> vec4f { return vec4f(min(light.mean * MULTISCATTER_SCALE, vec3f(60000.0)), light.along); }
 
 fn dark_texel() -> Texel { return Texel(vec4f(0.0), vec4f(0.0), vec4f(0.0), vec4f(0.0)); }

@@ -64,9 +64,9 @@ fn sun_cosine_at(x: f32) -> f32 {
 // Scales the dim light of deep twilight into the range of 16-bit floats.
 const MULTISCATTER_SCALE: f32 = 1024.0;
 
-// Light at a point, for unit irradiance. It comes from around the sun as by the phase function of Henyey and Greenstein,
-// and is brighter or darker upwards and near the zenith or the horizon.
-struct Light {
+// Light at a point, for unit irradiance. It comes from around the sun as by the phase function of Henyey and
+// Greenstein, and is brighter or darker upwards and near the zenith or the horizon.
+struct Diffuse {
     // Mean radiance over all directions
     mean: vec3f,
     // Mean cosine to the sun of the light around the sun, 0 to 1
@@ -76,12 +76,12 @@ struct Light {
     up: f32,
 }
 
-fn light_of_texels(light: vec4f, shape: vec4f) -> Light {
-    return Light(light.rgb / MULTISCATTER_SCALE, light.a, shape.rgb, shape.a);
+fn light_of_texels(light: vec4f, shape: vec4f) -> Diffuse {
+    return Diffuse(light.rgb / MULTISCATTER_SCALE, light.a, shape.rgb, shape.a);
 }
 
 // Light that air and ground have scattered at least once.
-fn scattered_light(h: f32, sun_mu: f32) -> Light {
+fn scattered_light(h: f32, sun_mu: f32) -> Diffuse {
     let x = vec2f(unit_of_sun(sun_mu), sqrt(saturate1(h / body.air_height_km)));
     let at = texel_from_unit(x, MULTISCATTER_SIZE);
     return light_of_texels(
@@ -94,11 +94,13 @@ fn scattered_light(h: f32, sun_mu: f32) -> Light {
 fn squared(cosine: f32) -> f32 { return cosine * cosine - 1.0 / 3.0; }
 
 // Mean squared cosine of light to the zenith, less that of even light.
-fn squared_up(light: Light, sun_mu: f32) -> vec3f { return light.zenith + light.along * light.along * squared(sun_mu); }
+fn squared_up(light: Diffuse, sun_mu: f32) -> vec3f {
+    return light.zenith + light.along * light.along * squared(sun_mu);
+}
 
 // Radiance that air scatters into a ray per km: the moments of the light times those of the phase functions. `moments`:
 // of the phase function of haze. `mu` and `cosine`: cosines of the ray to the zenith and to the sun.
-fn scattered(air: Air, light: Light, moments: vec2f, mu: f32, cosine: f32) -> vec3f {
+fn scattered(air: Air, light: Diffuse, moments: vec2f, mu: f32, cosine: f32) -> vec3f {
     let around = light.along * light.along * squared(cosine);
     let zenith = light.zenith * (1.5 * squared(mu));
     let rayleigh = 0.75 * (around + zenith) + 1.0;

@@ -4,8 +4,8 @@
 //!
 //! Sunlight scattered once is gathered from all around. Hillaire's sum over all orders (2020, section 5.5) assumes that
 //! light is as bright everywhere as at the point, and that the sky does not light the ground: that is the first
-//! [`guess`]. Each [`correction`](corrected) gathers the light before it from all around once: one step of the iteration
-//! that solves the equation of radiative transfer.
+//! [`guess`]. Each [`correction`](corrected) gathers the light before it from all around once: one step of the
+//! iteration that solves the equation of radiative transfer.
 
 use super::depth::bilinear;
 use super::line::{Line, horizon_mu};
@@ -27,8 +27,8 @@ const MAX_RETURNED: f64 = 0.999;
 /// Upper limit of f_ms in the sum over all orders of a correction. It holds for thin air only: in dense air, a
 /// correction differs too much from place to place.
 const MAX_CORRECTION_RETURNED: f64 = 0.4;
-/// Weight of the second moment in the mean cosine to the sun, where the first one is weighted by the squared sine of the
-/// sun's zenith angle.
+/// Weight of the second moment in the mean cosine to the sun, where the first one is weighted by the squared sine of
+/// the sun's zenith angle.
 const WEIGHT_OF_SQUARE: f64 = 0.1;
 /// Upper limit of the mean cosine to the sun.
 const MAX_ALONG: f64 = 0.95;
@@ -181,8 +181,8 @@ struct Ring {
     line: Line,
     /// Share of the ring of all directions.
     share: f64,
-    /// Cosines to the sun of the middles of the quarters of the ring towards the sun and away from it. The other half of
-    /// the ring is their mirror image.
+    /// Cosines to the sun of the middles of the quarters of the ring towards the sun and away from it. The other half
+    /// of the ring is their mirror image.
     cosines: [f64; 2],
 }
 
@@ -242,8 +242,8 @@ fn cosine_at(mu: f64, sun_mu: f64, azimuth: f64) -> f64 {
     mu * sun_mu + flat(mu) * flat(sun_mu) * azimuth.cos()
 }
 
-/// Marches along a ray to the ground or out of the air. `step`: gets the distance, the altitude, the coefficients there,
-/// and the length of the step, dimmed by the air up to it and in it. Returns the transmittance.
+/// Marches along a ray to the ground or out of the air. `step`: gets the distance, the altitude, the coefficients
+/// there, and the length of the step, dimmed by the air up to it and in it. Returns the transmittance.
 fn march(medium: &Medium, line: &Line, steps: u32, mut step: impl FnMut(f64, f64, &Coefficients, DVec3)) -> DVec3 {
     let mut transmittance = DVec3::ONE;
     let Some(segment) = line.within(medium.top) else { return transmittance };

@@ -48,7 +48,7 @@ fn known() -> [(SkyRay, [f64; 3], [f64; 3]); 6] {
         (ray(2.0, 0.0, 0.0, 0.0), [0.02607, 0.03381, 0.05534], [0.0, 0.0, 0.0]),
         (ray(2.0, 0.0, 60.0, 0.0), [0.00459, 0.00992, 0.02376], [0.0, 0.0, 0.0]),
         (ray(2.0, 80.0, 60.0, 180.0), [0.02705, 0.05174, 0.09077], [0.0, 0.0, 0.0]),
-        (ray(2.0, 88.0, 85.0, 90.0), [0.02777, 0.02651, 0.01852], [0.0, 0.0, 0.0]),
+        (ray(2.0, 88.0, 85.0, 90.0), [0.02777, 0.02651, 0.01852], [0.0, 0.0, 1.0]),
         (ray(2_000_000.0, 180.0, 60.0, 0.0), [0.00464, 0.00984, 0.02401], [0.0, 0.0, 0.0]),
         (limb(), [0.03468, 0.04510, 0.10970], [1.0, 1.0, 0.0]),
     ]
@@ -96,7 +96,7 @@ fn twilight_is_as_bright_as_by_path_tracing() {
 /// Haze scatters forward, several times: neither its light nor the light of the ground below it is even.
 #[test]
 fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
-    for (name, radius_km, median, worst) in [("Mars", 3390.0, 0.07, 0.3), ("Titan", 2575.0, 0.1, 0.4)] {
+    for (name, radius_km, median, worst) in [("Mars", 3390.0, 0.08, 0.2), ("Titan", 2575.0, 0.05, 0.5)] {
         let atmosphere = STARTING_AIRS.iter().find(|air| air.name == name).map(|air| air.make());
         let air = Air::try_new(&Planet { radius_km, atmosphere, ..Planet::default() }).unwrap();
         let ground = [(0.0, 30.0, 0.0), (30.0, 30.0, 90.0), (60.0, 30.0, 0.0), (0.0, 60.0, 0.0), (60.0, 60.0, 90.0)];
