@@ -230,7 +230,7 @@ impl CloudField {
                 effect
             })
             .collect();
-        let unwound: Vec<DVec3> = 
+        let unwound: Vec<DVec3> =
             dirs.iter().zip(&effects).map(|(dir, effect)| (*dir + effect.moved).normalize()).collect();
         let mut noises = [Noises::default(); CHUNK];
         self.swirls.evaluate(&unwound, days, noise, &mut noises);
