@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use tellus::atmosphere::{Air, SkyRay, reference};
 use tellus::planet::param::{Domain, ValueMut};
-use tellus::planet::{Atmosphere, Biomes, Planet, STARTING_AIRS};
+use tellus::planet::{Atmosphere, Biomes, Planet, STARTING_AIRS, Starting};
 
 fn earth() -> Planet {
     Planet::from_text("earth_air.ron", include_str!("../fixtures/earth_air.ron")).unwrap()
@@ -97,7 +97,7 @@ fn twilight_is_as_bright_as_by_path_tracing() {
 #[test]
 fn hazy_airs_are_nearly_as_bright_as_by_path_tracing() {
     for (name, radius_km, median, worst) in [("Mars", 3390.0, 0.08, 0.2), ("Titan", 2575.0, 0.05, 0.5)] {
-        let atmosphere = STARTING_AIRS.iter().find(|air| air.name == name).map(|air| air.make());
+        let atmosphere = STARTING_AIRS.iter().find(|air| air.name == name).map(Starting::make);
         let air = Air::try_new(&Planet { radius_km, atmosphere, ..Planet::default() }).unwrap();
         let ground = [(0.0, 30.0, 0.0), (30.0, 30.0, 90.0), (60.0, 30.0, 0.0), (0.0, 60.0, 0.0), (60.0, 60.0, 90.0)];
         let ground = ground.map(|(view, sun, azimuth)| ray(2.0, view, sun, azimuth));
