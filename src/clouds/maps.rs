@@ -9,8 +9,8 @@ use crate::terrain::noise::Noise;
 use half::f16;
 use rayon::prelude::*;
 
-/// Cells of the grid on which climate and wind of the ground map are evaluated; between them they are linear. The weather
-/// is no finer.
+/// Cells of the grid on which climate and wind of the ground map are evaluated; between them they are linear. The
+/// weather is no finer.
 const GROUND_CELLS: usize = 128;
 
 /// The texels of six faces, rows from the top.
