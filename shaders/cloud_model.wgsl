@@ -88,8 +88,10 @@ const SPREAD: f32 = 1.6;
 // Optical depth of columns over that of the layer, at the edge of weather systems and in their middle.
 const THIN: f32 = 0.4;
 const THICK: f32 = 1.2;
-// Height of the base of anvils in the layer, and cover there over that at the base of the layer.
+// Height of the base of anvils in the layer, and heights within which it blurs.
 const ANVIL_BASE: f32 = 0.78;
+const ANVIL_EDGE: f32 = 0.08;
+// Covers at the base of the layer from which anvils begin, and at which they are closed.
 const ANVIL_COVERS: vec2f = vec2f(0.35, 0.7);
 
 // A cloud at a point.
@@ -140,8 +142,9 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     let depth = body.cloud_layers[number].optical_depth;
     // Low clouds: flat bases, heaps that narrow upwards, anvils over thunderclouds.
     let risen = height / sky.top;
-    let low = max(height - 0.5 * max(extent, 0.08), 0.0);
-    let high = min(height + 0.5 * max(extent, 0.08), 1.0);
+    let reach = 0.5 * max(extent, ANVIL_EDGE);
+    let low = max(height - reach, 0.0);
+    let high = min(height + reach, 1.0);
     let anvil = body.cloud_towers * (1.0 - layered) * saturate1((high - max(low, ANVIL_BASE)) / (high - low))
         * smoothstep(ANVIL_COVERS.x, ANVIL_COVERS.y, base);
     var narrowed = 0.55 * max(risen - 0.25, 0.0);

@@ -21,6 +21,10 @@ fn sent_back(depth: f32) -> f32 {
 
 // Height of tops over the optical depth of their column, by the layer's thickness.
 const RELIEF: f32 = 0.3;
+// Sine of the sun's elevation below which slopes of tops are lit as at this sine, and limits of their factor on light.
+// A low sun would make every slope black or glaring.
+const RELIEF_LEAST_SUN: f32 = 0.15;
+const RELIEF_LIMITS: vec2f = vec2f(0.35, 1.5);
 
 // Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
 // and grow by a constant ratio. Steps that depend on the distance to the far end would be longest along the horizon and
@@ -191,8 +195,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             var lit = grazed;
             if way.layer == LOW_LAYER { lit *= shade(rel, sky_here.covers[way.layer], sun_mu, footprint); }
             // Tops that fall off towards the sun are brighter.
-            let rise = (ahead.column - cloud.column) * thickness * RELIEF / (reach * max(sun_mu, 0.15));
-            lit *= mix(1.0, clamp(1.0 - rise, 0.35, 1.5), from_above);
+            let rise = (ahead.column - cloud.column) * thickness * RELIEF / (reach * max(sun_mu, RELIEF_LEAST_SUN));
+            lit *= mix(1.0, clamp(1.0 - rise, RELIEF_LIMITS.x, RELIEF_LIMITS.y), from_above);
             let returned = mix(1.0, sent_back(layer.optical_depth * cloud.column), from_above);
             let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * lit) + ambient) * returned;
             let passed = exp(-extinction * density * length_km);

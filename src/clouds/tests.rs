@@ -74,7 +74,7 @@ fn each_zone_is_as_covered_as_its_climate_asks() {
 /// Clouds from orbit are of all sizes, as real ones: the number of clouds of greater perimeter falls as a power of the
 /// perimeter. Its exponent is 1.26 for real clouds (DeWitt, Garrett and Rees 2024); that of popcorn of one size
 /// is 3 and more. Clouds near the finest octave, 4 texels wide, are left out, as in measurements
-/// from satellites; cloudy is what they see: a quarter covered, it reflects a sixth of the light.
+/// from satellites. A texel is cloudy from a cover of a quarter on, which reflects a sixth of the light.
 #[test]
 fn clouds_are_of_all_sizes() {
     const SIDE: usize = 384;

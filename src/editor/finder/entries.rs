@@ -6,9 +6,8 @@ use super::place::Place;
 use crate::editor::command::{Action, BookmarkAction, Command, PanelAction};
 use crate::editor::commands::{self, COMMANDS};
 use crate::editor::files::file_names::readable_stem;
-use crate::editor::panels::PANELS;
-use crate::editor::panels::Panel;
 use crate::editor::panels::layers::NEED_STRUCTURE;
+use crate::editor::panels::{PANELS, Panel};
 use crate::editor::state::State;
 use crate::editor::widgets::number::{format_number, suffix};
 use crate::planet::param::{Param, ParamPath, Segment, Value, ValueRef};
@@ -16,9 +15,9 @@ use crate::planet::{Planet, shipped};
 use eframe::egui;
 use std::path::Path;
 
-/// Points of a word in the name over those of a word in the place, and of commands, planets and bookmarks over
-/// parameters, of which there are many.
+/// Points that a word in the name has over a word in the place.
 const IN_NAME: i32 = 12;
+/// Points that commands, planets and bookmarks have over parameters. They are few and would be lost among parameters.
 const NO_PARAMETER: i32 = 4;
 /// Points of a word of the description.
 const IN_DESCRIPTION: i32 = 14;
@@ -263,8 +262,9 @@ mod tests {
         );
     }
 
-    /// The finder answers within a frame of the largest shipped planet.
+    /// The finder answers within a frame, with the parameters of the planet that opens first.
     #[test]
+    #[ignore = "long: reports times"]
     fn the_answer_takes_less_than_a_frame() {
         const FRAME: Duration = Duration::from_millis(16);
         let planet = shipped::default_planet();
