@@ -144,14 +144,15 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             was_empty = true;
             continue;
         }
-        // Where the ray enters the cloud.
+        // Where the ray enters the cloud, if what is found is more than the blurred edge of a cloud elsewhere in the step.
         var enter = t0;
-        if was_empty && layer.stride.z > 1.0 {
+        let fine_km = (t1 - t0) / layer.stride.z;
+        if was_empty && layer.stride.z > 1.0 && cloud_on(way, t, sky_here, fine_km).density > LEAST_DENSITY {
             var inside = t;
             enter = before;
             for (var k = 0; k < SEARCH; k++) {
                 let middle = 0.5 * (enter + inside);
-                let density = cloud_on(way, middle, sky_here, (t1 - t0) / layer.stride.z).density;
+                let density = cloud_on(way, middle, sky_here, fine_km).density;
                 if density > LEAST_DENSITY { inside = middle; } else { enter = middle; }
             }
             enter = mix(enter, inside, jitter);
