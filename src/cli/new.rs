@@ -5,8 +5,8 @@ use crate::lod::scout;
 use crate::planet::random;
 use std::path::PathBuf;
 
-/// Change of the numbers by `--from`, as a share of their range.
-const VARIATION: f64 = 0.06;
+/// Change of the numbers by `--from`, as a share of their size.
+const VARIATION: f64 = 0.25;
 
 /// Write a random valid planet
 #[derive(clap::Args)]

@@ -6,7 +6,7 @@
 use super::apply::apply_all;
 use super::command::{Action, Command, Commands};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
-use super::handlers::{answers, open_file, opening, shooting};
+use super::handlers::{self, answers, open_file, opening, shooting};
 use super::painter::survey::Surveyor;
 use super::panels::{Draft, PanelState};
 use super::state::State;
@@ -15,14 +15,16 @@ use super::state::pictures::Pictures;
 use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
+use super::state::variations::Variations;
 use super::viewport::Viewport;
 use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
-use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, status};
-use super::widgets::row_view::RowView;
-use crate::planet::{Planet, shipped};
+use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, status, variations};
+use super::widgets::random_seed;
+use super::widgets::row_view::{LockView, RowView};
+use crate::planet::{Planet, random, shipped};
 use crate::terrain::MapStore;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -125,6 +127,11 @@ impl EditorApp {
         &self.state.viewport
     }
 
+    /// Variations of the planet.
+    pub fn variations(&self) -> &Variations {
+        &self.state.variations
+    }
+
     /// The viewport, to change its settings.
     pub fn viewport_mut(&mut self) -> &mut Viewport {
         &mut self.state.viewport
@@ -173,17 +180,22 @@ impl EditorApp {
         let mut planet = (**state.document.planet()).clone();
         let mut label = None;
         let problems = [state.document.problems(), state.pictures.problems()].concat();
+        let locks = LockView::of(&planet);
         egui::Panel::right("parts").default_size(PANEL_WIDTH).size_range(320.0..=560.0).show(ui, |ui| {
             // The user sets the width, never the content: wide content is cut off.
             let rect = ui.available_rect_before_wrap();
             ui.advance_cursor_after_rect(rect);
             let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(rect));
             ui.shrink_clip_rect(rect.expand(4.0));
-            panels.head(ui);
+            if let Some(panel) = panels.head(ui, &locks) {
+                let (seed, stray) = (random_seed(), state.variations.wish.stray);
+                planet = random::vary_some(&planet, seed, stray, &|path| path.part() == panel.part);
+                label = Some(format!("Vary {}", panel.label.to_lowercase()));
+            }
             let (filter, revealed) = (panels.finding.filter(panels.tab()), panels.finding.revealed());
             let mut draft = Draft {
-                label: None,
-                shown: RowView { problems: &problems, filter: &filter, revealed: revealed.as_deref() },
+                label: label.take(),
+                shown: RowView { problems: &problems, filter: &filter, revealed: revealed.as_deref(), locks: &locks },
                 under_pointer: state.viewport.under_pointer(),
                 survey: self.surveyor.survey(),
                 commands: &mut self.commands,
@@ -194,6 +206,7 @@ impl EditorApp {
             panels.show(ui, &mut draft);
             label = draft.label;
         });
+        self.commands.extend(locks.take_toggled().map(Action::ToggleLock));
         self.state.edit(planet, label);
     }
 
@@ -255,6 +268,7 @@ impl eframe::App for EditorApp {
         open_file::poll(state, ctx);
         shooting::poll(state);
         self.commands = apply_all(state, ctx, self.commands.take());
+        handlers::variations::update(state, ctx);
         state.notices.poll(state.document.path(), ctx);
         if let Some(problem) = self.maps.as_ref().and_then(|maps| maps.take_problem()) {
             log::warn!("{problem}");
@@ -288,6 +302,7 @@ impl eframe::App for EditorApp {
         performance::show(&ctx, &self.state, &mut self.commands);
         photo::show(&ctx, &self.state, &mut self.commands);
         self.history.show(&ctx, &self.state, &mut self.commands);
+        variations::show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);

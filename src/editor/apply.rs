@@ -1,8 +1,8 @@
 //! Carries out the actions that views ask for.
 
-use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, Window};
+use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, VariationAction, Window};
 use super::commands;
-use super::handlers::{answers, bookmarks, opening, pictures, place, shooting};
+use super::handlers::{answers, bookmarks, opening, pictures, place, shooting, variations};
 use super::state::State;
 use super::state::questions::Goal;
 use eframe::egui;
@@ -32,7 +32,8 @@ fn takes_typed_value(action: &Action) -> bool {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
         Action::OpenPath(_) | Action::OpenShipped(_) | Action::Browse(_) => true,
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) => false,
-        Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) => true,
+        Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) => true,
+        Action::Variation(action) => matches!(action, VariationAction::Take(_) | VariationAction::UnlockAll),
         Action::Search(_) | Action::Panel(_) | Action::GoToPlace(_) => false,
         Action::DismissMessage | Action::Close(_) => false,
     }
@@ -46,6 +47,8 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Browse(path) => pictures::browse(state, ctx, path),
         Action::Search(text) => state.search(Some(text)),
         Action::Panel(asked) => state.ask_panel(asked),
+        Action::Variation(action) => variations::act(state, action),
+        Action::ToggleLock(path) => variations::toggle_lock(state, &path),
         Action::Jump(steps) => state.jump(ctx, steps),
         Action::GoToPlace(place) => place::go_to(state, place),
         Action::Bookmark(action) => bookmarks::apply(state, action),
@@ -66,6 +69,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::Finder) => state.search(None),
         Action::Close(Window::History) => state.shows.history = false,
         Action::Close(Window::Place) => state.shows.place = false,
+        Action::Close(Window::Variations) => state.shows.variations = false,
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
         Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),
         Action::Shoot(Shoot::Cancel) => {

@@ -5,6 +5,7 @@
 
 use super::finder::place::Place;
 use super::state::shooting::{PhotoSettings, Subject};
+use super::state::variations::Wish;
 use super::viewport::camera::Mode;
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
@@ -35,6 +36,7 @@ pub enum Command {
     ToggleFullscreen,
     ToggleTheme,
     RandomPlanet,
+    Variations,
     Controls,
     Move(Mode),
     LevelView,
@@ -63,6 +65,10 @@ pub enum Action {
     Search(String),
     /// Change what the side panel shows.
     Panel(PanelAction),
+    /// Choose variations of the planet, or take one.
+    Variation(VariationAction),
+    /// Lock the parameter or the part at this path, or unlock it.
+    ToggleLock(ParamPath),
     /// Undo or redo until this number of steps is done.
     Jump(usize),
     /// Fly to a location.
@@ -96,6 +102,8 @@ pub enum Window {
     History,
     /// The location to go to.
     Place,
+    /// Variations of the planet.
+    Variations,
 }
 
 /// A change of what the side panel shows.
@@ -135,6 +143,19 @@ pub enum Setting {
     Refine(bool),
     /// Seconds of the planet for each second of the clock.
     TimeSpeed(f64),
+}
+
+/// An action on the variations of the planet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum VariationAction {
+    /// Change what varies, and how far.
+    Wish(Wish),
+    /// Show nine others.
+    Again,
+    /// Replace the planet by the variation of this number.
+    Take(usize),
+    /// Take all locks off.
+    UnlockAll,
 }
 
 /// An action on photographs.

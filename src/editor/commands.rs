@@ -295,6 +295,11 @@ fn view_and_help() -> Vec<Row> {
         .within(Menu::Planets, 0)
         .keys([ctrl(Key::R)])
         .taking_typed_value(),
+        Row::new(Command::Variations, "Variations", "Show nine variations of this planet, to take one.", |s, _| {
+            s.shows.variations ^= true;
+        })
+        .within(Menu::Planets, 0)
+        .keys([ctrl(Key::E)]),
     ]
 }
 

@@ -13,7 +13,7 @@
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`shipped`]: the presets that come with the program
-//! - [`notes`]: the editor's own section of a preset
+//! - [`notes`]: the editor's own section of a preset; [`locks`]: what variations leave as it is
 //! - [`random`]: random planets that are always valid
 
 mod airs;
@@ -26,6 +26,7 @@ pub mod key;
 pub(crate) mod kinds;
 pub mod layers;
 pub(crate) mod locate;
+pub mod locks;
 pub mod masks;
 pub(crate) mod migrate;
 pub mod notes;

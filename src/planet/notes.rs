@@ -4,6 +4,8 @@ use super::param::{Domain, Stage, Unit, linear, params};
 
 /// Most bookmarks a planet may have.
 pub const MAX_BOOKMARKS: usize = 64;
+/// Most locks a planet may have.
+pub const MAX_LOCKS: usize = 1024;
 
 params! {
     /// The editor's own section of a preset.
@@ -11,6 +13,16 @@ params! {
     } with {
         /// Bookmarked views of the planet.
         bookmarks: Vec<Bookmark> = Vec::new();
+        /// Parameters and parts that variations and random planets leave as they are.
+        locks: Vec<Lock> = Vec::new();
+    }
+}
+
+params! {
+    /// A lock on a parameter or a part.
+    pub struct Lock {
+        /// Path of the parameter or part, with layers by name and biomes by key: `layers["Hills"].amplitude_m`.
+        path: String = String::new(), "Path", Unit::None, Domain::Text { max_chars: 200 }, Stage::Label;
     }
 }
 
@@ -42,7 +54,7 @@ mod tests {
 
     fn planet() -> Planet {
         let bookmark = Bookmark { name: "Beach".to_owned(), pitch_deg: -12.5, ..Bookmark::default() };
-        Planet { editor: Some(EditorNotes { bookmarks: vec![bookmark] }), ..random::random(5) }
+        Planet { editor: Some(EditorNotes { bookmarks: vec![bookmark], locks: Vec::new() }), ..random::random(5) }
     }
 
     #[test]
@@ -52,7 +64,7 @@ mod tests {
         let bare = Planet { editor: None, ..planet.clone() };
         assert!(!bare.to_text().contains("editor"), "a preset without notes does not mention them");
         let mut all_labels = true;
-        EditorNotes { bookmarks: vec![Bookmark::default()] }.each_value(
+        EditorNotes { bookmarks: vec![Bookmark::default()], locks: vec![Lock::default()] }.each_value(
             &mut ParamPath::default(),
             &mut |_, param, _| {
                 all_labels &= param.stages == Stages::of(&[Stage::Label]);

@@ -13,8 +13,9 @@ mod grounds;
 mod lands;
 mod structure;
 
-use super::param::Stage;
-use super::{Atmosphere, Climate, Clouds, Mask, Planet, Precision, Star, Water, validate};
+use super::locks::Locks;
+use super::param::{ParamPath, Stage};
+use super::{Atmosphere, Biomes, Climate, Clouds, Layer, Mask, Planet, Precision, Star, Water, validate};
 use dice::{Dice, three_digits};
 
 /// A random planet. Always valid; the same seed gives the same planet.
@@ -71,32 +72,49 @@ pub fn random(seed: u64) -> Planet {
     planet
 }
 
-/// A variation of a planet: its numbers moved by up to `strength` (0 to 1) of their range;
-/// always valid if the planet is.
+/// A variation of a planet: each number moved by up to `strength` (0 to 1) of its own size; always valid if the planet
+/// is.
 ///
-/// Names, letters, switches and choices stay the same.
+/// Zero, names, letters, switches, choices and what is locked stay the same. A seed is another one with a probability
+/// of `strength` squared: a little variation keeps the continents.
 pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
+    vary_some(planet, seed, strength, &|_| true)
+}
+
+/// The same of the parameters alone whose paths `moves` accepts.
+pub fn vary_some(planet: &Planet, seed: u64, strength: f64, moves: &dyn Fn(&ParamPath) -> bool) -> Planet {
     let strength = if strength.is_finite() { strength.clamp(0.0, 1.0) } else { 0.0 };
-    let mut dice = Dice(seed);
+    let (mut dice, locks) = (Dice(seed), Locks::of(planet));
     let mut varied = planet.clone();
-    varied.each(&mut |_, param, mut value| {
-        let shown = !param.stages.contains(Stage::Label);
-        if let Some(new) = dice.moved(param, &value.get(), strength).filter(|_| shown) {
+    varied.each(&mut |path, param, mut value| {
+        // Drawn in any case: a lock changes nothing but what it is on.
+        let moved = dice.moved(param, &value.get(), strength);
+        let stays = param.stages.contains(Stage::Label) || !moves(path) || locks.hold(path);
+        if let Some(new) = moved.filter(|_| !stays) {
             value.set(&new);
         }
     });
-    // Rules that involve several numbers.
-    let biomes = &mut varied.biomes;
+    mend_biomes(&mut varied.biomes, &planet.biomes);
+    mend_masks(&mut varied.layers, &planet.layers);
+    varied
+}
+
+/// Takes numbers back that break a rule together.
+fn mend_biomes(biomes: &mut Biomes, old: &Biomes) {
     if biomes.coldest_c >= biomes.hottest_c {
-        (biomes.coldest_c, biomes.hottest_c) = (planet.biomes.coldest_c, planet.biomes.hottest_c);
+        (biomes.coldest_c, biomes.hottest_c) = (old.coldest_c, old.hottest_c);
     }
     if biomes.lowest_m >= biomes.highest_m {
-        (biomes.lowest_m, biomes.highest_m) = (planet.biomes.lowest_m, planet.biomes.highest_m);
+        (biomes.lowest_m, biomes.highest_m) = (old.lowest_m, old.highest_m);
     }
     if biomes.cliff_start_deg > biomes.cliff_full_deg {
-        std::mem::swap(&mut biomes.cliff_start_deg, &mut biomes.cliff_full_deg);
+        (biomes.cliff_start_deg, biomes.cliff_full_deg) = (old.cliff_start_deg, old.cliff_full_deg);
     }
-    for (layer, old) in varied.layers.iter_mut().zip(&planet.layers) {
+}
+
+/// The same of masks.
+fn mend_masks(layers: &mut [Layer], old: &[Layer]) {
+    for (layer, old) in layers.iter_mut().zip(old) {
         for (mask, old) in layer.masks.iter_mut().zip(&old.masks) {
             let [from, to] = mask.ends();
             if from.1 == to.1 {
@@ -108,7 +126,6 @@ pub fn vary(planet: &Planet, seed: u64, strength: f64) -> Planet {
             }
         }
     }
-    varied
 }
 
 /// The kind of world.
@@ -200,7 +217,8 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
 mod tests {
     use super::*;
     use crate::planet::Shape;
-    use crate::planet::param::Choice;
+    use crate::planet::locks;
+    use crate::planet::param::{Choice, Segment};
     use proptest::prelude::*;
 
     fn assert_valid(planet: &Planet) -> Result<(), TestCaseError> {
@@ -234,7 +252,33 @@ mod tests {
         let planet = random(5);
         assert_eq!(vary(&planet, 9, 0.0), planet);
         assert_ne!(vary(&planet, 9, 0.1), planet);
+        let only = vary_some(&planet, 9, 0.5, &|path| path.segments().first() == Some(&Segment::Field("climate")));
+        assert_ne!(only.climate, planet.climate);
+        assert_eq!(Planet { climate: planet.climate.clone(), ..only }, planet);
         assert_eq!(vary(&planet, 9, 0.3), vary(&planet, 9, 0.3));
+    }
+
+    #[test]
+    fn what_is_locked_does_not_vary() {
+        let mut planet = random(5);
+        locks::toggle(&mut planet, &ParamPath::default().join("climate"));
+        let varied = vary(&planet, 9, 0.8);
+        assert_eq!((&varied.climate, &varied.editor), (&planet.climate, &planet.editor));
+        assert_ne!(varied.layers, planet.layers);
+    }
+
+    #[test]
+    fn a_little_variation_keeps_sizes_and_seeds() {
+        let planet = random(5);
+        let mut same_seeds = 0;
+        for seed in 0..20 {
+            let varied = vary(&planet, seed, 0.1);
+            same_seeds += usize::from(varied.seed == planet.seed);
+            let ratio = varied.radius_km / planet.radius_km;
+            assert!((0.8..1.25).contains(&ratio), "{ratio}");
+            assert_eq!(varied.settlements, 0.0, "nothing is switched on");
+        }
+        assert!(same_seeds >= 17, "{same_seeds} of 20");
     }
 
     /// Every feature of the evaluator occurs, except pictures.

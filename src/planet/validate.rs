@@ -2,7 +2,7 @@
 //!
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
-use super::notes::MAX_BOOKMARKS;
+use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Segment};
 use super::structure::MAX_PLATES;
 use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
@@ -89,6 +89,9 @@ fn limits(planet: &Planet, found: &mut Found) {
     let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
     let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
     limit(path, "bookmarks", bookmarks, MAX_BOOKMARKS);
+    let locks = planet.editor.as_ref().map_or(0, |editor| editor.locks.len());
+    let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("locks")]);
+    limit(path, "locks", locks, MAX_LOCKS);
     let by_hand = planet.structure.as_ref().map_or(0, |structure| structure.plates.by_hand.len());
     limit(by_hand_path(), "plates", by_hand, MAX_PLATES as usize);
     for (index, layer) in planet.layers.iter().enumerate().take(MAX_LAYERS) {

@@ -7,6 +7,7 @@
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
+//! - `variations`: variations of the planet, and locks
 //! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -25,6 +26,7 @@ mod painter;
 mod photo;
 mod place;
 mod plates;
+mod variations;
 mod viewport;
 
 use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, type_text, undo_label, undo_len};

@@ -6,6 +6,7 @@
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
 //! - [`clouds`]: time of cloud maps and queries
 //! - [`frames`]: time of a frame and of its clouds, sea and air
+//! - [`thumbnails`]: time of nine small pictures
 //! - [`air`]: time that new LUTs of the air take on the GPU
 
 mod air;
@@ -15,6 +16,7 @@ mod frames;
 mod noise;
 mod queries;
 mod structure;
+mod thumbnails;
 
 use super::{Failure, headless, print};
 use crate::lod::{Quality, View, opening};
@@ -53,6 +55,8 @@ enum Part {
     Clouds,
     /// Frames on the GPU, and what their parts take
     Frames,
+    /// Nine variations as small pictures
+    Thumbnails,
     /// LUTs of the air, on the GPU
     Air,
 }
@@ -111,6 +115,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Frames) {
         report["frames"] = json!(frames::measure(first));
+    }
+    if wants(Part::Thumbnails) {
+        report["thumbnails"] = json!([thumbnails::measure(first), thumbnails::measure(&shipped::default_planet())]);
     }
     if wants(Part::Air) {
         report["adapter"] = json!(headless::Gpu::open(SIZE_PX).ok().map(|gpu| gpu.name));

@@ -7,6 +7,7 @@
 //! - [`shooting`]: photographs and films
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps
+//! - [`variations`]: variations of the planet, and locks
 //! - [`bookmarks`]: views kept in the preset
 //! - [`place`]: the flight to a location
 //! - [`window`]: full screen and theme
@@ -20,4 +21,5 @@ pub mod pictures;
 pub mod place;
 pub mod saving;
 pub mod shooting;
+pub mod variations;
 pub mod window;

@@ -9,9 +9,12 @@ use crate::editor::widgets::random_seed;
 use crate::lod::scout;
 use crate::planet::file::read_text;
 use crate::planet::picture::folder_of;
-use crate::planet::{LoadError, Planet, shipped};
+use crate::planet::{LoadError, Planet, locks, shipped};
 use eframe::egui;
 use std::path::Path;
+
+/// Random planets that are tried until one fits what is locked.
+const MOST_ROLLS: u64 = 8;
 
 /// Reads the file to start with. A file that does not exist yet gives a new planet of that name.
 ///
@@ -95,9 +98,15 @@ fn show(state: &mut State, path: &Path, document: Result<Document, LoadError>) {
     }
 }
 
-/// Replaces the planet by a random one: one undo step.
+/// Replaces the planet by a random one that has what is locked: one undo step.
 pub fn roll(state: &mut State) {
-    let planet = scout::random_planet(random_seed());
+    let seed = random_seed();
+    let here = state.document.valid_planet().clone();
+    let mut kept = (0..MOST_ROLLS).map(|roll| locks::keep(&here, &scout::random_planet(seed.wrapping_add(roll))));
+    let Some(planet) = kept.find_map(|kept| kept) else {
+        state.notices.say("No random planet fits what is locked: unlock something".to_owned());
+        return;
+    };
     // The name tells the rolls apart in the list of undo steps.
     let label = format!("Random planet: {}", planet.name);
     state.roll(planet, &label);

@@ -238,7 +238,8 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
         let default = Value::Letter(biome.key);
         let problem = state.refused.as_ref().map(|(_, why)| why.as_str());
         let takes_focus = draft.shown.takes_focus(&path, param.name);
-        let row = Row { param, path: &path, owner: &name, default: Some(&default), problem, biomes: &[], takes_focus };
+        let (owner, default, locks) = (name.as_str(), Some(&default), draft.shown.locks);
+        let row = Row { param, path: &path, owner, default, problem, biomes: &[], takes_focus, locks };
         if draft.shown.passes(&path, param) {
             draft.shown.marked(ui, &path, param.name, |ui| param_row(ui, &row, key.value_mut()));
         }

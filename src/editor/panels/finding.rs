@@ -55,7 +55,7 @@ impl Finding {
     }
 
     /// Shows the filter field of a tab.
-    pub(super) fn field(&mut self, ui: &mut egui::Ui, tab: usize, label: &str) {
+    pub(super) fn field(&mut self, ui: &mut egui::Ui, tab: usize, label: &str, width: f32) {
         let Some(text) = self.texts.get_mut(tab) else { return };
         let id = egui::Id::unique(("filter", tab));
         let escaped = ui.memory(|memory| memory.had_focus_last_frame(id))
@@ -66,8 +66,7 @@ impl Finding {
         let hint = format!("Filter {}", label.to_lowercase());
         let margin = egui::Margin { right: CLEAR_WIDTH as i8, ..egui::Margin::symmetric(4, 2) };
         let edit = egui::TextEdit::singleline(text).id(id).hint_text(hint).margin(margin);
-        // Room for the scroll bar of the panel, so that the field ends where the rows do.
-        let field = ui.add(edit.desired_width(ui.available_width() - 10.0));
+        let field = ui.add(edit.desired_width(width));
         let field = field.accessible_name(format!("Filter of {label}"));
         if std::mem::take(&mut self.wants_focus) {
             field.request_focus();
@@ -80,7 +79,6 @@ impl Finding {
                 text.clear();
             }
         }
-        ui.add_space(2.0);
     }
 
     /// Says so if the filter of the tab hides every row.

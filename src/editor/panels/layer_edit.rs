@@ -1,6 +1,6 @@
 //! Edits of the list of layers. Names stay unique, and masks follow the layers they refer to.
 
-use crate::planet::{Layer, MAX_LAYERS, Planet, Shape};
+use crate::planet::{Layer, MAX_LAYERS, Planet, Shape, locks};
 
 /// Adds a layer of a landform (an index into [`Shape::NAMES`]) behind index `after`. Gives its index, or None if there
 /// are too many.
@@ -28,7 +28,7 @@ pub fn remove(planet: &mut Planet, index: usize) {
     }
 }
 
-/// Renames a layer, also in the masks that refer to it. A name that is empty or taken changes nothing.
+/// Renames a layer, also in the masks and locks that refer to it. A name that is empty or taken changes nothing.
 pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
     let taken = planet.layers.iter().enumerate().any(|(i, layer)| i != index && layer.name == name);
     let Some(layer) = planet.layers.get_mut(index) else { return false };
@@ -41,6 +41,7 @@ pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
             mask.set_layer(name);
         }
     }
+    locks::rename_layer(planet, &old, name);
     true
 }
 

@@ -3,7 +3,7 @@
 use super::{Draft, layer_edit, masks, owner_box};
 use crate::editor::command::Action;
 use crate::editor::widgets::drag_row::dragged_row;
-use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::icon::{Icon, icon_button, mark};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::{menu_button, random_seed};
@@ -91,7 +91,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
 
 fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let changes_m = draft.under_pointer.map(|under| under.layers_m.as_slice());
-    let mut moved = None;
+    let (mut moved, locks) = (None, draft.shown.locks);
     for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             draft.shown.marked(ui, &layer_path(index).join("enabled"), "enabled", |ui| {
@@ -100,7 +100,10 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
                     .accessible_name(format!("Enabled of {}", layer.name));
             });
             let change_m = changes_m.and_then(|changes| changes.get(index)).filter(|_| layer.enabled);
-            let details = egui::RichText::new(details(layer, change_m.copied())).weak().small();
+            // The padlock covers no text.
+            let room = if locks.is_on(&layer_path(index)) { "      " } else { "" };
+            let details = details(layer, change_m.copied()) + room;
+            let details = egui::RichText::new(details).weak().small();
             let name = egui::RichText::new(&layer.name);
             let name = if layer.enabled { name } else { name.weak() };
             let width = ui.available_width();
@@ -114,7 +117,14 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
                 state.selected = index;
             }
             moved = moved.or(dragged_row(ui, &response, index, Dragged(index)).map(|(Dragged(from), gap)| (from, gap)));
-            response.on_hover_text("Drag to change the order").accessible_name(format!("Layer {}", layer.name));
+            let path = layer_path(index);
+            if locks.is_on(&path) {
+                let right = response.rect.right_center() - egui::vec2(10.0, 0.0);
+                mark(ui, Icon::Lock, egui::Rect::from_center_size(right, egui::Vec2::splat(10.0)));
+            }
+            response.context_menu(|ui| locks.entry(ui, &path));
+            let told = "Drag to change the order; right-click to lock the layer";
+            response.on_hover_text(told).accessible_name(format!("Layer {}", layer.name));
         });
     }
     if let Some((from, gap)) = moved {

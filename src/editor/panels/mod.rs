@@ -25,7 +25,8 @@ use crate::editor::command::{Commands, PanelAction};
 use crate::editor::painter::survey::Survey;
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, TabLink};
-use crate::editor::widgets::row_view::RowView;
+use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::row_view::{LockView, RowView};
 use crate::planet::Planet;
 use crate::planet::param::{ParamPath, Segment};
 use eframe::egui;
@@ -55,11 +56,7 @@ impl Panel {
 
     /// Index of the tab with the parameter at `path`; None if no tab shows it.
     pub fn of(path: &ParamPath) -> Option<usize> {
-        let part = match path.segments() {
-            [Segment::Field(part), _, ..] => part,
-            _ => "",
-        };
-        PANELS.iter().position(|panel| panel.part == part)
+        PANELS.iter().position(|panel| panel.part == path.part())
     }
 
     const fn painting(self) -> Self {
@@ -177,13 +174,34 @@ impl PanelState {
         self.biomes.clicked(planet, click, under)
     }
 
-    /// Shows the tabs, and the filter of the open one.
-    pub fn head(&mut self, ui: &mut egui::Ui) {
+    /// Shows the tabs, and the filter of the open one with its lock and its dice. Gives the part to vary if the dice
+    /// were clicked.
+    pub fn head(&mut self, ui: &mut egui::Ui, locks: &LockView) -> Option<&'static Panel> {
         self.tabs(ui);
         ui.separator();
-        if let Some(panel) = PANELS.get(self.tab) {
-            self.finding.field(ui, self.tab, panel.label);
-        }
+        let panel = PANELS.get(self.tab)?;
+        let mut rolled = false;
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            // Room for the scroll bar of the panel, so that the row ends where those below do.
+            let buttons = 20.0 + if panel.part.is_empty() { 0.0 } else { 24.0 };
+            self.finding.field(ui, self.tab, panel.label, ui.available_width() - buttons - 14.0);
+            let part = panel.label.to_lowercase();
+            if !panel.part.is_empty() {
+                let path = ParamPath::default().join(panel.part);
+                let (icon, verb, told) = match locks.is_on(&path) {
+                    true => (Icon::Lock, "Unlock", "Locked: variations and random planets keep this tab. Click to unlock"),
+                    false => (Icon::Open, "Lock", "Let variations and random planets keep this tab as it is"),
+                };
+                if icon_button(ui, icon, &format!("{verb} {part}"), told).clicked() {
+                    locks.toggle(&path);
+                }
+            }
+            let told = "Vary what is in this tab, as far as set under Planets > Variations; undo goes back";
+            rolled = icon_button(ui, Icon::Dice, &format!("Vary {part}"), told).clicked();
+        });
+        ui.add_space(2.0);
+        rolled.then_some(panel)
     }
 
     /// Shows the open tab.

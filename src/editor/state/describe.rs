@@ -50,6 +50,16 @@ pub fn owner(planet: &Planet, path: &ParamPath) -> Option<String> {
     }
 }
 
+/// Names a parameter or a part: "amplitude of Hills", "Hills", "clouds".
+pub fn locked(planet: &Planet, path: &ParamPath) -> String {
+    let param = param_at(planet, path).map(|(param, _)| lower_first(param.label));
+    let owner = owner(planet, path).or_else(|| match path.segments() {
+        [Segment::Field(part)] if param.is_none() => Some((*part).to_owned()),
+        _ => None,
+    });
+    [param, owner].into_iter().flatten().collect::<Vec<_>>().join(" of ")
+}
+
 fn param_at(planet: &Planet, wanted: &ParamPath) -> Option<(&'static Param, Value)> {
     let mut found = None;
     planet.each_value(&mut |path, param, value| {

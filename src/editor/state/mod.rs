@@ -9,6 +9,7 @@
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
 //! - [`shooting`]: photographs and films
+//! - [`variations`], [`thumbnails`]: variations of the planet, and their small pictures
 
 pub mod describe;
 pub mod document;
@@ -19,6 +20,8 @@ pub mod pictures;
 pub mod questions;
 pub mod recovery;
 pub mod shooting;
+pub mod thumbnails;
+pub mod variations;
 
 use super::command::PanelAction;
 use super::files::dialogs::FileDialogs;
@@ -35,6 +38,7 @@ use recovery::{Orphan, Recovery};
 use shooting::{PhotoSettings, Shooting};
 use std::sync::Arc;
 use std::time::Instant;
+use variations::Variations;
 
 /// A message about something that went wrong; shown until it is dismissed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,6 +73,8 @@ pub struct Shows {
     pub history: bool,
     /// The location to go to.
     pub place: bool,
+    /// Variations of the planet.
+    pub variations: bool,
 }
 
 impl Shows {
@@ -81,6 +87,7 @@ impl Shows {
         finder: false,
         history: false,
         place: false,
+        variations: false,
     };
 }
 
@@ -112,6 +119,8 @@ pub struct State {
     pub photo: PhotoSettings,
     /// The photographs that are being taken.
     pub shooting: Option<Shooting>,
+    /// Variations of the planet.
+    pub variations: Variations,
     /// The index of the bookmark whose name is asked for.
     pub renaming: Option<usize>,
     /// Working copies that crashed editors left behind.
@@ -141,6 +150,7 @@ impl State {
             panel_asks: Vec::new(),
             photo: PhotoSettings::default(),
             shooting: None,
+            variations: Variations::default(),
             renaming: None,
             orphans: Vec::new(),
             recovery: None,
@@ -156,6 +166,13 @@ impl State {
         if !Arc::ptr_eq(self.document.valid_planet(), &shown_before) {
             self.start_edit_clock();
         }
+    }
+
+    /// Replaces the planet: one undo step of its own, whatever came before.
+    pub fn step(&mut self, planet: Planet, label: String) {
+        self.document.settle();
+        self.edit(planet, Some(label));
+        self.document.settle();
     }
 
     /// Goes one undo step back.

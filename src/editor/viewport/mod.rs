@@ -179,6 +179,11 @@ impl Viewport {
         self.settings.refine.then(|| self.picture.refinement.progress())
     }
 
+    /// Lets refinement wait as if the user had touched something: other pictures need the device.
+    pub fn postpone_refinement(&mut self, now_secs: f64) {
+        self.picture.refinement.touched(now_secs);
+    }
+
     /// How many pictures have been drawn since the start.
     pub fn pictures(&self) -> u64 {
         self.picture.count()

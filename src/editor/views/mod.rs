@@ -4,7 +4,7 @@
 //! - [`status`]: the status bar
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`history`], [`place`], [`finder`]: windows
+//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`place`], [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
@@ -22,3 +22,4 @@ pub mod prompts;
 mod rename;
 pub mod shortcuts;
 pub mod status;
+pub mod variations;

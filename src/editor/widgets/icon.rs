@@ -16,6 +16,8 @@ pub enum Icon {
     Duplicate,
     Remove,
     Close,
+    Lock,
+    Open,
 }
 
 /// A button with an icon; `name` is its accessible name.
@@ -30,6 +32,20 @@ pub fn icon_button(ui: &mut egui::Ui, icon: Icon, name: &str, tooltip: &str) -> 
         paint(ui.painter(), icon, Rect::from_center_size(rect.center(), vec2(12.0, 12.0)), visuals.fg_stroke.color);
     }
     response.on_hover_text(tooltip)
+}
+
+/// An icon that is no button, faint.
+pub fn icon(ui: &mut egui::Ui, icon: Icon, tooltip: &str) {
+    let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), egui::Sense::hover());
+    mark(ui, icon, Rect::from_center_size(rect.center(), vec2(12.0, 12.0)));
+    response.on_hover_text(tooltip);
+}
+
+/// An icon on top of what is at a place, faint.
+pub fn mark(ui: &egui::Ui, icon: Icon, rect: Rect) {
+    if ui.is_rect_visible(rect) {
+        paint(ui.painter(), icon, rect, ui.visuals().weak_text_color());
+    }
 }
 
 fn paint(painter: &egui::Painter, icon: Icon, rect: Rect, color: Color32) {
@@ -70,6 +86,12 @@ fn paint(painter: &egui::Painter, icon: Icon, rect: Rect, color: Color32) {
         Icon::Close => {
             line(vec![at(0.15, 0.15), at(0.85, 0.85)]);
             line(vec![at(0.85, 0.15), at(0.15, 0.85)]);
+        }
+        Icon::Lock | Icon::Open => {
+            painter.rect_filled(Rect::from_min_max(at(0.15, 0.48), at(0.85, 1.0)), 1.0, color);
+            // The shackle; of an open lock its right end is in the air.
+            let end = if icon == Icon::Lock { 0.48 } else { 0.3 };
+            line(vec![at(0.28, 0.48), at(0.28, 0.22), at(0.4, 0.05), at(0.6, 0.05), at(0.72, 0.22), at(0.72, end)]);
         }
         Icon::Remove => {
             line(vec![at(0.0, 0.2), at(1.0, 0.2)]);

@@ -4,9 +4,9 @@
 //! Continents"; that of the number beside a slider is "Amplitude of Continents as a number".
 
 use super::curve_edit::CurveEdit;
-use super::icon::{Icon, icon_button};
+use super::icon::{Icon, icon, icon_button};
 use super::number::{format_digits, suffix};
-use super::row_view::RowView;
+use super::row_view::{LockView, RowView};
 use super::typed::{self, Allowed, typed_field};
 use super::value_text::{read_value, value_text};
 use super::{random_seed, select_all};
@@ -29,6 +29,8 @@ pub struct Row<'a> {
     pub biomes: &'a [(char, String)],
     /// Whether the field for a number or a text takes the focus now.
     pub takes_focus: bool,
+    /// What variations leave as it is.
+    pub locks: &'a LockView,
 }
 
 const RESET_WIDTH: f32 = 20.0;
@@ -119,6 +121,9 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
     let response = ui
         .allocate_ui_with_layout(egui::vec2(width, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
             ui.set_min_width(width);
+            if row.locks.hold(row.path) {
+                padlock(ui, row);
+            }
             ui.add(egui::Label::new(text).truncate().sense(egui::Sense::click()))
         })
         .inner;
@@ -137,6 +142,7 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
             ui.ctx().copy_text(row.path.to_string());
             ui.close();
         }
+        row.locks.entry(ui, row.path);
         if let Some(default) = resets_to(row)
             && ui.button("Reset to default").clicked()
         {
@@ -144,6 +150,19 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
             ui.close();
         }
     });
+}
+
+/// The mark of a locked parameter. A click unlocks it, unless something that holds it is locked.
+fn padlock(ui: &mut egui::Ui, row: &Row<'_>) {
+    ui.spacing_mut().item_spacing.x = 0.0;
+    if row.locks.is_on(row.path) {
+        let told = "Locked: variations and random planets leave it as it is. Click to unlock";
+        if icon_button(ui, Icon::Lock, &format!("Unlock {}", name(row)), told).clicked() {
+            row.locks.toggle(row.path);
+        }
+    } else {
+        icon(ui, Icon::Lock, "Locked with what it belongs to");
+    }
 }
 
 /// The row that waits for the text of the clipboard: the desktop gives it in a later frame.

@@ -44,7 +44,8 @@ pub fn params_grid(
         let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
         let problem = problem_at(grid.shown.problems, path);
         let takes_focus = grid.shown.takes_focus(path, param.name);
-        let row = Row { param, path, owner: grid.owner, default, problem, biomes: grid.biomes, takes_focus };
+        let (owner, biomes, locks) = (grid.owner, grid.biomes, grid.shown.locks);
+        let row = Row { param, path, owner, default, problem, biomes, takes_focus, locks };
         if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
             browse = Some(path.clone());
         }

@@ -1,8 +1,10 @@
 //! What the rows of a panel show besides their values: problems, the filter, and the row that was searched for.
 
+use crate::planet::Planet;
+use crate::planet::locks::Locks;
 use crate::planet::param::{Param, ParamPath, Params};
 use eframe::egui::{self, Rect};
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 /// Seconds for which a row that was searched for is highlighted, and those before the highlight fades.
 const MARKED_SECS: f64 = 1.5;
@@ -107,6 +109,55 @@ pub struct RowView<'a> {
     pub filter: &'a Filter,
     /// The parameter that was searched for.
     pub revealed: Option<&'a Revealed>,
+    /// What variations leave as it is.
+    pub locks: &'a LockView,
+}
+
+/// The locks as rows show them, and the one that a row toggles.
+#[derive(Debug, Default)]
+pub struct LockView {
+    locks: Locks,
+    toggled: RefCell<Option<ParamPath>>,
+}
+
+impl LockView {
+    /// The locks of a planet.
+    pub fn of(planet: &Planet) -> Self {
+        Self { locks: Locks::of(planet), toggled: RefCell::default() }
+    }
+
+    /// Whether the lock is on this parameter or part itself.
+    pub fn is_on(&self, path: &ParamPath) -> bool {
+        self.locks.is_on(path)
+    }
+
+    /// Whether this parameter or part is locked, by itself or by what holds it.
+    pub fn hold(&self, path: &ParamPath) -> bool {
+        self.locks.hold(path)
+    }
+
+    /// Asks to lock or unlock a parameter or part.
+    pub fn toggle(&self, path: &ParamPath) {
+        *self.toggled.borrow_mut() = Some(path.clone());
+    }
+
+    /// What was asked for.
+    pub fn take_toggled(&self) -> Option<ParamPath> {
+        self.toggled.take()
+    }
+
+    /// A menu entry that locks or unlocks.
+    pub fn entry(&self, ui: &mut egui::Ui, path: &ParamPath) {
+        let (label, told) = match (self.is_on(path), self.hold(path)) {
+            (true, _) => ("Unlock", "Let variations and random planets change it again"),
+            (false, true) => ("Lock", "Locked already, by the lock on what it belongs to"),
+            (false, false) => ("Lock", "Variations and random planets leave it as it is"),
+        };
+        if ui.button(label).on_hover_text(told).clicked() {
+            self.toggle(path);
+            ui.close();
+        }
+    }
 }
 
 impl RowView<'_> {
@@ -172,7 +223,8 @@ mod tests {
     #[test]
     fn a_part_is_shown_if_one_of_its_rows_is() {
         let (base, filter) = (ParamPath::from(vec![Segment::Field("star")]), Filter::new("tilt"));
-        let shown = RowView { problems: &[], filter: &filter, revealed: None };
+        let locks = LockView::default();
+        let shown = RowView { problems: &[], filter: &filter, revealed: None, locks: &locks };
         assert!(shown.passes_any(&base, &Star::default(), &[]));
         assert!(!shown.passes_any(&base, &Star::default(), &["tilt_deg"]));
         assert_eq!(filter.passed(), 0, "only rows count");

@@ -181,7 +181,7 @@ frozen! {
 frozen! {
     "EditorNotes" EditorNotes => planet::EditorNotes {
         bookmarks: Vec<Bookmark> = Vec::new(),
-    }
+    } adding { locks: Vec::new() }
 }
 
 frozen! {

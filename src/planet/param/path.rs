@@ -36,6 +36,14 @@ impl ParamPath {
         path
     }
 
+    /// The part of the planet that the path leads into; empty for the planet's own parameters.
+    pub fn part(&self) -> &'static str {
+        match self.0.as_slice() {
+            [Segment::Field(part), _, ..] => part,
+            _ => "",
+        }
+    }
+
     /// Whether `self` is `prefix` or lies below it.
     pub fn starts_with(&self, prefix: &ParamPath) -> bool {
         self.0.starts_with(&prefix.0)

@@ -2,6 +2,9 @@
 
 use crate::planet::param::{Domain, Param, Value};
 
+/// Most that a variation moves the logarithm of a number whose slider is logarithmic: by a factor of 4.5.
+const MOST_LOG: f64 = 1.5;
+
 /// Rounds to three significant digits, to keep files readable.
 pub(super) fn three_digits(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
@@ -71,28 +74,29 @@ impl Dice {
         [STARTS, MIDDLES, ENDS].map(|part| *self.pick(part)).concat()
     }
 
-    /// A value moved by up to `strength` of its range; `None` if it cannot move.
+    /// A value moved by up to `strength` of its own size; `None` if it cannot move. Zero is a choice, not a size, and
+    /// stays.
     pub(super) fn moved(&mut self, param: &Param, value: &Value, strength: f64) -> Option<Value> {
         if strength == 0.0 {
             return None;
         }
         let by = self.between(-strength, strength);
-        let along = |value: f64, min: f64, max: f64| (value + by * (max - min)).clamp(min, max);
         match (value, param.domain) {
             (Value::Number(v), Domain::Number { min, max, logarithmic: false }) => {
-                Some(Value::Number(three_digits(along(*v, min, max)).clamp(min, max)))
+                Some(Value::Number(three_digits(v * (1.0 + by)).clamp(min, max)))
             }
-            // Equal steps are equal ratios. Zero is a choice, not a size, and stays.
-            (Value::Number(v), Domain::Number { min, max, logarithmic: true }) if *v > 0.0 => {
-                let floor = if min > 0.0 { min } else { max * 1e-6 };
-                let moved = libm::exp(along(libm::log(v.max(floor)), libm::log(floor), libm::log(max)));
-                Some(Value::Number(three_digits(moved).clamp(min, max)))
+            // Equal steps are equal ratios.
+            (Value::Number(v), Domain::Number { min, max, logarithmic: true }) => {
+                Some(Value::Number(three_digits(v * libm::exp(by * MOST_LOG)).clamp(min, max)))
             }
             (Value::Count(v), Domain::Count { min, max }) => {
-                let moved = along(f64::from(*v), f64::from(min), f64::from(max)).round();
+                let moved = (f64::from(*v) * (1.0 + by)).round();
                 Some(Value::Count((moved as u32).clamp(min, max)))
             }
-            (Value::Count(_), Domain::Seed) => Some(Value::Count(self.seed())),
+            (Value::Count(_), Domain::Seed) => {
+                let seed = self.seed();
+                self.chance(strength * strength).then_some(Value::Count(seed))
+            }
             (Value::Triple(v), Domain::Color | Domain::Triple { .. }) => {
                 let max = if let Domain::Triple { max } = param.domain { max } else { 1.0 };
                 // By ratio: coefficients differ by powers of ten, and grey stays nearly grey.

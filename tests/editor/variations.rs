@@ -1,0 +1,131 @@
+//! Variations of the planet, and locks on what they leave as it is.
+
+use super::*;
+use tellus::editor::command::{Action, VariationAction};
+use tellus::editor::state::variations::COUNT;
+use tellus::planet::locks::Locks;
+use tellus::planet::param::ParamPath;
+
+fn names() -> impl Iterator<Item = String> {
+    (1..=COUNT).map(|number| format!("Variation {number}"))
+}
+
+fn locks(harness: &Editor) -> Locks {
+    Locks::of(&planet(harness))
+}
+
+#[test]
+fn a_variation_is_taken_with_a_click_and_is_an_undo_step() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::E);
+    names().for_each(|name| assert!(harness.query_by_label(&name).is_some(), "{name}"));
+    harness.check_accessibility();
+    click(&mut harness, "Variation 4");
+    let taken = planet(&harness);
+    assert_ne!(taken, before);
+    assert_eq!(undo_label(&harness), "Take variation 4");
+    assert!(harness.query_by_label("Save your changes?").is_none(), "it is no question");
+    click(&mut harness, "Variation 4");
+    assert_eq!(undo_len(&harness), 2, "each is a step of its own");
+    let ratio = |planet: &Planet| planet.layers[0].amplitude_m / before.layers[0].amplitude_m;
+    assert!((0.5..2.0).contains(&ratio(&taken)), "a variation strays as far as it may: {}", ratio(&taken));
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert_eq!(planet(&harness), before);
+    click(&mut harness, "Again");
+    click(&mut harness, "Variation 4");
+    assert_ne!(planet(&harness), taken, "nine others");
+    escape(&mut harness);
+    assert!(harness.query_by_label("Variation 1").is_none());
+}
+
+#[test]
+fn one_tab_varies_alone() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness);
+    click(&mut harness, "Climate");
+    click(&mut harness, "Vary climate");
+    let varied = planet(&harness);
+    assert_ne!(varied.climate, before.climate);
+    assert_eq!(Planet { climate: before.climate.clone(), ..varied }, before);
+    assert_eq!(undo_label(&harness), "Vary climate");
+
+    send(&mut harness, Command::Variations);
+    let mut wish = harness.state().variations().wish;
+    wish.part = Some("star");
+    harness.state_mut().push(Action::Variation(VariationAction::Wish(wish)));
+    harness.run_steps(3);
+    let varied = planet(&harness);
+    click(&mut harness, "Variation 9");
+    let taken = planet(&harness);
+    assert_ne!(taken.star, varied.star);
+    assert_eq!(Planet { star: varied.star.clone(), ..taken }, varied);
+}
+
+#[test]
+fn what_is_locked_stays() {
+    let mut harness = editor(vec![]);
+    let before = planet(&harness);
+    click(&mut harness, "Climate");
+    click(&mut harness, "Lock climate");
+    assert!(locks(&harness).hold(&ParamPath::default().join("climate").join("seed")));
+    assert_eq!(undo_label(&harness), "Lock climate");
+    click(&mut harness, "Vary climate");
+    assert_eq!(planet(&harness).climate, before.climate);
+
+    click(&mut harness, "Planet");
+    harness.get_by_role_and_label(Role::Label, "Radius").click_secondary();
+    harness.run_steps(3);
+    click(&mut harness, "Lock");
+    assert_eq!(undo_label(&harness), "Lock radius");
+    send(&mut harness, Command::RandomPlanet);
+    let rolled = planet(&harness);
+    assert_ne!(rolled.name, before.name);
+    assert_eq!((&rolled.climate, rolled.radius_km), (&before.climate, before.radius_km));
+    assert_eq!(locks(&harness).len(), 2, "the locks stay with what they are on");
+
+    click(&mut harness, "Unlock Radius of planet");
+    assert_eq!(locks(&harness).len(), 1);
+    send(&mut harness, Command::Variations);
+    assert!(harness.query_by_label("1 lock").is_some());
+    click(&mut harness, "Unlock all");
+    assert!(locks(&harness).is_empty());
+}
+
+#[test]
+fn a_locked_layer_stays_under_another_name() {
+    let mut harness = editor(vec![]);
+    let layer = planet(&harness).layers[0].clone();
+    click(&mut harness, "Terrain");
+    harness.get_by_label(&format!("Layer {}", layer.name)).click_secondary();
+    harness.run_steps(3);
+    click(&mut harness, "Lock");
+    click(&mut harness, "Vary terrain");
+    let varied = planet(&harness);
+    assert_eq!(varied.layers[0], layer);
+    assert_ne!(varied.layers[1..], planet(&editor(vec![])).layers[1..]);
+    harness.get_by_label(&format!("Name of {}", layer.name)).focus();
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::A);
+    type_text(&mut harness, "Renamed");
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::Enter);
+    assert_eq!(planet(&harness).layers[0].name, "Renamed");
+    click(&mut harness, "Vary terrain");
+    assert_eq!(planet(&harness).layers[0].amplitude_m, layer.amplitude_m);
+}
+
+#[test]
+fn nine_pictures_are_drawn() {
+    let mut harness = drawn_editor();
+    send(&mut harness, Command::Variations);
+    app::until(&mut harness, "nine pictures", |harness| {
+        let variations = harness.state().variations();
+        variations.cells.len() == COUNT && variations.missing() == 0
+    });
+    for cell in &harness.state().variations().cells {
+        assert!(matches!(cell.picture, Some(Ok(_))));
+    }
+    send(&mut harness, Command::Variations);
+    harness.run_steps(3);
+    assert!(harness.state().variations().cells.is_empty(), "a closed window keeps no pictures");
+}
