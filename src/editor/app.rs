@@ -6,6 +6,7 @@
 use super::apply::apply_all;
 use super::command::{Action, Command, Commands};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
+use super::files::recent::Recent;
 use super::handlers::{self, answers, open_file, opening, shooting};
 use super::painter::survey::Surveyor;
 use super::panels::{Draft, PanelState};
@@ -102,9 +103,14 @@ impl EditorApp {
     }
 
     /// Keeps the working copy in `folder`, and offers the working copies that crashes left there. Other windows see
-    /// there which file this one has open.
+    /// there which file this one has open. A window that was started without a file opens the last one.
     pub fn with_recovery(mut self, folder: &Path) -> Self {
         self.state.notices.claim_in(folder);
+        self.state.recent = Recent::open(folder);
+        let last = self.state.recent.paths().first().filter(|path| path.is_file()).cloned();
+        if let Some(last) = last.filter(|_| self.state.document.path().is_none() && self.state.messages.is_empty()) {
+            opening::begin_with(&mut self.state, &last);
+        }
         match Recovery::open(folder) {
             Ok((recovery, orphans)) => (self.state.recovery, self.state.orphans) = (Some(recovery), orphans),
             Err(error) => log::warn!("{}: no working copy is kept: {error}", folder.display()),
@@ -187,7 +193,7 @@ impl EditorApp {
             ui.advance_cursor_after_rect(rect);
             let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(rect));
             ui.shrink_clip_rect(rect.expand(4.0));
-            if let Some(panel) = panels.head(ui, &locks) {
+            if let Some(panel) = panels.head(ui, &locks, &mut self.commands) {
                 let (seed, stray) = (random_seed(), state.variations.wish.stray);
                 planet = random::vary_some(&planet, seed, stray, &|path| path.part() == panel.part);
                 label = Some(format!("Vary {}", panel.label.to_lowercase()));
@@ -268,6 +274,7 @@ impl eframe::App for EditorApp {
         open_file::poll(state, ctx);
         shooting::poll(state);
         self.commands = apply_all(state, ctx, self.commands.take());
+        handlers::clipboard::poll(state, ctx);
         handlers::variations::update(state, ctx);
         state.notices.poll(state.document.path(), ctx);
         if let Some(problem) = self.maps.as_ref().and_then(|maps| maps.take_problem()) {

@@ -2,7 +2,7 @@
 
 use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, VariationAction, Window};
 use super::commands;
-use super::handlers::{answers, bookmarks, opening, pictures, place, shooting, variations};
+use super::handlers::{answers, bookmarks, clipboard, opening, pictures, place, shooting, variations};
 use super::state::State;
 use super::state::questions::Goal;
 use eframe::egui;
@@ -32,10 +32,10 @@ fn takes_typed_value(action: &Action) -> bool {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
         Action::OpenPath(_) | Action::OpenShipped(_) | Action::Browse(_) => true,
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) => false,
-        Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) => true,
+        Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) | Action::Clip(_) => true,
         Action::Variation(action) => matches!(action, VariationAction::Take(_) | VariationAction::UnlockAll),
         Action::Search(_) | Action::Panel(_) | Action::GoToPlace(_) => false,
-        Action::DismissMessage | Action::Close(_) => false,
+        Action::DismissMessage | Action::Close(_) | Action::ClearRecent => false,
     }
 }
 
@@ -44,10 +44,12 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Command(command) => run(state, ctx, command),
         Action::OpenPath(path) => opening::pursue(state, ctx, Goal::OpenPath(path)),
         Action::OpenShipped(index) => opening::pursue(state, ctx, Goal::OpenShipped(index)),
+        Action::ClearRecent => state.recent.clear(),
         Action::Browse(path) => pictures::browse(state, ctx, path),
         Action::Search(text) => state.search(Some(text)),
         Action::Panel(asked) => state.ask_panel(asked),
         Action::Variation(action) => variations::act(state, action),
+        Action::Clip(action) => clipboard::act(state, ctx, action),
         Action::ToggleLock(path) => variations::toggle_lock(state, &path),
         Action::Jump(steps) => state.jump(ctx, steps),
         Action::GoToPlace(place) => place::go_to(state, place),

@@ -20,6 +20,8 @@ pub enum Command {
     Open,
     Save,
     SaveAs,
+    /// Go back to what the file holds.
+    Revert,
     Photo,
     Quit,
     Undo,
@@ -59,6 +61,8 @@ pub enum Action {
     OpenPath(PathBuf),
     /// Open the shipped preset of this index.
     OpenShipped(usize),
+    /// Forget the files that were opened last.
+    ClearRecent,
     /// Choose a file for the parameter at this path.
     Browse(ParamPath),
     /// Open the finder with this text.
@@ -67,6 +71,8 @@ pub enum Action {
     Panel(PanelAction),
     /// Choose variations of the planet, or take one.
     Variation(VariationAction),
+    /// Copy or paste a part or a layer.
+    Clip(ClipAction),
     /// Lock the parameter or the part at this path, or unlock it.
     ToggleLock(ParamPath),
     /// Undo or redo until this number of steps is done.
@@ -156,6 +162,33 @@ pub enum VariationAction {
     Take(usize),
     /// Take all locks off.
     UnlockAll,
+}
+
+/// What is pasted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// This part of a planet; empty: all of it.
+    Part(&'static str),
+    /// Layers, behind the layer of an index.
+    Layers {
+        /// The index; None: behind the last one.
+        after: Option<usize>,
+    },
+}
+
+/// An action on the clipboard.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ClipAction {
+    /// Copy a part of the planet; empty: all of it.
+    CopyPart(&'static str),
+    /// Copy the layer of this index.
+    CopyLayer(usize),
+    /// Copy the layer of this index, and remove it.
+    CutLayer(usize),
+    /// Ask the desktop for the text of the clipboard, and paste it.
+    Ask(Wanted),
+    /// Paste a text.
+    Paste(Wanted, String),
 }
 
 /// An action on photographs.

@@ -4,7 +4,7 @@
 //! row here.
 
 use super::command::{Command, PanelAction};
-use super::handlers::{biome_table, bookmarks, opening, saving, window};
+use super::handlers::{biome_table, bookmarks, open_file, opening, saving, window};
 use super::state::State;
 use super::state::describe::lower_first;
 use super::state::questions::Goal;
@@ -189,6 +189,12 @@ fn file_and_edit() -> Vec<Row> {
             .within(Menu::File, 1)
             .keys([ctrl_shift(Key::S)])
             .taking_typed_value(),
+        Row::new(Command::Revert, "Revert to saved", "Go back to what the file holds; undo brings this back.", |s, _| {
+            open_file::revert(s);
+        })
+        .within(Menu::File, 1)
+        .enabled_when(|s| s.document.is_dirty() && s.document.disk_bytes().is_some())
+        .taking_typed_value(),
         Row::new(Command::Photo, "Picture or film…", "Save this view, or a flight over the bookmarks.", |s, _| {
             s.shows.photo ^= true;
         })

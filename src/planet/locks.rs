@@ -136,30 +136,10 @@ pub fn keep(from: &Planet, to: &Planet) -> Option<Planet> {
 }
 
 fn keep_parts(from: &Planet, locks: &Locks, to: &mut Planet) {
-    let whole = |part: &'static str| locks.is_on(&ParamPath::default().join(part));
-    if whole("star") {
-        to.star = from.star.clone();
-    }
-    if whole("layers") {
-        to.layers = from.layers.clone();
-    }
-    if whole("climate") {
-        to.climate = from.climate.clone();
-    }
-    if whole("biomes") {
-        to.biomes = from.biomes.clone();
-    }
-    if whole("structure") {
-        to.structure = from.structure.clone();
-    }
-    if whole("water") {
-        to.water = from.water.clone();
-    }
-    if whole("atmosphere") {
-        to.atmosphere = from.atmosphere.clone();
-    }
-    if whole("clouds") {
-        to.clouds = from.clouds.clone();
+    for part in Planet::PARTS {
+        if locks.is_on(&ParamPath::default().join(part.name)) {
+            to.take_part(from, part.name);
+        }
     }
 }
 

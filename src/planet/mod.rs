@@ -9,7 +9,7 @@
 //! - [`key`]: content keys
 //! - [`validate`]: ranges, references between names, the shape of the biome table
 //! - [`mod@file`]: loading and saving; `open` opens files, `text` writes a preset, `explain` parses one and explains
-//!   errors, `locate` finds lines and columns, `migrate` reads old versions
+//!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`shipped`]: the presets that come with the program
@@ -43,6 +43,7 @@ pub mod shipped;
 mod skies;
 mod star_color;
 mod starting;
+pub mod snippet;
 pub mod structure;
 pub mod table;
 mod tables;

@@ -320,3 +320,50 @@ fn without_file_dialogs_a_path_is_typed() {
     press(&mut harness, egui::Modifiers::NONE, egui::Key::Escape);
     assert!(harness.query_by_label("Path of the file").is_none(), "Escape is enough to leave");
 }
+
+#[test]
+fn the_differences_are_shown_before_one_decides() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    edit(&mut harness);
+    Planet { settlements: 2.0, ..seeded(1) }.save(&path).unwrap();
+    until(&mut harness, "asked", is_asked);
+    click(&mut harness, "Show the 2 differences");
+    harness.run_steps(20);
+    assert!(harness.query_by_label("radius: 2500 km → 6371 km").is_some());
+    assert!(harness.query_by_label("settlements: 0 → 2").is_some());
+}
+
+#[test]
+fn revert_goes_back_to_the_file_and_undo_back_again() {
+    let (folder, path) = saved();
+    let mut harness = opened(folder.path(), &path, vec![]);
+    let before = planet(&harness);
+    edit(&mut harness);
+    let mine = planet(&harness);
+    send(&mut harness, Command::Revert);
+    assert_eq!((planet(&harness), harness.state().document().is_dirty()), (before, false));
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness), mine);
+}
+
+#[test]
+fn files_that_were_open_are_listed_and_the_last_one_opens_again() {
+    let (folder, path) = saved();
+    let other = folder.path().join("other.ron");
+    seeded(7).save(&other).unwrap();
+    drop(opened(folder.path(), &path, vec![]));
+    drop(opened(folder.path(), &other, vec![]));
+    let mut harness = open_file(None, NoDialogs, &folder.path().join("recovery"));
+    assert_eq!((planet(&harness).seed, harness.state().document().path()), (7, Some(other.as_path())));
+    click(&mut harness, "File");
+    click(&mut harness, "Open recent");
+    assert!(harness.query_by_label("other.ron").is_none(), "it is open");
+    click(&mut harness, "mine.ron");
+    assert_eq!(planet(&harness).seed, 1);
+    // A file that is gone is no reason to start with a question.
+    std::fs::remove_file(&path).unwrap();
+    drop(harness);
+    let harness = open_file(None, NoDialogs, &folder.path().join("recovery"));
+    assert_eq!(harness.state().document().path(), None);
+}

@@ -6,6 +6,7 @@
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
+//! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `variations`: variations of the planet, and locks
 //! - `photo`: photographs, films, and what a photographer sets
@@ -14,6 +15,7 @@
 
 #[path = "../support/app.rs"]
 mod app;
+mod clipboard;
 mod disk;
 mod files;
 mod finder;

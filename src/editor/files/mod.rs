@@ -3,9 +3,11 @@
 //! - [`dialogs`]: file dialogs that never block the window
 //! - [`disk`]: whether a file has changed on disk
 //! - [`claim`]: whether another window has a file open
+//! - [`recent`]: files that were opened or saved last
 //! - [`file_names`]: extensions, names for people, equal files
 
 pub mod claim;
 pub mod dialogs;
 pub mod disk;
 pub mod file_names;
+pub mod recent;

@@ -1,4 +1,4 @@
-//! Everything that can be found by name: commands, shipped planets, bookmarks, and every parameter of the planet with
+//! Everything that can be found by name: commands, shipped planets, recent files, bookmarks, and every parameter of the planet with
 //! a row in a panel. [`list`] makes the list, [`search`] puts what fits a text in order.
 
 use super::fuzzy::{Text, folded};
@@ -104,6 +104,11 @@ pub fn list(state: &State, ctx: &egui::Context) -> Vec<Entry> {
     entries.extend(shipped::ALL.iter().enumerate().map(|(index, preset)| {
         let name = readable_stem(Path::new(preset.file));
         Entry::new(&name, "Planets", "open shipped planet", Action::OpenShipped(index))
+    }));
+    entries.extend(state.recent.paths().iter().map(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let folder = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy().into_owned();
+        Entry { hint: folder, ..Entry::new(&name, "Recent files", "open file", Action::OpenPath(path.clone())) }
     }));
     entries.extend(state.document.bookmarks().iter().enumerate().map(|(index, bookmark)| {
         let action = Action::Bookmark(BookmarkAction::GoTo(index));

@@ -8,6 +8,7 @@
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps
 //! - [`variations`]: variations of the planet, and locks
+//! - [`clipboard`]: parts and layers as text
 //! - [`bookmarks`]: views kept in the preset
 //! - [`place`]: the flight to a location
 //! - [`window`]: full screen and theme
@@ -15,6 +16,7 @@
 pub mod answers;
 pub mod biome_table;
 pub mod bookmarks;
+pub mod clipboard;
 pub mod open_file;
 pub mod opening;
 pub mod pictures;

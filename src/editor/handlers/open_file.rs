@@ -5,10 +5,30 @@ use crate::editor::state::State;
 use eframe::egui;
 use std::path::Path;
 
+/// Replaces the planet by what its file holds: one undo step.
+pub fn revert(state: &mut State) {
+    let Some(path) = state.document.path().map(Path::to_owned) else { return };
+    let bytes = match look(&path, state.document.disk_bytes()) {
+        OnDisk::Changed(bytes) => Some(bytes),
+        _ => state.document.disk_bytes().map(<[u8]>::to_vec),
+    };
+    let Some(theirs) = bytes.map(|bytes| TheirFile::read(&path, bytes, state.document.planet())) else { return };
+    match theirs.planet {
+        Ok(planet) => {
+            state.reload(planet, theirs.bytes);
+            state.notices.say(format!("Back to {}; undo brings your changes back", path.display()));
+        }
+        Err(why) => state.report("The file cannot be read", vec![why]),
+    }
+}
+
 /// Compares the open file with the document when the file may have changed.
 pub fn poll(state: &mut State, ctx: &egui::Context) {
     state.open_file.follow(state.document.path(), ctx);
     state.questions.keep_change_of(state.document.path());
+    if let Some(path) = state.document.path().filter(|_| state.document.disk_bytes().is_some()) {
+        state.recent.note(path);
+    }
     let gained_focus = state.open_file.gained_focus(ctx);
     // One question at a time.
     if state.questions.is_asking() {

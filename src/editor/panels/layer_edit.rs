@@ -18,6 +18,32 @@ pub fn duplicate(planet: &mut Planet, index: usize) -> Option<usize> {
     insert(planet, layer, Some(index))
 }
 
+/// Adds layers behind index `after`. A name that is taken gets a number, also in the masks among the new layers; masks
+/// on layers that are not there are left out. Gives the index of the first, or None if there would be too many.
+pub fn paste(planet: &mut Planet, layers: &[Layer], after: Option<usize>) -> Option<usize> {
+    if planet.layers.len() + layers.len() > MAX_LAYERS {
+        return None;
+    }
+    let first = after.map_or(planet.layers.len(), |i| (i + 1).min(planet.layers.len()));
+    let mut renamed = Vec::new();
+    for (number, layer) in layers.iter().enumerate() {
+        let name = unique_name(planet, &layer.name);
+        renamed.push((layer.name.clone(), name.clone()));
+        planet.layers.insert(first + number, Layer { name, ..layer.clone() });
+    }
+    let names: Vec<String> = planet.layers.iter().map(|layer| layer.name.clone()).collect();
+    for layer in &mut planet.layers[first..first + layers.len()] {
+        for mask in &mut layer.masks {
+            let new = renamed.iter().find(|(old, _)| mask.layer() == Some(old.as_str()));
+            if let Some((_, new)) = new {
+                mask.set_layer(new);
+            }
+        }
+        layer.masks.retain(|mask| mask.layer().is_none_or(|name| names.iter().any(|other| other == name)));
+    }
+    Some(first)
+}
+
 /// Removes a layer and every mask that refers to it.
 pub fn remove(planet: &mut Planet, index: usize) {
     if index < planet.layers.len() {

@@ -1,7 +1,7 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
 use super::{Draft, layer_edit, masks, owner_box};
-use crate::editor::command::Action;
+use crate::editor::command::{Action, ClipAction, Wanted};
 use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button, mark};
 use crate::editor::widgets::number::length_text;
@@ -92,6 +92,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
 fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let changes_m = draft.under_pointer.map(|under| under.layers_m.as_slice());
     let (mut moved, locks) = (None, draft.shown.locks);
+    let top = ui.cursor().top();
     for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             draft.shown.marked(ui, &layer_path(index).join("enabled"), "enabled", |ui| {
@@ -122,11 +123,24 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
                 let right = response.rect.right_center() - egui::vec2(10.0, 0.0);
                 mark(ui, Icon::Lock, egui::Rect::from_center_size(right, egui::Vec2::splat(10.0)));
             }
-            response.context_menu(|ui| locks.entry(ui, &path));
-            let told = "Drag to change the order; right-click to lock the layer";
+            response.context_menu(|ui| {
+                for (label, action) in [
+                    ("Copy", ClipAction::CopyLayer(index)),
+                    ("Cut", ClipAction::CutLayer(index)),
+                    ("Paste after", ClipAction::Ask(Wanted::Layers { after: Some(index) })),
+                ] {
+                    if ui.button(label).clicked() {
+                        draft.commands.push(Action::Clip(action));
+                        ui.close();
+                    }
+                }
+                locks.entry(ui, &path);
+            });
+            let told = "Drag to change the order; right-click to copy, paste or lock the layer";
             response.on_hover_text(told).accessible_name(format!("Layer {}", layer.name));
         });
     }
+    clipboard_keys(ui, top, state.selected, draft);
     if let Some((from, gap)) = moved {
         let to = layer_edit::move_to_gap(draft.planet, from, gap);
         state.selected = to;
@@ -134,6 +148,24 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             draft.name_edit("Move layer");
         }
     }
+}
+
+/// The clipboard keys of the desktop, for the selected layer while the pointer is over the list.
+fn clipboard_keys(ui: &egui::Ui, top: f32, selected: usize, draft: &mut Draft<'_>) {
+    let list = egui::Rect::from_min_max(egui::pos2(ui.min_rect().left(), top), ui.min_rect().max);
+    if ui.ctx().text_edit_focused() || !ui.rect_contains_pointer(list) {
+        return;
+    }
+    let wanted = Wanted::Layers { after: Some(selected) };
+    let action = ui.input(|input| {
+        input.events.iter().find_map(|event| match event {
+            egui::Event::Copy => Some(ClipAction::CopyLayer(selected)),
+            egui::Event::Cut => Some(ClipAction::CutLayer(selected)),
+            egui::Event::Paste(text) => Some(ClipAction::Paste(wanted, text.clone())),
+            _ => None,
+        })
+    });
+    draft.commands.extend(action.map(Action::Clip));
 }
 
 /// Blend mode and landform of a layer; while the pointer is over the ground, the layer's change of the height there.

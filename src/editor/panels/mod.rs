@@ -21,7 +21,7 @@ pub mod masks;
 pub mod parts;
 pub mod structure;
 
-use crate::editor::command::{Commands, PanelAction};
+use crate::editor::command::{Action, ClipAction, Commands, PanelAction, Wanted};
 use crate::editor::painter::survey::Survey;
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, TabLink};
@@ -57,6 +57,23 @@ impl Panel {
     /// Index of the tab with the parameter at `path`; None if no tab shows it.
     pub fn of(path: &ParamPath) -> Option<usize> {
         PANELS.iter().position(|panel| panel.part == path.part())
+    }
+
+    /// What one can do with all that is in the tab.
+    fn menu(&self, ui: &mut egui::Ui, locks: &LockView, commands: &mut Commands) {
+        let what = if self.part.is_empty() { "whole planet" } else { self.part };
+        for (verb, told, action) in [
+            ("Copy", "As text: for another planet, for a file, for a message", ClipAction::CopyPart(self.part)),
+            ("Paste", "What was copied here or elsewhere; undo goes back", ClipAction::Ask(Wanted::Part(self.part))),
+        ] {
+            if ui.button(format!("{verb} {what}")).on_hover_text(told).clicked() {
+                commands.push(Action::Clip(action));
+                ui.close();
+            }
+        }
+        if !self.part.is_empty() {
+            locks.entry(ui, &ParamPath::default().join(self.part));
+        }
     }
 
     const fn painting(self) -> Self {
@@ -176,8 +193,8 @@ impl PanelState {
 
     /// Shows the tabs, and the filter of the open one with its lock and its dice. Gives the part to vary if the dice
     /// were clicked.
-    pub fn head(&mut self, ui: &mut egui::Ui, locks: &LockView) -> Option<&'static Panel> {
-        self.tabs(ui);
+    pub fn head(&mut self, ui: &mut egui::Ui, locks: &LockView, commands: &mut Commands) -> Option<&'static Panel> {
+        self.tabs(ui, locks, commands);
         ui.separator();
         let panel = PANELS.get(self.tab)?;
         let mut rolled = false;
@@ -254,7 +271,7 @@ impl PanelState {
         self.tab
     }
 
-    fn tabs(&mut self, ui: &mut egui::Ui) {
+    fn tabs(&mut self, ui: &mut egui::Ui, locks: &LockView, commands: &mut Commands) {
         const COLUMNS: usize = 5;
         ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
         let width = (ui.available_width() - 4.0 * (COLUMNS - 1) as f32) / COLUMNS as f32;
@@ -263,9 +280,11 @@ impl PanelState {
                 for (column, panel) in panels.iter().enumerate() {
                     let tab = row * COLUMNS + column;
                     let button = egui::Button::selectable(self.tab == tab, panel.label);
-                    if ui.add_sized([width, 22.0], button).clicked() {
+                    let response = ui.add_sized([width, 22.0], button);
+                    if response.clicked() {
                         self.tab = tab;
                     }
+                    response.context_menu(|ui| panel.menu(ui, locks, commands));
                 }
             });
         }

@@ -23,8 +23,9 @@ pub mod shooting;
 pub mod thumbnails;
 pub mod variations;
 
-use super::command::PanelAction;
+use super::command::{PanelAction, Wanted};
 use super::files::dialogs::FileDialogs;
+use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
@@ -103,6 +104,8 @@ pub struct State {
     pub questions: Questions,
     /// The watch over the open file.
     pub open_file: OpenFile,
+    /// Files that were opened or saved last.
+    pub recent: Recent,
     /// Notices of the editor.
     pub notices: Notices,
     /// Height maps.
@@ -121,6 +124,8 @@ pub struct State {
     pub shooting: Option<Shooting>,
     /// Variations of the planet.
     pub variations: Variations,
+    /// What waits for the text of the clipboard.
+    pub pasting: Option<Wanted>,
     /// The index of the bookmark whose name is asked for.
     pub renaming: Option<usize>,
     /// Working copies that crashed editors left behind.
@@ -142,6 +147,7 @@ impl State {
             viewport,
             questions: Questions::new(dialogs),
             open_file: OpenFile::default(),
+            recent: Recent::default(),
             notices: Notices::default(),
             pictures: Pictures::default(),
             messages: Vec::new(),
@@ -151,6 +157,7 @@ impl State {
             photo: PhotoSettings::default(),
             shooting: None,
             variations: Variations::default(),
+            pasting: None,
             renaming: None,
             orphans: Vec::new(),
             recovery: None,
@@ -231,7 +238,7 @@ impl State {
     fn forget_document(&mut self) {
         self.document_number += 1;
         self.questions.forget();
-        self.renaming = None;
+        (self.renaming, self.pasting) = (None, None);
         self.reset_view();
     }
 

@@ -12,7 +12,7 @@ use crate::planet::param::Unit;
 use crate::planet::shipped;
 use crate::render::{Post, Tone};
 use eframe::egui;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Range of the exposure slider, in stops.
 const EXPOSURE_EV: f64 = 8.0;
@@ -34,7 +34,8 @@ pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
                     Menu::View => settings(ui, state, commands),
                     Menu::Bookmarks => bookmarks(ui, state, commands),
                     Menu::Planets => planets(ui, commands),
-                    Menu::File | Menu::Edit | Menu::Camera | Menu::Help => {}
+                    Menu::File => recent(ui, state, commands),
+                    Menu::Edit | Menu::Camera | Menu::Help => {}
                 }
             });
         }
@@ -70,6 +71,30 @@ fn planets(ui: &mut egui::Ui, commands: &mut Commands) {
             ui.close();
         }
     }
+}
+
+/// The files that were opened or saved last, without the one that is open.
+fn recent(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
+    let open = state.document.path().and_then(|path| std::path::absolute(path).ok());
+    let others: Vec<&PathBuf> = state.recent.paths().iter().filter(|path| Some(*path) != open.as_ref()).collect();
+    if others.is_empty() {
+        return;
+    }
+    ui.separator();
+    ui.menu_button("Open recent", |ui| {
+        for path in others {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                commands.push(Action::OpenPath(path.clone()));
+                ui.close();
+            }
+        }
+        ui.separator();
+        if ui.button("Clear this list").clicked() {
+            commands.push(Action::ClearRecent);
+            ui.close();
+        }
+    });
 }
 
 /// One submenu for each bookmark.

@@ -3,12 +3,13 @@
 //! - [`menus`]: the menu bar
 //! - [`status`]: the status bar
 //! - [`problems`]: notices and problems
-//! - [`prompts`], `path_field`, `rename`: questions and messages
+//! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
 //! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`place`], [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
 pub mod controls;
+mod differences;
 pub mod finder;
 pub mod history;
 pub mod look;

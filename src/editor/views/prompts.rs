@@ -1,8 +1,10 @@
 //! Questions and messages in front of the window.
 
+use super::differences;
 use super::path_field::PathField;
 use super::rename::RenameField;
 use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, ReplaceAnswer, UnsavedAnswer};
+use crate::editor::state::document::Document;
 use crate::editor::state::questions::Change;
 use crate::editor::state::{Message, State};
 use eframe::egui;
@@ -42,7 +44,7 @@ impl Prompts {
         } else if let Some(replace) = &questions.replace {
             replaced(ctx, replace.path()).map(Answer::Replace)
         } else if let Some(change) = &questions.change {
-            changed(ctx, &state.document.title(), change).map(Answer::Change)
+            changed(ctx, &state.document, change).map(Answer::Change)
         } else if let Some(wanted) = &questions.path {
             self.path.get_or_insert_with(|| PathField::new(wanted)).show(ctx).map(Answer::Path)
         } else {
@@ -70,13 +72,23 @@ fn question<A: Copy>(
     answers: &[(&str, A)],
     cancel: A,
 ) -> Option<A> {
+    question_about(ctx, id, heading, |ui| lines.iter().for_each(|line| drop(ui.label(line))), answers, cancel)
+}
+
+/// A question over any content.
+fn question_about<A: Copy>(
+    ctx: &egui::Context,
+    id: &'static str,
+    heading: &str,
+    content: impl FnOnce(&mut egui::Ui),
+    answers: &[(&str, A)],
+    cancel: A,
+) -> Option<A> {
     let modal = egui::Modal::new(egui::Id::unique(id)).show(ctx, |ui| {
         ui.set_width(400.0);
         ui.heading(heading);
         ui.add_space(4.0);
-        for line in lines {
-            ui.label(line);
-        }
+        content(ui);
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             let clicked = |(text, meaning): &(&str, A)| ui.button(*text).clicked().then_some(*meaning);
@@ -115,7 +127,8 @@ fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {
     question(ctx, "replace file", ("Replace the file?", &lines), &answers, ReplaceAnswer::Cancel)
 }
 
-fn changed(ctx: &egui::Context, title: &str, change: &Change) -> Option<ChangeAnswer> {
+fn changed(ctx: &egui::Context, document: &Document, change: &Change) -> Option<ChangeAnswer> {
+    let title = document.title();
     let mut lines =
         vec![format!("Another program has written {} since it was opened here.", title.trim_start_matches("• "))];
     let mut answers = Vec::new();
@@ -130,7 +143,25 @@ fn changed(ctx: &egui::Context, title: &str, change: &Change) -> Option<ChangeAn
     answers.extend([(keep, ChangeAnswer::KeepMine), ("Save mine as…", ChangeAnswer::SaveAs)]);
     let cancel = if change.saving { "Cancel" } else { "Later" };
     answers.push((cancel, ChangeAnswer::Cancel));
-    question(ctx, "changed on disk", ("The file has changed on disk", &lines), &answers, ChangeAnswer::Cancel)
+    let content = |ui: &mut egui::Ui| {
+        lines.iter().for_each(|line| drop(ui.label(line)));
+        if let Ok(theirs) = &change.theirs.planet {
+            listed(ui, &differences::lines(document.planet(), theirs));
+        }
+    };
+    let heading = "The file has changed on disk";
+    question_about(ctx, "changed on disk", heading, content, &answers, ChangeAnswer::Cancel)
+}
+
+/// A list that is folded at first.
+fn listed(ui: &mut egui::Ui, differences: &[String]) {
+    let count = differences.len();
+    let heading = format!("Show the {}", if count == 1 { "difference".to_owned() } else { format!("{count} differences") });
+    egui::CollapsingHeader::new(heading).id_salt("differences").show(ui, |ui| {
+        egui::ScrollArea::vertical().max_height(180.0).auto_shrink([false, true]).show(ui, |ui| {
+            differences.iter().for_each(|line| drop(ui.add(egui::Label::new(line).wrap())));
+        });
+    });
 }
 
 fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {

@@ -1,0 +1,88 @@
+//! Parts and layers through the clipboard, as the text of a preset.
+
+use crate::editor::command::{ClipAction, Wanted};
+use crate::editor::panels::layer_edit;
+use crate::editor::state::State;
+use crate::planet::snippet;
+use eframe::egui;
+
+/// Name of the clipboard in messages.
+const SOURCE: &str = "clipboard";
+
+/// Copies, cuts, or asks for what is to be pasted.
+pub fn act(state: &mut State, ctx: &egui::Context, action: ClipAction) {
+    let planet = state.document.planet();
+    match action {
+        ClipAction::CopyPart(part) => {
+            if let Some(text) = snippet::of_part(planet, part) {
+                ctx.copy_text(text);
+                state.notices.say(format!("Copied {}", name_of(part)));
+            }
+        }
+        ClipAction::CopyLayer(index) => copy_layer(state, ctx, index),
+        ClipAction::CutLayer(index) => {
+            copy_layer(state, ctx, index);
+            let mut planet = (**state.document.planet()).clone();
+            layer_edit::remove(&mut planet, index);
+            state.step(planet, "Cut layer".to_owned());
+        }
+        ClipAction::Ask(wanted) => {
+            state.pasting = Some(wanted);
+            ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste);
+        }
+        ClipAction::Paste(wanted, text) => paste(state, wanted, &text),
+    }
+}
+
+/// Takes the text of the clipboard if something has asked for it: the desktop gives it in a later frame.
+pub fn poll(state: &mut State, ctx: &egui::Context) {
+    let Some(wanted) = state.pasting else { return };
+    let text = ctx.input(|input| {
+        input.events.iter().find_map(|event| match event {
+            egui::Event::Paste(text) => Some(text.clone()),
+            _ => None,
+        })
+    });
+    if let Some(text) = text {
+        state.pasting = None;
+        paste(state, wanted, &text);
+    }
+}
+
+fn copy_layer(state: &mut State, ctx: &egui::Context, index: usize) {
+    if let Some(layer) = state.document.planet().layers.get(index) {
+        ctx.copy_text(snippet::of_layers(std::slice::from_ref(layer)));
+        state.notices.say(format!("Copied {}", layer.name));
+    }
+}
+
+fn paste(state: &mut State, wanted: Wanted, text: &str) {
+    let refused = |state: &mut State, why: String| state.report("Nothing was pasted", vec![why]);
+    let read = match snippet::read(SOURCE, text) {
+        Ok(read) => read,
+        Err(why) => return refused(state, why),
+    };
+    let mut planet = (**state.document.planet()).clone();
+    let label = match wanted {
+        Wanted::Part(part) if read.has(part) => {
+            planet.take_part(read.planet(), part);
+            format!("Paste {}", name_of(part))
+        }
+        Wanted::Part(part) => return refused(state, format!("The clipboard holds no {}: copy one first.", name_of(part))),
+        Wanted::Layers { after } => {
+            let layers = &read.planet().layers;
+            if layers.is_empty() {
+                return refused(state, "The clipboard holds no layer: copy one first.".to_owned());
+            }
+            if layer_edit::paste(&mut planet, layers, after).is_none() {
+                return refused(state, "The planet has as many layers as it may have.".to_owned());
+            }
+            if layers.len() == 1 { "Paste layer".to_owned() } else { format!("Paste {} layers", layers.len()) }
+        }
+    };
+    state.step(planet, label);
+}
+
+fn name_of(part: &str) -> &str {
+    if part.is_empty() { "planet" } else { part }
+}
