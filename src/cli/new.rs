@@ -26,7 +26,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let seed = args.seed.unwrap_or_else(seed_from_clock);
     let planet = match &args.from {
         Some(from) => random::vary(&load(from)?, seed, VARIATION),
-        None => scout::random_planet(seed),
+        None => scout::random_planet(None, seed),
     };
     planet.save(&args.output).map_err(|error| error.to_string())?;
     print(&format!("{}: {}, seed {seed}", args.output.display(), planet.name))

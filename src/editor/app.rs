@@ -22,7 +22,9 @@ use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
-use super::views::{controls, look, menus, performance, photo, problems, prompts::Prompts, status, variations};
+use super::views::{
+    controls, look, menus, performance, photo, problems, prompts::Prompts, status, templates, variations,
+};
 use super::widgets::random_seed;
 use super::widgets::row_view::{LockView, RowView};
 use crate::planet::{Planet, random, shipped};
@@ -310,6 +312,7 @@ impl eframe::App for EditorApp {
         photo::show(&ctx, &self.state, &mut self.commands);
         self.history.show(&ctx, &self.state, &mut self.commands);
         variations::show(&ctx, &self.state, &mut self.commands);
+        templates::show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);

@@ -30,7 +30,7 @@ pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -
 fn takes_typed_value(action: &Action) -> bool {
     match action {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
-        Action::OpenPath(_) | Action::OpenShipped(_) | Action::Browse(_) => true,
+        Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) | Action::Browse(_) => true,
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) => false,
         Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) | Action::Clip(_) => true,
         Action::Variation(action) => matches!(action, VariationAction::Take(_) | VariationAction::UnlockAll),
@@ -44,6 +44,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Command(command) => run(state, ctx, command),
         Action::OpenPath(path) => opening::pursue(state, ctx, Goal::OpenPath(path)),
         Action::OpenShipped(index) => opening::pursue(state, ctx, Goal::OpenShipped(index)),
+        Action::Begin(template) => opening::begin(state, ctx, template),
         Action::ClearRecent => state.recent.clear(),
         Action::Browse(path) => pictures::browse(state, ctx, path),
         Action::Search(text) => state.search(Some(text)),
@@ -72,6 +73,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::History) => state.shows.history = false,
         Action::Close(Window::Place) => state.shows.place = false,
         Action::Close(Window::Variations) => state.shows.variations = false,
+        Action::Close(Window::Templates) => state.shows.templates = false,
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
         Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),
         Action::Shoot(Shoot::Cancel) => {

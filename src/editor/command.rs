@@ -5,6 +5,7 @@
 
 use super::finder::place::Place;
 use super::state::shooting::{PhotoSettings, Subject};
+use super::state::templates::Template;
 use super::state::variations::Wish;
 use super::viewport::camera::Mode;
 use crate::lod::Quality;
@@ -61,6 +62,8 @@ pub enum Action {
     OpenPath(PathBuf),
     /// Open the shipped preset of this index.
     OpenShipped(usize),
+    /// Begin a new planet.
+    Begin(Template),
     /// Forget the files that were opened last.
     ClearRecent,
     /// Choose a file for the parameter at this path.
@@ -110,6 +113,8 @@ pub enum Window {
     Place,
     /// Variations of the planet.
     Variations,
+    /// What a new planet can begin as.
+    Templates,
 }
 
 /// A change of what the side panel shows.

@@ -172,7 +172,7 @@ pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
 
 fn file_and_edit() -> Vec<Row> {
     vec![
-        Row::new(Command::New, "New", "Start with the default planet.", |s, ctx| opening::pursue(s, ctx, Goal::New))
+        Row::new(Command::New, "New…", "Choose what a new planet begins as.", |s, _| s.shows.templates ^= true)
             .within(Menu::File, 0)
             .keys([ctrl(Key::N)])
             .taking_typed_value(),
@@ -189,9 +189,14 @@ fn file_and_edit() -> Vec<Row> {
             .within(Menu::File, 1)
             .keys([ctrl_shift(Key::S)])
             .taking_typed_value(),
-        Row::new(Command::Revert, "Revert to saved", "Go back to what the file holds; undo brings this back.", |s, _| {
-            open_file::revert(s);
-        })
+        Row::new(
+            Command::Revert,
+            "Revert to saved",
+            "Go back to what the file holds; undo brings this back.",
+            |s, _| {
+                open_file::revert(s);
+            },
+        )
         .within(Menu::File, 1)
         .enabled_when(|s| s.document.is_dirty() && s.document.disk_bytes().is_some())
         .taking_typed_value(),
@@ -296,7 +301,7 @@ fn view_and_help() -> Vec<Row> {
             Command::RandomPlanet,
             "Random planet",
             "Replace this planet with a random one; undo brings this one back.",
-            |s, _| opening::roll(s),
+            |s, _| opening::roll(s, None),
         )
         .within(Menu::Planets, 0)
         .keys([ctrl(Key::R)])

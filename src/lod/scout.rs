@@ -3,7 +3,8 @@
 //! The score of a disc is the spread of its colours, with a bonus for land beside sea. Clouds and air are left out.
 
 use super::opening::{OPENING_ALTITUDE_RADII, OPENING_LAT_DEG, OPENING_LON_FROM_STAR_DEG};
-use crate::planet::{Planet, random};
+use crate::planet::Planet;
+use crate::planet::random::{self, Kind};
 use crate::sphere::{LatLon, spread};
 use crate::terrain::coarse::CellFields;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
@@ -23,13 +24,15 @@ const SIDES: usize = 24;
 /// Weight of land beside sea against the spread of colours.
 const COAST_WEIGHT: f64 = 0.12;
 
-/// The best of several random planets, with its star over its best side. The same seed gives the same planet.
-pub fn random_planet(seed: u64) -> Planet {
+/// The best of several random planets, with its star over its best side. The same seed gives the same planet. `kind`:
+/// None leaves it to chance.
+pub fn random_planet(kind: Option<Kind>, seed: u64) -> Planet {
+    let random = |seed| random::random_of(kind, seed);
     // The candidates of one seed are none of the next one's.
     let seeds = (0..CANDIDATES).map(|i| if i == 0 { seed } else { seed.rotate_left(32) ^ i });
     let mut best: Option<(f64, Planet)> = None;
     for seed in seeds {
-        let mut planet = random::random(seed);
+        let mut planet = random(seed);
         let score = turn_to_best_side(&mut planet);
         if best.as_ref().is_none_or(|(most, _)| score > *most) {
             best = Some((score, planet));
@@ -38,7 +41,7 @@ pub fn random_planet(seed: u64) -> Planet {
             break;
         }
     }
-    best.map_or_else(|| random::random(seed), |(_, planet)| planet)
+    best.map_or_else(|| random(seed), |(_, planet)| planet)
 }
 
 /// Puts the star where the opening view shows the planet's best side. The answer is the score of that side, 0 to 1.
@@ -111,9 +114,9 @@ mod tests {
     fn random_planets_show_their_best_side() {
         let mut better = 0;
         for seed in 0..6 {
-            let planet = random_planet(seed);
+            let planet = random_planet(None, seed);
             assert!(validate::problems(&planet).is_empty());
-            assert_eq!(planet, random_planet(seed), "the same seed");
+            assert_eq!(planet, random_planet(None, seed), "the same seed");
             let looks = look(&planet);
             let shown = score(&looks, planet.star.latitude_deg, planet.star.longitude_deg);
             let back = score(&looks, planet.star.latitude_deg, planet.star.longitude_deg + 150.0);

@@ -70,17 +70,9 @@ impl Planet {
 
     /// Reads and checks a preset from text, without its pictures; `file` names it in messages.
     pub fn from_text(file: &str, text: &str) -> Result<Planet, LoadError> {
-        let invalid = |problems| LoadError::Invalid { file: file.to_owned(), problems };
-        let text = without_mark(text);
-        if text.len() as u64 > MAX_FILE_BYTES {
-            let message = format!("the text is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
-            return Err(invalid(vec![Problem { line: 0, column: 0, path: String::new(), message }]));
-        }
-        let version = version(text).map_err(|problem| invalid(vec![problem]))?;
-        let mut planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
-        planet.biomes.forget_idle_keys();
-        let problems = validate::problems(&planet);
-        if problems.is_empty() { Ok(planet) } else { Err(all_placed(file, text, problems)) }
+        let planet = parsed(file, text)?;
+        checked(file, text, &planet)?;
+        Ok(planet)
     }
 
     /// The text of the preset, with comments. Stable: the text of a loaded text is the text.
@@ -99,6 +91,26 @@ impl Planet {
         }
         write_atomically(path, planet.to_text().as_bytes()).map_err(failed)
     }
+}
+
+/// Parses the text of a preset. Its values may be invalid: see [`checked`].
+pub(super) fn parsed(file: &str, text: &str) -> Result<Planet, LoadError> {
+    let invalid = |problems| LoadError::Invalid { file: file.to_owned(), problems };
+    let text = without_mark(text);
+    if text.len() as u64 > MAX_FILE_BYTES {
+        let message = format!("the text is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
+        return Err(invalid(vec![Problem { line: 0, column: 0, path: String::new(), message }]));
+    }
+    let version = version(text).map_err(|problem| invalid(vec![problem]))?;
+    let mut planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
+    planet.biomes.forget_idle_keys();
+    Ok(planet)
+}
+
+/// Checks a planet that was parsed from a text.
+pub(super) fn checked(file: &str, text: &str, planet: &Planet) -> Result<(), LoadError> {
+    let problems = validate::problems(planet);
+    if problems.is_empty() { Ok(()) } else { Err(all_placed(file, without_mark(text), problems)) }
 }
 
 /// The text of a file that should be a preset.

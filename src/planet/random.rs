@@ -20,10 +20,16 @@ use dice::{Dice, three_digits};
 
 /// A random planet. Always valid; the same seed gives the same planet.
 pub fn random(seed: u64) -> Planet {
+    random_of(None, seed)
+}
+
+/// A random planet of a kind; None leaves the kind to chance.
+pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
     let mut dice = Dice(seed);
     // The climate decides the rest: a frozen world has no clouds, a hot one no sea.
-    let kind =
+    let any =
         *dice.pick(&[Kind::Temperate, Kind::Temperate, Kind::Temperate, Kind::Cold, Kind::Hot, Kind::Dry, Kind::Bare]);
+    let kind = kind.unwrap_or(any);
     let radius_km = dice.rounded_log(if kind == Kind::Bare { 400.0 } else { 2500.0 }, 12_000.0);
     let climate = climate(kind, radius_km, &mut dice);
     let sea = kind == Kind::Temperate || kind == Kind::Cold && dice.chance(0.7);
@@ -128,11 +134,14 @@ fn mend_masks(layers: &mut [Layer], old: &[Layer]) {
     }
 }
 
-/// The kind of world.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
+/// A kind of world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Mild, with a sea.
     Temperate,
+    /// Frozen, most with a sea.
     Cold,
+    /// Scorched.
     Hot,
     /// Without a sea, and not too hot.
     Dry,

@@ -1,7 +1,7 @@
 //! Parts of a preset as text, to copy them from planet to planet: a preset that holds nothing but them.
 
 use super::explain::options;
-use super::{Layer, Planet, VERSION, locate};
+use super::{Layer, Planet, VERSION, file, locate};
 use ron::ser::PrettyConfig;
 use serde::Serialize;
 
@@ -46,7 +46,14 @@ pub struct Snippet {
 /// What is wrong with the text.
 pub fn read(source: &str, text: &str) -> Result<Snippet, String> {
     let told = |error: super::LoadError| error.to_string().lines().next().unwrap_or_default().to_owned();
-    let planet = Planet::from_text(source, text).map_err(told)?;
+    let planet = file::parsed(source, text).map_err(told)?;
+    // Masks may be on layers that were not copied.
+    let mut alone = planet.clone();
+    let names: Vec<&str> = planet.layers.iter().map(|layer| layer.name.as_str()).collect();
+    for layer in &mut alone.layers {
+        layer.masks.retain(|mask| mask.layer().is_none_or(|name| names.contains(&name)));
+    }
+    file::checked(source, text, &alone).map_err(told)?;
     let mut fields = Vec::new();
     locate::walk(text, |steps, _| {
         if let [locate::Step::Field(name)] = steps {
@@ -91,7 +98,7 @@ impl Planet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::shipped;
+    use crate::planet::{LayerMask, Mask, shipped};
 
     #[test]
     fn every_part_goes_through_text() {
@@ -120,5 +127,12 @@ mod tests {
         assert!(error.starts_with("clipboard:1:1"), "{error}");
         let layers = [Layer { name: "Hills".to_owned(), ..Layer::default() }];
         assert_eq!(read("clipboard", &of_layers(&layers)).unwrap().planet().layers, layers);
+        let masked = Layer {
+            masks: vec![Mask::Layer(LayerMask { layer: "Gone".to_owned(), ..LayerMask::default() })],
+            ..layers[0].clone()
+        };
+        assert_eq!(read("clipboard", &of_layers(&[masked.clone()])).unwrap().planet().layers, [masked]);
+        let flawed = [Layer { amplitude_m: 1e9, ..Layer::default() }];
+        assert!(read("clipboard", &of_layers(&flawed)).err().unwrap().contains("amplitude_m"));
     }
 }

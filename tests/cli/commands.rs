@@ -196,7 +196,7 @@ fn new_writes_valid_planets_that_their_seed_repeats() {
     assert_eq!(run(&["new", "-o", a, "--seed", "7"]).0, 0);
     assert_eq!(run(&["new", "-o", b, "--seed", "7"]).0, 0);
     assert_eq!(read(a), read(b));
-    assert_eq!(Planet::load(a).unwrap(), scout::random_planet(7));
+    assert_eq!(Planet::load(a).unwrap(), scout::random_planet(None, 7));
 
     assert_eq!(run(&["new", "-o", b, "--seed", "7", "--from", LAYERED]).0, 0);
     assert_ne!(read(a), read(b));

@@ -1,7 +1,7 @@
 //! Layers and parts through the clipboard, as text.
 
 use super::*;
-use tellus::editor::command::{Action, ClipAction, Wanted};
+use tellus::editor::command::{ClipAction, Wanted};
 use tellus::planet::{Clouds, snippet};
 
 /// The text that the editor has put into the clipboard.

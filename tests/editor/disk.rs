@@ -330,8 +330,8 @@ fn the_differences_are_shown_before_one_decides() {
     until(&mut harness, "asked", is_asked);
     click(&mut harness, "Show the 2 differences");
     harness.run_steps(20);
-    assert!(harness.query_by_label("radius: 2500 km → 6371 km").is_some());
-    assert!(harness.query_by_label("settlements: 0 → 2").is_some());
+    assert!(harness.query_by_label("radius: 2500 km, in the file 6371 km").is_some());
+    assert!(harness.query_by_label("settlements: 0, in the file 2").is_some());
 }
 
 #[test]

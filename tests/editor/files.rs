@@ -16,7 +16,7 @@ fn saved_as_and_opened_again_it_is_the_same_planet() {
     assert!(path.exists());
     assert!(!harness.state().document().is_dirty());
     assert_eq!(harness.state().document().path(), Some(path.as_path()));
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     assert_ne!(planet(&harness), edited);
     send(&mut harness, Command::Open);
     assert_eq!(planet(&harness), edited);
@@ -30,16 +30,16 @@ fn unsaved_work_is_never_dropped_without_asking() {
     slide(&mut harness, "Radius of planet", 2500.0);
     let edited = planet(&harness);
 
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     assert_eq!(planet(&harness), edited, "nothing happens before the answer");
     click(&mut harness, "Cancel");
     assert_eq!(planet(&harness), edited);
 
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     click(&mut harness, "Save changes");
     assert_eq!(planet(&harness), edited, "the file dialog was cancelled");
 
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     click(&mut harness, "Discard changes");
     assert_ne!(planet(&harness), edited);
     assert!(!harness.state().document().is_dirty());
@@ -131,7 +131,7 @@ fn a_height_map_is_chosen_undone_saved_and_missed() {
     assert_eq!(height_m(&harness), chosen_m);
 
     std::fs::rename(&picture, path("away.png")).unwrap();
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     send(&mut harness, Command::Open);
     settled(&mut harness);
     assert_eq!(harness.state().document().path(), Some(preset.as_path()), "it opens without its picture");
@@ -225,7 +225,7 @@ fn edit_and_save_a_random_planet_over_it(harness: &mut Editor) {
     send(harness, Command::RandomPlanet);
     send(harness, Command::Save);
     assert!(!harness.state().document().is_dirty());
-    send(harness, Command::New);
+    begin_new(harness);
 }
 
 fn cancel_and_undo_to_the_edit(harness: &mut Editor) {
@@ -253,7 +253,7 @@ fn a_planet_that_nobody_touched_is_rolled_over_without_a_question() {
     send(&mut harness, Command::RandomPlanet);
     send(&mut harness, Command::RandomPlanet);
     send(&mut harness, Command::Save);
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     assert!(harness.query_by_label("Lose your changes?").is_none());
     assert_eq!(harness.state().document().path(), None);
 }

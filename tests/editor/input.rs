@@ -131,7 +131,7 @@ fn the_panel_is_as_wide_as_it_was_after_every_tab() {
 #[test]
 fn a_rule_names_a_biome_that_there_is() {
     let mut harness = editor(vec![]);
-    send(&mut harness, Command::New);
+    begin_new(&mut harness);
     click(&mut harness, "Biomes");
     click(&mut harness, "Tables");
     click(&mut harness, "Mars");

@@ -36,7 +36,8 @@ use eframe::egui;
 use eframe::egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::PathBuf;
-use tellus::editor::command::Command;
+use tellus::editor::command::{Action, Command};
+use tellus::editor::state::templates;
 use tellus::editor::viewport::camera::Mode;
 use tellus::planet::Planet;
 use tellus::render::DebugView;
@@ -80,6 +81,12 @@ fn listed(harness: &Editor) -> Vec<(String, bool)> {
 /// The chosen row of the list that is open.
 fn chosen(harness: &Editor) -> String {
     listed(harness).into_iter().find_map(|(name, chosen)| chosen.then_some(name)).unwrap_or_default()
+}
+
+/// Begins a new planet: a copy of the first that ships.
+fn begin_new(harness: &mut Editor) {
+    harness.state_mut().push(Action::Begin(templates::ALL[0].template));
+    harness.run_steps(3);
 }
 
 /// Position and orientation of the eye.

@@ -1,7 +1,7 @@
 //! Variations of the planet, and locks on what they leave as it is.
 
 use super::*;
-use tellus::editor::command::{Action, VariationAction};
+use tellus::editor::command::VariationAction;
 use tellus::editor::state::variations::COUNT;
 use tellus::planet::locks::Locks;
 use tellus::planet::param::ParamPath;
@@ -120,12 +120,41 @@ fn nine_pictures_are_drawn() {
     send(&mut harness, Command::Variations);
     app::until(&mut harness, "nine pictures", |harness| {
         let variations = harness.state().variations();
-        variations.cells.len() == COUNT && variations.missing() == 0
+        variations.sheet.cells.len() == COUNT && variations.sheet.missing() == 0
     });
-    for cell in &harness.state().variations().cells {
+    for cell in &harness.state().variations().sheet.cells {
         assert!(matches!(cell.picture, Some(Ok(_))));
     }
     send(&mut harness, Command::Variations);
     harness.run_steps(3);
-    assert!(harness.state().variations().cells.is_empty(), "a closed window keeps no pictures");
+    assert!(harness.state().variations().sheet.cells.is_empty(), "a closed window keeps no pictures");
+}
+
+#[test]
+fn a_new_planet_begins_as_a_template() {
+    let mut harness = editor(vec![]);
+    press(&mut harness, egui::Modifiers::COMMAND, egui::Key::N);
+    for entry in &templates::ALL {
+        assert!(harness.query_by_role_and_label(Role::Button, entry.name).is_some(), "{}", entry.name);
+    }
+    harness.check_accessibility();
+    harness.get_by_role_and_label(Role::Button, "Blank sphere").click();
+    harness.run_steps(20);
+    assert_eq!(planet(&harness), Planet { name: "Untitled".to_owned(), ..Planet::default() });
+    assert!(harness.query_by_role_and_label(Role::Button, "Blank sphere").is_none(), "the window has closed");
+    assert!(!harness.state().document().is_dirty(), "nothing is lost yet");
+
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    send(&mut harness, Command::New);
+    harness.get_by_role_and_label(Role::Button, "Moon").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Save your changes?").is_some());
+    click(&mut harness, "Cancel");
+    assert_eq!(planet(&harness).radius_km, 2500.0);
+    harness.get_by_role_and_label(Role::Button, "Random: dry").click();
+    harness.run_steps(3);
+    assert!(planet(&harness).water.is_none() && !planet(&harness).layers.is_empty());
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness).radius_km, 2500.0, "a random one is a step like any other");
 }

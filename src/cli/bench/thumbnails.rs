@@ -27,7 +27,9 @@ pub(super) fn measure(planet: &Planet) -> Option<Value> {
         for number in 0..COUNT {
             let varied = Arc::new(random::vary(planet, run * COUNT + number, STRAY));
             let place = opening_place(planet);
-            Thumbnail { planet: varied, like: None, place, time_secs: 0.0, side_px: SIDE_PX }.draw(&mut renderer).ok()?;
+            Thumbnail { planet: varied, like: None, place, time_secs: 0.0, side_px: SIDE_PX }
+                .draw(&mut renderer)
+                .ok()?;
         }
         secs.push(begun.elapsed().as_secs_f64());
     }

@@ -68,7 +68,9 @@ fn paste(state: &mut State, wanted: Wanted, text: &str) {
             planet.take_part(read.planet(), part);
             format!("Paste {}", name_of(part))
         }
-        Wanted::Part(part) => return refused(state, format!("The clipboard holds no {}: copy one first.", name_of(part))),
+        Wanted::Part(part) => {
+            return refused(state, format!("The clipboard holds no {}: copy one first.", name_of(part)));
+        }
         Wanted::Layers { after } => {
             let layers = &read.planet().layers;
             if layers.is_empty() {

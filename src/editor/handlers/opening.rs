@@ -4,11 +4,13 @@ use crate::editor::files::dialogs::DialogRequest;
 use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable_stem, with_extension};
 use crate::editor::state::document::Document;
 use crate::editor::state::questions::{Asking, Goal};
+use crate::editor::state::templates::Template;
 use crate::editor::state::{State, recovery};
 use crate::editor::widgets::random_seed;
 use crate::lod::scout;
 use crate::planet::file::read_text;
 use crate::planet::picture::folder_of;
+use crate::planet::random::Kind;
 use crate::planet::{LoadError, Planet, locks, shipped};
 use eframe::egui;
 use std::path::Path;
@@ -66,7 +68,10 @@ pub fn pursue(state: &mut State, ctx: &egui::Context, goal: Goal) {
 /// Reaches a goal without a question about unsaved work.
 pub fn reach(state: &mut State, ctx: &egui::Context, goal: Goal) {
     match goal {
-        Goal::New => state.replace_document(Document::new(shipped::default_planet(), None)),
+        Goal::Begin(template) => {
+            state.replace_document(Document::new(template.planet(random_seed()), None));
+            state.shows.templates = false;
+        }
         Goal::Open => {
             let folder = state.document.folder();
             state.questions.ask(ctx, Asking::Open, DialogRequest::Open { folder });
@@ -98,11 +103,22 @@ fn show(state: &mut State, path: &Path, document: Result<Document, LoadError>) {
     }
 }
 
+/// Begins a new planet. A random one is an undo step of this document, any other is a document of its own.
+pub fn begin(state: &mut State, ctx: &egui::Context, template: Template) {
+    match template {
+        Template::Random(kind) => {
+            state.shows.templates = false;
+            roll(state, Some(kind));
+        }
+        template => pursue(state, ctx, Goal::Begin(template)),
+    }
+}
+
 /// Replaces the planet by a random one that has what is locked: one undo step.
-pub fn roll(state: &mut State) {
+pub fn roll(state: &mut State, kind: Option<Kind>) {
     let seed = random_seed();
     let here = state.document.valid_planet().clone();
-    let mut kept = (0..MOST_ROLLS).map(|roll| locks::keep(&here, &scout::random_planet(seed.wrapping_add(roll))));
+    let mut kept = (0..MOST_ROLLS).map(|roll| locks::keep(&here, &scout::random_planet(kind, seed.wrapping_add(roll))));
     let Some(planet) = kept.find_map(|kept| kept) else {
         state.notices.say("No random planet fits what is locked: unlock something".to_owned());
         return;

@@ -1,13 +1,17 @@
-//! Variations of the planet, and locks on what they leave as it is.
+//! Planets to choose from: variations, and locks on what they leave as it is; what a new planet begins as.
 
 use crate::editor::command::VariationAction;
 use crate::editor::state::State;
 use crate::editor::state::describe::locked;
+use crate::editor::state::sheet::Seen;
+use crate::editor::state::templates;
 use crate::editor::state::thumbnails::Thumbnails;
 use crate::editor::state::variations::Around;
 use crate::planet::locks;
 use crate::planet::param::ParamPath;
+use crate::render::Renderer;
 use eframe::egui;
+use std::sync::Arc;
 
 /// Changes what varies, or takes a variation: one undo step.
 pub fn act(state: &mut State, action: VariationAction) {
@@ -15,7 +19,9 @@ pub fn act(state: &mut State, action: VariationAction) {
         VariationAction::Wish(wish) => state.variations.wish = wish,
         VariationAction::Again => state.variations.wish.seed = state.variations.wish.seed.wrapping_add(1),
         VariationAction::Take(number) => {
-            let Some(planet) = state.variations.cells.get(number).map(|cell| (*cell.planet).clone()) else { return };
+            let Some(planet) = state.variations.sheet.cells.get(number).map(|cell| (*cell.planet).clone()) else {
+                return;
+            };
             state.step(planet, format!("Take variation {}", number + 1));
             // The next nine are others: the same dice would move the same numbers on and on.
             state.variations.wish.seed = state.variations.wish.seed.wrapping_add(1);
@@ -36,14 +42,35 @@ pub fn toggle_lock(state: &mut State, path: &ParamPath) {
     state.step(planet, label);
 }
 
-/// Keeps the variations on screen up to date while their window is open.
+/// Keeps the small pictures on screen up to date while their windows are open.
 pub fn update(state: &mut State, ctx: &egui::Context) {
-    if !state.shows.variations {
+    if state.shows.variations {
+        update_variations(state, ctx);
+    } else {
         state.variations.close();
-        return;
     }
+    if state.shows.templates {
+        if state.templates.cells.is_empty() {
+            let planets = templates::ALL.iter().map(|entry| Arc::new(entry.template.shown()));
+            let renderer = state.viewport.second_renderer();
+            state.templates.set(planets.collect(), &Seen::default(), || Some(thumbnails(renderer?, ctx)));
+        }
+        state.templates.poll(ctx);
+    }
+    let missing = state.variations.sheet.missing() + state.templates.missing();
+    if missing > 0 {
+        state.viewport.postpone_refinement(ctx.input(|input| input.time));
+    }
+}
+
+fn thumbnails(renderer: Renderer, ctx: &egui::Context) -> Thumbnails {
+    let ctx = ctx.clone();
+    Thumbnails::start(renderer, move || ctx.request_repaint())
+}
+
+fn update_variations(state: &mut State, ctx: &egui::Context) {
     // A slider that is held would begin nine pictures in each frame.
-    if ctx.input(|input| input.pointer.any_down()) && !state.variations.cells.is_empty() {
+    if ctx.input(|input| input.pointer.any_down()) && !state.variations.sheet.cells.is_empty() {
         return;
     }
     let planet = state.document.valid_planet().clone();
@@ -54,11 +81,5 @@ pub fn update(state: &mut State, ctx: &egui::Context) {
         time_secs: state.viewport.settings.time_secs,
     };
     let renderer = || state.viewport.second_renderer();
-    state.variations.update(ctx, &around, || {
-        let ctx = ctx.clone();
-        Some(Thumbnails::start(renderer()?, move || ctx.request_repaint()))
-    });
-    if state.variations.missing() > 0 {
-        state.viewport.postpone_refinement(ctx.input(|input| input.time));
-    }
+    state.variations.update(ctx, &around, || Some(thumbnails(renderer()?, ctx)));
 }

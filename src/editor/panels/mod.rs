@@ -207,7 +207,9 @@ impl PanelState {
             if !panel.part.is_empty() {
                 let path = ParamPath::default().join(panel.part);
                 let (icon, verb, told) = match locks.is_on(&path) {
-                    true => (Icon::Lock, "Unlock", "Locked: variations and random planets keep this tab. Click to unlock"),
+                    true => {
+                        (Icon::Lock, "Unlock", "Locked: variations and random planets keep this tab. Click to unlock")
+                    }
                     false => (Icon::Open, "Lock", "Let variations and random planets keep this tab as it is"),
                 };
                 if icon_button(ui, icon, &format!("{verb} {part}"), told).clicked() {

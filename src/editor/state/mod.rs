@@ -9,7 +9,8 @@
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
 //! - [`shooting`]: photographs and films
-//! - [`variations`], [`thumbnails`]: variations of the planet, and their small pictures
+//! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
+//! - [`sheet`], [`thumbnails`]: planets with small pictures; the thread that draws them
 
 pub mod describe;
 pub mod document;
@@ -19,7 +20,9 @@ pub mod open_file;
 pub mod pictures;
 pub mod questions;
 pub mod recovery;
+pub mod sheet;
 pub mod shooting;
+pub mod templates;
 pub mod thumbnails;
 pub mod variations;
 
@@ -36,6 +39,7 @@ use open_file::OpenFile;
 use pictures::Pictures;
 use questions::Questions;
 use recovery::{Orphan, Recovery};
+use sheet::Sheet;
 use shooting::{PhotoSettings, Shooting};
 use std::sync::Arc;
 use std::time::Instant;
@@ -76,6 +80,8 @@ pub struct Shows {
     pub place: bool,
     /// Variations of the planet.
     pub variations: bool,
+    /// What a new planet can begin as.
+    pub templates: bool,
 }
 
 impl Shows {
@@ -89,6 +95,7 @@ impl Shows {
         history: false,
         place: false,
         variations: false,
+        templates: false,
     };
 }
 
@@ -124,6 +131,8 @@ pub struct State {
     pub shooting: Option<Shooting>,
     /// Variations of the planet.
     pub variations: Variations,
+    /// The planets of [`templates::ALL`]; empty until they have been shown.
+    pub templates: Sheet,
     /// What waits for the text of the clipboard.
     pub pasting: Option<Wanted>,
     /// The index of the bookmark whose name is asked for.
@@ -157,6 +166,7 @@ impl State {
             photo: PhotoSettings::default(),
             shooting: None,
             variations: Variations::default(),
+            templates: Sheet::default(),
             pasting: None,
             renaming: None,
             orphans: Vec::new(),

@@ -1,6 +1,7 @@
 //! Questions about files, and the actions that wait for the answers.
 
 use super::shooting::Subject;
+use super::templates::Template;
 use crate::editor::files::dialogs::{DialogRequest, FileDialogs, Wake};
 use crate::editor::files::disk::TheirFile;
 use crate::planet::param::ParamPath;
@@ -11,7 +12,8 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Goal {
-    New,
+    /// Begin a planet from this template.
+    Begin(Template),
     Open,
     OpenPath(PathBuf),
     /// The shipped preset of this index.

@@ -1,7 +1,7 @@
 //! Variations of the planet: nine at a time, each with a small picture, to take one and go on from there.
 
+use super::sheet::{Seen, Sheet};
 use super::thumbnails::Thumbnails;
-use crate::film::Thumbnail;
 use crate::lod::opening;
 use crate::planet::param::Segment;
 use crate::planet::{Planet, random};
@@ -12,8 +12,6 @@ use std::sync::Arc;
 
 /// How many variations there are at a time.
 pub const COUNT: usize = 9;
-/// Side of their pictures, pixels.
-const SIDE_PX: u32 = 224;
 /// Parts of a planet that clouds hide.
 const UNDER_CLOUDS: [&str; 5] = ["layers", "structure", "climate", "biomes", "water"];
 /// Cosine of the angle between the eye and the star from which too much of the disc is dark to choose by.
@@ -37,17 +35,11 @@ impl Wish {
         random::vary_some(planet, seed, self.stray, &|path| match self.part {
             Some(part) => path.part() == part,
             // Another place of the star would only darken the picture.
-            None => !matches!(path.segments(), [Segment::Field("star"), Segment::Field("latitude_deg" | "longitude_deg")]),
+            None => {
+                !matches!(path.segments(), [Segment::Field("star"), Segment::Field("latitude_deg" | "longitude_deg")])
+            }
         })
     }
-}
-
-/// A variation.
-pub struct Cell {
-    /// The planet.
-    pub planet: Arc<Planet>,
-    /// Its picture, once it is drawn, or why it cannot be drawn.
-    pub picture: Option<Result<egui::TextureHandle, String>>,
 }
 
 /// The variations on screen.
@@ -55,15 +47,14 @@ pub struct Variations {
     /// What varies, and how far.
     pub wish: Wish,
     /// The variations; empty while they are not shown.
-    pub cells: Vec<Cell>,
+    pub sheet: Sheet,
     /// The planet and the wish of these variations.
     of: Option<(Arc<Planet>, Wish)>,
-    thumbnails: Option<Thumbnails>,
 }
 
 impl Default for Variations {
     fn default() -> Self {
-        Self { wish: Wish { stray: 0.25, part: None, seed: 1 }, cells: Vec::new(), of: None, thumbnails: None }
+        Self { wish: Wish { stray: 0.25, part: None, seed: 1 }, sheet: Sheet::default(), of: None }
     }
 }
 
@@ -82,67 +73,26 @@ pub struct Around<'a> {
 impl Variations {
     /// Makes the variations that are wished for, unless they are there, and takes the pictures that are done. `start`
     /// makes the thread that draws them.
-    pub fn update(
-        &mut self,
-        ctx: &egui::Context,
-        around: &Around<'_>,
-        start: impl FnOnce() -> Option<Thumbnails>,
-    ) {
+    pub fn update(&mut self, ctx: &egui::Context, around: &Around<'_>, start: impl FnOnce() -> Option<Thumbnails>) {
         let is_same =
             self.of.as_ref().is_some_and(|(planet, wish)| Arc::ptr_eq(planet, around.planet) && *wish == self.wish);
         if !is_same {
-            self.make(around.planet);
+            let planets = (0..COUNT).map(|number| Arc::new(self.wish.of(around.planet, number)));
+            let seen = Seen {
+                place: Some(place(around)),
+                time_secs: around.time_secs,
+                without_clouds: self.wish.part.is_some_and(|part| UNDER_CLOUDS.contains(&part)),
+                like: around.terrain.clone(),
+            };
+            self.sheet.set(planets.collect(), &seen, start);
             self.of = Some((Arc::clone(around.planet), self.wish));
-            self.thumbnails = self.thumbnails.take().or_else(start);
-            match &self.thumbnails {
-                Some(thumbnails) => thumbnails.draw(self.wanted(around)),
-                None => {
-                    let none = || Some(Err("There is no graphics device to draw with.".to_owned()));
-                    self.cells.iter_mut().for_each(|cell| cell.picture = none());
-                }
-            }
         }
-        while let Some((number, drawn)) = self.thumbnails.as_ref().and_then(Thumbnails::poll) {
-            if let Some(cell) = self.cells.get_mut(number) {
-                let loaded = drawn.map(|image| {
-                    ctx.load_texture(format!("variation {number}"), image, egui::TextureOptions::LINEAR)
-                });
-                cell.picture = Some(loaded);
-            }
-        }
-    }
-
-    fn make(&mut self, planet: &Planet) {
-        let cell = |number| Cell { planet: Arc::new(self.wish.of(planet, number)), picture: None };
-        self.cells = (0..COUNT).map(cell).collect();
-    }
-
-    fn wanted(&self, around: &Around<'_>) -> Vec<Thumbnail> {
-        let place = place(around);
-        // Clouds would hide what is chosen by.
-        let hides_clouds = self.wish.part.is_some_and(|part| UNDER_CLOUDS.contains(&part));
-        let seen = |planet: &Arc<Planet>| match hides_clouds {
-            true => Arc::new(Planet { clouds: None, ..(**planet).clone() }),
-            false => Arc::clone(planet),
-        };
-        let thumbnail = |cell: &Cell| Thumbnail {
-            planet: seen(&cell.planet),
-            like: around.terrain.clone(),
-            place,
-            time_secs: around.time_secs,
-            side_px: SIDE_PX,
-        };
-        self.cells.iter().map(thumbnail).collect()
+        self.sheet.poll(ctx);
     }
 
     /// Forgets the variations: the window is closed.
     pub fn close(&mut self) {
-        (self.cells, self.of, self.thumbnails) = (Vec::new(), None, None);
-    }
-
-    /// How many pictures are still to be drawn.
-    pub fn missing(&self) -> usize {
-        self.cells.iter().filter(|cell| cell.picture.is_none()).count()
+        (self.sheet, self.of) = (Sheet::default(), None);
     }
 }
 

@@ -6,7 +6,7 @@ use crate::planet::param::{ParamPath, Segment};
 use crate::planet::{Planet, diff};
 use std::collections::HashMap;
 
-/// A line for each parameter that differs: "amplitude of Hills: 800 m → 900 m".
+/// A line for each parameter that differs: "amplitude of Hills: 800 m, in the file 900 m".
 pub(super) fn lines(mine: &Planet, theirs: &Planet) -> Vec<String> {
     let (ours, others) = (texts(mine), texts(theirs));
     let mut lines = Vec::new();
@@ -18,7 +18,7 @@ pub(super) fn lines(mine: &Planet, theirs: &Planet) -> Vec<String> {
         // A part that only one of the planets has is one line.
         match (ours.get(&path), others.get(&path)) {
             (Some(mine_is), Some(theirs_is)) => {
-                lines.push(format!("{}: {mine_is} → {theirs_is}", locked(theirs, &path)));
+                lines.push(format!("{}: {mine_is}, in the file {theirs_is}", locked(theirs, &path)));
             }
             (Some(_), None) => lines.push(format!("{}: only here", whole(mine, &path))),
             (None, _) => lines.push(format!("{}: only in the file", whole(theirs, &path))),
@@ -52,7 +52,14 @@ mod tests {
         let mine = Planet { layers: vec![layer(800.0)], clouds: Some(Clouds::default()), ..Planet::default() };
         let theirs = Planet { layers: vec![layer(900.0)], radius_km: 5000.0, ..Planet::default() };
         let lines = lines(&mine, &theirs);
-        assert_eq!(lines, ["radius: 6371 km → 5000 km", "amplitude of Hills: 800 m → 900 m", "clouds: only here"]);
+        assert_eq!(
+            lines,
+            [
+                "radius: 6371 km, in the file 5000 km",
+                "amplitude of Hills: 800 m, in the file 900 m",
+                "clouds: only here"
+            ]
+        );
         assert!(super::lines(&mine, &mine).is_empty());
     }
 }

@@ -4,7 +4,7 @@
 //! - [`status`]: the status bar
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`place`], [`finder`]: windows
+//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`place`], [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
@@ -23,4 +23,5 @@ pub mod prompts;
 mod rename;
 pub mod shortcuts;
 pub mod status;
+pub mod templates;
 pub mod variations;

@@ -156,7 +156,8 @@ fn changed(ctx: &egui::Context, document: &Document, change: &Change) -> Option<
 /// A list that is folded at first.
 fn listed(ui: &mut egui::Ui, differences: &[String]) {
     let count = differences.len();
-    let heading = format!("Show the {}", if count == 1 { "difference".to_owned() } else { format!("{count} differences") });
+    let heading =
+        format!("Show the {}", if count == 1 { "difference".to_owned() } else { format!("{count} differences") });
     egui::CollapsingHeader::new(heading).id_salt("differences").show(ui, |ui| {
         egui::ScrollArea::vertical().max_height(180.0).auto_shrink([false, true]).show(ui, |ui| {
             differences.iter().for_each(|line| drop(ui.add(egui::Label::new(line).wrap())));

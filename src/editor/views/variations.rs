@@ -3,7 +3,8 @@
 use crate::editor::command::{Action, Commands, VariationAction, Window};
 use crate::editor::panels::PANELS;
 use crate::editor::state::State;
-use crate::editor::state::variations::{COUNT, Cell};
+use crate::editor::state::variations::COUNT;
+use crate::editor::widgets::planet_button::planet_button;
 use crate::planet::locks::Locks;
 use eframe::egui;
 
@@ -58,7 +59,8 @@ fn wishes(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
     });
     ui.horizontal(|ui| {
         let label = ui.label("Vary");
-        let name = |part| PANELS.iter().find(|panel| Some(panel.part) == part).map_or("Everything", |panel| panel.label);
+        let name =
+            |part| PANELS.iter().find(|panel| Some(panel.part) == part).map_or("Everything", |panel| panel.label);
         egui::ComboBox::from_id_salt("what varies")
             .selected_text(name(wish.part))
             .width(120.0)
@@ -70,7 +72,7 @@ fn wishes(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
             .response
             .labelled_by(label.id)
             .on_hover_text("The tab whose parameters vary");
-        let missing = state.variations.missing();
+        let missing = state.variations.sheet.missing();
         if missing > 0 {
             ui.weak(format!("drawing {} of {COUNT}", COUNT - missing + 1));
         }
@@ -82,46 +84,17 @@ fn wishes(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
 
 fn grid(ui: &mut egui::Ui, state: &State, side: f32, commands: &mut Commands) {
     ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
-    for (row, cells) in state.variations.cells.chunks(COLUMNS).enumerate() {
+    for (row, cells) in state.variations.sheet.cells.chunks(COLUMNS).enumerate() {
         ui.horizontal(|ui| {
             for (column, cell) in cells.iter().enumerate() {
                 let number = row * COLUMNS + column;
-                if picture(ui, cell, number, side).clicked() {
+                let name = format!("Variation {}", number + 1);
+                if planet_button(ui, cell, &name, "Take it; undo goes back", side).clicked() {
                     commands.push(Action::Variation(VariationAction::Take(number)));
                 }
             }
         });
     }
-}
-
-/// A picture as a button.
-fn picture(ui: &mut egui::Ui, cell: &Cell, number: usize, side: f32) -> egui::Response {
-    let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(side), egui::Sense::click());
-    let name = format!("Variation {}", number + 1);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &name));
-    let visuals = ui.style().interact(&response);
-    let painter = ui.painter();
-    painter.rect_filled(rect, 3.0, egui::Color32::BLACK);
-    let mut told = "Take it; undo goes back".to_owned();
-    match &cell.picture {
-        Some(Ok(texture)) => {
-            let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
-            painter.image(texture.id(), rect, whole, egui::Color32::WHITE);
-        }
-        Some(Err(why)) => {
-            let color = ui.visuals().error_fg_color;
-            let font = egui::TextStyle::Body.resolve(ui.style());
-            painter.text(rect.center(), egui::Align2::CENTER_CENTER, "not drawn", font, color);
-            told.clone_from(why);
-        }
-        None => {
-            painter.circle_stroke(rect.center(), 0.45 * side, egui::Stroke::new(1.0, egui::Color32::from_gray(60)));
-        }
-    }
-    if response.hovered() || response.has_focus() {
-        painter.rect_stroke(rect, 3.0, (2.0, visuals.fg_stroke.color), egui::StrokeKind::Inside);
-    }
-    response.on_hover_text(told)
 }
 
 fn locks(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {

@@ -5,7 +5,7 @@
 //! - [`curve_edit`]: a curve through points
 //! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
-//! - [`pick_list`]: a list with a cursor
+//! - [`pick_list`]: a list with a cursor; [`planet_button`]: the small picture of a planet
 //! - [`number`]: numbers as text, with units; [`arithmetic`]: calculations; [`value_text`]: any value as text
 //! - [`typed`]: number fields that say why they refuse a text
 
@@ -17,6 +17,7 @@ pub mod number;
 pub mod param_row;
 pub mod params_grid;
 pub mod pick_list;
+pub mod planet_button;
 pub mod row_view;
 pub mod typed;
 pub mod value_text;
