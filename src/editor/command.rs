@@ -40,6 +40,10 @@ pub enum Command {
     ToggleTheme,
     RandomPlanet,
     Variations,
+    /// Keep a copy to compare with.
+    Compare,
+    /// Exchange the planet and the kept copy.
+    SwapCompared,
     Controls,
     Move(Mode),
     LevelView,

@@ -1,7 +1,9 @@
 //! The table of commands: for each its name, tooltip, menu, shortcuts, condition and handler.
 //!
 //! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a
-//! row here.
+//! row here, or in `planets`: planets to choose from and to compare with.
+
+mod planets;
 
 use super::command::{Command, PanelAction};
 use super::handlers::{biome_table, bookmarks, open_file, opening, saving, window};
@@ -159,6 +161,7 @@ pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     let mut rows = file_and_edit();
     rows.extend(DebugView::ALL.map(debug_view));
     rows.extend(view_and_help());
+    rows.extend(planets::rows());
     rows.extend(Mode::ALL.map(camera_mode));
     rows.extend(camera());
     rows.extend(bookmarks_and_table());
@@ -297,20 +300,6 @@ fn view_and_help() -> Vec<Row> {
         .within(Menu::Help, 0)
         .keys([plain(Key::F1), plain(Key::Questionmark)])
         .yielding_to_text(),
-        Row::new(
-            Command::RandomPlanet,
-            "Random planet",
-            "Replace this planet with a random one; undo brings this one back.",
-            |s, _| opening::roll(s, None),
-        )
-        .within(Menu::Planets, 0)
-        .keys([ctrl(Key::R)])
-        .taking_typed_value(),
-        Row::new(Command::Variations, "Variations", "Show nine variations of this planet, to take one.", |s, _| {
-            s.shows.variations ^= true;
-        })
-        .within(Menu::Planets, 0)
-        .keys([ctrl(Key::E)]),
     ]
 }
 

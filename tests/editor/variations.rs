@@ -1,7 +1,7 @@
 //! Variations of the planet, and locks on what they leave as it is.
 
 use super::*;
-use tellus::editor::command::VariationAction;
+use tellus::editor::command::{ClipAction, VariationAction, Wanted};
 use tellus::editor::state::variations::COUNT;
 use tellus::planet::locks::Locks;
 use tellus::planet::param::ParamPath;
@@ -157,4 +157,61 @@ fn a_new_planet_begins_as_a_template() {
     assert!(planet(&harness).water.is_none() && !planet(&harness).layers.is_empty());
     send(&mut harness, Command::Undo);
     assert_eq!(planet(&harness).radius_km, 2500.0, "a random one is a step like any other");
+}
+
+#[test]
+fn a_kept_copy_is_compared_and_swapped() {
+    let mut harness = editor(vec![]);
+    let kept = planet(&harness);
+    send(&mut harness, Command::Compare);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 2500.0);
+    let now = planet(&harness);
+    let compared = |harness: &Editor| harness.state().viewport().compare().map(|compare| (**compare.planet()).clone());
+    assert_eq!(compared(&harness), Some(kept.clone()));
+    const LINE: &str = "Line between the kept copy and the planet";
+    let line = |harness: &Editor| harness.get_by_role_and_label(Role::Slider, LINE).rect().center();
+    let (from, eye) = (line(&harness), pose(&harness));
+    drag(&mut harness, from, from - egui::vec2(150.0, 0.0));
+    assert!((line(&harness).x - (from.x - 150.0)).abs() < 2.0, "{:?}", line(&harness));
+    assert_eq!(pose(&harness), eye, "the camera has no part in that drag");
+    send(&mut harness, Command::SwapCompared);
+    assert_eq!((planet(&harness), compared(&harness)), (kept, Some(now.clone())));
+    assert_eq!(undo_label(&harness), "Swap with the kept copy");
+    send(&mut harness, Command::Undo);
+    assert_eq!(planet(&harness), now);
+    send(&mut harness, Command::Compare);
+    assert_eq!(compared(&harness), None);
+}
+
+#[test]
+fn both_planets_are_drawn() {
+    let mut harness = drawn_editor();
+    app::wait_for_picture(&mut harness);
+    send(&mut harness, Command::Compare);
+    app::until(&mut harness, "the kept planet is drawn", |harness| {
+        harness.state().viewport().compare().is_some_and(|compare| compare.is_drawn())
+    });
+    // On the right the planet loses everything that is not black or grey.
+    let bare = Planet { name: "Bare".to_owned(), radius_km: planet(&harness).radius_km, ..Planet::default() };
+    harness.state_mut().push(Action::Clip(ClipAction::Paste(Wanted::Part(""), bare.to_text())));
+    harness.run_steps(3);
+    app::wait_for_picture(&mut harness);
+    let image = harness.render().unwrap();
+    let rect = canvas(&harness);
+    let scale = image.width() as f32 / 1024.0;
+    // How blue the picture is on either side of the line.
+    let blue = |from: f32, to: f32| {
+        let mut sum = 0.0;
+        for x in (from * scale) as u32..(to * scale) as u32 {
+            for y in (rect.top() * scale) as u32..(rect.bottom() * scale) as u32 {
+                let pixel = image.get_pixel(x, y);
+                sum += f32::from(pixel[2]) - f32::from(pixel[0]);
+            }
+        }
+        sum / (to - from)
+    };
+    let middle = rect.center().x;
+    let (left, right) = (blue(rect.left(), middle - 2.0), blue(middle + 2.0, rect.right()));
+    assert!(left > 500.0 && right < 0.2 * left, "{left} {right}");
 }

@@ -65,9 +65,10 @@ impl Template {
         Planet { name: UNNAMED.to_owned(), ..made }
     }
 
-    /// The planet of its picture.
+    /// The planet of its picture. Kinds do not share a seed: their colours would be alike.
     pub fn shown(self) -> Planet {
-        self.planet(SHOWN_SEED)
+        let kind = if let Template::Random(kind) = self { kind as u64 } else { 0 };
+        self.planet(SHOWN_SEED + kind)
     }
 }
 

@@ -6,6 +6,7 @@
 //! - [`ground`]: the ground as the camera knows it
 //! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
 //!   upload
+//! - [`compare`]: another planet beside the one that is edited
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
 //!   dragged
@@ -16,6 +17,7 @@ pub mod adaptation;
 pub mod camera;
 pub mod clicks;
 pub mod clock;
+pub mod compare;
 pub mod frames;
 pub mod ground;
 pub mod input;
@@ -43,6 +45,7 @@ use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
 use camera::{Cameras, Ground};
 use clicks::Clicks;
 use clock::{EditClock, FrameMeter, same_tiles};
+use compare::{Compare, Shared};
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
 use frames::FrameLog;
@@ -67,6 +70,9 @@ pub struct Viewport {
     pub frames: FrameLog,
     /// What the open tab shows on the planet, and which clicks and drags it takes.
     pub tab: TabLink,
+    /// The planet that this one is compared with.
+    compare: Option<Compare>,
+    maps: Option<Arc<MapStore>>,
     builder: Builder,
     /// The newest valid planet.
     newest: Option<Revision>,
@@ -102,7 +108,9 @@ impl Viewport {
             frame_meter: FrameMeter::default(),
             frames: FrameLog::default(),
             tab: TabLink::default(),
-            builder: Builder::with_options(BuilderOptions::default().maps(maps), waker()),
+            compare: None,
+            builder: Builder::with_options(BuilderOptions::default().maps(maps.clone()), waker()),
+            maps,
             newest: None,
             picture: Picture::new(render_state),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
@@ -121,6 +129,22 @@ impl Viewport {
         let dive = self.cameras.dives();
         self.cameras = Cameras::new(self.ground_radius_m, opening_place(planet));
         self.cameras.set_dive(dive);
+    }
+
+    /// The planet that this one is compared with.
+    pub fn compare(&self) -> Option<&Compare> {
+        self.compare.as_ref()
+    }
+
+    /// Keeps a planet to compare others with; None ends the comparison.
+    pub fn set_compare(&mut self, planet: Option<Arc<Planet>>, ctx: &egui::Context) {
+        let options = || BuilderOptions::default().maps(self.maps.clone());
+        self.compare = planet.map(|planet| Compare::new(planet, &self.picture, options(), ctx));
+    }
+
+    /// Keeps a planet in the place of the one that is kept, and gives that.
+    pub fn swap_compared(&mut self, planet: Arc<Planet>) -> Option<Arc<Planet>> {
+        self.compare.as_mut().map(|compare| compare.swap(planet))
     }
 
     /// A renderer on the same device, for pictures that are not on screen; none without a device.
@@ -269,7 +293,8 @@ impl Viewport {
         self.advance_time(ui);
 
         let (now_secs, pressed) = ui.input(|i| (i.time, i.pointer.any_down()));
-        if pressed || ui.input(|i| !i.events.is_empty()) {
+        let touched = pressed || ui.input(|i| !i.events.is_empty());
+        if touched {
             self.picture.refinement.touched(now_secs);
         }
         let view = self.view(ui.ctx(), rect, &ground);
@@ -290,6 +315,11 @@ impl Viewport {
         if let Some(texture) = self.picture.texture() {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
             ui.painter().image(texture, rect, uv, egui::Color32::WHITE);
+        }
+        if let Some(compare) = &mut self.compare {
+            let (settings, radius_m) = (&self.settings, self.ground_radius_m);
+            let shared = Shared { settings, view, radius_m, drafts: pressed, touched, now_secs };
+            compare.show(ui, rect, &shared);
         }
         if let Some(frozen) = &self.frozen {
             outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);

@@ -76,6 +76,20 @@ impl Picture {
             },
             None => Drawing::Failed("There is no graphics device to draw with.".to_owned()),
         };
+        Self::with(drawing, render_state)
+    }
+
+    /// Another picture with the same device and pipelines.
+    pub(super) fn sibling(&self) -> Self {
+        match &self.drawing {
+            Drawing::Ready(renderer, state) => {
+                Self::with(Drawing::Ready(Box::new(renderer.sibling()), state.clone()), Some(state))
+            }
+            Drawing::Failed(why) => Self::with(Drawing::Failed(why.clone()), None),
+        }
+    }
+
+    fn with(drawing: Drawing, render_state: Option<&RenderState>) -> Self {
         // On a software adapter the pictures between the first and the adapted one take too long.
         let is_cpu = |state: &RenderState| state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let is_software = render_state.is_none_or(is_cpu);
