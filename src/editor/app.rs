@@ -23,7 +23,7 @@ use super::views::history::HistoryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
 use super::views::{
-    controls, look, menus, performance, photo, problems, prompts::Prompts, status, templates, variations,
+    controls, look, menus, overlay, performance, photo, problems, prompts::Prompts, status, templates, variations,
 };
 use super::widgets::random_seed;
 use super::widgets::row_view::{LockView, RowView};
@@ -220,12 +220,14 @@ impl EditorApp {
 
     fn show_picture(&mut self, ui: &mut egui::Ui) {
         let state = &mut self.state;
+        let commands = &mut self.commands;
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let mut planet = (**state.document.planet()).clone();
             if let Some(label) = state.viewport.show(ui, state.document.valid_planet(), &mut planet) {
                 state.edit(planet, Some(label.to_owned()));
                 ui.ctx().request_repaint();
             }
+            overlay::show(ui, state.viewport.rect(), state, commands);
         });
         if let Some((click, under)) = state.viewport.take_click() {
             let mut planet = (**state.document.planet()).clone();

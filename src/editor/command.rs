@@ -36,6 +36,7 @@ pub enum Command {
     PlayPause,
     TogglePanel,
     TogglePerformance,
+    ToggleOverlay,
     ToggleFullscreen,
     ToggleTheme,
     RandomPlanet,

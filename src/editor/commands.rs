@@ -264,6 +264,12 @@ fn view_and_help() -> Vec<Row> {
         )
         .within(Menu::View, 2)
         .keys([plain(Key::F9)]),
+        Row::new(Command::ToggleOverlay, "Overlay", "Compass, scale and legend over the picture.", |s, _| {
+            s.shows.overlay ^= true;
+        })
+        .within(Menu::View, 2)
+        .keys([plain(Key::F5)])
+        .chosen_when(|s| s.shows.overlay),
         Row::new(
             Command::TogglePerformance,
             "Performance",

@@ -41,7 +41,7 @@ use coast::Coast;
 use map::Job;
 pub(crate) use map::{Ground, Inputs, KeepGoing, StructureInputs};
 #[cfg(feature = "render")]
-pub(crate) use picture::{MapPicture, MapView};
+pub(crate) use picture::{MapPicture, MapView, RAIN_COLORS};
 use plates::Plates;
 pub(crate) use slot::Slot;
 pub use slot::{MapLevel, MapWork};

@@ -43,7 +43,7 @@ const DART_LENGTH: f64 = 0.15;
 const PLATE_SPEED: f64 = 0.004;
 const WIND_SPEED: f64 = 3.0;
 /// Colours of rain: mm a year, and linear red, green and blue.
-const RAIN: [(f64, [f64; 3]); 5] = [
+pub(crate) const RAIN_COLORS: [(f64, [f64; 3]); 5] = [
     (0.0, [0.35, 0.2, 0.08]),
     (500.0, [0.5, 0.42, 0.12]),
     (1100.0, [0.12, 0.4, 0.08]),
@@ -147,8 +147,8 @@ fn mixed(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
 }
 
 fn rain_color(rain_mm: f64) -> [f64; 3] {
-    let next = RAIN.iter().position(|(mm, _)| rain_mm < *mm).unwrap_or(RAIN.len() - 1).max(1);
-    let ((from_mm, from), (to_mm, to)) = (RAIN[next - 1], RAIN[next]);
+    let next = RAIN_COLORS.iter().position(|(mm, _)| rain_mm < *mm).unwrap_or(RAIN_COLORS.len() - 1).max(1);
+    let ((from_mm, from), (to_mm, to)) = (RAIN_COLORS[next - 1], RAIN_COLORS[next]);
     mixed(from, to, ((rain_mm - from_mm) / (to_mm - from_mm)).clamp(0.0, 1.0))
 }
 
@@ -223,6 +223,6 @@ mod tests {
         let [dry, wet, drenched] = [50.0, 1100.0, 2500.0].map(rain_color);
         assert!(dry[0] > dry[2] && wet[1] > wet[0] && drenched[2] > drenched[1], "{dry:?} {wet:?} {drenched:?}");
         let most = DVec3::from_array(rain_color(9000.0));
-        assert!(most.distance(DVec3::from_array(RAIN[4].1)) < 1e-12, "{most}");
+        assert!(most.distance(DVec3::from_array(RAIN_COLORS[4].1)) < 1e-12, "{most}");
     }
 }

@@ -66,6 +66,8 @@ impl Message {
 pub struct Shows {
     /// The side panel.
     pub panel: bool,
+    /// What lies over the picture: compass, scale, legend.
+    pub overlay: bool,
     /// The list of keys.
     pub controls: bool,
     /// The times of the last edit.
@@ -85,9 +87,10 @@ pub struct Shows {
 }
 
 impl Shows {
-    /// The side panel alone.
+    /// The side panel and the overlay alone.
     pub const PANEL: Shows = Shows {
         panel: true,
+        overlay: true,
         controls: false,
         performance: false,
         photo: false,

@@ -34,7 +34,7 @@ pub mod timeline;
 pub use clicks::{Click, TabLink};
 pub use settings::ViewSettings;
 
-use crate::lod::View;
+use crate::lod::{Camera, View};
 use crate::lod::opening::opening_place;
 use crate::lod::pose::Pose;
 use crate::planet::Planet;
@@ -82,6 +82,9 @@ pub struct Viewport {
     ground_radius_m: f64,
     /// The view whose tiles are kept.
     frozen: Option<View>,
+    /// Where the picture is in the window, and its camera.
+    rect: egui::Rect,
+    shown_camera: Option<Camera>,
     wants_focus: bool,
     moving: bool,
     drag: input::Drag,
@@ -116,6 +119,8 @@ impl Viewport {
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
             ground_radius_m: planet.radius_m(),
             frozen: None,
+            rect: egui::Rect::NOTHING,
+            shown_camera: None,
             wants_focus: false,
             moving: false,
             drag: input::Drag::None,
@@ -222,6 +227,18 @@ impl Viewport {
         })
     }
 
+    /// Where the picture is in the window.
+    pub fn rect(&self) -> egui::Rect {
+        self.rect
+    }
+
+    /// Size on the ground of a point in the middle of the picture; None where the middle is sky.
+    pub fn metres_per_point(&self) -> Option<f64> {
+        let (surface, camera) = (self.surface()?, self.shown_camera?);
+        let away_m = surface.terrain.raycast(camera.position_planet_m, camera.forward_planet())?;
+        Some(2.0 * away_m * (0.5 * camera.fov_y_rad).tan() / f64::from(self.rect.height().max(1.0)))
+    }
+
     /// Position and orientation of the eye.
     pub fn pose(&self, planet: &Planet) -> Pose {
         self.with_ground(planet, |cameras, ground| cameras.pose(ground))
@@ -298,6 +315,7 @@ impl Viewport {
             self.picture.refinement.touched(now_secs);
         }
         let view = self.view(ui.ctx(), rect, &ground);
+        (self.rect, self.shown_camera) = (rect, Some(view.camera));
         self.frozen = self.settings.freeze_detail.then(|| self.frozen.unwrap_or(view));
         // The camera stands over the surface on screen. A planet of another radius is asked for at the same distance
         // in radii.

@@ -2,6 +2,7 @@
 //!
 //! - [`menus`]: the menu bar
 //! - [`status`]: the status bar
+//! - [`overlay`]: compass, scale and legend over the picture
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
 //! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`place`], [`finder`]: windows
@@ -14,6 +15,7 @@ pub mod finder;
 pub mod history;
 pub mod look;
 pub mod menus;
+pub mod overlay;
 mod path_field;
 pub mod performance;
 pub mod photo;
