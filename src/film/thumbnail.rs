@@ -40,8 +40,8 @@ impl Thumbnail {
     pub fn draw(&self, renderer: &mut Renderer) -> Result<Vec<[f32; 3]>, String> {
         let view = self.view();
         let terrain = Arc::new(self.terrain()?);
-        // Of so small a picture the meshes are finer than its pixels: detail textures would not show.
-        let surface = build_over(&terrain, &view);
+        // Finer meshes take the place of detail textures, which would take longer.
+        let surface = build_over(&terrain, &View { quality: Quality::High, ..view });
         let sun = self.planet.star.place(self.time_secs);
         let mut scene = Scene::of_planet(&surface, view, sun.direction());
         scene.time_secs = self.time_secs;

@@ -40,7 +40,7 @@ use tellus::editor::command::{Action, Command};
 use tellus::editor::state::templates;
 use tellus::editor::viewport::camera::Mode;
 use tellus::planet::Planet;
-use tellus::render::DebugView;
+use tellus::render::{DebugView, Legend};
 
 /// An editor in the smallest window that must show everything; file dialogs give these answers.
 fn editor(answers: Vec<Option<PathBuf>>) -> Editor {

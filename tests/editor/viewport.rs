@@ -227,3 +227,38 @@ fn what_lies_under_the_pointer_is_told_without_holding_up_the_picture() {
     harness.run_steps(3);
     assert!(harness.state().viewport().under_pointer().is_none());
 }
+
+#[test]
+fn the_overlay_tells_how_one_looks_and_changes_it() {
+    let mut harness = editor(vec![]);
+    app::until(&mut harness, "tiles", |harness| harness.state().viewport().metres_per_point().is_some());
+    harness.check_accessibility();
+    click(&mut harness, "View: Shaded");
+    click(&mut harness, "Slope");
+    assert_eq!(harness.state().viewport().settings.debug_view, DebugView::Slope);
+    assert!(harness.query_by_label("View: Slope").is_some());
+    click(&mut harness, "Camera mode: Orbit");
+    harness.get_all_by_label("Fly").last().unwrap().click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().viewport().cameras().mode(), Mode::Fly);
+    press(&mut harness, egui::Modifiers::NONE, egui::Key::F5);
+    assert!(harness.query_by_label("View: Slope").is_none(), "it can be hidden");
+}
+
+#[test]
+fn every_view_with_values_has_a_legend() {
+    let mut harness = editor(vec![]);
+    app::until(&mut harness, "tiles", |harness| harness.state().viewport().surface().is_some());
+    let surface = harness.state().viewport().surface().unwrap();
+    let without: Vec<DebugView> =
+        DebugView::ALL.into_iter().filter(|view| Legend::of(*view, &surface).is_none()).collect();
+    let known = [
+        DebugView::Shaded,
+        DebugView::Normal,
+        DebugView::Coverage,
+        DebugView::Albedo,
+        DebugView::Plates,
+        DebugView::Rivers,
+    ];
+    assert_eq!(without, known);
+}

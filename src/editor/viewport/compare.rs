@@ -106,12 +106,10 @@ impl Compare {
             egui::WidgetInfo::slider(ui.is_enabled(), value, "Line between the kept copy and the planet")
         });
         let handle = handle.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
-        let mut moved = handle.drag_delta().x / rect.width().max(1.0);
-        if handle.has_focus() {
-            let pressed = |key| ui.input(|input| input.key_pressed(key));
-            moved += 0.05 * (f32::from(u8::from(pressed(egui::Key::ArrowRight))) - f32::from(u8::from(pressed(egui::Key::ArrowLeft))));
+        if let Some(pointer) = handle.interact_pointer_pos().filter(|_| handle.dragged()) {
+            self.split = (pointer.x - rect.left()) / rect.width().max(1.0);
         }
-        self.split = (self.split + moved).clamp(LEAST, 1.0 - LEAST);
+        self.split = self.split.clamp(LEAST, 1.0 - LEAST);
         place(self.split)
     }
 
