@@ -51,9 +51,9 @@ impl Legend {
                 let marks = SPACING.iter().zip([1, 4, 16, 64]);
                 Some(Self::Marks(marks.map(|(color, px)| (*color, format!("{px} px"))).collect()))
             }
-            DebugView::Rain => {
-                Some(Self::Marks(RAIN_COLORS.iter().map(|(mm, color)| (*color, format!("{mm:.0} mm a year"))).collect()))
-            }
+            DebugView::Rain => Some(Self::Marks(
+                RAIN_COLORS.iter().map(|(mm, color)| (*color, format!("{mm:.0} mm a year"))).collect(),
+            )),
             DebugView::Biome => {
                 let palette = &surface.terrain.planet().biomes.palette;
                 Some(Self::Marks(palette.iter().map(|biome| (biome.color, biome.name.clone())).collect()))

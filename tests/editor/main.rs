@@ -9,6 +9,7 @@
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `variations`: variations of the planet, and locks
+//! - `monkey`: random commands, all of which can be undone
 //! - `photo`: photographs, films, and what a photographer sets
 //! - `viewport`: the camera and the picture
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -24,6 +25,7 @@ mod history;
 mod input;
 #[path = "../support/layered.rs"]
 mod layered;
+mod monkey;
 mod painter;
 mod photo;
 mod place;

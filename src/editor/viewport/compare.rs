@@ -85,10 +85,9 @@ impl Compare {
         painter.vline(x, rect.y_range(), egui::Stroke::new(1.5, egui::Color32::from_gray(220)));
         painter.circle(egui::pos2(x, rect.center().y), 6.0, egui::Color32::from_gray(220), egui::Stroke::NONE);
         let font = egui::TextStyle::Body.resolve(ui.style());
-        for (text, at, align) in [
-            ("Kept copy", x - ASIDE, egui::Align2::RIGHT_TOP),
-            ("Now", x + ASIDE, egui::Align2::LEFT_TOP),
-        ] {
+        for (text, at, align) in
+            [("Kept copy", x - ASIDE, egui::Align2::RIGHT_TOP), ("Now", x + ASIDE, egui::Align2::LEFT_TOP)]
+        {
             painter.text(egui::pos2(at, rect.top() + ASIDE), align, text, font.clone(), egui::Color32::from_gray(230));
         }
     }

@@ -34,9 +34,9 @@ pub mod timeline;
 pub use clicks::{Click, TabLink};
 pub use settings::ViewSettings;
 
-use crate::lod::{Camera, View};
 use crate::lod::opening::opening_place;
 use crate::lod::pose::Pose;
+use crate::lod::{Camera, View};
 use crate::planet::Planet;
 use crate::render::{FrameStats, LutRuns, Renderer};
 use crate::sphere::LatLon;
