@@ -1,6 +1,7 @@
 //! Tests of the core: presets, evaluator, level of detail, tiles. They need neither the GPU nor the user interface.
 //!
 //! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
+//! - `saving`: saves that are killed
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
@@ -18,6 +19,7 @@ mod nonsense;
 mod preset;
 mod rebuild;
 mod relief;
+mod saving;
 mod sphere;
 mod structure;
 mod terrain;

@@ -1,0 +1,59 @@
+//! A program that is killed while it saves leaves the old file or the new one, and nothing beside it but what the next
+//! save does not trip over.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+use tellus::planet::{Planet, random};
+
+/// Tells the program of this test to save again and again to the file of this name.
+const SAVES_TO: &str = "TELLUS_TEST_SAVES_TO";
+const KILLS: u64 = 200;
+
+fn planets() -> [Planet; 2] {
+    [random::random(1), random::random(2)]
+}
+
+/// What the killed program does; without the variable it is no test.
+#[test]
+fn saves_until_it_is_killed() {
+    let Some(path) = std::env::var_os(SAVES_TO) else { return };
+    let planets = planets();
+    let begun = Instant::now();
+    while begun.elapsed() < Duration::from_secs(20) {
+        planets.iter().for_each(|planet| planet.save(&path).unwrap());
+    }
+}
+
+fn save_and_kill(path: &Path, after: Duration) {
+    let mut program = Command::new(std::env::current_exe().unwrap());
+    program.args(["--exact", "saving::saves_until_it_is_killed"]).env(SAVES_TO, path);
+    let mut running = program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let before = std::fs::read(path).unwrap();
+    // Killed somewhere in a save, not before the first.
+    let begun = Instant::now();
+    while std::fs::read(path).unwrap() == before && begun.elapsed() < Duration::from_secs(10) {
+        std::thread::sleep(Duration::from_micros(200));
+    }
+    std::thread::sleep(after);
+    running.kill().unwrap();
+    running.wait().unwrap();
+}
+
+#[test]
+fn a_killed_save_leaves_the_old_file_or_the_new_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("planet.ron");
+    let texts = planets().map(|planet| planet.to_text());
+    Planet::default().save(&path).unwrap();
+    let mut seen = [0; 2];
+    for number in 0..KILLS {
+        save_and_kill(&path, Duration::from_micros(number * 7919 % 9000));
+        let found = std::fs::read_to_string(&path).unwrap();
+        let which = texts.iter().position(|text| *text == found);
+        seen[which.unwrap_or_else(|| panic!("kill {number}: neither file, {} bytes", found.len()))] += 1;
+        // The next round begins with a file that neither save wrote.
+        Planet::default().save(&path).unwrap();
+    }
+    assert!(seen[0] > 20 && seen[1] > 20, "{seen:?}: the moments are not random");
+}
