@@ -22,6 +22,7 @@ use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
+use super::views::text::TextWindow;
 use super::views::{
     controls, look, menus, overlay, performance, photo, problems, prompts::Prompts, status, templates, variations,
 };
@@ -49,6 +50,7 @@ pub struct EditorApp {
     finder: FinderWindow,
     history: HistoryWindow,
     place: PlaceWindow,
+    text: TextWindow,
     surveyor: Surveyor,
     /// Where solved world maps are kept.
     maps: Option<Arc<MapStore>>,
@@ -91,6 +93,7 @@ impl EditorApp {
             finder: FinderWindow::default(),
             history: HistoryWindow::default(),
             place: PlaceWindow::default(),
+            text: TextWindow::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
             maps,
             was_typing: false,
@@ -315,6 +318,7 @@ impl eframe::App for EditorApp {
         self.history.show(&ctx, &self.state, &mut self.commands);
         variations::show(&ctx, &self.state, &mut self.commands);
         templates::show(&ctx, &self.state, &mut self.commands);
+        self.text.show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);

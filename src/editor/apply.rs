@@ -74,6 +74,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::Place) => state.shows.place = false,
         Action::Close(Window::Variations) => state.shows.variations = false,
         Action::Close(Window::Templates) => state.shows.templates = false,
+        Action::Close(Window::Text) => state.shows.text = false,
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
         Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),
         Action::Shoot(Shoot::Cancel) => {

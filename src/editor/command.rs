@@ -37,6 +37,7 @@ pub enum Command {
     TogglePanel,
     TogglePerformance,
     ToggleOverlay,
+    Text,
     ToggleFullscreen,
     ToggleTheme,
     RandomPlanet,
@@ -120,6 +121,8 @@ pub enum Window {
     Variations,
     /// What a new planet can begin as.
     Templates,
+    /// The text of the preset.
+    Text,
 }
 
 /// A change of what the side panel shows.
@@ -199,6 +202,8 @@ pub enum ClipAction {
     Ask(Wanted),
     /// Paste a text.
     Paste(Wanted, String),
+    /// Make the planet what the text of a preset says.
+    TakeText(String),
 }
 
 /// An action on photographs.

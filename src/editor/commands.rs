@@ -242,6 +242,12 @@ fn file_and_edit() -> Vec<Row> {
         })
         .within(Menu::Edit, 1)
         .keys([ctrl(Key::F)]),
+        Row::new(Command::Text, "Preset text", "Show the planet as text, to read and to edit.", |s, _| {
+            s.shows.text ^= true;
+        })
+        .within(Menu::Edit, 1)
+        .keys([ctrl(Key::T)])
+        .taking_typed_value(),
     ]
 }
 

@@ -8,6 +8,7 @@
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
+//! - `text`: the text of the preset
 //! - `variations`: variations of the planet, and locks
 //! - `monkey`: random commands, all of which can be undone
 //! - `photo`: photographs, films, and what a photographer sets
@@ -30,6 +31,7 @@ mod painter;
 mod photo;
 mod place;
 mod plates;
+mod text;
 mod variations;
 mod viewport;
 

@@ -3,7 +3,7 @@
 use super::*;
 use tellus::editor::command::{BookmarkAction, ClipAction, PanelAction, VariationAction, Wanted};
 use tellus::planet::param::ParamPath;
-use tellus::planet::{locks, random, snippet, validate};
+use tellus::planet::{random, snippet, validate};
 
 /// Parts that a planet may have, for edits of one part.
 const PARTS: [&str; 8] = ["star", "layers", "climate", "biomes", "structure", "water", "atmosphere", "clouds"];
@@ -51,7 +51,9 @@ fn action(dice: &mut Dice, planet: &Planet, steps: usize) -> Action {
         33 => Action::Bookmark(BookmarkAction::Delete(dice.below(3))),
         34 => Action::Command(Command::Compare),
         35 => Action::Command(Command::SwapCompared),
-        36 => Action::Command([Command::History, Command::Finder, Command::Controls, Command::GoToPlace][dice.below(4)]),
+        36 => {
+            Action::Command([Command::History, Command::Finder, Command::Controls, Command::GoToPlace][dice.below(4)])
+        }
         37 => Action::Panel(PanelAction::Reveal { path: ParamPath::default().join(part).join("seed"), name: "seed" }),
         38 => Action::Clip(ClipAction::Paste(Wanted::Part(part), "(version: 3, water: 7)".to_owned())),
         _ => Action::Command(if dice.below(8) == 0 { Command::RandomPlanet } else { Command::Dive }),

@@ -3,7 +3,7 @@
 use crate::editor::command::{ClipAction, Wanted};
 use crate::editor::panels::layer_edit;
 use crate::editor::state::State;
-use crate::planet::snippet;
+use crate::planet::{Planet, snippet};
 use eframe::egui;
 
 /// Name of the clipboard in messages.
@@ -31,6 +31,10 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: ClipAction) {
             ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste);
         }
         ClipAction::Paste(wanted, text) => paste(state, wanted, &text),
+        ClipAction::TakeText(text) => match Planet::from_text(SOURCE, &text) {
+            Ok(planet) => state.step(planet, "Edit text".to_owned()),
+            Err(error) => state.report("The text is no planet", error.to_string().lines().map(str::to_owned).collect()),
+        },
     }
 }
 

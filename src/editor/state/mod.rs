@@ -84,6 +84,8 @@ pub struct Shows {
     pub variations: bool,
     /// What a new planet can begin as.
     pub templates: bool,
+    /// The text of the preset.
+    pub text: bool,
 }
 
 impl Shows {
@@ -99,6 +101,7 @@ impl Shows {
         place: false,
         variations: false,
         templates: false,
+        text: false,
     };
 }
 

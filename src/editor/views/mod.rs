@@ -5,7 +5,7 @@
 //! - [`overlay`]: compass, scale and legend over the picture
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`place`], [`finder`]: windows
+//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`text`], [`place`], [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
@@ -26,4 +26,5 @@ mod rename;
 pub mod shortcuts;
 pub mod status;
 pub mod templates;
+pub mod text;
 pub mod variations;

@@ -1,6 +1,6 @@
 //! Keys and dropped files, as commands.
 
-use super::{controls, history, performance, photo, place, templates, variations};
+use super::{controls, history, performance, photo, place, templates, text, variations};
 use crate::editor::command::{Action, Command, Commands, PanelAction, Window};
 use crate::editor::commands;
 use crate::editor::panels::biomes;
@@ -56,6 +56,7 @@ fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Co
         (history::layer(), state.shows.history, Window::History),
         (place::layer(), state.shows.place, Window::Place),
         (templates::layer(), state.shows.templates, Window::Templates),
+        (text::layer(), state.shows.text, Window::Text),
         (variations::layer(), state.shows.variations, Window::Variations),
     ];
     let order: Vec<egui::LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
