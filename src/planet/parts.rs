@@ -234,7 +234,8 @@ params! {
         veil_density: f64 = 0.6, "Veil density", Unit::None, log(0.01, 20.0), Stage::Uniform;
         /// Share of the globe under banks of fog. Mountains and islands stand out of them.
         fog: f64 = 0.0, "Fog", Unit::None, linear(0.0, 1.0), Stage::Uniform;
-        /// Height of the bottom of the fog above the reference sphere. Fog under the ground is not seen.
+        /// Height of the bottom of the fog above the sea, or above the reference sphere where there is none. Fog under
+        /// the ground is not seen.
         fog_altitude_km: f64 = 0.0, "Fog altitude", Unit::Kilometres, linear(-20.0, 20.0), Stage::Uniform;
         /// Height from the bottom of the fog to its top.
         fog_thickness_km: f64 = 0.3, "Fog thickness", Unit::Kilometres, log(0.01, 20.0), Stage::Uniform;

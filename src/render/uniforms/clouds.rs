@@ -139,7 +139,7 @@ fn layers(planet: &Planet, clouds: &Clouds, quality: Quality) -> [Layer; CLOUD_L
         Layer {
             index: FOG_LAYER,
             coverage: clouds.fog,
-            bottom_km: clouds.fog_altitude_km,
+            bottom_km: sea_km + clouds.fog_altitude_km,
             thickness_km: clouds.fog_thickness_km,
             optical_depth: clouds.fog_density,
             effort: at([4.0, 1.0], [7.0, 1.0], [10.0, 2.0]),
@@ -168,4 +168,21 @@ fn step_growth(sum: f64, steps: f64) -> f64 {
         (low, high) = if reached < sum { (middle, high) } else { (low, middle) };
     }
     high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::Water;
+
+    #[test]
+    fn fog_and_rain_reach_down_to_the_sea() {
+        let clouds = Clouds { fog_altitude_km: 0.02, ..Clouds::default() };
+        for (level_m, bottom_km) in [(Some(450.0), 0.45), (Some(-1800.0), -1.8), (None, 0.0)] {
+            let water = level_m.map(|level_m| Water { level_m, ..Water::default() });
+            let layers = layers(&Planet { water, ..Planet::default() }, &clouds, Quality::Low);
+            let bottom = |index| layers.iter().find(|layer| layer.index == index).map(|layer| layer.bottom_km);
+            assert_eq!((bottom(FOG_LAYER), bottom(RAIN_LAYER)), (Some(bottom_km + 0.02), Some(bottom_km)));
+        }
+    }
 }
