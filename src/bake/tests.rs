@@ -1,0 +1,1 @@
+//! Bakes of small planets.
