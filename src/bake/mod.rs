@@ -1,7 +1,8 @@
 //! Maps of a planet in files: heights, normals, climate, biomes, water, clouds.
 //!
 //! Baked values are the evaluator's: the value of a pixel is what [`Terrain::sample`] answers at the pixel's centre, to
-//! half a step of the file's numbers.
+//! half a step of the file's numbers. With [`Detail::Pixel`] it is what the evaluator answers for points as far apart
+//! as pixels.
 //!
 //! A bake computes *strips*, some rows of all its maps, on all cores, and keeps each in a file of its own in a folder
 //! beside the maps. When all are there, it encodes the maps from them and removes them. So a bake that was interrupted
@@ -51,6 +52,8 @@ use strips::{Evaluator, Strips};
 
 /// Largest width of a picture, in pixels.
 pub const MAX_SIZE: u32 = 65_536;
+/// Distance between pixels from which few of them share a river block.
+const SLOW_M: f64 = 1000.0;
 /// Work of computing a strip, in that of encoding it for one map.
 const STRIP_WORK: u64 = 8;
 
@@ -67,12 +70,45 @@ pub struct Bake {
     pub size: u32,
     /// The kind of file.
     pub format: Format,
+    /// How much of a structure is in the map.
+    pub detail: Detail,
     /// Seconds after time zero, for clouds.
     pub time_secs: f64,
     /// The heights that whole numbers run between; None for the lowest and highest of the map.
     pub heights_m: Option<[f64; 2]>,
     /// The part of the work to do; None for all that is left, and then for the files.
     pub shard: Option<Shard>,
+}
+
+/// How much of a structure is in a map. It makes no difference to a planet without one.
+///
+/// Each river of a structure is made when a point near it asks. Where pixels are farther apart than valleys, hardly two
+/// of them share a valley, and all detail takes milliseconds a pixel: hours for a map of the globe.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Detail {
+    /// All: what [`Terrain::sample`] answers.
+    #[default]
+    All,
+    /// Without valleys and rivers too narrow for the map's pixels, as the planet is drawn from afar.
+    Pixel,
+}
+
+impl Detail {
+    /// Both.
+    pub const ALL: [Detail; 2] = [Detail::All, Detail::Pixel];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Detail::All => "all",
+            Detail::Pixel => "pixel",
+        }
+    }
+
+    /// The detail of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|detail| detail.name() == name)
+    }
 }
 
 /// One of several equal parts of a bake, each for another process or machine. Its strips go to the strip folder; a bake
@@ -102,7 +138,17 @@ pub enum Outcome {
 impl Bake {
     /// A bake of maps at time zero.
     pub fn new(terrain: Arc<Terrain>, maps: Vec<Map>, projection: Projection, size: u32, format: Format) -> Self {
-        Self { terrain, maps, projection, size, format, time_secs: 0.0, heights_m: None, shard: None }
+        Self {
+            terrain,
+            maps,
+            projection,
+            size,
+            format,
+            detail: Detail::All,
+            time_secs: 0.0,
+            heights_m: None,
+            shard: None,
+        }
     }
 
     /// Writes the maps to a folder, which is made if there is none. Strips that an earlier run left there are used.
@@ -138,6 +184,7 @@ impl Bake {
             terrain: &self.terrain,
             clouds: planet.clouds.as_ref().map(|_| CloudField::new(&self.terrain)),
             time_secs: self.time_secs,
+            spacing_rad: if self.detail == Detail::Pixel { strips.grid.spacing_rad() } else { 0.0 },
         };
         mine.par_iter().with_max_len(1).try_for_each_init(Scratch::default, |scratch, strip| {
             if progress.is_stopped() {
@@ -163,6 +210,13 @@ impl Bake {
         written?;
         strips::remove(&strips.folder)?;
         Ok(Outcome::Done(files.into_iter().map(|(path, _, _)| path).collect()))
+    }
+
+    /// Whether the bake takes milliseconds a pixel; see [`Detail`].
+    pub fn is_slow(&self) -> bool {
+        let planet = self.terrain.planet();
+        let grid = Grid::new(&self.projection, self.size, planet.radius_km);
+        planet.structure.is_some() && self.detail == Detail::All && grid.spacing_rad() * planet.radius_m() > SLOW_M
     }
 
     /// What is wrong with what is asked for.
@@ -224,7 +278,7 @@ impl Bake {
         let time_secs = Some(self.time_secs).filter(|_| self.maps.iter().any(|map| map.is_of_clouds()));
         let program = (env!("CARGO_PKG_VERSION"), VERSION);
         let planet = sidecar::preset_hash(self.terrain.planet());
-        Key::of(&(program, planet, self.projection, self.size, &self.maps, time_secs))
+        Key::of(&(program, planet, self.projection, self.size, self.detail, &self.maps, time_secs))
     }
 
     /// The files, with the picture and the index of the map in each.

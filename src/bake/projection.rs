@@ -1,8 +1,9 @@
 //! How the pixels of a picture lie on the globe. A value stands for the centre of its pixel.
 //!
 //! - Equirectangular: `width` x `width / 2` pixels, north up, the left edge at longitude -180°.
-//! - Cube: six flat faces in the order +X, -X, +Y, -Y, +Z, -Z of [`Face::ALL`](crate::sphere::Face::ALL), turned as WebGPU, Vulkan, Direct3D and
-//!   OpenGL expect the faces of a cube texture that is sampled with directions in the planet frame.
+//! - Cube: six flat faces in the order +X, -X, +Y, -Y, +Z, -Z of [`Face::ALL`](crate::sphere::Face::ALL), turned as
+//!   WebGPU, Vulkan, Direct3D and OpenGL expect the faces of a cube texture that is sampled with directions in the planet
+//!   frame.
 //! - Region: azimuthal equidistant about a centre (Snyder 1987, "Map projections: a working manual", chapter 25): true
 //!   distances and bearings from the centre; north is up there. Square pixels.
 
@@ -10,7 +11,7 @@ use crate::sphere::LatLon;
 use crate::sphere::cube::texture_direction;
 use crate::sphere::geo::east_north;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// How pixels lie on the globe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +99,15 @@ impl Grid {
         Self { width: size, height, kind }
     }
 
+    /// Angle between two pixels beside each other, where they are farthest apart.
+    pub(super) fn spacing_rad(&self) -> f64 {
+        match &self.kind {
+            Kind::Equirect { .. } => TAU / f64::from(self.width),
+            Kind::Cube => 2.0 / f64::from(self.width),
+            Kind::Region(Tangent { pixel_rad, .. }) => *pixel_rad,
+        }
+    }
+
     /// How many pictures there are.
     pub(super) fn pictures(&self) -> usize {
         if matches!(self.kind, Kind::Cube) { FACES.len() } else { 1 }
@@ -156,6 +166,7 @@ mod tests {
         let (lat, lon) = lat_lon(&grid, 0, 7, 3);
         assert!((lat + 67.5).abs() < 1e-9 && (lon - 157.5).abs() < 1e-9, "{lat} {lon}");
         // To the bit what a query at that location takes.
+        assert_eq!(grid.spacing_rad(), TAU / 8.0);
         assert_eq!(grid.direction(0, 5, 1), LatLon::from_degrees(22.5, 67.5).direction());
     }
 

@@ -30,6 +30,7 @@ pub(super) fn about(bake: &Bake, map: Map, file: &str, face: Option<&str>, shape
         "min": shape.steps.min,
         "max": shape.steps.max,
         "unit": map.unit(),
+        "detail": bake.detail.name(),
         "encoding": encoding(map, shape),
         "radius_m": planet.radius_m(),
         "sea_level_m": planet.sea_level_m(),

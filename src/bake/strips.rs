@@ -1,8 +1,8 @@
 //! Strips: rows of all maps of a bake, computed at once and kept in one file each until all are there.
 //!
 //! Strips are what a bake resumes from and what its shards write. Their size depends on the size of the picture alone,
-//! and their values on nothing but the planet, so that whoever computes a strip writes the same bytes. Memory is at most
-//! that of one strip on each core, [`STRIP_PIXELS`] x 4 bytes for each channel of each map.
+//! and their values on nothing but the planet, so that whoever computes a strip writes the same bytes. Memory is at
+//! most that of one strip on each core, [`STRIP_PIXELS`] x 4 bytes for each channel of each map.
 //!
 //! Format, little-endian: `MAGIC`, the key of the bake (16 bytes), the number of the strip (4 bytes); for each map its
 //! least and greatest value; for each map its values row by row, channels together. All values are floats of 32 bits.
@@ -53,6 +53,8 @@ pub(super) struct Evaluator<'a> {
     pub(super) terrain: &'a Terrain,
     pub(super) clouds: Option<CloudField>,
     pub(super) time_secs: f64,
+    /// Valleys and rivers that points so far apart would not show are left out.
+    pub(super) spacing_rad: f64,
 }
 
 impl Strips {
@@ -182,7 +184,7 @@ impl Evaluator<'_> {
             water: a.water || b.water,
         };
         if let Some(wanted) = maps.iter().filter_map(|map| map.wanted()).reduce(both) {
-            self.terrain.samples_into(dirs, wanted, samples, scratch);
+            self.terrain.samples_spaced_into(dirs, self.spacing_rad, wanted, samples, scratch);
         }
         let clouds = self.clouds.as_ref().filter(|_| maps.iter().any(|map| map.is_of_clouds()));
         clouds.map_or_else(Vec::new, |field| field.covers(dirs, self.time_secs))

@@ -30,9 +30,9 @@ pub struct River {
 }
 
 impl Terrain {
-    /// Fills in water, wind and rain at unit directions whose heights are known, and where no map of the
-    /// weather serves, the climate.
-    pub(super) fn find_water(&self, dirs: &[DVec3], samples: &mut [Sample]) {
+    /// Fills in water, wind and rain at unit directions `spacing_rad` apart whose heights are known, and where no map
+    /// of the weather serves, the climate.
+    pub(super) fn find_water(&self, dirs: &[DVec3], spacing_rad: f64, samples: &mut [Sample]) {
         let world = self.world();
         let sea_m = self.planet().sea_level_m();
         for (sample, &dir) in samples.iter_mut().zip(dirs) {
@@ -44,7 +44,7 @@ impl Terrain {
             sample.plate = world.plates.map().and_then(|plates| u16::try_from(plates.layout.plate_under(dir)).ok());
         }
         if let Some(carved) = world.carved.map() {
-            river_points(&carved.rivers, dirs, |points| {
+            river_points(&carved.rivers, dirs, spacing_rad, |points| {
                 for ((sample, point), &dir) in samples.iter_mut().zip(points).zip(dirs) {
                     add_rivers(carved, dir, point, sample);
                 }
