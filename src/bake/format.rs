@@ -21,12 +21,22 @@ pub enum Format {
     Tiff,
     /// TIFF of 16 bits; georeferenced, unless it is a face of a cube.
     Tiff16,
+    /// KTX2 texture with mip levels, of 16 bits; colours of 8 bits, encoded as sRGB. The faces of a cube are one file.
+    Ktx2,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Format; 7] =
-        [Format::Png8, Format::Png16, Format::Exr, Format::Exr16, Format::R16, Format::Tiff, Format::Tiff16];
+    pub const ALL: [Format; 8] = [
+        Format::Png8,
+        Format::Png16,
+        Format::Exr,
+        Format::Exr16,
+        Format::R16,
+        Format::Tiff,
+        Format::Tiff16,
+        Format::Ktx2,
+    ];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -38,6 +48,7 @@ impl Format {
             Format::R16 => "r16",
             Format::Tiff => "tiff",
             Format::Tiff16 => "tiff16",
+            Format::Ktx2 => "ktx2",
         }
     }
 
@@ -53,21 +64,23 @@ impl Format {
             Format::Exr | Format::Exr16 => "exr",
             Format::R16 => "r16",
             Format::Tiff | Format::Tiff16 => "tif",
+            Format::Ktx2 => "ktx2",
         }
     }
 
-    /// The greatest whole number of a channel; None for floats.
-    pub(super) fn top(self) -> Option<u16> {
+    /// The greatest whole number of a channel of a map; None for floats.
+    pub(super) fn top(self, map: Map) -> Option<u16> {
         match self {
             Format::Png8 => Some(0xff),
-            Format::Png16 | Format::R16 | Format::Tiff16 => Some(0xffff),
+            Format::Ktx2 if self.is_srgb(map) => Some(0xff),
+            Format::Png16 | Format::R16 | Format::Tiff16 | Format::Ktx2 => Some(0xffff),
             Format::Exr | Format::Exr16 | Format::Tiff => None,
         }
     }
 
     /// Whether it encodes the colours of a map as sRGB.
     pub(super) fn is_srgb(self, map: Map) -> bool {
-        self == Format::Png8 && map == Map::Albedo
+        matches!(self, Format::Png8 | Format::Ktx2) && map == Map::Albedo
     }
 }
 
@@ -83,7 +96,7 @@ pub(super) struct Steps {
 impl Steps {
     /// `found`: least and greatest value of the map. For floats `min` and `max` only inform.
     pub(super) fn new(format: Format, map: Map, found: (f64, f64), asked: Option<[f64; 2]>) -> Self {
-        let top = f64::from(format.top().unwrap_or(u16::MAX));
+        let top = f64::from(format.top(map).unwrap_or(u16::MAX));
         let (min, max) = match (map.range(), asked) {
             (Range::Found, Some([min, max])) => (min, max),
             (Range::Found, None) => found,

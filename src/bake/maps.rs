@@ -4,7 +4,7 @@
 //! [`CloudField::cover`](crate::clouds::CloudField::cover) answer at the point, as a float of 32 bits.
 
 use crate::clouds::CloudCover;
-use crate::planet::{Biome, Planet};
+use crate::planet::{Biome, Planet, Water};
 use crate::sphere::geo::east_north;
 use crate::terrain::{Sample, Wanted};
 use glam::DVec3;
@@ -34,7 +34,8 @@ pub enum Map {
     Rain,
     /// Index of the biome in the palette.
     Biome,
-    /// Mean colour of the biome, linear sRGB: the ground alone, without water, snow cover or macro variation.
+    /// Mean colour of the biome, linear sRGB, seen through the water over it: without macro variation, steep rock that
+    /// shows through, floes or clouds.
     Albedo,
     /// Roughness of the biome, 0 to 1.
     Roughness,
@@ -166,7 +167,8 @@ impl Map {
             Map::Height => Some(height),
             Map::Normal | Map::NormalPlanet | Map::Slope => Some(height.and_normal()),
             Map::Temperature | Map::Precipitation | Map::Moisture => Some(height.and_climate()),
-            Map::Biome | Map::Albedo | Map::Roughness => Some(height.and_biome()),
+            Map::Biome | Map::Roughness => Some(height.and_biome()),
+            Map::Albedo => Some(height.and_biome().and_water()),
             Map::Rain | Map::WaterDepth | Map::Discharge | Map::Flow => Some(height.and_water()),
             Map::CloudCover | Map::MiddleCover | Map::VeilCover | Map::FogCover => None,
         }
@@ -202,9 +204,9 @@ impl Map {
             Map::Moisture => [sample.moisture, 0.0, 0.0],
             Map::Rain => [sample.rain_mm, 0.0, 0.0],
             Map::Biome => [sample.biome as f64, 0.0, 0.0],
-            Map::Albedo => biome().map_or([0.0; 3], mean_color),
+            Map::Albedo => biome().map_or([0.0; 3], |biome| through_water(planet, sample, mean_color(biome))),
             Map::Roughness => [biome().map_or(1.0, |biome| biome.roughness), 0.0, 0.0],
-            Map::WaterDepth => [sample.water_level_m.map_or(0.0, |level_m| level_m - sample.height_m), 0.0, 0.0],
+            Map::WaterDepth => [depth_m(sample), 0.0, 0.0],
             Map::Discharge => [sample.river.map_or(0.0, |river| river.discharge_m3_s), 0.0, 0.0],
             Map::Flow => sample.river.map_or([0.0; 3], |river| local(river.flow_planet)),
             Map::CloudCover => [clouds.low, 0.0, 0.0],
@@ -221,6 +223,26 @@ pub(super) fn mean_color(biome: &Biome) -> [f64; 3] {
     std::array::from_fn(|k| biome.color[k] + (biome.patch_color[k] - biome.color[k]) * biome.patches)
 }
 
+/// Depth of the water over the ground.
+fn depth_m(sample: &Sample) -> f64 {
+    sample.water_level_m.map_or(0.0, |level_m| level_m - sample.height_m)
+}
+
+/// The colour of the ground through the water over it, seen and lit from straight above: light passes the water twice
+/// (Beer, Lambert), and deep water scatters its own colour back. Lakes have the water of the sea, or common water.
+fn through_water(planet: &Planet, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
+    let depth_m = depth_m(sample);
+    if depth_m <= 0.0 {
+        return ground;
+    }
+    let common = Water::default();
+    let water = planet.water.as_ref().unwrap_or(&common);
+    std::array::from_fn(|k| {
+        let passed = libm::exp(-2.0 * depth_m * water.absorption_per_m[k]);
+        water.color[k] + (ground[k] - water.color[k]) * passed
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -232,5 +254,18 @@ mod tests {
             assert!(map.wanted().is_some() != map.is_of_clouds(), "{map:?}");
         }
         assert_eq!(Map::named("heights"), None);
+    }
+
+    #[test]
+    fn deep_water_hides_the_ground() {
+        let planet = Planet { water: Some(Water::default()), ..Planet::default() };
+        let deep = planet.water.as_ref().unwrap().color;
+        let seen = |depth_m: f64| {
+            let sample = Sample { water_level_m: Some(depth_m), ..Sample::default() };
+            through_water(&planet, &sample, [0.5; 3])
+        };
+        assert_eq!(seen(-1.0), [0.5; 3]);
+        assert!(seen(1000.0).iter().zip(deep).all(|(seen, deep)| (seen - deep).abs() < 1e-6));
+        assert!(seen(1.0)[0] < 0.5 && seen(1.0)[0] > seen(3.0)[0]);
     }
 }

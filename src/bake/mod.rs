@@ -11,12 +11,13 @@
 //!
 //! - `maps`: what can be baked; `projection`: where pixels lie; `format`: kinds of file, and steps of their numbers
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
-//! - `png`, `openexr`, `geotiff`, `raw`: encoders; `sidecar`: the JSON beside a map
+//! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
 //! - `progress`, `error`
 
 mod error;
 mod format;
 mod geotiff;
+mod ktx2;
 mod maps;
 mod openexr;
 mod png;
@@ -46,6 +47,7 @@ use rayon::prelude::*;
 use rows::Rows;
 use std::fs::{self, File};
 use std::io::Write as _;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use strips::{Evaluator, Strips};
@@ -89,7 +91,8 @@ pub enum Detail {
     /// All: what [`Terrain::sample`] answers.
     #[default]
     All,
-    /// Without valleys and rivers too narrow for the map's pixels, as the planet is drawn from afar.
+    /// Without valleys and rivers too narrow for the map's pixels, as the planet is drawn from afar. The rivers of the
+    /// solved drainage are there however wide a pixel is.
     Pixel,
 }
 
@@ -168,7 +171,7 @@ impl Bake {
         let strip_folder = folder.join(format!("bake-{:016x}.strips", key.bits() >> 64));
         let strips = Strips::new(grid, self.maps.clone(), key, strip_folder);
         let files = self.files(&strips.grid, folder);
-        for (path, _, _) in &files {
+        for BakedFile { path, .. } in &files {
             for path in [path.clone(), path.with_extension("json")] {
                 Target::checked(&path).map_err(|error| BakeError::file(&path, error))?;
             }
@@ -184,7 +187,7 @@ impl Bake {
             terrain: &self.terrain,
             clouds: planet.clouds.as_ref().map(|_| CloudField::new(&self.terrain)),
             time_secs: self.time_secs,
-            spacing_rad: if self.detail == Detail::Pixel { strips.grid.spacing_rad() } else { 0.0 },
+            spacing_rad: self.spacing_rad(&strips.grid),
         };
         mine.par_iter().with_max_len(1).try_for_each_init(Scratch::default, |scratch, strip| {
             if progress.is_stopped() {
@@ -201,15 +204,13 @@ impl Bake {
             return Ok(Outcome::Shard { missing: others.len() as u32 });
         }
         let ranges = self.ranges(&strips)?;
-        let written = files
-            .par_iter()
-            .try_for_each(|(path, picture, map)| self.encode(&strips, path, (*picture, *map), ranges[*map], &progress));
+        let written = files.par_iter().try_for_each(|file| self.encode(&strips, file, ranges[file.map], &progress));
         if progress.is_stopped() {
             return Ok(Outcome::Stopped);
         }
         written?;
         strips::remove(&strips.folder)?;
-        Ok(Outcome::Done(files.into_iter().map(|(path, _, _)| path).collect()))
+        Ok(Outcome::Done(files.into_iter().map(|file| file.path).collect()))
     }
 
     /// Whether the bake takes milliseconds a pixel; see [`Detail`].
@@ -217,6 +218,14 @@ impl Bake {
         let planet = self.terrain.planet();
         let grid = Grid::new(&self.projection, self.size, planet.radius_km);
         planet.structure.is_some() && self.detail == Detail::All && grid.spacing_rad() * planet.radius_m() > SLOW_M
+    }
+
+    /// Valleys that points so far apart would not show are left out. Those of the solved drainage always show.
+    fn spacing_rad(&self, grid: &Grid) -> f64 {
+        match (self.detail, self.terrain.river_spacing_rad()) {
+            (Detail::Pixel, Some(coarsest_rad)) => grid.spacing_rad().min(coarsest_rad),
+            _ => 0.0,
+        }
     }
 
     /// What is wrong with what is asked for.
@@ -281,14 +290,22 @@ impl Bake {
         Key::of(&(program, planet, self.projection, self.size, self.detail, &self.maps, time_secs))
     }
 
-    /// The files, with the picture and the index of the map in each.
-    fn files(&self, grid: &Grid, folder: &Path) -> Vec<(PathBuf, usize, usize)> {
+    /// The files of all maps.
+    fn files(&self, grid: &Grid, folder: &Path) -> Vec<BakedFile> {
+        let pictures = grid.pictures();
         let mut files = Vec::new();
         for (index, map) in self.maps.iter().enumerate() {
-            for picture in 0..grid.pictures() {
-                let face = grid.face(picture).map_or(String::new(), |face| format!("_{face}"));
+            let mut push = |pictures: Range<usize>, face: &str| {
                 let name = format!("{}{face}.{}", map.name(), self.format.extension());
-                files.push((folder.join(name), picture, index));
+                files.push(BakedFile { path: folder.join(name), pictures, map: index });
+            };
+            if self.format == Format::Ktx2 {
+                push(0..pictures, "");
+                continue;
+            }
+            for picture in 0..pictures {
+                let face = grid.face(picture).map_or(String::new(), |face| format!("_{face}"));
+                push(picture..picture + 1, &face);
             }
         }
         files
@@ -304,7 +321,7 @@ impl Bake {
         }
         for (map, (min, max)) in self.maps.iter().zip(&ranges) {
             let too_narrow = self.heights_m.filter(|[lo, hi]| *map == Map::Height && (min < lo || max > hi));
-            if let Some([lo, hi]) = too_narrow.filter(|_| self.format.top().is_some()) {
+            if let Some([lo, hi]) = too_narrow.filter(|_| self.format.top(*map).is_some()) {
                 return Err(BakeError::Asked(format!(
                     "the heights run from {min:.3} to {max:.3} m, which is beyond the range of {lo} to {hi} m that was \
                      asked for; with a wider range the same bake goes on from here"
@@ -318,32 +335,43 @@ impl Bake {
     fn encode(
         &self,
         strips: &Strips,
-        path: &Path,
-        (picture, index): (usize, usize),
+        file: &BakedFile,
         found: (f64, f64),
         progress: &Progress<'_>,
     ) -> Result<(), BakeError> {
         profiling::scope!("encode a map");
-        let map = self.maps[index];
+        let BakedFile { path, pictures, map: index } = file;
+        let map = self.maps[*index];
         let asked = self.heights_m.filter(|_| map == Map::Height);
         let steps = Steps::new(self.format, map, found, asked);
         let (width, height) = (strips.grid.width, strips.grid.height);
         let shape = Shape { width, height, channels: map.channels(), format: self.format, steps };
         let place = Place { projection: self.projection, radius_m: self.terrain.planet().radius_m() };
-        let mut rows = Rows::new(strips, picture, index, progress);
-        let write = &mut |file: &mut File| match self.format {
-            Format::Png8 | Format::Png16 => png::write(file, &shape, &mut rows),
-            Format::Exr | Format::Exr16 => openexr::write(file, &shape, &mut rows),
-            Format::Tiff | Format::Tiff16 => geotiff::write(file, &shape, &place, &mut rows),
-            Format::R16 => raw::write(file, &shape, &mut rows),
+        let mut rows: Vec<_> = pictures.clone().map(|picture| Rows::new(strips, picture, *index, progress)).collect();
+        let write = &mut |out: &mut File| match (self.format, &mut rows[..]) {
+            (Format::Ktx2, faces) => ktx2::write(out, map, &shape, faces),
+            (Format::Png8 | Format::Png16, [rows]) => png::write(out, &shape, rows),
+            (Format::Exr | Format::Exr16, [rows]) => openexr::write(out, &shape, rows),
+            (Format::Tiff | Format::Tiff16, [rows]) => geotiff::write(out, &shape, &place, rows),
+            (_, rows) => rows.iter_mut().try_for_each(|rows| raw::write(&mut *out, &shape, rows)),
         };
         write_atomically_with(path, Some(&strips.folder), write).map_err(|error| BakeError::file(path, error))?;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let about = sidecar::about(self, map, &name, strips.grid.face(picture), &shape);
+        let faces: Vec<_> = pictures.clone().filter_map(|picture| strips.grid.face(picture)).collect();
+        let about = sidecar::about(self, map, &name, &faces, &shape);
         let beside = path.with_extension("json");
         let write = &mut |file: &mut File| writeln!(file, "{about:#}");
         write_atomically_with(&beside, Some(&strips.folder), write).map_err(|error| BakeError::file(&beside, error))
     }
+}
+
+/// A file that is to be written.
+struct BakedFile {
+    path: PathBuf,
+    /// Its pictures: one, or the six faces of a cube.
+    pictures: Range<usize>,
+    /// Index of the map.
+    map: usize,
 }
 
 impl Shard {

@@ -1,6 +1,6 @@
 //! Maps as PNG, row by row.
 
-use super::format::{Shape, Source};
+use super::format::{Format, Shape, Source};
 use std::io::{self, BufWriter, Write};
 
 /// Writes a picture of 8 or 16 bits.
@@ -8,7 +8,7 @@ pub(super) fn write(out: impl Write, shape: &Shape, rows: &mut dyn Source) -> io
     let mut encoder = png::Encoder::new(BufWriter::new(out), shape.width, shape.height);
     let is_color = shape.channels == 3;
     encoder.set_color(if is_color { png::ColorType::Rgb } else { png::ColorType::Grayscale });
-    let is_deep = shape.format.top() == Some(u16::MAX);
+    let is_deep = shape.format == Format::Png16;
     encoder.set_depth(if is_deep { png::BitDepth::Sixteen } else { png::BitDepth::Eight });
     encoder.set_compression(png::Compression::Fast);
     if shape.steps.is_srgb() {

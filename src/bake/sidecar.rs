@@ -16,7 +16,7 @@ pub(super) fn preset_hash(planet: &Planet) -> Key {
 }
 
 /// What a program must know to read the map in `file`.
-pub(super) fn about(bake: &Bake, map: Map, file: &str, face: Option<&str>, shape: &Shape) -> Value {
+pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &Shape) -> Value {
     let planet = bake.terrain.planet();
     let mut about = json!({
         "planet": planet.name,
@@ -43,8 +43,10 @@ pub(super) fn about(bake: &Bake, map: Map, file: &str, face: Option<&str>, shape
         about["min_m"] = json!(shape.steps.min);
         about["max_m"] = json!(shape.steps.max);
     }
-    if let Some(face) = face {
-        about["face"] = json!(face);
+    match faces {
+        [] => {}
+        [face] => about["face"] = json!(face),
+        all => about["faces"] = json!(all),
     }
     if let Projection::Region(region) = bake.projection {
         about["lat_deg"] = json!(region.lat_deg);
@@ -73,7 +75,7 @@ fn channels(map: Map) -> Value {
 
 /// How the numbers of the file become values.
 fn encoding(map: Map, shape: &Shape) -> &'static str {
-    match (shape.format.top(), map.range()) {
+    match (shape.format.top(map), map.range()) {
         (None, _) => "values",
         (_, Range::Numbers) => "numbers",
         _ if shape.steps.is_srgb() => "srgb",

@@ -38,7 +38,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value = "2048", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SIZE)))]
     size: u32,
     /// png8, png16, tiff16 and r16 are whole numbers that run linearly between min and max of the JSON; exr and tiff
-    /// are floats of 32 bits, exr16 of 16; tiff is georeferenced; r16 has no header
+    /// are floats of 32 bits, exr16 of 16; tiff is georeferenced; r16 has no header; ktx2 is a texture with mip levels
     #[arg(
         long,
         value_name = "FORMAT",

@@ -51,6 +51,13 @@ struct Memory {
     flows: Vec<Flow>,
 }
 
+/// The greatest distance between points, as an angle, at which values have the coarsest level of rivers. `side`: cells
+/// along the side of a face of the solved drainage.
+#[cfg(feature = "bake")]
+pub(crate) fn coarsest_spacing_rad(side: usize) -> f64 {
+    (2.0 / (side as f64 * VALUE_POINTS)).next_down()
+}
+
 /// Evaluates rivers at unit directions, on the levels that points `spacing_rad` apart show (0: on all). Allocates
 /// nothing once the blocks around have been built.
 pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, answer: impl FnOnce(&[RiverPoint])) {
