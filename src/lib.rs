@@ -35,6 +35,7 @@
 //! - [`clouds`]: where clouds are, at any time
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
+//! - `bake` (feature `bake`): maps of a planet in files
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
 //! - `film` (feature `render`): photographs and films in files
 //! - `editor` (feature `editor`): the application
@@ -57,6 +58,8 @@ pub mod terrain;
 pub mod tiles;
 mod world;
 
+#[cfg(feature = "bake")]
+pub mod bake;
 #[cfg(feature = "render")]
 pub mod film;
 #[cfg(feature = "render")]

@@ -7,6 +7,9 @@ const MAX_SIDE: u32 = 32_768;
 /// Most pixels of a picture: they take 12 bytes each.
 const MAX_PIXELS: u64 = 1 << 28;
 
+/// Most parts of a bake.
+const MOST_SHARDS: u32 = 65_536;
+
 /// A finite number from `min` to `max`.
 fn number(text: &str, min: f64, max: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -97,6 +100,29 @@ pub(super) fn discharge(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e12)
 }
 
+/// Length of a side of a region in kilometres.
+pub(super) fn region(text: &str) -> Result<f64, String> {
+    number(text, 1e-6, 1e6)
+}
+
+/// `MIN,MAX` in metres.
+pub(super) fn heights(text: &str) -> Result<[f64; 2], String> {
+    let wrong = || "these are not two heights; write MIN,MAX in metres, such as -11000,9000".to_owned();
+    let (min, max) = text.split_once(',').ok_or_else(wrong)?;
+    let height = |text: &str| number(text.trim(), -1e6, 1e6);
+    let [min, max] = [height(min)?, height(max)?];
+    if min < max { Ok([min, max]) } else { Err(wrong()) }
+}
+
+/// `I/N`: part I of N, from 1.
+pub(super) fn shard(text: &str) -> Result<(u32, u32), String> {
+    let wrong = || format!("this is no shard; write I/N with I from 1 to N and N at most {MOST_SHARDS}, such as 2/8");
+    let (number, count) = text.split_once('/').ok_or_else(wrong)?;
+    let [number, count] = [number, count].map(|text| text.parse().ok());
+    let (number, count) = number.zip(count).ok_or_else(wrong)?;
+    if (1..=MOST_SHARDS).contains(&count) && (1..=count).contains(&number) { Ok((number, count)) } else { Err(wrong()) }
+}
+
 /// `LAT,LON` in degrees.
 pub(super) fn location(text: &str) -> Result<(f64, f64), String> {
     let (lat, lon) = text.split_once(',').ok_or("this is not a location; write LAT,LON such as 20,-45")?;
@@ -136,6 +162,11 @@ mod tests {
         assert!(location("10").unwrap_err().contains("LAT,LON"));
         assert_eq!(latitude("NaN"), Err("NaN is out of range; use -90 to 90".to_owned()));
         assert_eq!(altitude("-20"), Ok(-20.0));
+        assert_eq!((shard("2/8"), heights("-5, 7.5")), (Ok((2, 8)), Ok([-5.0, 7.5])));
+        for wrong in ["0/3", "4/3", "1", "1/0", "-1/3", "1/2/3", "1/99999999"] {
+            assert!(shard(wrong).unwrap_err().contains("2/8"), "{wrong}");
+        }
+        assert!(heights("7,7").is_err() && heights("7").is_err() && heights("low,7").is_err());
         assert!(latitude("north").is_err() && altitude("0").is_err() && altitude("inf").is_err());
     }
 }

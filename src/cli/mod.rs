@@ -1,7 +1,7 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `film`, `check`, `sample`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands
+//! - `render`, `film`, `check`, `sample`, `bake`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands
 //! - `points`: many points for `sample`
 //! - `headless`: a GPU without a window
 //! - `camera`: what a photographer sets, for `render` and `film`
@@ -9,6 +9,7 @@
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
 
 mod args;
+mod bake;
 mod bench;
 mod camera;
 mod check;
@@ -49,6 +50,7 @@ enum Command {
     Film(Box<film::Args>),
     Check(check::Args),
     Sample(sample::Args),
+    Bake(Box<bake::Args>),
     Rivers(rivers::Args),
     Maps(maps::Args),
     Sky(sky::Args),
@@ -96,6 +98,7 @@ pub fn run() -> ExitCode {
         Some(Command::Film(args)) => film::run(&args),
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
+        Some(Command::Bake(args)) => bake::run(&args),
         Some(Command::Rivers(args)) => rivers::run(&args),
         Some(Command::Maps(args)) => maps::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),

@@ -113,31 +113,43 @@ impl CloudField {
 
     /// Clouds over a direction, `time_secs` after time zero: those that are drawn.
     pub fn cover(&self, dir_planet: DVec3, time_secs: f64) -> CloudCover {
+        self.covers(&[dir_planet], time_secs).pop().unwrap_or_default()
+    }
+
+    /// [`CloudField::cover`] of many directions, on the calling thread.
+    pub fn covers(&self, dirs_planet: &[DVec3], time_secs: f64) -> Vec<CloudCover> {
         let (before, share) = keyframes(time_secs);
         let angle = self.drift_rad(time_secs);
         let (s, c) = (libm::sin(angle), libm::cos(angle));
-        let dir = crate::terrain::points::unit(dir_planet);
-        let drifted = DVec3::new(c * dir.x + s * dir.y, c * dir.y - s * dir.x, dir.z);
-        let at = |number: i64| {
-            let mut found = Ranked::default();
-            self.ranked(&[drifted], number, &self.systems(number), &mut Box::default(), |_, ranked| found = ranked);
-            found
-        };
-        let (a, b) = (at(before), at(before + 1));
+        let systems = [before, before + 1].map(|number| self.systems(number));
         let blend = |a: f32, b: f32| f64::from(a) + (f64::from(b) - f64::from(a)) * share;
-        let odds = self.odds(dir);
         let covered = |k: usize, rank: f64, odds: f64| match self.coverage[k] > 0.0 {
             true => cover(rank, odds + self.offsets[k]),
             false => 0.0,
         };
-        let mut fog_rank = 0.0;
-        self.fog_ranks(&[dir], &mut Box::default(), |_, rank| fog_rank = f64::from(rank));
-        CloudCover {
-            low: covered(0, blend(a.low, b.low), odds),
-            middle: covered(1, blend(a.middle, b.middle), odds),
-            veil: covered(2, blend(a.veil, b.veil), odds),
-            fog: covered(3, fog_rank, self.fog_odds(dir)),
+        let mut noise = Box::<Noise>::default();
+        let mut found = Vec::with_capacity(dirs_planet.len());
+        for dirs in dirs_planet.chunks(CHUNK) {
+            let dirs: Vec<DVec3> = dirs.iter().map(|&dir| crate::terrain::points::unit(dir)).collect();
+            let drifted = |dir: &DVec3| DVec3::new(c * dir.x + s * dir.y, c * dir.y - s * dir.x, dir.z);
+            let drifted: Vec<DVec3> = dirs.iter().map(drifted).collect();
+            let mut ranks = [[Ranked::default(); CHUNK]; 2];
+            for ((ranks, systems), number) in ranks.iter_mut().zip(&systems).zip(before..) {
+                self.ranked(&drifted, number, systems, &mut noise, |i, ranked| ranks[i] = ranked);
+            }
+            let mut fog_ranks = [0.0; CHUNK];
+            self.fog_ranks(&dirs, &mut noise, |i, rank| fog_ranks[i] = f64::from(rank));
+            for (i, &dir) in dirs.iter().enumerate() {
+                let (a, b, odds) = (ranks[0][i], ranks[1][i], self.odds(dir));
+                found.push(CloudCover {
+                    low: covered(0, blend(a.low, b.low), odds),
+                    middle: covered(1, blend(a.middle, b.middle), odds),
+                    veil: covered(2, blend(a.veil, b.veil), odds),
+                    fog: covered(3, fog_ranks[i], self.fog_odds(dir)),
+                });
+            }
         }
+        found
     }
 
     /// Angle by which the wind has carried all clouds to the east.

@@ -7,6 +7,7 @@ use super::picture::folder_of;
 use super::problem::Problem;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
 use std::collections::HashMap;
+use std::fs::{File, Permissions};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -211,38 +212,28 @@ fn placed(text: &str, places: &HashMap<String, Place>, path: String, message: St
 /// Writes a file beside the target, syncs it to disk, then renames it to the target: a reader finds the old file or the
 /// new one, never a part of either, whatever fails in between.
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    // A link stays a link; its target is replaced.
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    if !folder.is_dir() {
-        return Err(format!("there is no folder {}; make it first or save elsewhere", folder.display()));
-    }
-    if target.is_dir() {
-        return Err("is a folder; name a file in it".to_owned());
-    }
-    if path.file_name().is_none() {
-        return Err("is not a file's name; name a file".to_owned());
-    }
-    if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        return Err("is a device or a pipe, not a file; name a file".to_owned());
-    }
-    let existing = std::fs::metadata(&target).ok().map(|metadata| metadata.permissions());
-    if existing.as_ref().is_some_and(std::fs::Permissions::readonly) {
-        return Err("is read-only; change its permissions or save elsewhere".to_owned());
-    }
+    write_atomically_with(path, None, &mut |file| file.write_all(bytes))
+}
+
+/// As [`write_atomically`], for a file that is written piece by piece. `beside`: the folder for the unfinished file, on
+/// the disk of the target; the folder of the target unless one is given.
+pub(crate) fn write_atomically_with(
+    path: &Path,
+    beside: Option<&Path>,
+    write: &mut dyn FnMut(&mut File) -> io::Result<()>,
+) -> Result<(), String> {
+    let Target { path: target, folder, permissions } = Target::checked(path)?;
+    let unfinished = beside.unwrap_or(&folder);
     let failed = |what: &str, error: &io::Error| format!("{what}: {error}; the old file is as it was");
     let mut builder = tempfile::Builder::new();
     builder.prefix(".tellus-").suffix(".tmp");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file = builder
-        .tempfile_in(folder)
-        .map_err(|e| failed(&format!("cannot write to the folder {}", folder.display()), &e))?;
-    file.write_all(bytes).map_err(|e| failed("cannot write", &e))?;
-    if let Some(permissions) = existing {
+        .tempfile_in(unfinished)
+        .map_err(|e| failed(&format!("cannot write to the folder {}", unfinished.display()), &e))?;
+    write(file.as_file_mut()).map_err(|e| failed("cannot write", &e))?;
+    if let Some(permissions) = permissions {
         // Not every file system has permissions.
         let _ = file.as_file().set_permissions(permissions);
     }
@@ -250,8 +241,45 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), String> 
     file.persist(&target).map_err(|e| failed("cannot replace the file", &e.error))?;
     // The rename must reach the disk, too. Not every system can open folders, and the file is complete already.
     #[cfg(unix)]
-    if let Ok(folder) = std::fs::File::open(folder) {
+    if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
     }
     Ok(())
+}
+
+/// A place where a file can be written.
+pub(crate) struct Target {
+    path: PathBuf,
+    folder: PathBuf,
+    /// Those of the file that is there already.
+    permissions: Option<Permissions>,
+}
+
+impl Target {
+    /// Checks that a file can be written or replaced here, as far as that is known before.
+    pub(crate) fn checked(path: &Path) -> Result<Self, String> {
+        // A link stays a link; its target is replaced.
+        let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let folder = match target.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        if !folder.is_dir() {
+            return Err(format!("there is no folder {}; make it first or save elsewhere", folder.display()));
+        }
+        if target.is_dir() {
+            return Err("is a folder; name a file in it".to_owned());
+        }
+        if path.file_name().is_none() {
+            return Err("is not a file's name; name a file".to_owned());
+        }
+        if std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+            return Err("is a device or a pipe, not a file; name a file".to_owned());
+        }
+        let permissions = std::fs::metadata(&target).ok().map(|metadata| metadata.permissions());
+        if permissions.as_ref().is_some_and(Permissions::readonly) {
+            return Err("is read-only; change its permissions or save elsewhere".to_owned());
+        }
+        Ok(Self { folder: folder.to_owned(), path: target, permissions })
+    }
 }

@@ -94,7 +94,7 @@ pub fn face_point(dir: DVec3) -> (Face, f64, f64) {
     (face, unbend(dir[s_axis] / depth * s_sign as f64), unbend(dir[t_axis] / depth))
 }
 
-#[cfg(feature = "render")]
+#[cfg(any(feature = "bake", feature = "render"))]
 /// The direction at `x`, `y` of a face of a cube texture with `side` texels along each face, as WebGPU orders and turns
 /// its faces; the middles of texels are at halves. Faces are flat here, unlike those of the planet's squares.
 pub(crate) fn texture_direction(face: usize, side: usize, x: f64, y: f64) -> DVec3 {

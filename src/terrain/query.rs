@@ -196,7 +196,8 @@ impl Terrain {
         self.samples_spaced_into(dirs_planet, 0.0, wanted, samples, scratch);
     }
 
-    /// As [`Terrain::samples_into`], without valleys of a structure that points `spacing_rad` apart would not show.
+    /// As [`Terrain::samples_into`], without valleys and rivers of a structure that points `spacing_rad` apart would
+    /// not show.
     pub(crate) fn samples_spaced_into(
         &self,
         dirs_planet: &[DVec3],
@@ -222,7 +223,7 @@ impl Terrain {
                 self.find_climate(wanted, samples, scratch);
             }
             if wanted.water {
-                self.find_water(&scratch.0.points.dirs, samples);
+                self.find_water(&scratch.0.points.dirs, spacing_rad, samples);
             }
         }
     }

@@ -4,6 +4,8 @@
 //! level and counts where the ground is below it.
 
 use super::Terrain;
+#[cfg(feature = "bake")]
+use super::landform::coarsest_spacing_rad;
 use super::landform::river_points;
 use super::query::Sample;
 use crate::world::carved::Carved;
@@ -30,9 +32,16 @@ pub struct River {
 }
 
 impl Terrain {
-    /// Fills in water, wind and rain at unit directions whose heights are known, and where no map of the
-    /// weather serves, the climate.
-    pub(super) fn find_water(&self, dirs: &[DVec3], samples: &mut [Sample]) {
+    /// The greatest distance between points, as an angle, at which the rivers of the solved drainage show. None without
+    /// a structure.
+    #[cfg(feature = "bake")]
+    pub(crate) fn river_spacing_rad(&self) -> Option<f64> {
+        self.world().carved.map().map(|carved| coarsest_spacing_rad(carved.drainage.side))
+    }
+
+    /// Fills in water, wind and rain at unit directions `spacing_rad` apart whose heights are known, and where no map
+    /// of the weather serves, the climate.
+    pub(super) fn find_water(&self, dirs: &[DVec3], spacing_rad: f64, samples: &mut [Sample]) {
         let world = self.world();
         let sea_m = self.planet().sea_level_m();
         for (sample, &dir) in samples.iter_mut().zip(dirs) {
@@ -44,7 +53,7 @@ impl Terrain {
             sample.plate = world.plates.map().and_then(|plates| u16::try_from(plates.layout.plate_under(dir)).ok());
         }
         if let Some(carved) = world.carved.map() {
-            river_points(&carved.rivers, dirs, |points| {
+            river_points(&carved.rivers, dirs, spacing_rad, |points| {
                 for ((sample, point), &dir) in samples.iter_mut().zip(points).zip(dirs) {
                     add_rivers(carved, dir, point, sample);
                 }

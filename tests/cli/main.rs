@@ -1,5 +1,6 @@
 //! Tests of the command line, run as a process, of the README's promises, and of the repository's own rules.
 //!
+//! - `bake`: maps against `tellus sample`; `decode`: readers of their files
 //! - `commands`: answers, messages, exit status
 //! - `rivers`: rivers as GeoJSON, many points
 //! - `house`: the length of files and comments
@@ -7,7 +8,9 @@
 //! - `readme`: the README's examples, presets and pictures
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
+mod bake;
 mod commands;
+mod decode;
 #[cfg(unix)]
 mod hostile;
 mod house;

@@ -3,6 +3,7 @@
 //! - [`noise`]: million points a second, against fastnoise-lite
 //! - [`edits`]: time from an edit to the finished tiles
 //! - [`queries`]: time of heights, samples and rays
+//! - [`bake`]: million pixels a second of a height map
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
 //! - [`clouds`]: time of cloud maps and queries
 //! - [`frames`]: time of a frame and of its clouds, sea and air
@@ -10,6 +11,7 @@
 //! - [`air`]: time that new LUTs of the air take on the GPU
 
 mod air;
+mod bake;
 mod clouds;
 mod edits;
 mod frames;
@@ -47,6 +49,8 @@ enum Part {
     Rebuild,
     /// Heights, samples and rays
     Queries,
+    /// Height maps of the globe, in files
+    Bake,
     /// Edits of two planets without a structure: the first, and the one whose tiles take longest
     Edits,
     /// Plates, weather and rivers
@@ -99,6 +103,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if wants(Part::Queries) {
         report["queries"] = queries::measure(first)?;
+    }
+    if wants(Part::Bake) {
+        report["bake"] = bake::measure(first)?;
     }
     if wants(Part::Edits) {
         report["edits"] = json!(edits::measure(first, None));

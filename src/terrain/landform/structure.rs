@@ -7,7 +7,7 @@ use super::{Chunk, Evaluate, Scratch};
 use crate::planet::Key;
 use crate::terrain::wet::Water;
 use crate::world::carved::Carved;
-use crate::world::rivers::{Cache, Flow, LEVELS, RiverPoint, Rivers};
+use crate::world::rivers::{Cache, Flow, RiverPoint, Rivers};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -51,10 +51,18 @@ struct Memory {
     flows: Vec<Flow>,
 }
 
-/// Evaluates rivers at unit directions, on all their levels. Allocates nothing once the blocks around have been built.
-pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], answer: impl FnOnce(&[RiverPoint])) {
+/// The greatest distance between points, as an angle, at which values have the coarsest level of rivers. `side`: cells
+/// along the side of a face of the solved drainage.
+#[cfg(feature = "bake")]
+pub(crate) fn coarsest_spacing_rad(side: usize) -> f64 {
+    (2.0 / (side as f64 * VALUE_POINTS)).next_down()
+}
+
+/// Evaluates rivers at unit directions, on the levels that points `spacing_rad` apart show (0: on all). Allocates
+/// nothing once the blocks around have been built.
+pub(crate) fn river_points(rivers: &Rivers, dirs: &[DVec3], spacing_rad: f64, answer: impl FnOnce(&[RiverPoint])) {
     MEMORY.with_borrow_mut(|Memory { cache, points, .. }| {
-        rivers.evaluate(dirs, LEVELS, cache, points);
+        rivers.evaluate(dirs, rivers.levels_for(spacing_rad, VALUE_POINTS), cache, points);
         answer(points);
     });
 }

@@ -1,0 +1,198 @@
+//! How the pixels of a picture lie on the globe. A value stands for the centre of its pixel.
+//!
+//! - Equirectangular: `width` x `width / 2` pixels, north up, the left edge at longitude -180°.
+//! - Cube: six flat faces in the order +X, -X, +Y, -Y, +Z, -Z of [`Face::ALL`](crate::sphere::Face::ALL), turned as
+//!   WebGPU, Vulkan, Direct3D and OpenGL expect the faces of a cube texture that is sampled with directions in the planet
+//!   frame.
+//! - Region: azimuthal equidistant about a centre (Snyder 1987, "Map projections: a working manual", chapter 25): true
+//!   distances and bearings from the centre; north is up there. Square pixels.
+
+use crate::sphere::LatLon;
+use crate::sphere::cube::texture_direction;
+use crate::sphere::geo::east_north;
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// How pixels lie on the globe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Longitude to the right, latitude upwards: the whole globe in one picture, twice as wide as high.
+    Equirect,
+    /// Six square faces of a cube texture.
+    Cube,
+    /// A square region about a centre, azimuthal equidistant.
+    Region(Region),
+}
+
+/// A square region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// Latitude of the centre, degrees.
+    pub lat_deg: f64,
+    /// Longitude of the centre, degrees.
+    pub lon_deg: f64,
+    /// Length of a side, from the outer edge of the first pixel to that of the last, through the centre.
+    pub side_km: f64,
+}
+
+impl Projection {
+    /// Its name in the JSON beside a map.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Projection::Equirect => "equirect",
+            Projection::Cube => "cube",
+            Projection::Region(_) => "azimuthal_equidistant",
+        }
+    }
+}
+
+/// The faces in the names of files.
+const FACES: [&str; 6] = ["pos_x", "neg_x", "pos_y", "neg_y", "pos_z", "neg_z"];
+
+/// The pixels of a bake: one picture, or six of the same size.
+pub(super) struct Grid {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    kind: Kind,
+}
+
+enum Kind {
+    /// Sine and cosine of the latitude of each row, and of the longitude of each column.
+    Equirect {
+        rows: Vec<(f64, f64)>,
+        columns: Vec<(f64, f64)>,
+    },
+    Cube,
+    Region(Tangent),
+}
+
+/// The plane of a region.
+struct Tangent {
+    center: DVec3,
+    east: DVec3,
+    north: DVec3,
+    /// Angle at the planet's centre between two pixels beside the middle.
+    pixel_rad: f64,
+}
+
+impl Grid {
+    /// The pixels of a projection. `size`: width of the picture, or of a face.
+    pub(super) fn new(projection: &Projection, size: u32, radius_km: f64) -> Self {
+        let (mut height, side) = (size, f64::from(size));
+        let kind = match projection {
+            Projection::Equirect => {
+                height = size / 2;
+                let lat_deg = |y: u32| 90.0 - (f64::from(y) + 0.5) * 180.0 / f64::from(height);
+                let lon_deg = |x: u32| -180.0 + (f64::from(x) + 0.5) * 360.0 / side;
+                Kind::Equirect {
+                    rows: (0..height).map(|y| libm::sincos(lat_deg(y).to_radians())).collect(),
+                    columns: (0..size).map(|x| libm::sincos(lon_deg(x).to_radians())).collect(),
+                }
+            }
+            Projection::Cube => Kind::Cube,
+            Projection::Region(region) => {
+                let center = LatLon::from_degrees(region.lat_deg, region.lon_deg).direction();
+                let (east, north) = east_north(center);
+                Kind::Region(Tangent { center, east, north, pixel_rad: region.side_km / radius_km / side })
+            }
+        };
+        Self { width: size, height, kind }
+    }
+
+    /// Angle between two pixels beside each other, where they are farthest apart.
+    pub(super) fn spacing_rad(&self) -> f64 {
+        match &self.kind {
+            Kind::Equirect { .. } => TAU / f64::from(self.width),
+            Kind::Cube => 2.0 / f64::from(self.width),
+            Kind::Region(Tangent { pixel_rad, .. }) => *pixel_rad,
+        }
+    }
+
+    /// How many pictures there are.
+    pub(super) fn pictures(&self) -> usize {
+        if matches!(self.kind, Kind::Cube) { FACES.len() } else { 1 }
+    }
+
+    /// The face of a picture, if it is one.
+    pub(super) fn face(&self, picture: usize) -> Option<&'static str> {
+        FACES.get(picture).copied().filter(|_| matches!(self.kind, Kind::Cube))
+    }
+
+    /// Direction of the centre of a pixel. Rows count from the top.
+    pub(super) fn direction(&self, picture: usize, x: u32, y: u32) -> DVec3 {
+        match &self.kind {
+            Kind::Equirect { rows, columns } => {
+                let ((sin_lat, cos_lat), (sin_lon, cos_lon)) = (rows[y as usize], columns[x as usize]);
+                DVec3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat)
+            }
+            Kind::Cube => {
+                let side = self.width as usize;
+                texture_direction(picture, side, f64::from(x) + 0.5, f64::from(y) + 0.5)
+            }
+            Kind::Region(Tangent { center, east, north, pixel_rad }) => {
+                let middle = f64::from(self.width) / 2.0;
+                let (right, up) = (f64::from(x) + 0.5 - middle, middle - f64::from(y) - 0.5);
+                let away = libm::hypot(right, up);
+                if away == 0.0 {
+                    return *center;
+                }
+                let (sin, cos) = libm::sincos(away * pixel_rad);
+                (*center * cos + (*east * right + *north * up) * (sin / away)).normalize()
+            }
+        }
+    }
+}
+
+/// The longest side of a region, km: its corners are still nearer than the far side of the planet.
+pub(super) fn longest_side_km(radius_km: f64) -> f64 {
+    PI * radius_km
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::Face;
+
+    fn lat_lon(grid: &Grid, picture: usize, x: u32, y: u32) -> (f64, f64) {
+        LatLon::from_direction(grid.direction(picture, x, y)).to_degrees()
+    }
+
+    #[test]
+    fn equirectangular_maps_begin_in_the_north_at_the_antimeridian() {
+        let grid = Grid::new(&Projection::Equirect, 8, 1.0);
+        assert_eq!((grid.width, grid.height, grid.pictures(), grid.face(0)), (8, 4, 1, None));
+        let (lat, lon) = lat_lon(&grid, 0, 0, 0);
+        assert!((lat - 67.5).abs() < 1e-9 && (lon + 157.5).abs() < 1e-9, "{lat} {lon}");
+        let (lat, lon) = lat_lon(&grid, 0, 7, 3);
+        assert!((lat + 67.5).abs() < 1e-9 && (lon - 157.5).abs() < 1e-9, "{lat} {lon}");
+        // To the bit what a query at that location takes.
+        assert_eq!(grid.spacing_rad(), TAU / 8.0);
+        assert_eq!(grid.direction(0, 5, 1), LatLon::from_degrees(22.5, 67.5).direction());
+    }
+
+    #[test]
+    fn faces_are_those_of_the_planet_frame() {
+        let grid = Grid::new(&Projection::Cube, 3, 1.0);
+        for (picture, face) in Face::ALL.into_iter().enumerate() {
+            let (axis, sign) = face.axis();
+            assert_eq!(grid.direction(picture, 1, 1)[axis], sign as f64, "{face:?}");
+        }
+        assert_eq!((grid.pictures(), grid.face(5)), (6, Some("neg_z")));
+    }
+
+    #[test]
+    fn regions_keep_distance_and_bearing_from_their_centre() {
+        let region = Region { lat_deg: 10.0, lon_deg: 179.0, side_km: 500.0 };
+        let grid = Grid::new(&Projection::Region(region), 5, 1000.0);
+        let center = LatLon::from_degrees(10.0, 179.0).direction();
+        assert_eq!(grid.direction(0, 2, 2), center);
+        for (x, y, km) in [(4, 2, 200.0), (2, 0, 200.0), (0, 4, 200.0 * 2.0_f64.sqrt())] {
+            let angle = grid.direction(0, x, y).dot(center).acos();
+            assert!((angle * 1000.0 - km).abs() < 1e-6, "{angle}");
+        }
+        // The top is north, the right is east.
+        let (lat, lon) = lat_lon(&grid, 0, 2, 0);
+        assert!((lat - 10.0 - 0.2_f64.to_degrees()).abs() < 1e-9 && (lon - 179.0).abs() < 1e-9, "{lat} {lon}");
+        assert!(lat_lon(&grid, 0, 4, 2).1 < -169.0);
+    }
+}

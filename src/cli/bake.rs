@@ -1,0 +1,137 @@
+//! `tellus bake`: maps of a planet in files.
+
+use super::{Failure, args, load, maps, tell};
+use crate::bake::{Bake, Detail, Format, MAX_SIZE, Map, Outcome, Projection, Region, Shard};
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+use std::io::IsTerminal as _;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+/// Bake maps of a planet: heights, normals, climate, biomes, water, clouds
+#[derive(clap::Args)]
+#[command(after_help = "The same command goes on where it was interrupted. Strips of the maps are kept in the folder \
+    until all are there. With --shard several processes or machines each make a part of them; the command without \
+    --shard then joins them. Copy the folders of machines with disks of their own together first.")]
+pub(super) struct Args {
+    /// The preset
+    #[arg(value_name = "FILE.ron")]
+    file: PathBuf,
+    /// The folder for the maps; it is made if there is none. A map X.png has X.json beside it: what its numbers mean
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// The maps
+    #[arg(
+        long,
+        value_name = "MAP",
+        value_delimiter = ',',
+        default_value = "height",
+        value_parser = PossibleValuesParser::new(Map::ALL.map(Map::name)).try_map(|name| Map::named(&name).ok_or(name))
+    )]
+    what: Vec<Map>,
+    /// equirect: the whole globe in one picture. cube: six faces of a cube texture. region: a square about --lat and
+    /// --lon, azimuthal equidistant
+    #[arg(long = "as", value_name = "PROJECTION", default_value = "equirect", value_parser = ["equirect", "cube", "region"])]
+    projection: String,
+    /// Width in pixels of the map, or of a face
+    #[arg(long, value_name = "N", default_value = "2048", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_SIZE)))]
+    size: u32,
+    /// png8, png16, tiff16 and r16 are whole numbers that run linearly between min and max of the JSON; exr and tiff
+    /// are floats of 32 bits, exr16 of 16; tiff is georeferenced; r16 has no header; ktx2 is a texture with mip levels
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        default_value = "png16",
+        value_parser = PossibleValuesParser::new(Format::ALL.map(Format::name)).try_map(|name| Format::named(&name).ok_or(name))
+    )]
+    format: Format,
+    #[arg(
+        long,
+        help = "Latitude of the centre of a region in degrees, north positive",
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::latitude,
+        required_if_eq("projection", "region")
+    )]
+    lat: Option<f64>,
+    #[arg(
+        long,
+        help = "Longitude of the centre of a region in degrees, east positive",
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::longitude,
+        required_if_eq("projection", "region")
+    )]
+    lon: Option<f64>,
+    /// Length of a side of a region
+    #[arg(long, value_name = "KILOMETRES", value_parser = args::region, required_if_eq("projection", "region"))]
+    km: Option<f64>,
+    /// all: what `tellus sample` answers. pixel: without valleys and rivers of a structure that are too narrow for the
+    /// map's pixels, as the planet is drawn from afar; a map of the globe takes seconds instead of hours
+    #[arg(
+        long,
+        value_name = "DETAIL",
+        default_value = "all",
+        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
+    )]
+    detail: Detail,
+    /// Heights in metres that whole numbers run between [default: the lowest and the highest of the map]
+    #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = args::heights)]
+    range: Option<[f64; 2]>,
+    /// Time in seconds, for clouds
+    #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
+    time: f64,
+    /// Make only the part I of N of the strips, such as 2/8
+    #[arg(long, value_name = "I/N", value_parser = args::shard)]
+    shard: Option<(u32, u32)>,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let planet = Arc::new(load(&args.file)?);
+    let projection = match (args.projection.as_str(), args.lat, args.lon, args.km) {
+        ("region", Some(lat_deg), Some(lon_deg), Some(side_km)) => {
+            Projection::Region(Region { lat_deg, lon_deg, side_km })
+        }
+        (_, Some(_), ..) | (_, _, Some(_), _) | (.., Some(_)) => {
+            return Err("--lat, --lon and --km are for --as region".to_owned().into());
+        }
+        ("cube", ..) => Projection::Cube,
+        _ => Projection::Equirect,
+    };
+    let terrain = Arc::new(maps::terrain(planet)?);
+    let mut bake = Bake::new(terrain, args.what.clone(), projection, args.size, args.format);
+    bake.detail = args.detail;
+    bake.time_secs = args.time;
+    bake.heights_m = args.range;
+    bake.shard = args.shard.map(|(number, count)| Shard { number, count });
+    if bake.is_slow() {
+        tell(
+            "note: every river under these pixels is made, milliseconds for each; --detail pixel leaves out the narrow ones",
+        );
+    }
+    match bake.run(&args.output, &told()).map_err(|error| error.to_string())? {
+        Outcome::Shard { missing: 0 } => tell("all strips are there; the same command without --shard joins them"),
+        Outcome::Shard { missing } => {
+            tell(&format!("this shard is done; {missing} strips of others are not there yet"))
+        }
+        Outcome::Done(_) | Outcome::Stopped => {}
+    }
+    Ok(())
+}
+
+/// Tells a person at a terminal how much is done, if it takes long.
+fn told() -> impl Fn(f64) -> bool + Sync {
+    let (start, last) = (Instant::now(), AtomicU32::new(0));
+    let is_read = std::io::stderr().is_terminal();
+    move |done| {
+        let percent = (done * 100.0) as u32;
+        if is_read && start.elapsed() > PATIENCE && last.fetch_max(percent, Ordering::Relaxed) < percent {
+            eprint!("\rbaked: {percent}%{}", if percent < 100 { "" } else { "\n" });
+        }
+        true
+    }
+}
+
+/// Time after which progress is told.
+const PATIENCE: Duration = Duration::from_secs(2);
