@@ -61,7 +61,7 @@ impl Texel {
                 other => other,
             };
             let most = if self.is_uint { 1 } else { (1 << self.bits) - 1 };
-            words.extend([channel * self.bits | (self.bits - 1) << 16 | kind << 24, 0, 0, most]);
+            words.extend([(channel * self.bits) | ((self.bits - 1) << 16) | (kind << 24), 0, 0, most]);
         }
         words.iter().flat_map(|word| word.to_le_bytes()).collect()
     }

@@ -113,7 +113,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match bake.run(&args.output, &told()).map_err(|error| error.to_string())? {
         Outcome::Shard { missing: 0 } => tell("all strips are there; the same command without --shard joins them"),
         Outcome::Shard { missing } => {
-            tell(&format!("this shard is done; {missing} strips of others are not there yet"))
+            tell(&format!("this shard is done; {missing} strips of others are not there yet"));
         }
         Outcome::Done(_) | Outcome::Stopped => {}
     }

@@ -188,7 +188,7 @@ mod tests {
 
     fn planet() -> Planet {
         let layer = |name: &str| Layer { name: name.to_owned(), ..Layer::default() };
-        Planet { layers: vec![layer("Hills"), layer("Dunes")], ..random::random(3) }
+        Planet { layers: vec![layer("Hills"), layer("Dunes of mine")], ..random::random(3) }
     }
 
     #[test]

@@ -131,7 +131,7 @@ mod tests {
             masks: vec![Mask::Layer(LayerMask { layer: "Gone".to_owned(), ..LayerMask::default() })],
             ..layers[0].clone()
         };
-        assert_eq!(read("clipboard", &of_layers(&[masked.clone()])).unwrap().planet().layers, [masked]);
+        assert_eq!(read("clipboard", &of_layers(std::slice::from_ref(&masked))).unwrap().planet().layers, [masked]);
         let flawed = [Layer { amplitude_m: 1e9, ..Layer::default() }];
         assert!(read("clipboard", &of_layers(&flawed)).err().unwrap().contains("amplitude_m"));
     }

@@ -190,7 +190,7 @@ fn both_planets_are_drawn() {
     app::wait_for_picture(&mut harness);
     send(&mut harness, Command::Compare);
     app::until(&mut harness, "the kept planet is drawn", |harness| {
-        harness.state().viewport().compare().is_some_and(|compare| compare.is_drawn())
+        harness.state().viewport().compare().is_some_and(tellus::editor::viewport::compare::Compare::is_drawn)
     });
     // On the right the planet loses everything that is not black or grey.
     let bare = Planet { name: "Bare".to_owned(), radius_km: planet(&harness).radius_km, ..Planet::default() };
