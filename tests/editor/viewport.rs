@@ -230,10 +230,10 @@ fn what_lies_under_the_pointer_is_told_without_holding_up_the_picture() {
 
 /// Clicks an entry of the menu that is open; the name of an entry ends with its shortcut.
 fn choose(harness: &mut Editor, entry: &str) {
-    let mut entries = harness.query_all_by_role(Role::Button);
     let named =
         |node: &egui_kittest::Node<'_>| node.accesskit_node().label().is_some_and(|name| name.starts_with(entry));
-    entries.rfind(named).unwrap().click();
+    let found = harness.query_all_by_role(Role::Button).rfind(named);
+    found.unwrap().click();
     harness.run_steps(3);
 }
 
