@@ -144,7 +144,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             was_empty = true;
             continue;
         }
-        // Where the ray enters the cloud, if what is found is more than the blurred edge of a cloud elsewhere in the step.
+        // Where the ray enters the cloud, unless what is found is the blurred edge of a cloud elsewhere in the step.
         var enter = t0;
         let fine_km = (t1 - t0) / layer.stride.z;
         if was_empty && layer.stride.z > 1.0 && cloud_on(way, t, sky_here, fine_km).density > LEAST_DENSITY {

@@ -2,8 +2,8 @@
 //!
 //! - Equirectangular: `width` x `width / 2` pixels, north up, the left edge at longitude -180°.
 //! - Cube: six flat faces in the order +X, -X, +Y, -Y, +Z, -Z of [`Face::ALL`](crate::sphere::Face::ALL), turned as
-//!   WebGPU, Vulkan, Direct3D and OpenGL expect the faces of a cube texture that is sampled with directions in the planet
-//!   frame.
+//!   WebGPU, Vulkan, Direct3D and OpenGL expect the faces of a cube texture that is sampled with directions in the
+//!   planet frame.
 //! - Region: azimuthal equidistant about a centre (Snyder 1987, "Map projections: a working manual", chapter 25): true
 //!   distances and bearings from the centre; north is up there. Square pixels.
 

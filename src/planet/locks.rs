@@ -1,7 +1,7 @@
 //! Locks: parameters and parts that variations and random planets leave as they are.
 //!
-//! A lock is kept in the preset as the path of a parameter or a part ([`super::notes::Lock`]). Such a path names a layer
-//! by its name and a biome by its key, so that the lock follows them when their lists change:
+//! A lock is kept in the preset as the path of a parameter or a part ([`super::notes::Lock`]). Such a path names a
+//! layer by its name and a biome by its key, so that the lock follows them when their lists change:
 //! `layers["Hills"].amplitude_m`, `biomes.palette["f"].color`, `clouds`.
 
 use super::notes::{EditorNotes, Lock, MAX_LOCKS};

@@ -1,5 +1,5 @@
-//! Everything that can be found by name: commands, shipped planets, recent files, bookmarks, and every parameter of the planet with
-//! a row in a panel. [`list`] makes the list, [`search`] puts what fits a text in order.
+//! Everything that can be found by name: commands, shipped planets, recent files, bookmarks, and every parameter of
+//! the planet with a row in a panel. [`list`] makes the list, [`search`] puts what fits a text in order.
 
 use super::fuzzy::{Text, folded};
 use super::place::Place;

@@ -5,7 +5,8 @@
 //! - [`overlay`]: compass, scale and legend over the picture
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`text`], [`place`], [`finder`]: windows
+//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`text`], [`place`],
+//!   [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
