@@ -112,8 +112,10 @@ fn light_of(sums: Sums, mean: vec3f, sun_mu: f32) -> Diffuse {
     let by_square = sqrt(clamp(sums.around / all, 0.0, 1.0));
     let weight = 1.0 - sun_mu * sun_mu + WEIGHT_OF_SQUARE;
     let along = clamp((sums.ahead / all + WEIGHT_OF_SQUARE * by_square) / weight, 0.0, 0.95);
-    let zenith = sums.zenith / max(mean, vec3f(1e-30)) - along * along * squared(sun_mu);
-    return Diffuse(mean, along, zenith, sums.up / all - along * sun_mu);
+    // A colour that all but vanishes can have moments beyond those of any light.
+    let zenith = clamp(sums.zenith / max(mean, vec3f(1e-30)), vec3f(squared(0.0)), vec3f(squared(1.0)));
+    let up = clamp(sums.up / all, -1.0, 1.0);
+    return Diffuse(mean, along, zenith - along * along * squared(sun_mu), up - along * sun_mu);
 }
 
 // A texel of the LUT: light scattered any number of times, and scattered once.

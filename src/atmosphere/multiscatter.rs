@@ -115,6 +115,11 @@ fn squared(cosine: f64) -> f64 {
     cosine * cosine - 1.0 / 3.0
 }
 
+/// The same for all colours.
+fn squares(cosine: f64) -> DVec3 {
+    DVec3::splat(squared(cosine))
+}
+
 /// Sine of an angle by its cosine.
 fn flat(mu: f64) -> f64 {
     (1.0 - mu * mu).max(0.0).sqrt()
@@ -164,8 +169,10 @@ impl Sums {
         let by_square = (self.around / all).clamp(0.0, 1.0).sqrt();
         let weight = 1.0 - sun_mu * sun_mu + WEIGHT_OF_SQUARE;
         let along = ((self.ahead / all + WEIGHT_OF_SQUARE * by_square) / weight).clamp(0.0, MAX_ALONG);
-        let zenith = self.zenith / mean.max(DVec3::splat(1e-300)) - along * along * squared(sun_mu);
-        Light { mean, along, up: self.up / all - along * sun_mu, zenith }
+        // A colour that all but vanishes can have moments beyond those of any light.
+        let zenith = (self.zenith / mean.max(DVec3::splat(1e-300))).clamp(squares(0.0), squares(1.0));
+        let up = (self.up / all).clamp(-1.0, 1.0);
+        Light { mean, along, up: up - along * sun_mu, zenith: zenith - along * along * squared(sun_mu) }
     }
 }
 
