@@ -57,6 +57,29 @@ impl Format {
         Self::ALL.into_iter().find(|format| format.name() == name)
     }
 
+    /// Its name for a person.
+    pub fn label(self) -> &'static str {
+        match self {
+            Format::Png8 => "PNG, 8 bits",
+            Format::Png16 => "PNG, 16 bits",
+            Format::Exr => "OpenEXR, 32 bits",
+            Format::Exr16 => "OpenEXR, 16 bits",
+            Format::R16 => "R16, raw 16 bits",
+            Format::Tiff => "GeoTIFF, 32 bits",
+            Format::Tiff16 => "GeoTIFF, 16 bits",
+            Format::Ktx2 => "KTX2 texture with mips",
+        }
+    }
+
+    /// Bytes of a number without compression.
+    pub fn bytes_per_number(self) -> u64 {
+        match self {
+            Format::Png8 => 1,
+            Format::Exr | Format::Tiff => 4,
+            _ => 2,
+        }
+    }
+
     /// The ending of its files.
     pub fn extension(self) -> &'static str {
         match self {
@@ -118,6 +141,11 @@ impl Steps {
         let share = if self.is_srgb { srgb_from_linear(share) } else { share };
         (share * self.top).round().clamp(0.0, self.top) as u16
     }
+}
+
+/// A component of sRGB.
+pub(super) fn srgb_byte(value: f64) -> u8 {
+    (srgb_from_linear(value) * 255.0).round() as u8
 }
 
 /// IEC 61966-2-1, from 0 to 1. The renderer has the same; this one gives the same bits on every machine.

@@ -126,6 +126,52 @@ impl Map {
         Self::ALL.into_iter().find(|map| map.name() == name)
     }
 
+    /// Its name for a person.
+    pub fn label(self) -> &'static str {
+        match self {
+            Map::Height => "Height",
+            Map::Normal => "Normal",
+            Map::NormalPlanet => "Normal in the planet frame",
+            Map::Slope => "Slope",
+            Map::Temperature => "Temperature",
+            Map::Precipitation => "Precipitation",
+            Map::Moisture => "Moisture",
+            Map::Rain => "Rain",
+            Map::Biome => "Biome numbers",
+            Map::Albedo => "Albedo",
+            Map::Roughness => "Roughness",
+            Map::WaterDepth => "Water depth",
+            Map::Discharge => "Discharge",
+            Map::Flow => "Flow",
+            Map::CloudCover => "Low clouds",
+            Map::MiddleCover => "Middle clouds",
+            Map::VeilCover => "Veil",
+            Map::FogCover => "Fog",
+        }
+    }
+
+    /// What its values are, as a sentence without a full stop.
+    pub fn told(self) -> &'static str {
+        match self {
+            Map::Height => "Metres above the reference sphere, below the sea too",
+            Map::Normal => "Unit normal along east, north and up",
+            Map::NormalPlanet => "Unit normal along the axes of the planet, for a globe in one piece",
+            Map::Slope => "Degrees",
+            Map::Temperature => "°C at the surface",
+            Map::Precipitation => "Rain and snow of the climate, mm a year",
+            Map::Moisture => "The columns of the biome table, 0 to 1",
+            Map::Rain => "Rain and snow of the structure's weather, mm a year",
+            Map::Biome => "Index into the palette, which the JSON lists",
+            Map::Albedo => "Mean colour of the biome through the water over it",
+            Map::Roughness => "Of the biome, 0 to 1",
+            Map::WaterDepth => "Metres of sea, lake or river over the ground",
+            Map::Discharge => "m³/s of the nearest river, if one is near",
+            Map::Flow => "Direction of the nearest river along east, north and up",
+            Map::CloudCover | Map::MiddleCover | Map::VeilCover => "Share of the sky at the time of the view",
+            Map::FogCover => "Share of the ground at the time of the view",
+        }
+    }
+
     /// The unit of its values; empty for shares and numbers.
     pub fn unit(self) -> &'static str {
         match self {
@@ -175,7 +221,7 @@ impl Map {
     }
 
     /// Why a planet has no such map, if it has none.
-    pub(super) fn missing(self, planet: &Planet) -> Option<&'static str> {
+    pub fn missing(self, planet: &Planet) -> Option<&'static str> {
         match self {
             Map::WaterDepth if planet.water.is_none() && planet.structure.is_none() => {
                 Some("neither a sea nor a structure, so it has no water")

@@ -12,7 +12,7 @@
 //! - `maps`: what can be baked; `projection`: where pixels lie; `format`: kinds of file, and steps of their numbers
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
-//! - `progress`, `error`
+//! - `preview`: a small picture of a map; `progress`, `error`
 
 mod error;
 mod format;
@@ -21,6 +21,7 @@ mod ktx2;
 mod maps;
 mod openexr;
 mod png;
+mod preview;
 mod progress;
 mod projection;
 mod raw;
@@ -33,6 +34,7 @@ mod tests;
 pub use error::BakeError;
 pub use format::Format;
 pub use maps::Map;
+pub use preview::Preview;
 pub use projection::{Projection, Region};
 
 use crate::clouds::CloudField;
@@ -211,6 +213,11 @@ impl Bake {
         written?;
         strips::remove(&strips.folder)?;
         Ok(Outcome::Done(files.into_iter().map(|file| file.path).collect()))
+    }
+
+    /// The longest side of a region of a planet, km: its corners are still nearer than the far side.
+    pub fn longest_side_km(radius_km: f64) -> f64 {
+        longest_side_km(radius_km)
     }
 
     /// Whether the bake takes milliseconds a pixel; see [`Detail`].

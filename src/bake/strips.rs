@@ -144,7 +144,7 @@ impl Strips {
     }
 
     /// The values of each map in a strip.
-    fn values(&self, strip: &Strip, evaluator: &Evaluator<'_>, scratch: &mut Scratch) -> Vec<Vec<f32>> {
+    pub(super) fn values(&self, strip: &Strip, evaluator: &Evaluator<'_>, scratch: &mut Scratch) -> Vec<Vec<f32>> {
         let (width, high) = (self.grid.width as usize, strip.rows.len());
         let mut planes: Vec<Vec<f32>> = self.maps.iter().map(|map| vec![0.0; width * high * map.channels()]).collect();
         let wide = (TASK / high).max(1);

@@ -7,9 +7,11 @@ use super::apply::apply_all;
 use super::command::{Action, Command, Commands};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::recent::Recent;
-use super::handlers::{self, answers, open_file, opening, shooting};
+use super::handlers::{self, answers, baking, open_file, opening, shooting};
 use super::painter::survey::Surveyor;
-use super::panels::{Draft, PanelState};
+use super::panels::PanelState;
+use super::panels::docks::Bench;
+use super::panels::layout::Layout;
 use super::state::State;
 use super::state::document::Document;
 use super::state::pictures::Pictures;
@@ -18,6 +20,7 @@ use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
 use super::state::variations::Variations;
 use super::viewport::Viewport;
+use super::views::bake::BakeWindow;
 use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
 use super::views::place::PlaceWindow;
@@ -26,19 +29,17 @@ use super::views::text::TextWindow;
 use super::views::{
     controls, look, menus, overlay, performance, photo, problems, prompts::Prompts, status, templates, variations,
 };
-use super::widgets::random_seed;
-use super::widgets::row_view::{LockView, RowView};
-use crate::planet::{Planet, random, shipped};
+use super::widgets::row_view::LockView;
+use crate::planet::{Planet, shipped};
 use crate::terrain::MapStore;
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// The key under which eframe keeps the layout between runs.
-const LAYOUT_KEY: &str = "tellus_layout";
-/// Width of the side panel at the start, in points.
-const PANEL_WIDTH: f32 = 376.0;
+/// The keys under which eframe keeps between runs whether the tabs are shown, and where they stand.
+const SHOWN_KEY: &str = "tellus_layout";
+const LAYOUT_KEY: &str = "tellus_docks";
 
 /// The editor.
 pub struct EditorApp {
@@ -51,6 +52,7 @@ pub struct EditorApp {
     history: HistoryWindow,
     place: PlaceWindow,
     text: TextWindow,
+    bake: BakeWindow,
     surveyor: Surveyor,
     /// Where solved world maps are kept.
     maps: Option<Arc<MapStore>>,
@@ -76,7 +78,9 @@ impl EditorApp {
         look::set_up(&cc.egui_ctx);
         let viewport = Viewport::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), &planet, maps.clone());
         let mut state = State::new(planet, viewport, Box::new(NativeDialogs::default()));
-        state.shows.panel = cc.storage.and_then(|storage| storage.get_string(LAYOUT_KEY)).as_deref() != Some("hidden");
+        let stored = |key: &str| cc.storage.and_then(|storage| storage.get_string(key));
+        state.shows.panel = stored(SHOWN_KEY).as_deref() != Some("hidden");
+        let layout = stored(LAYOUT_KEY).and_then(|text| Layout::from_text(&text)).unwrap_or_default();
         state.adapter = cc.wgpu_render_state.as_ref().map_or_else(String::new, |state| {
             let info = state.adapter.get_info();
             format!("{} ({:?}, {:?})", info.name, info.device_type, info.backend)
@@ -88,12 +92,13 @@ impl EditorApp {
         Self {
             state,
             commands: Commands::default(),
-            panels: PanelState::default(),
+            panels: PanelState::new(layout),
             prompts: Prompts::default(),
             finder: FinderWindow::default(),
             history: HistoryWindow::default(),
             place: PlaceWindow::default(),
             text: TextWindow::default(),
+            bake: BakeWindow::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
             maps,
             was_typing: false,
@@ -189,34 +194,23 @@ impl EditorApp {
             self.surveyor.ask(&surface.terrain);
         }
         let mut planet = (**state.document.planet()).clone();
-        let mut label = None;
         let problems = [state.document.problems(), state.pictures.problems()].concat();
         let locks = LockView::of(&planet);
-        egui::Panel::right("parts").default_size(PANEL_WIDTH).size_range(320.0..=560.0).show(ui, |ui| {
-            // The user sets the width, never the content: wide content is cut off.
-            let rect = ui.available_rect_before_wrap();
-            ui.advance_cursor_after_rect(rect);
-            let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(rect));
-            ui.shrink_clip_rect(rect.expand(4.0));
-            if let Some(panel) = panels.head(ui, &locks, &mut self.commands) {
-                let (seed, stray) = (random_seed(), state.variations.wish.stray);
-                planet = random::vary_some(&planet, seed, stray, &|path| path.part() == panel.part);
-                label = Some(format!("Vary {}", panel.label.to_lowercase()));
-            }
-            let (filter, revealed) = (panels.finding.filter(panels.tab()), panels.finding.revealed());
-            let mut draft = Draft {
-                label: label.take(),
-                shown: RowView { problems: &problems, filter: &filter, revealed: revealed.as_deref(), locks: &locks },
-                under_pointer: state.viewport.under_pointer(),
-                survey: self.surveyor.survey(),
-                commands: &mut self.commands,
-                eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
-                time_secs: state.viewport.settings.time_secs,
-                planet: &mut planet,
-            };
-            panels.show(ui, &mut draft);
-            label = draft.label;
-        });
+        let mut bench = Bench {
+            before: state.document.planet(),
+            label: None,
+            problems: &problems,
+            locks: &locks,
+            under_pointer: state.viewport.under_pointer(),
+            survey: self.surveyor.survey(),
+            commands: &mut self.commands,
+            eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
+            time_secs: state.viewport.settings.time_secs,
+            stray: state.variations.wish.stray,
+            planet: &mut planet,
+        };
+        panels.show_docks(ui, &mut bench);
+        let label = bench.label;
         self.commands.extend(locks.take_toggled().map(Action::ToggleLock));
         self.state.edit(planet, label);
     }
@@ -280,6 +274,7 @@ impl eframe::App for EditorApp {
         answers::poll_dialogs(state, ctx);
         open_file::poll(state, ctx);
         shooting::poll(state);
+        baking::poll(state, ctx);
         self.commands = apply_all(state, ctx, self.commands.take());
         handlers::clipboard::poll(state, ctx);
         handlers::variations::update(state, ctx);
@@ -319,6 +314,7 @@ impl eframe::App for EditorApp {
         variations::show(&ctx, &self.state, &mut self.commands);
         templates::show(&ctx, &self.state, &mut self.commands);
         self.text.show(&ctx, &self.state, &mut self.commands);
+        self.bake.show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);
@@ -335,6 +331,7 @@ impl eframe::App for EditorApp {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        storage.set_string(LAYOUT_KEY, if self.state.shows.panel { "shown" } else { "hidden" }.to_owned());
+        storage.set_string(SHOWN_KEY, if self.state.shows.panel { "shown" } else { "hidden" }.to_owned());
+        storage.set_string(LAYOUT_KEY, self.panels.layout.to_text());
     }
 }

@@ -4,6 +4,7 @@
 //! and its handler; [`apply`](super::apply) carries out the actions.
 
 use super::finder::place::Place;
+use super::state::baking::BakeSettings;
 use super::state::shooting::{PhotoSettings, Subject};
 use super::state::templates::Template;
 use super::state::variations::Wish;
@@ -35,6 +36,10 @@ pub enum Command {
     GoToPlace,
     PlayPause,
     TogglePanel,
+    /// Put every tab back into the side panel.
+    ResetLayout,
+    /// Show or hide the window that bakes maps.
+    Bake,
     TogglePerformance,
     ToggleOverlay,
     Text,
@@ -92,6 +97,8 @@ pub enum Action {
     Bookmark(BookmarkAction),
     /// Take a picture.
     Shoot(Shoot),
+    /// Bake maps for other programs.
+    Bake(BakeAction),
     /// Change a setting of the view.
     Set(Setting),
     /// Answer the question on screen.
@@ -123,6 +130,8 @@ pub enum Window {
     Templates,
     /// The text of the preset.
     Text,
+    /// Maps for other programs.
+    Bake,
 }
 
 /// A change of what the side panel shows.
@@ -139,6 +148,8 @@ pub enum PanelAction {
     TypeFilter,
     /// Remove the filter of the open tab.
     ClearFilter,
+    /// Put every tab back into the side panel.
+    ResetLayout,
 }
 
 /// A setting of the view, and its new value. Settings are no part of the document.
@@ -214,6 +225,17 @@ pub enum Shoot {
     /// Ask for a file.
     Ask(Subject),
     /// Stop what is being taken.
+    Cancel,
+}
+
+/// An action on maps for other programs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BakeAction {
+    /// Change what is to be baked.
+    Set(Box<BakeSettings>),
+    /// Ask for a folder.
+    Ask,
+    /// Stop the bake that is under way.
     Cancel,
 }
 

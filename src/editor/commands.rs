@@ -1,15 +1,16 @@
 //! The table of commands: for each its name, tooltip, menu, shortcuts, condition and handler.
 //!
 //! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a
-//! row here, or in `planets`: planets to choose from and to compare with.
+//! row here, in `files`: files and what is written to them, or in `planets`: planets to choose from and to compare
+//! with.
 
+mod files;
 mod planets;
 
 use super::command::{Command, PanelAction};
-use super::handlers::{biome_table, bookmarks, open_file, opening, saving, window};
+use super::handlers::{biome_table, bookmarks, window};
 use super::state::State;
 use super::state::describe::lower_first;
-use super::state::questions::Goal;
 use super::viewport::camera::{Cameras, Mode};
 use crate::planet::notes::MAX_BOOKMARKS;
 use crate::render::DebugView;
@@ -158,7 +159,8 @@ fn ctrl_shift(key: Key) -> KeyboardShortcut {
 
 /// All commands, in the order of the menus.
 pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
-    let mut rows = file_and_edit();
+    let mut rows = files::rows();
+    rows.extend(edit());
     rows.extend(DebugView::ALL.map(debug_view));
     rows.extend(view_and_help());
     rows.extend(planets::rows());
@@ -173,45 +175,8 @@ pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows
 });
 
-fn file_and_edit() -> Vec<Row> {
+fn edit() -> Vec<Row> {
     vec![
-        Row::new(Command::New, "New…", "Choose what a new planet begins as.", |s, _| s.shows.templates ^= true)
-            .within(Menu::File, 0)
-            .keys([ctrl(Key::N)])
-            .taking_typed_value(),
-        Row::new(Command::Open, "Open…", "Open a preset.", |s, ctx| opening::pursue(s, ctx, Goal::Open))
-            .within(Menu::File, 0)
-            .keys([ctrl(Key::O)])
-            .taking_typed_value(),
-        Row::new(Command::Save, "Save", "Write the planet to its file.", saving::save)
-            .within(Menu::File, 1)
-            .keys([ctrl(Key::S)])
-            .enabled_when(|s| s.document.is_dirty() || s.document.disk_bytes().is_none())
-            .taking_typed_value(),
-        Row::new(Command::SaveAs, "Save as…", "Write the planet to a file of your choice.", saving::save_as)
-            .within(Menu::File, 1)
-            .keys([ctrl_shift(Key::S)])
-            .taking_typed_value(),
-        Row::new(
-            Command::Revert,
-            "Revert to saved",
-            "Go back to what the file holds; undo brings this back.",
-            |s, _| {
-                open_file::revert(s);
-            },
-        )
-        .within(Menu::File, 1)
-        .enabled_when(|s| s.document.is_dirty() && s.document.disk_bytes().is_some())
-        .taking_typed_value(),
-        Row::new(Command::Photo, "Picture or film…", "Save this view, or a flight over the bookmarks.", |s, _| {
-            s.shows.photo ^= true;
-        })
-        .within(Menu::File, 2)
-        .keys([plain(Key::F10)]),
-        Row::new(Command::Quit, "Quit", "Close the editor.", |s, ctx| opening::pursue(s, ctx, Goal::Quit))
-            .within(Menu::File, 3)
-            .keys([ctrl(Key::Q)])
-            .taking_typed_value(),
         Row::new(Command::Undo, "Undo", "Undo the last change.", State::undo)
             .within(Menu::Edit, 0)
             .keys([ctrl(Key::Z)])
@@ -270,6 +235,13 @@ fn view_and_help() -> Vec<Row> {
         )
         .within(Menu::View, 2)
         .keys([plain(Key::F9)]),
+        Row::new(
+            Command::ResetLayout,
+            "Reset layout",
+            "Put every tab back into the panel at the right. Drag the name of a tab to move it.",
+            |s, _| s.ask_panel(PanelAction::ResetLayout),
+        )
+        .within(Menu::View, 2),
         Row::new(Command::ToggleOverlay, "Overlay", "Compass, scale and legend over the picture.", |s, _| {
             s.shows.overlay ^= true;
         })

@@ -42,7 +42,7 @@ choice! {
         /// The bare rock that all biomes share, between the slopes that all biomes share.
         Rock = "Rock",
         /// Another biome of the palette, between slopes of its own.
-        Biome = "Biome",
+        Biome = "Another biome",
         /// The biome stays on every slope.
         Stays = "Stays",
     }
@@ -58,13 +58,13 @@ params! {
         /// Colour of the ground (albedo, linear sRGB).
         color: [f64; 3] = [0.2, 0.18, 0.15], "Colour", Unit::None, Domain::Color, Stage::Material;
         /// Strength of the macro variation: 0 is one even colour.
-        variation: f64 = 0.25, "Variation", Unit::None, linear(0.0, 1.0), Stage::Material;
+        variation: f64 = 0.25, "Colour variation", Unit::None, linear(0.0, 1.0), Stage::Material;
         /// Share of the ground that has the second colour.
         patches: f64 = 0.0, "Patches", Unit::None, linear(0.0, 1.0), Stage::Material;
         /// Colour of the patches.
-        patch_color: [f64; 3] = [0.25, 0.22, 0.15], "Second colour", Unit::None, Domain::Color, Stage::Material;
+        patch_color: [f64; 3] = [0.25, 0.22, 0.15], "Patch colour", Unit::None, Domain::Color, Stage::Material;
         /// Size of the patches.
-        patch_m: f64 = 100.0, "Size of patches", Unit::Metres, log(1.0, 100_000.0), Stage::Material;
+        patch_m: f64 = 100.0, "Patch size", Unit::Metres, log(1.0, 100_000.0), Stage::Material;
         /// Roughness of the surface: 0 is a mirror, 1 is chalk.
         roughness: f64 = 0.9, "Roughness", Unit::None, linear(0.0, 1.0), Stage::Material;
         /// Strength of the specular reflection: 0 is none, 0.25 is water, 0.5 is most minerals.
@@ -72,26 +72,26 @@ params! {
         /// Close-up pattern.
         detail: Detail = Detail::None, "Detail", Unit::None, Domain::Choice, Stage::Material;
         /// Period of the pattern.
-        detail_m: f64 = 2.0, "Size of detail", Unit::Metres, DETAIL_SIZE, Stage::Material;
+        detail_m: f64 = 2.0, "Detail size", Unit::Metres, DETAIL_SIZE, Stage::Material;
         /// Strength of the pattern: 0 is an even surface.
-        detail_strength: f64 = 1.0, "Strength of detail", Unit::None, linear(0.0, 2.0), Stage::Material;
+        detail_strength: f64 = 1.0, "Detail strength", Unit::None, linear(0.0, 2.0), Stage::Material;
         /// What the biome becomes on steep ground.
         steep: Steep = Steep::Rock, "On steep ground", Unit::None, Domain::Choice, Stage::Material;
         /// Key of the biome that replaces it on steep ground, if that is another biome.
-        steep_key: char = UNSET_KEY, "Gives way to", Unit::None, Domain::BiomeKey, Stage::Material;
+        steep_key: char = UNSET_KEY, "Replaced by", Unit::None, Domain::BiomeKey, Stage::Material;
         /// Slope at which the other biome begins to replace it.
-        steep_from_deg: f64 = 25.0, "From", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        steep_from_deg: f64 = 25.0, "Steep from", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Slope from which there is only the other biome.
-        steep_to_deg: f64 = 35.0, "To", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        steep_to_deg: f64 = 35.0, "Steep to", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Biome relief: height of the hummocks and hollows that the biome adds to the ground. It fades towards
         /// neighbours as the table blends.
         relief_m: f64 = 0.0, "Relief", Unit::Metres, log(0.0, 1000.0), Stage::Height;
         /// Wavelength of the biome relief.
-        relief_size_m: f64 = 50.0, "Size of relief", Unit::Metres, log(1.0, 100_000.0), Stage::Field | Stage::Height;
+        relief_size_m: f64 = 50.0, "Relief size", Unit::Metres, log(1.0, 100_000.0), Stage::Field | Stage::Height;
         /// Radiance of the glowing parts: 1 is as bright as white ground under a star of brightness 1.
         glow: f64 = 0.0, "Glow", Unit::None, log(0.0, 100.0), Stage::Material;
         /// Colour of the glow.
-        glow_color: [f64; 3] = [1.0, 0.25, 0.03], "Colour of glow", Unit::None, Domain::Color, Stage::Material;
+        glow_color: [f64; 3] = [1.0, 0.25, 0.03], "Glow colour", Unit::None, Domain::Color, Stage::Material;
         /// Speed at which the pattern flows downhill, as lava does. The ground itself does not move.
         flow_m_s: f64 = 0.0, "Flow", Unit::MetresPerSecond, log(0.0, 10.0), Stage::Material;
     }

@@ -4,7 +4,8 @@
 
 use super::param::{ParamPath, Params, Unit};
 
-/// Writes an enum of kinds from a list. The first kind is the default. A file writes a value as `Kind(parameter: 1.0)`.
+/// Writes an enum of kinds from a list. The first kind is the default. A file writes a value as `Kind(parameter: 1.0)`;
+/// a person reads `"Label"`.
 ///
 /// `"name", "Label", stage | stage` describe the choice between the kinds as a parameter. The documentation of the enum
 /// is the tooltip of that parameter.
@@ -12,15 +13,18 @@ macro_rules! kinds {
     (
         $(#[doc = $enum_doc:literal])+
         pub enum $enum:ident: $name:literal, $label:literal, $($stage:path)|+;
-        $( $(#[doc = $doc:literal])+ $kind:ident($params:ident), )+
+        $( $(#[doc = $doc:literal])+ $kind:ident($params:ident) = $shown:literal, )+
     ) => {
         $(#[doc = $enum_doc])+
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         pub enum $enum { $( $(#[doc = $doc])+ $kind($params), )+ }
 
         impl $enum {
-            /// The names of the kinds, in the order of [`Choice::index`](crate::planet::param::Choice::index).
+            /// The names of the kinds in files, in the order of [`Choice::index`](crate::planet::param::Choice::index).
             pub const NAMES: &'static [&'static str] = &[$( stringify!($kind), )+];
+
+            /// The names that a person reads, in the same order.
+            pub const LABELS: &'static [&'static str] = &[$( $shown, )+];
 
             /// The description of each kind, in the same order.
             pub const DOCS: &'static [&'static str] = &[$( concat!($($doc),+).trim_ascii_start(), )+];
@@ -64,6 +68,9 @@ macro_rules! kinds {
         impl $crate::planet::param::Choice for $enum {
             fn names(&self) -> &'static [&'static str] {
                 Self::NAMES
+            }
+            fn labels(&self) -> &'static [&'static str] {
+                Self::LABELS
             }
             fn index(&self) -> usize {
                 let same = |kind: &Self| std::mem::discriminant(kind) == std::mem::discriminant(self);

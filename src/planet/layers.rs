@@ -21,9 +21,9 @@ params! {
         /// Height for a noise value of 1.
         amplitude_m: f64 = 1000.0, "Amplitude", Unit::Metres, log(0.0, 100_000.0), Stage::Height;
         /// Added to the noise before the amplitude: positive raises the whole layer, negative lowers it.
-        bias: f64 = 0.0, "Bias", Unit::None, linear(-2.0, 2.0), Stage::Height;
+        bias: f64 = 0.0, "Offset", Unit::None, linear(-2.0, 2.0), Stage::Height;
         /// How the layer is combined with the height of the earlier layers.
-        blend: Blend = Blend::Add, "Blend", Unit::None, Domain::Choice, Stage::Height;
+        blend: Blend = Blend::Add, "Blend mode", Unit::None, Domain::Choice, Stage::Height;
         /// Height difference below which SmoothMax and SmoothMin round the corner.
         softness_m: f64 = 100.0, "Softness", Unit::Metres, log(0.0, 100_000.0), Stage::Height;
         /// Reshapes the noise before bias and amplitude: points (noise, new value). An empty curve changes nothing.
@@ -31,7 +31,7 @@ params! {
         curve: Curve = Curve::new(), "Curve", Unit::None, NOISE_CURVE, Stage::Height;
         /// Whether the layer lies under the structure of the planet, which rivers carve. Without a structure it has no
         /// effect.
-        under: bool = false, "Under the structure", Unit::None, Domain::Flag, Stage::Field;
+        under: bool = false, "Below the structure", Unit::None, Domain::Flag, Stage::Field;
         /// How strongly belts of folded rock steer the layer: across a belt its features become narrower, about by this
         /// factor and one, so that ridges run along the folds. Craters, dunes and pictures are not steered. Without a
         /// structure it has no effect.
@@ -54,15 +54,15 @@ choice! {
         /// `h * (v + bias)`: the layer scales the height; its amplitude has no effect.
         Multiply = "Multiply",
         /// The greater of `h` and `y`.
-        Max = "Max",
+        Max = "Maximum",
         /// The lesser of `h` and `y`.
-        Min = "Min",
+        Min = "Minimum",
         /// `y` alone.
         Replace = "Replace",
         /// The greater of `h` and `y`, with the corner rounded by `softness_m`.
-        SmoothMax = "SmoothMax",
+        SmoothMax = "Smooth maximum",
         /// The lesser of `h` and `y`, with the corner rounded by `softness_m`.
-        SmoothMin = "SmoothMin",
+        SmoothMin = "Smooth minimum",
     }
 }
 

@@ -10,13 +10,13 @@ kinds! {
     /// The quantity that decides where the layer acts.
     pub enum Mask: "mask", "Kind", Stage::Field | Stage::Height;
     /// The noise of another layer.
-    Layer(LayerMask),
+    Layer(LayerMask) = "Another layer",
     /// The height of the earlier layers.
-    Height(HeightMask),
+    Height(HeightMask) = "Height",
     /// The slope of the earlier layers.
-    Slope(SlopeMask),
+    Slope(SlopeMask) = "Slope",
     /// The distance from the equator.
-    Latitude(LatitudeMask),
+    Latitude(LatitudeMask) = "Latitude",
 }
 
 params! {
@@ -25,9 +25,9 @@ params! {
         /// Name of the layer whose noise is read.
         layer: String = String::new(), "Layer", Unit::None, Domain::Text { max_chars: 48 }, Stage::Height;
         /// Noise value at which the layer is fully off.
-        from: f64 = -0.1, "From", Unit::None, linear(-2.0, 2.0), Stage::Height;
+        from: f64 = -0.1, "Off at", Unit::None, linear(-2.0, 2.0), Stage::Height;
         /// Noise value at which the layer is fully on.
-        to: f64 = 0.1, "To", Unit::None, linear(-2.0, 2.0), Stage::Height;
+        to: f64 = 0.1, "On at", Unit::None, linear(-2.0, 2.0), Stage::Height;
         /// Swaps on and off.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
     }
@@ -37,9 +37,9 @@ params! {
     /// Limits a layer to a range of the height of the earlier layers.
     pub struct HeightMask {
         /// Height at which the layer is fully off.
-        from_m: f64 = 0.0, "From", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Height;
+        from_m: f64 = 0.0, "Off at", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Height;
         /// Height at which the layer is fully on.
-        to_m: f64 = 500.0, "To", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Height;
+        to_m: f64 = 500.0, "On at", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Height;
         /// Swaps on and off.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
     }
@@ -49,12 +49,12 @@ params! {
     /// Limits a layer to a range of the slope of the earlier layers.
     pub struct SlopeMask {
         /// Slope at which the layer is fully off.
-        from_deg: f64 = 15.0, "From", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
+        from_deg: f64 = 15.0, "Off at", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
         /// Slope at which the layer is fully on.
-        to_deg: f64 = 30.0, "To", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
+        to_deg: f64 = 30.0, "On at", Unit::Degrees, linear(0.0, 90.0), Stage::Height;
         /// Distance over which the slope is measured; finer terrain does not count. All masks of a planet together may
         /// use only a few different distances.
-        over_m: f64 = 500.0, "Over", Unit::Metres, log(1.0, 1_000_000.0), Stage::Field | Stage::Height;
+        over_m: f64 = 500.0, "Measured over", Unit::Metres, log(1.0, 1_000_000.0), Stage::Field | Stage::Height;
         /// Swaps on and off.
         invert: bool = false, "Invert", Unit::None, Domain::Flag, Stage::Height;
     }
@@ -64,9 +64,9 @@ params! {
     /// Limits a layer to a range of latitude: near the poles, near the equator, in one hemisphere.
     pub struct LatitudeMask {
         /// Latitude at which the layer is fully off; north is positive.
-        from_deg: f64 = 50.0, "From", Unit::Degrees, linear(-90.0, 90.0), Stage::Height;
+        from_deg: f64 = 50.0, "Off at", Unit::Degrees, linear(-90.0, 90.0), Stage::Height;
         /// Latitude at which the layer is fully on.
-        to_deg: f64 = 60.0, "To", Unit::Degrees, linear(-90.0, 90.0), Stage::Height;
+        to_deg: f64 = 60.0, "On at", Unit::Degrees, linear(-90.0, 90.0), Stage::Height;
         /// Ignores the sign of the latitude, so that both hemispheres are alike.
         both: bool = true, "Both hemispheres", Unit::None, Domain::Flag, Stage::Height;
         /// Swaps on and off.

@@ -13,6 +13,7 @@
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`shipped`]: the presets that come with the program
+//! - `idle`: parameters that have no effect where the others stand
 //! - [`notes`]: the editor's own section of a preset; [`locks`]: what variations leave as it is
 //! - [`random`]: random planets that are always valid
 
@@ -22,6 +23,7 @@ mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
+mod idle;
 pub mod key;
 pub(crate) mod kinds;
 pub mod layers;

@@ -26,12 +26,12 @@ params! {
         /// How much drier it gets for each kilometre of height.
         drying_per_km: f64 = 0.06, "Drying with height", Unit::PerKilometre, linear(0.0, 1.0), Stage::Uniform;
         /// Moisture that the sea adds at the coast.
-        sea_moisture: f64 = 0.0, "Moisture from the sea", Unit::None, linear(0.0, 1.0), Stage::Climate;
+        sea_moisture: f64 = 0.0, "Coastal moisture", Unit::None, linear(0.0, 1.0), Stage::Climate;
         /// Distance inland at which the moisture from the sea has faded to 0. It fades fastest near the coast.
-        sea_reach_km: f64 = 1500.0, "Reach of the sea", Unit::Kilometres, log(1.0, 20_000.0), Stage::Climate;
+        sea_reach_km: f64 = 1500.0, "Coastal reach", Unit::Kilometres, log(1.0, 20_000.0), Stage::Climate;
         /// Precipitation in a year where the moisture is 1; elsewhere in proportion. Only shown as a figure; nothing is
         /// drawn from it.
-        wettest_mm: f64 = 3000.0, "Wettest", Unit::Millimetres, log(1.0, 30_000.0), Stage::Label;
+        wettest_mm: f64 = 3000.0, "Rain at moisture 1", Unit::Millimetres, log(1.0, 30_000.0), Stage::Label;
         /// Wavelength of the coarsest octave of the temperature and moisture noise.
         wavelength_km: f64 = 3000.0, "Region size", Unit::Kilometres, log(0.1, 100_000.0), Stage::ClimateNoise;
         /// Number of octaves of the temperature and moisture noise.
@@ -85,31 +85,31 @@ params! {
         /// lines of equal climate show on the ground; 1 is up to about half a cell.
         border_jitter: f64 = 1.0, "Border jitter", Unit::None, linear(0.0, 4.0), Stage::Uniform;
         /// Slope at which bare rock begins to replace the biomes whose steep ground is Rock.
-        cliff_start_deg: f64 = 28.0, "Rock begins", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        cliff_start_deg: f64 = 28.0, "Rock starts at", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Slope from which those biomes are bare rock only.
-        cliff_full_deg: f64 = 42.0, "Only rock", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        cliff_full_deg: f64 = 42.0, "Bare rock from", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Colour of bare rock on steep ground.
-        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock", Unit::None, Domain::Color, Stage::Material;
+        cliff_color: [f64; 3] = [0.16, 0.14, 0.12], "Rock colour", Unit::None, Domain::Color, Stage::Material;
         /// Close-up pattern of bare rock.
-        cliff_detail: Detail = Detail::None, "Detail of rock", Unit::None, Domain::Choice, Stage::Material;
+        cliff_detail: Detail = Detail::None, "Rock detail", Unit::None, Domain::Choice, Stage::Material;
         /// Period of the pattern of bare rock.
-        cliff_detail_m: f64 = 6.0, "Size of rock", Unit::Metres, DETAIL_SIZE, Stage::Material;
+        cliff_detail_m: f64 = 6.0, "Rock detail size", Unit::Metres, DETAIL_SIZE, Stage::Material;
         /// Beaches cover ground up to this height above and below sea level; 0 means no beaches.
-        beach_m: f64 = 0.0, "Beach up to", Unit::Metres, log(0.0, 1000.0), Stage::Material;
+        beach_m: f64 = 0.0, "Beach height", Unit::Metres, log(0.0, 1000.0), Stage::Material;
         /// Key of the biome of beaches. The bed of shallow water beside a beach has its colour.
-        beach_key: char = UNSET_KEY, "Beach", Unit::None, Domain::BiomeKey, Stage::Material;
+        beach_key: char = UNSET_KEY, "Beach biome", Unit::None, Domain::BiomeKey, Stage::Material;
         /// Ground steeper than this is no beach.
-        beach_steepest_deg: f64 = 15.0, "Steepest beach", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        beach_steepest_deg: f64 = 15.0, "Beach max slope", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
         /// Whether snow lies over the biomes where it is cold.
-        snow: bool = false, "Snow", Unit::None, Domain::Flag, Stage::Material;
+        snow: bool = false, "Snow cover", Unit::None, Domain::Flag, Stage::Material;
         /// Key of the biome of snow.
-        snow_key: char = UNSET_KEY, "Snow is", Unit::None, Domain::BiomeKey, Stage::Material;
+        snow_key: char = UNSET_KEY, "Snow biome", Unit::None, Domain::BiomeKey, Stage::Material;
         /// Temperature at which snow covers half of the ground.
-        snow_below_c: f64 = -6.0, "Snow below", Unit::Celsius, linear(-270.0, 1000.0), Stage::Material;
+        snow_below_c: f64 = -6.0, "Half covered at", Unit::Celsius, linear(-270.0, 1000.0), Stage::Material;
         /// Range of temperature from bare ground to full snow cover.
-        snow_range_c: f64 = 4.0, "Range of snow", Unit::Celsius, linear(0.1, 100.0), Stage::Material;
+        snow_range_c: f64 = 4.0, "Snow transition", Unit::Celsius, linear(0.1, 100.0), Stage::Material;
         /// Ground steeper than this sheds its snow.
-        snow_steepest_deg: f64 = 40.0, "Steepest snow", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
+        snow_steepest_deg: f64 = 40.0, "Snow max slope", Unit::Degrees, linear(0.0, 90.0), Stage::Material;
     } with {
         /// The biomes that the letters of the table refer to.
         palette: Vec<Biome> = vec![Biome::default()];
@@ -122,7 +122,7 @@ params! {
     /// A sea that fills everything below sea level.
     pub struct Water {
         /// Sea level: height of the sea above the reference sphere.
-        level_m: f64 = 0.0, "Level", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate | Stage::Uniform;
+        level_m: f64 = 0.0, "Sea level", Unit::Metres, linear(-50_000.0, 50_000.0), Stage::Climate | Stage::Uniform;
         /// Absorption of light in water. Clear sea water absorbs red most.
         absorption_per_m: [f64; 3] = [0.34, 0.0325, 0.00635], "Absorption", Unit::PerMetre, triple(10.0), Stage::Uniform;
         /// Colour of the light that deep water scatters back.
@@ -136,9 +136,9 @@ params! {
         /// Temperature below which the sea is frozen.
         freezing_c: f64 = -12.0, "Freezes at", Unit::Celsius, linear(-300.0, 1000.0), Stage::Uniform;
         /// Colour of the ice on a frozen sea.
-        ice_color: [f64; 3] = [0.72, 0.78, 0.84], "Ice", Unit::None, Domain::Color, Stage::Uniform;
+        ice_color: [f64; 3] = [0.72, 0.78, 0.84], "Ice colour", Unit::None, Domain::Color, Stage::Uniform;
         /// Width of the greatest ice floes. Between them is open water; 0 is ice without gaps.
-        floe_m: f64 = 3000.0, "Floes", Unit::Metres, log(0.0, 100_000.0), Stage::Uniform;
+        floe_m: f64 = 3000.0, "Floe size", Unit::Metres, log(0.0, 100_000.0), Stage::Uniform;
         /// Light that the sea gives off by itself, as lava does: 1 is as bright as white ground in the sun.
         glow: f64 = 0.0, "Glow", Unit::None, log(0.0, 100.0), Stage::Uniform;
         /// Colour of that light.
@@ -164,9 +164,9 @@ params! {
         /// Forward scattering of dust and droplets: 0 scatters evenly, near 1 makes a tight glow around the star.
         mie_anisotropy: f64 = 0.8, "Mie anisotropy", Unit::None, linear(-0.95, 0.95), Stage::AirTables;
         /// Absorption in the middle of the absorbing layer, such as ozone.
-        absorber_per_km: [f64; 3] = [0.00065, 0.001881, 0.000085], "Absorber", Unit::PerKilometre, triple(2.0), Stage::OpticalDepth;
+        absorber_per_km: [f64; 3] = [0.00065, 0.001881, 0.000085], "Absorption", Unit::PerKilometre, triple(2.0), Stage::OpticalDepth;
         /// Height of the middle of the absorbing layer.
-        absorber_height_km: f64 = 25.0, "Absorber height", Unit::Kilometres, log(0.0, 1000.0), Stage::OpticalDepth;
+        absorber_height_km: f64 = 25.0, "Absorber altitude", Unit::Kilometres, log(0.0, 1000.0), Stage::OpticalDepth;
         /// Distance from the middle of the absorbing layer to its edges.
         absorber_width_km: f64 = 15.0, "Absorber width", Unit::Kilometres, log(0.01, 500.0), Stage::OpticalDepth;
         /// Albedo of the ground, as the light in the atmosphere assumes it.
@@ -185,13 +185,13 @@ params! {
     /// Clouds in four layers: fog, low clouds, middle clouds and a veil of ice.
     pub struct Clouds {
         /// Share of the sky covered by low clouds.
-        coverage: f64 = 0.5, "Coverage", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        coverage: f64 = 0.5, "Low cover", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Size of the weather systems.
-        scale_km: f64 = 2500.0, "Scale", Unit::Kilometres, log(1.0, 50_000.0), Stage::CloudMap;
+        scale_km: f64 = 2500.0, "System size", Unit::Kilometres, log(1.0, 50_000.0), Stage::CloudMap;
         /// How strongly wind curls the weather systems.
         curl: f64 = 0.6, "Curl", Unit::None, linear(0.0, 2.0), Stage::CloudMap;
         /// Strength of cyclones: comma-shaped ones of middle latitudes, and tropical ones with an eye. 0 is none.
-        storms: f64 = 0.6, "Storms", Unit::None, linear(0.0, 1.0), Stage::CloudMap;
+        storms: f64 = 0.6, "Cyclone strength", Unit::None, linear(0.0, 1.0), Stage::CloudMap;
         /// Number of cyclones that live at a time, most of them in the middle latitudes.
         cyclones: u32 = 24, "Cyclones", Unit::None, count(0, MAX_CYCLONES), Stage::CloudMap;
         /// Seed of the cloud noise.
@@ -206,7 +206,7 @@ params! {
         puff_km: f64 = 6.0, "Puff size", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
         /// Type of the low clouds: -1 is heaps everywhere, 0 is heaps in the tropics and decks towards the poles and in
         /// cyclones, 1 is decks everywhere.
-        layering: f64 = 0.0, "Layering", Unit::None, linear(-1.0, 1.0), Stage::Uniform;
+        layering: f64 = 0.0, "Cloud type", Unit::None, linear(-1.0, 1.0), Stage::Uniform;
         /// How far thunderclouds tower over small heaps and decks, and spread into anvils: at 0 all clouds fill the
         /// layer, at 1 only thunderclouds reach its top.
         towers: f64 = 0.0, "Towers", Unit::None, linear(0.0, 1.0), Stage::Uniform;
@@ -217,7 +217,7 @@ params! {
         /// Speed of the clouds at the equator; positive is eastward, negative westward.
         wind_km_h: f64 = 60.0, "Wind", Unit::KilometresPerHour, linear(-2000.0, 2000.0), Stage::Uniform;
         /// Share of the sky covered by middle clouds.
-        middle: f64 = 0.0, "Middle clouds", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        middle: f64 = 0.0, "Middle cover", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Clear air between the top of the low clouds and the middle clouds.
         middle_gap_km: f64 = 1.0, "Middle gap", Unit::Kilometres, log(0.0, 200.0), Stage::Uniform;
         /// Height from the bottom of the middle clouds to their top.
@@ -227,13 +227,13 @@ params! {
         /// Size of single middle clouds.
         middle_puff_km: f64 = 1.5, "Middle puff size", Unit::Kilometres, log(0.05, 500.0), Stage::Uniform;
         /// Share of the sky covered by a veil of high ice clouds.
-        veil: f64 = 0.1, "Veil", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        veil: f64 = 0.1, "Veil cover", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Height of the veil above the top of the low clouds. It never lies under the middle clouds.
         veil_gap_km: f64 = 3.0, "Veil gap", Unit::Kilometres, log(0.0, 200.0), Stage::Uniform;
         /// Optical depth of the veil where it covers the sky.
         veil_density: f64 = 0.6, "Veil density", Unit::None, log(0.01, 20.0), Stage::Uniform;
         /// Share of the globe under banks of fog. Mountains and islands stand out of them.
-        fog: f64 = 0.0, "Fog", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        fog: f64 = 0.0, "Fog cover", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Height of the bottom of the fog above the sea, or above the reference sphere where there is none. Fog under
         /// the ground is not seen.
         fog_altitude_km: f64 = 0.0, "Fog altitude", Unit::Kilometres, linear(-20.0, 20.0), Stage::Uniform;

@@ -10,42 +10,42 @@ use super::picture::{PictureFile, PictureLayout};
 
 /// Writes the enum from the list of landforms. Each name is also the name of a struct of parameters.
 macro_rules! shapes {
-    ($( $(#[doc = $doc:literal])+ $kind:ident, )+) => {
+    ($( $(#[doc = $doc:literal])+ $kind:ident = $label:literal, )+) => {
         kinds! {
             /// The landform of the layer.
             pub enum Shape: "shape", "Kind", Stage::Field;
-            $( $(#[doc = $doc])+ $kind($kind), )+
+            $( $(#[doc = $doc])+ $kind($kind) = $label, )+
         }
     };
 }
 
 shapes! {
     /// Rolling ground: octaves of gradient noise summed.
-    Fbm,
+    Fbm = "Fractal noise",
     /// Mountain chains: octaves of noise folded into crests.
-    Ridged,
+    Ridged = "Ridges",
     /// Impact craters of many sizes.
-    Craters,
+    Craters = "Craters",
     /// Steps cut into the ground of the earlier layers.
-    Terraces,
+    Terraces = "Terraces",
     /// Rounded hills between creased valleys: octaves of folded noise.
-    Billow,
+    Billow = "Billow",
     /// Smooth valleys and rough peaks: octaves that are weaker where the ground is steep.
-    Damped,
+    Damped = "Slope-damped noise",
     /// Swirling, folded ground: octaves summed at points displaced by other noise.
-    Warped,
+    Warped = "Warped noise",
     /// Continents and oceans with shelves, slopes and abyssal plains: the base of most planets.
-    Continents,
+    Continents = "Continents",
     /// Dunes: crests across the wind, gentle on the windward side and steep on the lee.
-    Dunes,
+    Dunes = "Dunes",
     /// Eroded mountains: gullies and ridges that run down the slope and branch.
-    Gullies,
+    Gullies = "Gullies",
     /// Meandering valleys with flat floors, walls and tributaries.
-    Canyons,
+    Canyons = "Canyons",
     /// Cells around scattered centres: plates, cracks or domes.
-    Cells,
+    Cells = "Cells",
     /// Heights from a picture.
-    HeightMap,
+    HeightMap = "Height map",
 }
 
 /// Writes the parameters of a landform that sums octaves of lacunarity 2: those before the octaves, the three of the
@@ -121,19 +121,19 @@ params! {
         density: f64 = 0.7, "Density", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Exponent of the cumulative count of craters by diameter, about 2.4 on moons; counts stop where the ground is
         /// full. At 0 every size covers an equal share.
-        power: f64 = 2.4, "Power of counts", Unit::None, linear(0.0, 4.0), Stage::Field;
+        power: f64 = 2.4, "Size distribution", Unit::None, linear(0.0, 4.0), Stage::Field;
         /// Height of the rim relative to the depth of the bowl.
-        rim: f64 = 0.28, "Rim", Unit::None, linear(0.0, 0.6), Stage::Field;
+        rim: f64 = 0.28, "Rim height", Unit::None, linear(0.0, 0.6), Stage::Field;
         /// Reach of the ejecta in crater radii.
-        ejecta: f64 = 1.6, "Ejecta", Unit::None, linear(1.1, 1.6), Stage::Field;
+        ejecta: f64 = 1.6, "Ejecta reach", Unit::None, linear(1.1, 1.6), Stage::Field;
         /// Share of the radius that is flat floor in the widest craters; small craters are bowls.
         floor: f64 = 0.45, "Flat floor", Unit::None, linear(0.0, 0.8), Stage::Field;
         /// Height of the central peak of the widest craters relative to their depth.
         peak: f64 = 0.3, "Central peak", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Erosion of the oldest craters, which are shallow and rimless at 1. Each crater has its own age up to this.
-        age: f64 = 0.7, "Age", Unit::None, linear(0.0, 1.0), Stage::Field;
+        age: f64 = 0.7, "Erosion", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Share of craters that are fresh, whatever the age of the others.
-        fresh: f64 = 0.1, "Fresh", Unit::None, linear(0.0, 1.0), Stage::Field;
+        fresh: f64 = 0.1, "Fresh craters", Unit::None, linear(0.0, 1.0), Stage::Field;
     }
 }
 
@@ -248,7 +248,7 @@ params! {
         /// Frequency of each octave of base and gullies relative to the previous one.
         lacunarity: f64 = 2.0, "Lacunarity", Unit::None, linear(1.5, 4.0), Stage::Field;
         /// Distance between neighbouring gullies of the coarsest octave.
-        gully_km: f64 = 8.0, "Gullies", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
+        gully_km: f64 = 8.0, "Gully spacing", Unit::Kilometres, log(0.001, 100_000.0), Stage::Field;
         /// Number of octaves of gullies; each branches off the previous one.
         gully_octaves: u32 = 5, "Gully octaves", Unit::None, count(1, 16), Stage::Field;
         /// Depth of the gullies relative to their width: at 1 they are about as steep as the base.
@@ -270,7 +270,7 @@ params! {
         /// Width of the largest valleys from rim to rim.
         width_km: f64 = 8.0, "Width", Unit::Kilometres, log(0.001, 10_000.0), Stage::Field;
         /// Share of the width that is flat floor: 0 is a V-shaped valley, near 1 a trench between cliffs.
-        steepness: f64 = 0.35, "Steepness", Unit::None, linear(0.0, 0.95), Stage::Field;
+        steepness: f64 = 0.35, "Floor share", Unit::None, linear(0.0, 0.95), Stage::Field;
         /// Strength of the meanders: 0 is nearly straight.
         meander: f64 = 0.5, "Meander", Unit::None, linear(0.0, 1.0), Stage::Field;
     }

@@ -35,39 +35,39 @@ params! {
         /// Seed of the layout: plates, their motion, continents and hot spots.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Field;
         /// Number of plates. A third of them are large.
-        count: u32 = 15, "Plates", Unit::None, count(2, MAX_PLATES), Stage::Field;
+        count: u32 = 15, "Plate count", Unit::None, count(2, MAX_PLATES), Stage::Field;
         /// How much plates differ in size: 0 is all alike, 1 is a few giants and many small ones.
-        size_variation: f64 = 0.6, "Difference in size", Unit::None, linear(0.0, 1.0), Stage::Field;
+        size_variation: f64 = 0.6, "Size variation", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How ragged boundaries between plates are: 0 is straight lines.
-        raggedness: f64 = 1.0, "Ragged boundaries", Unit::None, linear(0.0, 2.0), Stage::Field;
+        raggedness: f64 = 1.0, "Raggedness", Unit::None, linear(0.0, 2.0), Stage::Field;
         /// Share of the planet that is continental crust. A part of it is shelf, under the sea.
         continents: f64 = 0.38, "Continental crust", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How continents break up: 0 is a few with even coasts, 1 is many pieces with gulfs and islands.
-        fragments: f64 = 0.5, "Fragments", Unit::None, linear(0.0, 1.0), Stage::Field;
+        fragments: f64 = 0.5, "Fragmentation", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Speed of a plate of medium size.
         drift_mm_yr: f64 = 50.0, "Drift", Unit::MillimetresPerYear, log(1.0, 500.0), Stage::Field;
         /// How far the strongest mountain belts have been pushed up. Rivers take a part of it away.
         mountains_m: f64 = 7500.0, "Mountains", Unit::Metres, linear(0.0, 30_000.0), Stage::Field;
         /// Width of a mountain belt along a coast, on a planet of the Earth's size.
-        belt_km: f64 = 420.0, "Width of belts", Unit::Kilometres, log(50.0, 2000.0), Stage::Field;
+        belt_km: f64 = 420.0, "Belt width", Unit::Kilometres, log(50.0, 2000.0), Stage::Field;
         /// Width of the high plateau behind a collision of two continents, on a planet of the Earth's size.
-        plateau_km: f64 = 650.0, "Plateaus", Unit::Kilometres, log(10.0, 3000.0), Stage::Field;
+        plateau_km: f64 = 650.0, "Plateau width", Unit::Kilometres, log(10.0, 3000.0), Stage::Field;
         /// Height of the old worn belts inside continents.
-        old_belts_m: f64 = 1400.0, "Old belts", Unit::Metres, linear(0.0, 10_000.0), Stage::Field;
+        old_belts_m: f64 = 1400.0, "Old belt height", Unit::Metres, linear(0.0, 10_000.0), Stage::Field;
         /// Mean height to which the inside of a continent has been raised.
-        inland_m: f64 = 500.0, "Inland", Unit::Metres, linear(0.0, 10_000.0), Stage::Field;
+        inland_m: f64 = 500.0, "Inland height", Unit::Metres, linear(0.0, 10_000.0), Stage::Field;
         /// Depth of an old ocean floor below the reference sphere.
         ocean_m: f64 = 5200.0, "Ocean depth", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
         /// Depth of a ridge in the middle of an ocean below the reference sphere.
-        ridge_m: f64 = 2500.0, "Depth of ridges", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
+        ridge_m: f64 = 2500.0, "Ridge depth", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
         /// Depth of a trench below the ocean floor beside it.
-        trench_m: f64 = 3500.0, "Trenches", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
+        trench_m: f64 = 3500.0, "Trench depth", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
         /// Width of the shelf along a coast where no plate sinks, on a planet of the Earth's size.
-        shelf_km: f64 = 140.0, "Shelf", Unit::Kilometres, log(1.0, 1000.0), Stage::Field;
+        shelf_km: f64 = 140.0, "Shelf width", Unit::Kilometres, log(1.0, 1000.0), Stage::Field;
         /// Height of the volcanoes of an island arc above the ocean floor.
-        arcs_m: f64 = 5500.0, "Island arcs", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
+        arcs_m: f64 = 5500.0, "Arc height", Unit::Metres, linear(0.0, 20_000.0), Stage::Field;
         /// Depth of a rift inside a continent.
-        rifts_m: f64 = 1100.0, "Rifts", Unit::Metres, linear(0.0, 10_000.0), Stage::Field;
+        rifts_m: f64 = 1100.0, "Rift depth", Unit::Metres, linear(0.0, 10_000.0), Stage::Field;
         /// Number of hot spots. Each leaves a chain of volcanoes on the plate that drifts over it.
         hot_spots: u32 = 9, "Hot spots", Unit::None, count(0, 40), Stage::Field;
         /// Height of the youngest volcano of a hot spot above the ground.
@@ -146,7 +146,7 @@ params! {
         wetness: f64 = 1.0, "Wetness", Unit::None, log(0.02, 5.0), Stage::Field;
         /// Distance over flat land after which a third of the moisture in the air is left, on a planet of the Earth's
         /// size.
-        reach_km: f64 = 2200.0, "Reach of moisture", Unit::Kilometres, log(50.0, 20_000.0), Stage::Field;
+        reach_km: f64 = 2200.0, "Moisture reach", Unit::Kilometres, log(50.0, 20_000.0), Stage::Field;
         /// Strength of rain on windward slopes and of the dry side behind them; 1 is the Earth.
         rain_shadow: f64 = 1.0, "Rain shadow", Unit::None, linear(0.0, 3.0), Stage::Field;
         /// How far the belts of rain and wind move with the seasons; 1 is the Earth.
@@ -166,13 +166,13 @@ params! {
         /// How easily rock is carved; 1 is the mean of the Earth.
         erodibility: f64 = 1.0, "Erodibility", Unit::None, log(0.01, 100.0), Stage::Field;
         /// How much the kinds of rock differ: 0 is one rock everywhere.
-        rock_variation: f64 = 0.6, "Kinds of rock", Unit::None, linear(0.0, 1.0), Stage::Field;
+        rock_variation: f64 = 0.6, "Rock variation", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// Steepest slope at which ground holds.
-        talus_deg: f64 = 32.0, "Steepest slope", Unit::Degrees, linear(5.0, 80.0), Stage::Field;
+        talus_deg: f64 = 32.0, "Talus angle", Unit::Degrees, linear(5.0, 80.0), Stage::Field;
         /// Factor of the rain that feeds rivers.
         rain: f64 = 1.0, "Rain", Unit::None, log(0.01, 10.0), Stage::Field;
         /// Share of the rain's pattern in the pattern of rivers: 0 is even rain, 1 is the weather's.
-        rain_pattern: f64 = 1.0, "Pattern of rain", Unit::None, linear(0.0, 1.0), Stage::Field;
+        rain_pattern: f64 = 1.0, "Rain pattern", Unit::None, linear(0.0, 1.0), Stage::Field;
         /// How much rivers lay down: slopes of plains, and deltas; 1 is the Earth.
         deposition: f64 = 1.0, "Deposition", Unit::None, linear(0.0, 4.0), Stage::Field;
         /// How deep a basin must be to hold a lake: 0 is no lakes, 1 is the Earth.

@@ -1,6 +1,7 @@
 //! Tests of the core: presets, evaluator, level of detail, tiles. They need neither the GPU nor the user interface.
 //!
 //! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
+//! - `idle`: parameters without effect
 //! - `saving`: saves that are killed
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
@@ -12,6 +13,7 @@
 mod allocations;
 mod atmosphere;
 mod heightmap;
+mod idle;
 mod joining;
 mod landforms;
 mod lod;

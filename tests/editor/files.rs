@@ -112,7 +112,7 @@ fn a_height_map_is_chosen_undone_saved_and_missed() {
     };
     click(&mut harness, "Terrain");
     click(&mut harness, "Add layer");
-    click(&mut harness, "HeightMap");
+    click(&mut harness, "Height map");
     assert_eq!(height_m(&harness), 0.0);
     click(&mut harness, "Browse…");
     settled(&mut harness);

@@ -79,7 +79,7 @@ fn a_filter_that_hides_all_says_so_and_offers_to_search_everywhere() {
     assert!(harness.query_by_label("No parameter matches “coverage” here.").is_some());
     click(&mut harness, "Search everywhere");
     harness.run_steps(3);
-    assert!(harness.query_by_label("Clouds › Coverage").is_some());
+    assert!(harness.query_by_label("Clouds › Low cover").is_some());
 }
 
 #[test]

@@ -84,6 +84,7 @@ fn keys_stay_in_the_list_that_is_open() {
     let mut harness = editor(vec![]);
     let before = pose(&harness);
     click(&mut harness, "Planet");
+    unfold(&mut harness, "Heights");
     for list in ["Precision of planet", "View"] {
         click(&mut harness, list);
         harness.key_down(egui::Key::D);
@@ -137,13 +138,14 @@ fn a_rule_names_a_biome_that_there_is() {
     click(&mut harness, "Mars");
     let biomes = |harness: &Editor| planet(harness).biomes;
     assert!(biomes(&harness).index_of(biomes(&harness).snow_key).is_none(), "no biome was chosen yet");
-    scroll_to(&mut harness, "Snow of biomes");
-    click(&mut harness, "Snow of biomes");
+    unfold(&mut harness, "Snow");
+    scroll_to(&mut harness, "Snow cover of biomes");
+    click(&mut harness, "Snow cover of biomes");
     assert!(harness.state().document().problems().is_empty(), "{:?}", harness.state().document().problems());
     assert!(biomes(&harness).index_of(biomes(&harness).snow_key).is_some());
     let steps = undo_len(&harness);
-    scroll_to(&mut harness, "Snow is of biomes");
-    click(&mut harness, "Snow is of biomes");
+    scroll_to(&mut harness, "Snow biome of biomes");
+    click(&mut harness, "Snow biome of biomes");
     let (dust, index) = {
         let biomes = biomes(&harness);
         let index = biomes.palette.iter().position(|biome| biome.name == "Dust").unwrap();
@@ -157,7 +159,8 @@ fn a_rule_names_a_biome_that_there_is() {
 
     // A drag that switches a rule on is one step, with the biome that is chosen for the rule.
     let steps = undo_len(&harness);
-    let slider = "Beach up to of biomes";
+    unfold(&mut harness, "Beaches");
+    let slider = "Beach height of biomes";
     harness.get_by_role_and_label(Role::Slider, slider).scroll_to_me();
     harness.run_steps(40);
     let rect = harness.get_by_role_and_label(Role::Slider, slider).rect();
@@ -169,7 +172,7 @@ fn a_rule_names_a_biome_that_there_is() {
     harness.drop_at(rect.left_center() + egui::vec2(50.0, 0.0));
     harness.run_steps(3);
     assert!(biomes(&harness).beach_m > 0.0 && biomes(&harness).index_of(biomes(&harness).beach_key).is_some());
-    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Change beach up to of biomes".to_owned()));
+    assert_eq!((undo_len(&harness), undo_label(&harness)), (steps + 1, "Change beach height of biomes".to_owned()));
 
     // The rule of a removed biome changes with its cells; undo restores both.
     click_biome(&mut harness, "Dust");

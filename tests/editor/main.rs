@@ -6,6 +6,7 @@
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
+//! - `docks`: tabs that are moved
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
 //! - `text`: the text of the preset
@@ -19,6 +20,7 @@
 mod app;
 mod clipboard;
 mod disk;
+mod docks;
 mod files;
 mod finder;
 mod finding;
@@ -35,7 +37,9 @@ mod text;
 mod variations;
 mod viewport;
 
-use app::{Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, type_text, undo_label, undo_len};
+use app::{
+    Editor, canvas, click, drag, drag_row_below, planet, scroll_to, send, type_text, undo_label, undo_len, unfold,
+};
 use eframe::egui;
 use eframe::egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -143,7 +147,7 @@ fn layers_are_added_edited_and_masked() {
     let count = planet(&harness).layers.len();
     click(&mut harness, "Terrain");
     click(&mut harness, "Add layer");
-    click(&mut harness, "Ridged");
+    click(&mut harness, "Ridges");
     assert_eq!(planet(&harness).layers.len(), count + 1);
     assert_eq!(undo_label(&harness), "Add layer");
     click(&mut harness, "Duplicate layer");
@@ -184,10 +188,12 @@ fn a_curve_is_bent_by_its_points() {
     let name = planet(&harness).layers[index].name.clone();
     let curve = |harness: &Editor| planet(harness).layers[index].curve.clone();
     click(&mut harness, &format!("Layer {name}"));
-    click(&mut harness, &format!("Bend Curve of {name}"));
+    scroll_to(&mut harness, &format!("Add Curve of {name}"));
+    click(&mut harness, &format!("Add Curve of {name}"));
     assert_eq!(curve(&harness), vec![[-1.0, -1.0], [0.0, 0.0], [1.0, 1.0]]);
 
     let steps = undo_len(&harness);
+    app::scroll_to(&mut harness, &format!("Curve of {name}"));
     let rect = harness.get_by_label(&format!("Curve of {name}")).rect();
     let middle = rect.center();
     drag(&mut harness, middle, middle - egui::vec2(0.0, 30.0));
@@ -232,7 +238,7 @@ fn clouds_turned_off_and_on_are_the_same_clouds() {
     if planet(&harness).clouds.is_none() {
         click(&mut harness, "This planet has clouds");
     }
-    slide(&mut harness, "Coverage of clouds", 0.25);
+    slide(&mut harness, "Low cover of clouds", 0.25);
     let clouds = planet(&harness).clouds;
     assert_eq!(clouds.as_ref().unwrap().coverage, 0.25);
     click(&mut harness, "This planet has clouds");

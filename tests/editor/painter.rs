@@ -199,7 +199,7 @@ fn the_planet_and_the_table_point_at_each_other() {
     harness.run_steps(2);
     let cells = marked(&harness).unwrap();
     assert!(cells.contains(7, 5) && cells.count() == 1, "the cell lights up on the planet");
-    click(&mut harness, "Light up");
+    click(&mut harness, "Highlight");
     harness.hover_at(cell(&harness, 7, 5));
     harness.run_steps(2);
     assert!(marked(&harness).is_none());

@@ -179,6 +179,14 @@ pub fn canvas(harness: &Editor) -> egui::Rect {
     harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect()
 }
 
+/// Unfolds a section of the open tab. Lists above it may have rows of the same name.
+pub fn unfold(harness: &mut Editor, title: &str) {
+    harness.get_all_by_label(title).last().unwrap().scroll_to_me();
+    harness.run_steps(40);
+    harness.get_all_by_label(title).last().unwrap().click();
+    harness.run_steps(40);
+}
+
 pub fn click(harness: &mut Editor, label: &str) {
     harness.get_by_label(label).click();
     harness.run_steps(3);

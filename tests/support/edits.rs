@@ -154,7 +154,7 @@ fn follow(planet: &mut Planet, name: &str, old: &Value, new: &Value) {
 }
 
 /// Another valid value.
-fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
+pub fn other(planet: &Planet, param: &Param, value: &ValueMut<'_>) -> Value {
     match (value.get(), param.domain) {
         (Value::Number(v), Domain::Number { min, max, .. }) => {
             let by = (v.abs() * 0.05).max((max - min) * 1e-4);

@@ -41,6 +41,13 @@ pub enum DialogRequest {
         /// Proposed file name.
         file_name: String,
     },
+    /// A folder to write files to.
+    Folder {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// Proposed name of the folder.
+        file_name: String,
+    },
     /// A file to save to.
     SaveAs {
         /// Folder to begin in.
@@ -59,6 +66,7 @@ impl DialogRequest {
             DialogRequest::ImportTable { .. } => "Import biome table",
             DialogRequest::ExportTable { .. } => "Export biome table",
             DialogRequest::Photograph { .. } => "Save picture",
+            DialogRequest::Folder { .. } => "Choose a folder for the maps",
             DialogRequest::SaveAs { .. } => "Save planet",
         }
     }
@@ -69,6 +77,7 @@ impl DialogRequest {
             DialogRequest::Open { .. } | DialogRequest::SaveAs { .. } => ("Planet presets", &["ron"]),
             DialogRequest::Picture { .. } | DialogRequest::Photograph { .. } => ("Pictures", &["png", "exr"]),
             DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
+            DialogRequest::Folder { .. } => ("Folders", &[]),
         }
     }
 
@@ -85,6 +94,7 @@ impl DialogRequest {
             | DialogRequest::ImportTable { folder }
             | DialogRequest::ExportTable { folder, .. }
             | DialogRequest::Photograph { folder, .. }
+            | DialogRequest::Folder { folder, .. }
             | DialogRequest::SaveAs { folder, .. } => folder.as_ref(),
         }
     }
@@ -94,9 +104,15 @@ impl DialogRequest {
         match self {
             DialogRequest::ExportTable { file_name, .. }
             | DialogRequest::Photograph { file_name, .. }
+            | DialogRequest::Folder { file_name, .. }
             | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
             _ => None,
         }
+    }
+
+    /// Whether it asks for a folder.
+    pub fn is_folder(&self) -> bool {
+        matches!(self, DialogRequest::Folder { .. })
     }
 
     /// Whether the file will be written.
@@ -158,6 +174,7 @@ impl FileDialogs for NativeDialogs {
         // Some desktops need the dialog made on the main thread. Another thread waits for the answer.
         let future: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match request.file_name()
         {
+            _ if request.is_folder() => Box::pin(dialog.pick_folder()),
             Some(file_name) => Box::pin(dialog.set_file_name(file_name).save_file()),
             None => Box::pin(dialog.pick_file()),
         };

@@ -181,7 +181,7 @@ fn value_text(param: &Param, value: &ValueRef<'_>) -> String {
         Value::Flag(flag) => if flag { "on" } else { "off" }.to_owned(),
         Value::Text(text) => text,
         Value::Letter(letter) => letter.to_string(),
-        Value::Choice(index) => value.names().get(index).copied().unwrap_or_default().to_owned(),
+        Value::Choice(index) => value.labels().get(index).copied().unwrap_or_default().to_owned(),
         Value::Triple(_) | Value::Curve(_) => String::new(),
     };
     if text.chars().count() <= VALUE_CHARS {
@@ -235,7 +235,7 @@ mod tests {
         assert_eq!(names(&entries, &format!("{layer} ampl"), &[])[0], first, "in any order");
         assert_eq!(names(&entries, "axial", &[])[0], "Star › Axial tilt");
         assert_eq!(names(&entries, "radius", &[])[0], "Planet › Radius");
-        assert!(names(&entries, "sea level", &[]).contains(&"Water › Level".to_owned()), "by its description");
+        assert!(names(&entries, "sea level", &[]).contains(&"Water › Sea level".to_owned()), "by its description");
         let seas = names(&entries, "sea col", &[]);
         assert_eq!(seas[0], "Water › Deep colour", "what belongs to the sea comes before strewn letters: {seas:?}");
         assert!(names(&entries, "xyzzy", &[]).is_empty());
@@ -263,7 +263,8 @@ mod tests {
         planet.structure = Some(Structure::default());
         assert_eq!(names(&parameters(&planet), "folding", &[]).len(), planet.layers.len());
         assert!(
-            names(&parameters(&planet), "belts plates", &[]).contains(&"Structure › Plates › Old belts".to_owned())
+            names(&parameters(&planet), "belts plates", &[])
+                .contains(&"Structure › Plates › Old belt height".to_owned())
         );
     }
 

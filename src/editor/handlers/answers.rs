@@ -1,6 +1,6 @@
 //! Answers to questions about files, and the window's close button.
 
-use super::{biome_table, opening, pictures, saving, shooting};
+use super::{baking, biome_table, opening, pictures, saving, shooting};
 use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::files::disk::TheirFile;
 use crate::editor::state::State;
@@ -32,6 +32,7 @@ fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf,
         Asking::Picture(path) => pictures::choose(state, &path, &file),
         Asking::ImportTable => biome_table::import(state, &file),
         Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),
+        Asking::Maps => baking::start(state, ctx, &file),
         Asking::Photograph(subject) => shooting::chosen(state, ctx, subject, &file, agreed),
     }
 }

@@ -4,7 +4,7 @@
 //! - [`saving`]: the planet into a file
 //! - [`answers`]: answers to questions about files, and the close button
 //! - [`open_file`]: the open file has changed on disk
-//! - [`shooting`]: photographs and films
+//! - [`shooting`]: photographs and films; [`baking`]: maps for other programs
 //! - [`biome_table`]: import and export of the biome table
 //! - [`pictures`]: height maps
 //! - [`variations`]: variations of the planet, and locks
@@ -15,6 +15,7 @@
 //! - [`window`]: full screen and theme
 
 pub mod answers;
+pub mod baking;
 pub mod biome_table;
 pub mod bookmarks;
 pub mod clipboard;

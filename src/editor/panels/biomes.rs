@@ -2,7 +2,7 @@
 
 use super::biome_palette::PaletteState;
 use super::biome_table::{PainterState, Shown, TableOutput};
-use super::{Draft, biome_edit, biome_palette, biome_table, owner_box};
+use super::{Draft, biome_edit, biome_palette, biome_table, owner_box, rest};
 use crate::editor::command::Command;
 use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
@@ -99,6 +99,11 @@ pub fn show(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
     toolbar(ui, state, draft);
     let output = table(ui, state, draft);
     ui.separator();
+    rest(ui, draft, "palette", |ui, draft| palette_and_rules(ui, state, draft, output));
+}
+
+/// The palette, the selected biome, and the rules of table and surface.
+fn palette_and_rules(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>, output: TableOutput) {
     let hovered = biome_palette::show(ui, &mut state.palette, draft);
     let biomes = &draft.planet.biomes;
     let of_biome = hovered.and_then(|index| biomes.palette.get(index)).map(|biome| {
@@ -161,7 +166,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
         ui.toggle_value(&mut state.shows_land, "Land").on_hover_text("Dots show the share of land in each cell");
         let tooltip =
             "The ground of the cells under the pointer, or of the selection, lights up on the planet, without clouds";
-        ui.toggle_value(&mut state.lights_up, "Light up").on_hover_text(tooltip);
+        ui.toggle_value(&mut state.lights_up, "Highlight").on_hover_text(tooltip);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             menu_button(ui, "Tables", |ui| tables(ui, state, draft));
         });
@@ -239,7 +244,7 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
         let problem = state.refused.as_ref().map(|(_, why)| why.as_str());
         let takes_focus = draft.shown.takes_focus(&path, param.name);
         let (owner, default, locks) = (name.as_str(), Some(&default), draft.shown.locks);
-        let row = Row { param, path: &path, owner, default, problem, biomes: &[], takes_focus, locks };
+        let row = Row { param, path: &path, owner, default, problem, idle: None, biomes: &[], takes_focus, locks };
         if draft.shown.passes(&path, param) {
             draft.shown.marked(ui, &path, param.name, |ui| param_row(ui, &row, key.value_mut()));
         }

@@ -2,11 +2,11 @@
 
 use crate::planet::{Layer, MAX_LAYERS, Planet, Shape, locks};
 
-/// Adds a layer of a landform (an index into [`Shape::NAMES`]) behind index `after`. Gives its index, or None if there
+/// Adds a layer of a landform (an index into [`Shape::LABELS`]) behind index `after`. Gives its index, or None if there
 /// are too many.
 pub fn add(planet: &mut Planet, kind: usize, after: Option<usize>, seed: u32) -> Option<usize> {
     let shape = Shape::of_kind(kind)?;
-    let name = unique_name(planet, Shape::NAMES.get(kind).copied().unwrap_or("Layer"));
+    let name = unique_name(planet, Shape::LABELS.get(kind).copied().unwrap_or("Layer"));
     let amplitude_m = shape.usual_amplitude_m();
     insert(planet, Layer { name, seed, amplitude_m, shape, ..Layer::default() }, after)
 }

@@ -1,6 +1,6 @@
 //! The terrain tab: the list of layers, and the parameters of the selected one.
 
-use super::{Draft, layer_edit, masks, owner_box};
+use super::{Draft, layer_edit, masks, owner_box, rest};
 use crate::editor::command::{Action, ClipAction, Wanted};
 use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button, mark};
@@ -14,6 +14,9 @@ use eframe::egui::{self, AtomExt};
 
 /// Parameters of a layer that have no effect without a structure: they are not shown then.
 pub const NEED_STRUCTURE: [&str; 3] = ["under", "folding", "follow_wind"];
+
+/// Share of the tab's height that the list takes at most.
+const LIST_SHARE: f32 = 0.42;
 
 /// Index of the row that is dragged.
 #[derive(Clone, Copy)]
@@ -37,14 +40,25 @@ pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         owner_box(ui, "Layer", names, &mut state.selected);
     } else {
         toolbar(ui, state, draft);
-        list(ui, state, draft);
+        if draft.top_stays {
+            // The list stays in sight while the parameters of a layer scroll.
+            let height = LIST_SHARE * ui.available_height();
+            egui::ScrollArea::vertical().id_salt("list of layers").max_height(height).show(ui, |ui| {
+                ui.set_max_width(ui.available_width() - 10.0);
+                list(ui, state, draft);
+            });
+        } else {
+            list(ui, state, draft);
+        }
         ui.separator();
     }
-    if state.selected < draft.planet.layers.len() {
-        selected(ui, state, draft);
-    } else {
-        ui.weak("There are no layers yet: the planet is a smooth sphere. Add one above.");
-    }
+    rest(ui, draft, "layer", |ui, draft| {
+        if state.selected < draft.planet.layers.len() {
+            selected(ui, state, draft);
+        } else {
+            ui.weak("There are no layers yet: the planet is a smooth sphere. Add one above.");
+        }
+    });
 }
 
 fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
@@ -52,7 +66,7 @@ fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
         let (index, count) = (state.selected, draft.planet.layers.len());
         ui.add_enabled_ui(count < MAX_LAYERS, |ui| {
             menu_button(ui, "Add layer", |ui| {
-                for (kind, (name, doc)) in Shape::NAMES.iter().zip(Shape::DOCS).enumerate() {
+                for (kind, (name, doc)) in Shape::LABELS.iter().zip(Shape::DOCS).enumerate() {
                     if ui.button(*name).on_hover_text(*doc).clicked() {
                         let after = (count > 0).then_some(index);
                         let seed = random_seed() as u32;
@@ -174,8 +188,8 @@ fn details(layer: &Layer, change_m: Option<f64>) -> String {
         let sign = if change_m < 0.0 { "−" } else { "+" };
         return format!("{sign}{}", length_text(change_m.abs()));
     }
-    let kind = layer.shape.names().get(layer.shape.index()).copied().unwrap_or_default();
-    let blend = layer.blend.names().get(layer.blend.index()).copied().unwrap_or_default();
+    let kind = layer.shape.labels().get(layer.shape.index()).copied().unwrap_or_default();
+    let blend = layer.blend.labels().get(layer.blend.index()).copied().unwrap_or_default();
     format!("{blend} · {kind}")
 }
 

@@ -1,9 +1,11 @@
-//! The side panel: one tab for each part of the planet.
+//! The tabs: one for each part of the planet, in docks at the sides of the picture or in windows.
 //!
 //! Panels change a draft of the planet; the application makes an undo step of a changed draft. [`PANELS`] lists the
 //! tabs: a new panel is a file and a row there.
 //!
+//! - [`layout`]: where each tab stands; [`docks`]: the docks and windows on screen
 //! - [`finding`]: filters, and the parameter that was searched for
+//! - [`sections`]: which parameters stand under which heading
 //! - [`parts`]: planet, star, climate, and the optional parts; [`structure`]: plates, weather, rivers
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
 //! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
@@ -14,11 +16,14 @@ pub mod biome_edit;
 pub mod biome_palette;
 pub mod biome_table;
 pub mod biomes;
+pub mod docks;
 pub mod finding;
 pub mod layer_edit;
 pub mod layers;
+pub mod layout;
 pub mod masks;
 pub mod parts;
+pub mod sections;
 pub mod structure;
 
 use crate::editor::command::{Action, ClipAction, Commands, PanelAction, Wanted};
@@ -31,6 +36,7 @@ use crate::planet::Planet;
 use crate::planet::param::{ParamPath, Segment};
 use eframe::egui;
 use finding::Finding;
+use layout::Layout;
 
 /// A tab of the side panel.
 pub struct Panel {
@@ -42,6 +48,8 @@ pub struct Panel {
     pub paints: bool,
     /// Whether the tab changes plates.
     plates: bool,
+    /// Height in points from which the top of the tab stays and only the rest of it scrolls; None: all scrolls.
+    stays_from: Option<f32>,
     show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
 }
 
@@ -51,7 +59,7 @@ impl Panel {
         part: &'static str,
         show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
     ) -> Self {
-        Self { label, part, paints: false, plates: false, show }
+        Self { label, part, paints: false, plates: false, stays_from: None, show }
     }
 
     /// Index of the tab with the parameter at `path`; None if no tab shows it.
@@ -80,6 +88,10 @@ impl Panel {
         Self { paints: true, ..self }
     }
 
+    const fn staying_from(self, height: f32) -> Self {
+        Self { stays_from: Some(height), ..self }
+    }
+
     const fn of_plates(self) -> Self {
         Self { plates: true, ..self }
     }
@@ -88,21 +100,20 @@ impl Panel {
 /// The tabs, in the order shown.
 pub static PANELS: [Panel; 9] = [
     Panel::new("Planet", "", |ui, _, draft| parts::planet(ui, draft)),
-    Panel::new("Terrain", "layers", |ui, state, draft| layers::show(ui, &mut state.layers, draft)),
+    Panel::new("Terrain", "layers", |ui, state, draft| layers::show(ui, &mut state.layers, draft)).staying_from(320.0),
     Panel::new("Structure", "structure", |ui, state, draft| {
         structure::show(ui, &mut state.structure, &mut state.turned_off, draft);
     })
     .of_plates(),
     Panel::new("Climate", "climate", |ui, _, draft| parts::climate(ui, draft)),
-    Panel::new("Biomes", "biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft)).painting(),
+    Panel::new("Biomes", "biomes", |ui, state, draft| biomes::show(ui, &mut state.biomes, draft))
+        .painting()
+        .staying_from(560.0),
     Panel::new("Water", "water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
     Panel::new("Atmosphere", "atmosphere", |ui, state, draft| parts::atmosphere(ui, &mut state.turned_off, draft)),
     Panel::new("Clouds", "clouds", |ui, state, draft| parts::clouds(ui, &mut state.turned_off, draft)),
     Panel::new("Star", "star", |ui, _, draft| parts::star(ui, draft)),
 ];
-
-/// Index of the tab that is open at the start: the terrain.
-const FIRST_TAB: usize = 1;
 
 /// The planet as the panels change it.
 pub struct Draft<'a> {
@@ -116,6 +127,8 @@ pub struct Draft<'a> {
     pub under_pointer: Option<&'a UnderPointer>,
     /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
+    /// Whether the top of the tab stays and only the [`rest`] of it scrolls.
+    pub top_stays: bool,
     /// The commands of the panels, beside edits.
     pub commands: &'a mut Commands,
     /// Longitude of the eye, in degrees.
@@ -133,7 +146,10 @@ impl Draft<'_> {
 
 /// Selections and half-typed names. Not part of the document.
 pub struct PanelState {
-    tab: usize,
+    /// Where each tab stands, and which ones are open.
+    pub layout: Layout,
+    /// Where a tab was dropped last: its window opens there.
+    dropped_at: Option<egui::Pos2>,
     document_number: u64,
     /// Filters, and the parameter that was searched for.
     pub finding: Finding,
@@ -147,7 +163,8 @@ pub struct PanelState {
 impl Default for PanelState {
     fn default() -> Self {
         Self {
-            tab: FIRST_TAB,
+            layout: Layout::default(),
+            dropped_at: None,
             document_number: 0,
             finding: Finding::default(),
             layers: layers::LayersState::default(),
@@ -159,26 +176,34 @@ impl Default for PanelState {
 }
 
 impl PanelState {
+    /// The tabs in their places.
+    pub fn new(layout: Layout) -> Self {
+        Self { layout, ..Self::default() }
+    }
+
     /// Forgets selections and texts if they belong to another document than the one of this number. Filters stay: one
     /// may look at the same parameters of many random planets.
     pub fn keep_to_document(&mut self, document_number: u64) {
         if self.document_number != document_number {
-            let finding = std::mem::take(&mut self.finding);
-            *self = Self { tab: self.tab, document_number, finding, ..Self::default() };
+            let (finding, layout) = (std::mem::take(&mut self.finding), self.layout.clone());
+            *self = Self { layout, document_number, finding, ..Self::default() };
         }
     }
 
-    /// Whether the open tab paints the biome table.
+    /// Whether a tab on screen paints the biome table.
     pub fn paints(&self) -> bool {
-        PANELS.get(self.tab).is_some_and(|panel| panel.paints)
+        self.layout.visible().any(|tab| PANELS[tab].paints)
     }
 
-    /// What the open tab shows on the planet, and which clicks and drags it takes.
+    /// What the tabs show on the planet, and which clicks and drags they take: the tab that was used last if it takes
+    /// any, or else the first one on screen that does.
     pub fn tab_link(&self) -> TabLink {
-        match PANELS.get(self.tab) {
+        let links = |tab: &usize| PANELS[*tab].paints || PANELS[*tab].plates;
+        let active = Some(self.layout.active()).filter(|tab| links(tab) && self.layout.visible().any(|t| t == *tab));
+        match active.or_else(|| self.layout.visible().find(links)).map(|tab| &PANELS[tab]) {
             Some(Panel { paints: true, .. }) => self.biomes.link(),
-            Some(Panel { plates: true, .. }) => self.structure.link(),
-            _ => TabLink::default(),
+            Some(_) => self.structure.link(),
+            None => TabLink::default(),
         }
     }
 
@@ -191,18 +216,15 @@ impl PanelState {
         self.biomes.clicked(planet, click, under)
     }
 
-    /// Shows the tabs, and the filter of the open one with its lock and its dice. Gives the part to vary if the dice
-    /// were clicked.
-    pub fn head(&mut self, ui: &mut egui::Ui, locks: &LockView, commands: &mut Commands) -> Option<&'static Panel> {
-        self.tabs(ui, locks, commands);
-        ui.separator();
-        let panel = PANELS.get(self.tab)?;
+    /// Shows the filter of a tab with its lock and its dice. Gives whether the dice were clicked.
+    fn head(&mut self, ui: &mut egui::Ui, tab: usize, locks: &LockView) -> bool {
+        let panel = &PANELS[tab];
         let mut rolled = false;
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             // Room for the scroll bar of the panel, so that the row ends where those below do.
             let buttons = 20.0 + if panel.part.is_empty() { 0.0 } else { 24.0 };
-            self.finding.field(ui, self.tab, panel.label, ui.available_width() - buttons - 14.0);
+            self.finding.field(ui, tab, panel.label, ui.available_width() - buttons - 14.0);
             let part = panel.label.to_lowercase();
             if !panel.part.is_empty() {
                 let path = ParamPath::default().join(panel.part);
@@ -220,20 +242,25 @@ impl PanelState {
             rolled = icon_button(ui, Icon::Dice, &format!("Vary {part}"), told).clicked();
         });
         ui.add_space(2.0);
-        rolled.then_some(panel)
+        rolled
     }
 
-    /// Shows the open tab.
-    pub fn show(&mut self, ui: &mut egui::Ui, draft: &mut Draft<'_>) {
-        let Some(panel) = PANELS.get(self.tab) else { return };
-        egui::ScrollArea::vertical().id_salt(panel.label).auto_shrink([false, false]).show(ui, |ui| {
-            // Room for the scroll bar, so that it never covers a control.
-            ui.set_max_width(ui.available_width() - 10.0);
+    /// Shows the rows of a tab.
+    fn rows(&mut self, ui: &mut egui::Ui, tab: usize, draft: &mut Draft<'_>) {
+        let panel = &PANELS[tab];
+        // A filter lists rows alone: all of them scroll.
+        let stays = panel.stays_from.is_some_and(|height| ui.available_height() >= height);
+        draft.top_stays = stays && !draft.shown.filter.is_active();
+        if draft.top_stays {
             ui.add_space(2.0);
             (panel.show)(ui, self, draft);
-            self.finding.tell_if_empty(ui, self.tab, draft);
-            ui.add_space(8.0);
-        });
+        } else {
+            scrolled(ui, panel.label, |ui| {
+                ui.add_space(2.0);
+                (panel.show)(ui, self, draft);
+                self.finding.tell_if_empty(ui, tab, draft);
+            });
+        }
     }
 
     /// Does what another part of the editor has asked for.
@@ -241,14 +268,15 @@ impl PanelState {
         match asked {
             PanelAction::Reveal { path, name } => self.reveal(planet, &path, name),
             PanelAction::TypeFilter => self.finding.take_focus(),
-            PanelAction::ClearFilter => self.finding.clear(self.tab),
+            PanelAction::ClearFilter => self.finding.clear(self.layout.active()),
+            PanelAction::ResetLayout => self.layout = Layout::default(),
         }
     }
 
     /// Opens the tab of a parameter, and selects its layer, biome or plate there.
     fn reveal(&mut self, planet: &Planet, path: &ParamPath, name: &'static str) {
         let Some(tab) = Panel::of(path) else { return };
-        self.tab = tab;
+        self.layout.open(tab);
         self.finding.reveal(tab, path.clone(), name);
         match path.segments() {
             [Segment::Field("layers"), Segment::Index(index), ..] => self.layers.selected = *index,
@@ -268,28 +296,28 @@ impl PanelState {
         }
     }
 
-    /// Index of the open tab.
+    /// Index of the tab that was used last.
     pub fn tab(&self) -> usize {
-        self.tab
+        self.layout.active()
     }
+}
 
-    fn tabs(&mut self, ui: &mut egui::Ui, locks: &LockView, commands: &mut Commands) {
-        const COLUMNS: usize = 5;
-        ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
-        let width = (ui.available_width() - 4.0 * (COLUMNS - 1) as f32) / COLUMNS as f32;
-        for (row, panels) in PANELS.chunks(COLUMNS).enumerate() {
-            ui.horizontal(|ui| {
-                for (column, panel) in panels.iter().enumerate() {
-                    let tab = row * COLUMNS + column;
-                    let button = egui::Button::selectable(self.tab == tab, panel.label);
-                    let response = ui.add_sized([width, 22.0], button);
-                    if response.clicked() {
-                        self.tab = tab;
-                    }
-                    response.context_menu(|ui| panel.menu(ui, locks, commands));
-                }
-            });
-        }
+/// Shows widgets in a scroll area that takes the room that is left.
+fn scrolled(ui: &mut egui::Ui, id: &str, add: impl FnOnce(&mut egui::Ui)) {
+    egui::ScrollArea::vertical().id_salt(id).auto_shrink([false, false]).show(ui, |ui| {
+        // Room for the scroll bar, so that it never covers a control.
+        ui.set_max_width(ui.available_width() - 10.0);
+        add(ui);
+        ui.add_space(8.0);
+    });
+}
+
+/// Shows the rest of a tab, which scrolls by itself if the top of the tab stays.
+fn rest(ui: &mut egui::Ui, draft: &mut Draft<'_>, id: &str, add: impl FnOnce(&mut egui::Ui, &mut Draft<'_>)) {
+    if draft.top_stays {
+        scrolled(ui, id, |ui| add(ui, draft));
+    } else {
+        add(ui, draft);
     }
 }
 

@@ -12,6 +12,7 @@
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
 //! - [`sheet`], [`thumbnails`]: planets with small pictures; the thread that draws them
 
+pub mod baking;
 pub mod describe;
 pub mod document;
 pub mod history;
@@ -32,6 +33,7 @@ use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
+use baking::{BakePreview, BakeSettings, Baking};
 use document::Document;
 use eframe::egui;
 use notices::Notices;
@@ -86,6 +88,8 @@ pub struct Shows {
     pub templates: bool,
     /// The text of the preset.
     pub text: bool,
+    /// Maps for other programs.
+    pub bake: bool,
 }
 
 impl Shows {
@@ -102,6 +106,7 @@ impl Shows {
         variations: false,
         templates: false,
         text: false,
+        bake: false,
     };
 }
 
@@ -135,6 +140,12 @@ pub struct State {
     pub photo: PhotoSettings,
     /// The photographs that are being taken.
     pub shooting: Option<Shooting>,
+    /// What the user wants to bake.
+    pub bake: BakeSettings,
+    /// The small picture of a map.
+    pub bake_preview: BakePreview,
+    /// The maps that are being baked.
+    pub baking: Option<Baking>,
     /// Variations of the planet.
     pub variations: Variations,
     /// The planets of [`templates::ALL`]; empty until they have been shown.
@@ -171,6 +182,9 @@ impl State {
             panel_asks: Vec::new(),
             photo: PhotoSettings::default(),
             shooting: None,
+            bake: BakeSettings::default(),
+            bake_preview: BakePreview::default(),
+            baking: None,
             variations: Variations::default(),
             templates: Sheet::default(),
             pasting: None,

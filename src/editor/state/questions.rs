@@ -36,6 +36,8 @@ pub enum Asking {
     ExportTable,
     /// A file for a photograph or a film.
     Photograph(Subject),
+    /// A folder for baked maps.
+    Maps,
 }
 
 /// A file that exists and would be replaced.

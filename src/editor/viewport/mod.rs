@@ -178,6 +178,11 @@ impl Viewport {
         self.builder.is_busy() || self.picture.is_behind(self.builder.surface().as_ref())
     }
 
+    /// Where solved world maps are kept.
+    pub fn map_store(&self) -> Option<Arc<MapStore>> {
+        self.maps.clone()
+    }
+
     /// The memory that the cache of tiles and fields takes.
     pub fn memory(&self) -> Memory {
         self.builder.memory()

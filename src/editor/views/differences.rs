@@ -36,7 +36,7 @@ fn whole(planet: &Planet, path: &ParamPath) -> String {
 fn texts(planet: &Planet) -> HashMap<ParamPath, String> {
     let mut texts = HashMap::new();
     planet.each_value(&mut |path, param, value| {
-        texts.entry(path.clone()).or_insert_with(|| value_text(param, &value.get(), value.names()));
+        texts.entry(path.clone()).or_insert_with(|| value_text(param, &value.get(), value.labels()));
     });
     texts
 }

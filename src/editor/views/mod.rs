@@ -5,11 +5,12 @@
 //! - [`overlay`]: compass, scale and legend over the picture
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`history`], [`variations`], [`templates`], [`text`], [`place`],
+//! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`variations`], [`templates`], [`text`], [`place`],
 //!   [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
+pub mod bake;
 pub mod controls;
 mod differences;
 pub mod finder;

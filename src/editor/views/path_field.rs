@@ -72,6 +72,10 @@ impl PathField {
         if !folder.is_dir() {
             return Err(format!("There is no folder {}.", folder.display()));
         }
+        if self.request.is_folder() {
+            // A folder that is not there yet is made.
+            return if path.is_file() { Err(format!("{} is a file.", path.display())) } else { Ok(path) };
+        }
         if name.is_empty() || path.is_dir() {
             return Err(format!("{} is a folder: name a file in it.", path.display()));
         }
@@ -88,7 +92,7 @@ impl PathField {
             ui.heading(self.request.title());
             ui.add(egui::Label::new(egui::RichText::new(&self.why).weak()).wrap());
             ui.add_space(6.0);
-            let label = ui.label("Path of the file");
+            let label = ui.label(if self.request.is_folder() { "Path of the folder" } else { "Path of the file" });
             let edit = egui::TextEdit::singleline(&mut self.typed).desired_width(f32::INFINITY);
             let field = ui.add(edit).labelled_by(label.id);
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));

@@ -25,6 +25,8 @@ pub struct Row<'a> {
     pub default: Option<&'a Value>,
     /// What is wrong with its value.
     pub problem: Option<&'a str>,
+    /// Why its value has no effect now.
+    pub idle: Option<&'static str>,
     /// Key and name of each biome of the palette, for a parameter that refers to one.
     pub biomes: &'a [(char, String)],
     /// Whether the field for a number or a text takes the focus now.
@@ -33,6 +35,8 @@ pub struct Row<'a> {
     pub locks: &'a LockView,
 }
 
+/// Opacity of a row whose value has no effect now.
+const IDLE_OPACITY: f32 = 0.5;
 const RESET_WIDTH: f32 = 20.0;
 const NUMBER_WIDTH: f32 = 86.0;
 /// Significant digits of a number field, and of each of three fields side by side.
@@ -43,6 +47,10 @@ const TRIPLE_DIGITS: i32 = 4;
 pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> bool {
     let mut browse = false;
     ui.push_id(row.path.to_string(), |ui| {
+        if row.idle.is_some() {
+            // Faint, but not disabled: one may prepare a value before it counts.
+            ui.multiply_opacity(IDLE_OPACITY);
+        }
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
             let total = ui.available_width();
@@ -60,7 +68,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
             if let Some(default) = resets_to(row)
                 && value.get() != *default
             {
-                let tooltip = format!("Back to {}", value_text(row.param, default, value.as_ref().names()));
+                let tooltip = format!("Back to {}", value_text(row.param, default, value.as_ref().labels()));
                 if icon_button(ui, Icon::Reset, &format!("Reset {}", name(row)), &tooltip).clicked() {
                     value.set(default);
                 }
@@ -131,7 +139,7 @@ fn label(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>, width: f32)
     Paste::take(ui, row, value, &response);
     response.context_menu(|ui| {
         if ui.button("Copy value").clicked() {
-            ui.ctx().copy_text(value_text(row.param, &value.get(), value.as_ref().names()));
+            ui.ctx().copy_text(value_text(row.param, &value.get(), value.as_ref().labels()));
             ui.close();
         }
         if ui.button("Paste value").clicked() {
@@ -213,12 +221,15 @@ impl Paste {
 fn tooltip(ui: &mut egui::Ui, row: &Row<'_>, value: &ValueMut<'_>) {
     ui.set_max_width(320.0);
     ui.label(row.param.doc);
+    if let Some(why) = row.idle {
+        ui.label(format!("No effect now. {why}."));
+    }
     let range = row.param.range_text();
     if !range.is_empty() {
         ui.weak(format!("Range: {range}"));
     }
     if let Some(default) = resets_to(row) {
-        ui.weak(format!("Default: {}", value_text(row.param, default, value.as_ref().names())));
+        ui.weak(format!("Default: {}", value_text(row.param, default, value.as_ref().labels())));
     }
     ui.weak(egui::RichText::new(row.path.to_string()).monospace());
 }
@@ -280,7 +291,11 @@ fn control(ui: &mut egui::Ui, row: &Row<'_>, value: &mut ValueMut<'_>) -> bool {
             // The curve itself is below the row, over its whole width.
             if !curve.is_empty() {
                 ui.weak(format!("{} points", curve.len()));
-            } else if ui.button("Bend").on_hover_text(row.param.doc).accessible_name(format!("Bend {name}")).clicked()
+            } else if ui
+                .button("Add curve")
+                .on_hover_text(row.param.doc)
+                .accessible_name(format!("Add {name}"))
+                .clicked()
                 && let Some(edit) = curve_edit(row.param, &name)
             {
                 **curve = edit.straight();
@@ -390,7 +405,7 @@ pub fn color_button(ui: &mut egui::Ui, name: &str, value: &mut [f64; 3]) {
 }
 
 fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
-    let names = choice.names();
+    let names = choice.labels();
     let current = choice.index();
     let mut chosen = current;
     egui::ComboBox::from_id_salt("choice")

@@ -1,10 +1,15 @@
-//! All parameters of a part, a row for each, in the order of the file. New parameters need no code here.
+//! All parameters of a part, a row for each, under the headings of their sections. A filter lists them in the order of
+//! the file. A new parameter shows without code here.
 
 use super::param_row::{Row, param_row};
 use super::problem_at;
 use super::row_view::RowView;
+use crate::editor::panels::sections::{Section, sections_of};
 use crate::planet::param::{ParamPath, Params, Segment, Value};
 use eframe::egui;
+
+/// Radius of the dot that marks a folded section with changed values.
+const DOT_RADIUS: f32 = 2.5;
 
 /// The part to show.
 pub struct Grid<'a> {
@@ -28,32 +33,92 @@ pub fn params_grid(
     part: &mut dyn Params,
     default: &mut dyn Params,
 ) -> Option<ParamPath> {
-    let mut browse = None;
-    let defaults = values(default, &grid.base);
-    let depth = grid.base.segments().len();
-    part.each_param(&mut grid.base.clone(), &mut |path, param, value| {
-        if let Some(Segment::Field(field)) = path.segments().get(depth)
-            && grid.skip.contains(field)
-        {
-            return;
-        }
-        if !grid.shown.passes(path, param) {
-            return;
-        }
-        // The path alone does not tell: the kind of a landform has the path of the part itself.
-        let default = defaults.iter().find(|(at, name, _)| at == path && *name == param.name).map(|(_, _, v)| v);
-        let problem = problem_at(grid.shown.problems, path);
-        let takes_focus = grid.shown.takes_focus(path, param.name);
-        let (owner, biomes, locks) = (grid.owner, grid.biomes, grid.shown.locks);
-        let row = Row { param, path, owner, default, problem, biomes, takes_focus, locks };
-        if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
-            browse = Some(path.clone());
-        }
-    });
-    browse
+    let mut rows = Rows { grid, defaults: values(default, &grid.base), browse: None };
+    let sections = if grid.shown.filter.is_active() { &[] } else { sections_of(&grid.base) };
+    rows.show(ui, part, |field| !sections.iter().any(|section| section.fields.contains(&field)));
+    for section in sections {
+        rows.section(ui, section, part);
+    }
+    rows.browse
 }
 
-fn values(part: &mut dyn Params, base: &ParamPath) -> Vec<(ParamPath, &'static str, Value)> {
+/// The value of a parameter. The path alone does not tell: the kind of a landform has the path of the part itself.
+type Known = (ParamPath, &'static str, Value);
+
+struct Rows<'a> {
+    grid: &'a Grid<'a>,
+    defaults: Vec<Known>,
+    browse: Option<ParamPath>,
+}
+
+impl Rows<'_> {
+    /// The field of the part that a path leads through.
+    fn field(&self, path: &ParamPath) -> Option<&'static str> {
+        match path.segments().get(self.grid.base.segments().len()) {
+            Some(Segment::Field(field)) => Some(field),
+            _ => None,
+        }
+    }
+
+    fn section(&mut self, ui: &mut egui::Ui, section: &Section, part: &mut dyn Params) {
+        let (mut is_empty, mut is_changed) = (true, false);
+        for (path, name, value) in values(part, &self.grid.base) {
+            let field = self.field(&path).unwrap_or_default();
+            if section.fields.contains(&field) && !self.grid.skip.contains(&field) {
+                is_empty = false;
+                let is_default = |(at, of, default): &Known| *at == path && *of == name && *default == value;
+                is_changed = is_changed || !self.defaults.iter().any(is_default);
+            }
+        }
+        if is_empty {
+            return;
+        }
+        let reveals = section.fields.iter().any(|field| self.grid.shown.reveals_in(&self.grid.base.join(field)));
+        let header = egui::CollapsingHeader::new(section.title)
+            .id_salt((self.grid.base.part(), section.title))
+            .default_open(section.open)
+            .open(reveals.then_some(true));
+        let shown = header.show(ui, |ui| {
+            for field in section.fields {
+                self.show(ui, part, |other| other == *field);
+            }
+        });
+        if is_changed && shown.fully_closed() {
+            let rect = shown.header_response.rect;
+            let center = egui::pos2(rect.right() + 8.0, rect.center().y);
+            ui.painter().circle_filled(center, DOT_RADIUS, ui.visuals().hyperlink_color);
+            shown.header_response.on_hover_text("Some values here differ from the defaults");
+        }
+    }
+
+    /// Shows the rows of the fields that are `wanted`.
+    fn show(&mut self, ui: &mut egui::Ui, part: &mut dyn Params, wanted: impl Fn(&str) -> bool) {
+        let grid = self.grid;
+        part.each_param(&mut grid.base.clone(), &mut |path, param, value| {
+            let field = self.field(path).unwrap_or_default();
+            if grid.skip.contains(&field) || !wanted(field) || !grid.shown.passes(path, param) {
+                return;
+            }
+            let default = self.defaults.iter().find(|(at, name, _)| at == path && *name == param.name);
+            let row = Row {
+                param,
+                path,
+                owner: grid.owner,
+                default: default.map(|(_, _, value)| value),
+                problem: problem_at(grid.shown.problems, path),
+                idle: grid.shown.planet.idle(path),
+                biomes: grid.biomes,
+                takes_focus: grid.shown.takes_focus(path, param.name),
+                locks: grid.shown.locks,
+            };
+            if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
+                self.browse = Some(path.clone());
+            }
+        });
+    }
+}
+
+fn values(part: &mut dyn Params, base: &ParamPath) -> Vec<Known> {
     let mut values = Vec::new();
     part.each_param(&mut base.clone(), &mut |path, param, value| {
         values.push((path.clone(), param.name, value.get()));

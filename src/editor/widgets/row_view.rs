@@ -103,6 +103,8 @@ impl Revealed {
 /// What the rows of a panel show besides their values.
 #[derive(Clone, Copy)]
 pub struct RowView<'a> {
+    /// The planet at the start of the frame.
+    pub planet: &'a Planet,
     /// Everything wrong with the planet.
     pub problems: &'a [(ParamPath, String)],
     /// The filter of the panel.
@@ -224,7 +226,8 @@ mod tests {
     fn a_part_is_shown_if_one_of_its_rows_is() {
         let (base, filter) = (ParamPath::from(vec![Segment::Field("star")]), Filter::new("tilt"));
         let locks = LockView::default();
-        let shown = RowView { problems: &[], filter: &filter, revealed: None, locks: &locks };
+        let planet = Planet::default();
+        let shown = RowView { planet: &planet, problems: &[], filter: &filter, revealed: None, locks: &locks };
         assert!(shown.passes_any(&base, &Star::default(), &[]));
         assert!(!shown.passes_any(&base, &Star::default(), &["tilt_deg"]));
         assert_eq!(filter.passed(), 0, "only rows count");

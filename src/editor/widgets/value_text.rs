@@ -4,8 +4,8 @@ use super::number::suffix;
 use super::typed::Allowed;
 use crate::planet::param::{Domain, Param, Unit, Value, ValueRef};
 
-/// The text of a value with its unit. `names`: the names of the values of a choice.
-pub fn value_text(param: &Param, value: &Value, names: &[&str]) -> String {
+/// The text of a value with its unit. `labels`: the names of the values of a choice.
+pub fn value_text(param: &Param, value: &Value, labels: &[&str]) -> String {
     let unit = suffix(param.unit);
     match value {
         Value::Number(v) => format!("{v}{unit}"),
@@ -16,7 +16,7 @@ pub fn value_text(param: &Param, value: &Value, names: &[&str]) -> String {
         Value::Letter(v) => v.to_string(),
         Value::Curve(points) if points.is_empty() => "no curve".to_owned(),
         Value::Curve(points) => points.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(", "),
-        Value::Choice(index) => names.get(*index).copied().unwrap_or_default().to_owned(),
+        Value::Choice(index) => labels.get(*index).copied().unwrap_or_default().to_owned(),
     }
 }
 
@@ -63,9 +63,9 @@ pub fn read_value(param: &Param, now: &ValueRef<'_>, text: &str, keys: &[char]) 
             Value::Curve(points)
         }
         (Value::Choice(_), _) => {
-            let names = now.names();
-            let found = names.iter().position(|name| name.eq_ignore_ascii_case(text));
-            Value::Choice(found.ok_or_else(|| format!("{text:?} is none of {}", names.join(", ")))?)
+            let is_text = |name: &&str| name.eq_ignore_ascii_case(text);
+            let found = now.labels().iter().position(is_text).or(now.names().iter().position(is_text));
+            Value::Choice(found.ok_or_else(|| format!("{text:?} is none of {}", now.labels().join(", ")))?)
         }
     };
     value.problem(param).map_or(Ok(value), Err)
@@ -90,7 +90,7 @@ mod tests {
         let keys: Vec<char> = planet.biomes.palette.iter().map(|biome: &Biome| biome.key).collect();
         let mut count = 0;
         planet.each_value(&mut |path, param, value| {
-            let text = value_text(param, &value.get(), value.names());
+            let text = value_text(param, &value.get(), value.labels());
             // A rule that is off may name no biome.
             if let Ok(read) = read_value(param, &value, &text, &keys) {
                 assert_eq!(read, value.get(), "{path}");

@@ -149,6 +149,9 @@ macro_rules! choice {
 
         impl $crate::planet::param::Choice for $enum {
             fn names(&self) -> &'static [&'static str] {
+                &[$( stringify!($variant), )+]
+            }
+            fn labels(&self) -> &'static [&'static str] {
                 &[$( $label, )+]
             }
             fn index(&self) -> usize {

@@ -4,8 +4,10 @@ use super::description::{Curve, Domain, MAX_CURVE_POINTS, Param, Unit};
 
 /// A choice between named values.
 pub trait Choice {
-    /// The names of all values, in the order of their index.
+    /// The names of all values in files, in the order of their index.
     fn names(&self) -> &'static [&'static str];
+    /// The names that a person reads, in the same order.
+    fn labels(&self) -> &'static [&'static str];
     /// Index of the current value.
     fn index(&self) -> usize;
     /// Selects the value with an index. An index out of range changes nothing.
@@ -41,9 +43,14 @@ impl ValueRef<'_> {
         }
     }
 
-    /// The names of the values of a choice; empty for all other parameters.
+    /// The names of the values of a choice in files; empty for all other parameters.
     pub fn names(&self) -> &'static [&'static str] {
         if let ValueRef::Choice(choice) = self { choice.names() } else { &[] }
+    }
+
+    /// The names of the values of a choice that a person reads; empty for all other parameters.
+    pub fn labels(&self) -> &'static [&'static str] {
+        if let ValueRef::Choice(choice) = self { choice.labels() } else { &[] }
     }
 }
 

@@ -11,9 +11,9 @@ choice! {
         /// Twice as wide as high, north up, longitude 0 in the middle, east to the right.
         Equirectangular = "Equirectangular",
         /// 4 x 3 squares: the faces -Y, +X, +Y, -X in the middle row, +Z above and -Z below +X.
-        CubeCross = "CubeCross",
+        CubeCross = "Cube cross",
         /// Six squares in a row or a column, in the order of [`crate::sphere::Face`], each turned as in the cross.
-        CubeStrip = "CubeStrip",
+        CubeStrip = "Cube strip",
     }
 }
 
