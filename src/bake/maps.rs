@@ -131,7 +131,7 @@ impl Map {
         match self {
             Map::Height => "Height",
             Map::Normal => "Normal",
-            Map::NormalPlanet => "Normal in the planet frame",
+            Map::NormalPlanet => "Planet normal",
             Map::Slope => "Slope",
             Map::Temperature => "Temperature",
             Map::Precipitation => "Precipitation",

@@ -13,6 +13,7 @@ use super::panels::PanelState;
 use super::panels::docks::Bench;
 use super::panels::layout::Layout;
 use super::state::State;
+use super::state::baking::BakeSettings;
 use super::state::document::Document;
 use super::state::pictures::Pictures;
 use super::state::questions::Questions;
@@ -141,6 +142,11 @@ impl EditorApp {
     /// The viewport.
     pub fn viewport(&self) -> &Viewport {
         &self.state.viewport
+    }
+
+    /// What the user wants to bake.
+    pub fn bake_settings(&self) -> &BakeSettings {
+        &self.state.bake
     }
 
     /// Variations of the planet.

@@ -6,6 +6,7 @@
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
+//! - `bake`: maps for other programs
 //! - `docks`: tabs that are moved
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
@@ -18,6 +19,7 @@
 
 #[path = "../support/app.rs"]
 mod app;
+mod bake;
 mod clipboard;
 mod disk;
 mod docks;

@@ -59,7 +59,7 @@ impl BakeWindow {
         }
         let mut open = true;
         let window = egui::Window::new("Bake maps").id(id()).open(&mut open).default_pos([12.0, 40.0]);
-        window.default_width(330.0).vscroll(true).show(ctx, |ui| {
+        window.default_size([330.0, 660.0]).vscroll(true).show(ctx, |ui| {
             let (mut settings, planet) = (state.bake.clone(), state.document.valid_planet());
             maps(ui, &mut settings, planet);
             ui.add_space(4.0);
