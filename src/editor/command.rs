@@ -206,9 +206,9 @@ pub enum ClipAction {
     /// Copy a part of the planet; empty: all of it.
     CopyPart(&'static str),
     /// Copy the layer of this index.
-    CopyLayer(usize),
+    CopyLayers(Vec<usize>),
     /// Copy the layer of this index, and remove it.
-    CutLayer(usize),
+    CutLayers(Vec<usize>),
     /// Ask the desktop for the text of the clipboard, and paste it.
     Ask(Wanted),
     /// Paste a text.

@@ -89,6 +89,20 @@ impl Terrain {
         let mut inputs = Evaluated { terrain: self, points, spacings_rad, noise };
         self.join(points, spacings_rad, &mut inputs, join, heights, each);
     }
+
+    /// As [`Terrain::evaluate`] without gradients, with inputs that pass through `wrap`.
+    pub(crate) fn evaluate_through<'a, T: Inputs>(
+        &'a self,
+        scratch: &'a mut BatchScratch,
+        wrap: impl FnOnce(Evaluated<'a>) -> T,
+        each: impl FnMut(usize, &[f64]),
+    ) {
+        let BatchScratch { points, noise, join, heights } = scratch;
+        noise.restart(self);
+        let points = &*points;
+        let mut inputs = wrap(Evaluated { terrain: self, points, spacings_rad: &[], noise });
+        self.join(points, &[], &mut inputs, join, heights, each);
+    }
 }
 
 /// Memory for queries: points, their noise and their heights.
@@ -159,7 +173,7 @@ impl NoiseScratch {
 }
 
 /// Noise that is evaluated when it is asked for.
-struct Evaluated<'a> {
+pub(crate) struct Evaluated<'a> {
     terrain: &'a Terrain,
     points: &'a Points,
     spacings_rad: &'a [f64],

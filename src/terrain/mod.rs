@@ -12,6 +12,7 @@
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `query`, `raycast`: the queries of [`Terrain`]; `water`: water, wind and rain at points
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
+//! - `effects`: what one layer does at points
 //! - `kept`: the fields that a tile keeps from one edit to the next
 //! - `coarse`: the heights that world maps read
 //! - [`revision`]: what changed between two revisions of a planet
@@ -27,6 +28,7 @@ pub(crate) mod border;
 mod by_hand;
 pub(crate) mod climate;
 pub(crate) mod coarse;
+mod effects;
 pub(crate) mod evaluate;
 pub(crate) mod field;
 pub(crate) mod height;
@@ -51,6 +53,7 @@ use crate::world::weather::Weather;
 use crate::world::{Inputs, KeepGoing, MapWork, World};
 #[cfg(feature = "render")]
 use crate::world::{MapPicture, MapView};
+pub use effects::LayerEffect;
 pub use height::curve_at;
 
 use crate::simd::Simd;

@@ -110,7 +110,7 @@ impl Wanted {
 
 /// Memory for queries on one thread. It grows with the first query of a planet; later ones allocate nothing.
 #[derive(Default)]
-pub struct Scratch(Box<BatchScratch>);
+pub struct Scratch(pub(super) Box<BatchScratch>);
 
 impl fmt::Debug for Scratch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

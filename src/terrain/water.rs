@@ -34,7 +34,6 @@ pub struct River {
 impl Terrain {
     /// The greatest distance between points, as an angle, at which the rivers of the solved drainage show. None without
     /// a structure.
-    #[cfg(feature = "bake")]
     pub(crate) fn river_spacing_rad(&self) -> Option<f64> {
         self.world().carved.map().map(|carved| coarsest_spacing_rad(carved.drainage.side))
     }

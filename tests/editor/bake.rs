@@ -88,9 +88,7 @@ fn a_bake_that_cannot_be_written_says_where_and_why() {
     let mut harness = open(vec![Some(file)]);
     set(&mut harness, small());
     click(&mut harness, "Bake into folder…");
-    until(&mut harness, "the message", |harness| {
-        harness.query_by_label("The maps could not be baked").is_some()
-    });
+    until(&mut harness, "the message", |harness| harness.query_by_label("The maps could not be baked").is_some());
     assert!(harness.query_by_label_contains("is a file; name a folder").is_some());
 }
 

@@ -35,7 +35,7 @@ fn paste(harness: &mut Editor, wanted: Wanted, text: &str) {
 fn a_layer_goes_to_another_planet() {
     let mut from = editor(vec![]);
     let layer = planet(&from).layers[2].clone();
-    let text = copy(&mut from, ClipAction::CopyLayer(2));
+    let text = copy(&mut from, ClipAction::CopyLayers(vec![2]));
     assert!(text.contains(&layer.name) && text.contains("layers"), "{text}");
 
     let mut to = app::open_planet([1024.0, 640.0], Planet::default());

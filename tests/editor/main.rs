@@ -7,6 +7,7 @@
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `bake`: maps for other programs
+//! - `layers`: several layers at once, layers alone
 //! - `docks`: tabs that are moved
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
@@ -30,6 +31,7 @@ mod history;
 mod input;
 #[path = "../support/layered.rs"]
 mod layered;
+mod layers;
 mod monkey;
 mod painter;
 mod photo;

@@ -42,7 +42,7 @@ fn action(dice: &mut Dice, planet: &Planet, steps: usize) -> Action {
             planet.each_value(&mut |path, _, _| paths.push(path.clone()));
             Action::ToggleLock(paths.swap_remove(dice.below(paths.len())))
         }
-        28 => Action::Clip(ClipAction::CutLayer(layer)),
+        28 => Action::Clip(ClipAction::CutLayers(vec![layer])),
         29..32 => {
             let text = snippet::of_layers(planet.layers.get(layer..).unwrap_or_default().get(..1).unwrap_or_default());
             Action::Clip(ClipAction::Paste(Wanted::Layers { after: Some(layer) }, text))

@@ -179,6 +179,12 @@ pub fn canvas(harness: &Editor) -> egui::Rect {
     harness.get_by_role_and_label(Role::Canvas, "View of the planet").rect()
 }
 
+/// Whether a button is disabled.
+pub fn is_disabled(harness: &Editor, label: &str) -> bool {
+    use egui_kittest::kittest::NodeT as _;
+    harness.get_by_label(label).accesskit_node().is_disabled()
+}
+
 /// Unfolds a section of the open tab. Lists above it may have rows of the same name.
 pub fn unfold(harness: &mut Editor, title: &str) {
     harness.get_all_by_label(title).last().unwrap().scroll_to_me();

@@ -3,7 +3,7 @@
 use crate::editor::command::{ClipAction, Wanted};
 use crate::editor::panels::layer_edit;
 use crate::editor::state::State;
-use crate::planet::{Planet, snippet};
+use crate::planet::{Layer, Planet, snippet};
 use eframe::egui;
 
 /// Name of the clipboard in messages.
@@ -19,12 +19,12 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: ClipAction) {
                 state.notices.say(format!("Copied {}", name_of(part)));
             }
         }
-        ClipAction::CopyLayer(index) => copy_layer(state, ctx, index),
-        ClipAction::CutLayer(index) => {
-            copy_layer(state, ctx, index);
+        ClipAction::CopyLayers(indices) => copy_layers(state, ctx, &indices),
+        ClipAction::CutLayers(indices) => {
+            copy_layers(state, ctx, &indices);
             let mut planet = (**state.document.planet()).clone();
-            layer_edit::remove(&mut planet, index);
-            state.step(planet, "Cut layer".to_owned());
+            layer_edit::remove_all(&mut planet, &indices);
+            state.step(planet, layer_edit::counted("Cut", indices.len()));
         }
         ClipAction::Ask(wanted) => {
             state.pasting = Some(wanted);
@@ -53,11 +53,16 @@ pub fn poll(state: &mut State, ctx: &egui::Context) {
     }
 }
 
-fn copy_layer(state: &mut State, ctx: &egui::Context, index: usize) {
-    if let Some(layer) = state.document.planet().layers.get(index) {
-        ctx.copy_text(snippet::of_layers(std::slice::from_ref(layer)));
-        state.notices.say(format!("Copied {}", layer.name));
-    }
+fn copy_layers(state: &mut State, ctx: &egui::Context, indices: &[usize]) {
+    let planet = state.document.planet();
+    let layers: Vec<Layer> = indices.iter().filter_map(|index| planet.layers.get(*index)).cloned().collect();
+    let told = match layers.as_slice() {
+        [] => return,
+        [layer] => format!("Copied {}", layer.name),
+        layers => format!("Copied {} layers", layers.len()),
+    };
+    ctx.copy_text(snippet::of_layers(&layers));
+    state.notices.say(told);
 }
 
 fn paste(state: &mut State, wanted: Wanted, text: &str) {
@@ -83,7 +88,7 @@ fn paste(state: &mut State, wanted: Wanted, text: &str) {
             if layer_edit::paste(&mut planet, layers, after).is_none() {
                 return refused(state, "The planet has as many layers as it may have.".to_owned());
             }
-            if layers.len() == 1 { "Paste layer".to_owned() } else { format!("Paste {} layers", layers.len()) }
+            layer_edit::counted("Paste", layers.len())
         }
     };
     state.step(planet, label);

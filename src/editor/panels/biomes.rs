@@ -9,7 +9,7 @@ use crate::editor::painter::tools::{Brush, Cell, Tool};
 use crate::editor::viewport::pointer::UnderPointer;
 use crate::editor::viewport::{Click, TabLink};
 use crate::editor::widgets::menu_button;
-use crate::editor::widgets::param_row::{Row, param_row};
+use crate::editor::widgets::param_row::{BiomeName, Row, param_row};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::typed::{Allowed, typed_field};
 use crate::planet::param::{ParamPath, ParamValue, Segment, Unit, Value};
@@ -54,7 +54,8 @@ pub fn has_keys(ctx: &egui::Context) -> bool {
 impl BiomesState {
     /// What the tab shows on the planet, and which clicks it takes.
     pub fn link(&self) -> TabLink {
-        TabLink { marked: self.marked.clone(), paints: true, picks: self.painter.tool == Tool::Pick, plates: false }
+        let picks = self.painter.tool == Tool::Pick;
+        TabLink { marked: self.marked.clone(), paints: true, picks, ..TabLink::default() }
     }
 
     /// A click on the planet: chooses the biome there, or paints the cell of the climate there. Gives the name of the
@@ -129,9 +130,10 @@ fn table_params(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     params_grid(ui, &grid, &mut draft.planet.biomes, &mut Biomes::default());
 }
 
-/// Key and name of each biome.
-fn names(biomes: &Biomes) -> Vec<(char, String)> {
-    biomes.palette.iter().map(|biome| (biome.key, biome.name.clone())).collect()
+/// The biomes as rows refer to them.
+fn names(biomes: &Biomes) -> Vec<BiomeName> {
+    let named = |biome: &Biome| BiomeName { key: biome.key, name: biome.name.clone(), color: biome.color };
+    biomes.palette.iter().map(named).collect()
 }
 
 fn toolbar(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {

@@ -54,6 +54,44 @@ pub fn remove(planet: &mut Planet, index: usize) {
     }
 }
 
+/// Removes layers, and every mask that refers to them.
+pub fn remove_all(planet: &mut Planet, indices: &[usize]) {
+    let mut indices = indices.to_vec();
+    indices.sort_unstable();
+    indices.dedup();
+    indices.iter().rev().for_each(|index| remove(planet, *index));
+}
+
+/// Adds copies of layers behind the last of them. Gives the indices of the copies, or None if there would be too many.
+pub fn duplicate_all(planet: &mut Planet, indices: &[usize]) -> Option<Vec<usize>> {
+    if let [index] = indices {
+        return duplicate(planet, *index).map(|copy| vec![copy]);
+    }
+    let layers: Vec<Layer> = indices.iter().filter_map(|index| planet.layers.get(*index)).cloned().collect();
+    let first = paste(planet, &layers, indices.iter().max().copied())?;
+    Some((first..first + layers.len()).collect())
+}
+
+/// Moves layers up (`-1`) or down (`1`) together. Gives their new indices; the same if one of them is at the end.
+pub fn shift_all(planet: &mut Planet, indices: &[usize], by: isize) -> Vec<usize> {
+    let count = planet.layers.len();
+    let moved: Option<Vec<usize>> =
+        indices.iter().map(|index| index.checked_add_signed(by).filter(|to| *to < count)).collect();
+    let Some(moved) = moved else { return indices.to_vec() };
+    let mut order = indices.to_vec();
+    // The foremost goes first, so that none steps over another one.
+    order.sort_unstable_by_key(|index| *index as isize * -by);
+    for index in order {
+        shift(planet, index, by);
+    }
+    moved
+}
+
+/// The name of an edit of some layers: "Remove layer", "Remove 3 layers".
+pub fn counted(verb: &str, count: usize) -> String {
+    if count == 1 { format!("{verb} layer") } else { format!("{verb} {count} layers") }
+}
+
 /// Renames a layer, also in the masks and locks that refer to it. A name that is empty or taken changes nothing.
 pub fn rename(planet: &mut Planet, index: usize, name: &str) -> bool {
     let taken = planet.layers.iter().enumerate().any(|(i, layer)| i != index && layer.name == name);

@@ -2,6 +2,7 @@
 
 use super::{Draft, layer_edit, masks, owner_box, rest};
 use crate::editor::command::{Action, ClipAction, Wanted};
+use crate::editor::viewport::layer_view::{LayerOverlay, LayerQuantity};
 use crate::editor::widgets::drag_row::dragged_row;
 use crate::editor::widgets::icon::{Icon, icon_button, mark};
 use crate::editor::widgets::number::length_text;
@@ -11,6 +12,7 @@ use crate::planet::layers::layer_path;
 use crate::planet::param::Choice;
 use crate::planet::{Layer, MAX_LAYERS, Shape};
 use eframe::egui::{self, AtomExt};
+use std::collections::BTreeSet;
 
 /// Parameters of a layer that have no effect without a structure: they are not shown then.
 pub const NEED_STRUCTURE: [&str; 3] = ["under", "folding", "follow_wind"];
@@ -22,19 +24,71 @@ const LIST_SHARE: f32 = 0.42;
 #[derive(Clone, Copy)]
 struct Dragged(usize);
 
-/// The selection and half-typed texts.
+/// The selection, what is shown of it on the planet, and half-typed texts.
 #[derive(Default)]
 pub struct LayersState {
-    /// Index of the selected layer.
+    /// Index of the layer whose parameters are shown.
     pub selected: usize,
+    /// Indices of the other selected layers.
+    also: BTreeSet<usize>,
+    /// Whether the selected layers are seen alone.
+    solo: bool,
+    /// What is shown of the selected layer on the planet.
+    quantity: Option<LayerQuantity>,
     /// Index of a layer and the name that is being typed. The layer gets the name when the field loses the focus, so
     /// that no mask refers to half a name.
     typed_name: Option<(usize, String)>,
 }
 
+impl LayersState {
+    /// Indices of all selected layers, in order.
+    pub fn chosen(&self) -> Vec<usize> {
+        let mut all = self.also.clone();
+        all.insert(self.selected);
+        all.into_iter().collect()
+    }
+
+    /// Selects a layer alone.
+    pub fn select(&mut self, index: usize) {
+        self.selected = index;
+        self.also.clear();
+    }
+
+    fn select_all(&mut self, indices: &[usize]) {
+        self.also = indices.iter().copied().collect();
+        self.selected = indices.first().copied().unwrap_or_default();
+        self.also.remove(&self.selected);
+    }
+
+    /// A click on a row: with Ctrl it adds the layer to the selection or takes it out, with Shift it selects all up to
+    /// there.
+    fn clicked(&mut self, index: usize, modifiers: egui::Modifiers) {
+        if modifiers.shift {
+            let (first, last) = (self.selected.min(index), self.selected.max(index));
+            self.also = (first..=last).filter(|other| *other != self.selected).collect();
+        } else if !modifiers.command {
+            self.select(index);
+        } else if index != self.selected {
+            if !self.also.remove(&index) {
+                self.also.insert(index);
+            }
+        } else if let Some(other) = self.also.pop_first() {
+            self.selected = other;
+        }
+    }
+
+    /// What the tab shows on the planet.
+    pub fn link(&self) -> (Vec<usize>, Option<LayerOverlay>) {
+        let solo = if self.solo { self.chosen() } else { Vec::new() };
+        (solo, self.quantity.map(|quantity| LayerOverlay { layer: self.selected, quantity }))
+    }
+}
+
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
-    state.selected = state.selected.min(draft.planet.layers.len().saturating_sub(1));
+    let count = draft.planet.layers.len();
+    state.selected = state.selected.min(count.saturating_sub(1));
+    state.also.retain(|index| *index < count);
     if draft.shown.filter.is_active() {
         let names = draft.planet.layers.iter().map(|layer| layer.name.as_str());
         owner_box(ui, "Layer", names, &mut state.selected);
@@ -63,42 +117,59 @@ pub fn show(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
 
 fn toolbar(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     ui.horizontal(|ui| {
-        let (index, count) = (state.selected, draft.planet.layers.len());
+        let (chosen, count) = (state.chosen(), draft.planet.layers.len());
+        let (first, last) = (chosen[0], chosen[chosen.len() - 1]);
         ui.add_enabled_ui(count < MAX_LAYERS, |ui| {
             menu_button(ui, "Add layer", |ui| {
                 for (kind, (name, doc)) in Shape::LABELS.iter().zip(Shape::DOCS).enumerate() {
                     if ui.button(*name).on_hover_text(*doc).clicked() {
-                        let after = (count > 0).then_some(index);
+                        let after = (count > 0).then_some(last);
                         let seed = random_seed() as u32;
-                        state.selected = layer_edit::add(draft.planet, kind, after, seed).unwrap_or(index);
+                        state.select(layer_edit::add(draft.planet, kind, after, seed).unwrap_or(last));
                         draft.name_edit("Add layer");
                         ui.close();
                     }
                 }
             });
         });
-        ui.add_enabled_ui(count > 0 && count < MAX_LAYERS, |ui| {
-            if icon_button(ui, Icon::Duplicate, "Duplicate layer", "Duplicate the selected layer").clicked() {
-                state.selected = layer_edit::duplicate(draft.planet, index).unwrap_or(index);
-                draft.name_edit("Duplicate layer");
+        ui.add_enabled_ui(count > 0 && count + chosen.len() <= MAX_LAYERS, |ui| {
+            if icon_button(ui, Icon::Duplicate, "Duplicate layer", "Duplicate the selected layers").clicked() {
+                if let Some(copies) = layer_edit::duplicate_all(draft.planet, &chosen) {
+                    state.select_all(&copies);
+                }
+                draft.name_edit(layer_edit::counted("Duplicate", chosen.len()));
             }
         });
         ui.add_enabled_ui(count > 0, |ui| {
-            if icon_button(ui, Icon::Remove, "Remove layer", "Remove the selected layer, and the masks on it").clicked()
-            {
-                layer_edit::remove(draft.planet, index);
-                draft.name_edit("Remove layer");
+            let told = "Remove the selected layers, and the masks on them";
+            if icon_button(ui, Icon::Remove, "Remove layer", told).clicked() {
+                layer_edit::remove_all(draft.planet, &chosen);
+                state.select(first);
+                draft.name_edit(layer_edit::counted("Remove", chosen.len()));
             }
         });
         for (icon, name, by, possible) in
-            [(Icon::Up, "Move layer up", -1, index > 0), (Icon::Down, "Move layer down", 1, index + 1 < count)]
+            [(Icon::Up, "Move layer up", -1, first > 0), (Icon::Down, "Move layer down", 1, last + 1 < count)]
         {
             ui.add_enabled_ui(possible, |ui| {
                 if icon_button(ui, icon, name, "Layers apply from first to last").clicked() {
-                    state.selected = layer_edit::shift(draft.planet, index, by);
-                    draft.name_edit(name);
+                    let moved = layer_edit::shift_all(draft.planet, &chosen, by);
+                    state.select_all(&moved);
+                    draft.name_edit(if chosen.len() == 1 { name.to_owned() } else { name.replace("layer", "layers") });
                 }
             });
+        }
+        ui.separator();
+        let told = "See the selected layers alone: all others are off, and so is the structure. The planet stays";
+        ui.toggle_value(&mut state.solo, "Solo").on_hover_text(told);
+        for (quantity, name, told) in [
+            (LayerQuantity::Mask, "Mask", "Colour the planet where the masks let the layer act"),
+            (LayerQuantity::Change, "Effect", "Colour the planet where the layer raises or lowers the ground"),
+        ] {
+            let mut on = state.quantity == Some(quantity);
+            if ui.toggle_value(&mut on, name).on_hover_text(told).changed() {
+                state.quantity = on.then_some(quantity);
+            }
         }
     });
 }
@@ -107,12 +178,15 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
     let changes_m = draft.under_pointer.map(|under| under.layers_m.as_slice());
     let (mut moved, locks) = (None, draft.shown.locks);
     let top = ui.cursor().top();
+    let (chosen, mut switched) = (state.chosen(), None);
     for (index, layer) in draft.planet.layers.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             draft.shown.marked(ui, &layer_path(index).join("enabled"), "enabled", |ui| {
-                ui.add(egui::Checkbox::without_text(&mut layer.enabled))
-                    .on_hover_text("Whether the layer changes the height; off, it can still be a mask")
-                    .accessible_name(format!("Enabled of {}", layer.name));
+                let check = ui.add(egui::Checkbox::without_text(&mut layer.enabled));
+                let check = check.on_hover_text("Whether the layer changes the height; off, it can still be a mask");
+                if check.accessible_name(format!("Enabled of {}", layer.name)).changed() {
+                    switched = Some((index, layer.enabled));
+                }
             });
             let change_m = changes_m.and_then(|changes| changes.get(index)).filter(|_| layer.enabled);
             // The padlock covers no text.
@@ -123,13 +197,15 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             let name = if layer.enabled { name } else { name.weak() };
             let width = ui.available_width();
             let atoms = (egui::Atom::from(name).atom_shrink(true), egui::Atom::grow(), details);
-            let button = egui::Button::selectable(state.selected == index, atoms)
+            let button = egui::Button::selectable(chosen.contains(&index), atoms)
                 .truncate()
                 .min_size(egui::vec2(width, 20.0))
                 .sense(egui::Sense::click_and_drag());
             let response = ui.add(button);
             if response.clicked() {
-                state.selected = index;
+                state.clicked(index, ui.input(|input| input.modifiers));
+            } else if response.secondary_clicked() && !chosen.contains(&index) {
+                state.select(index);
             }
             moved = moved.or(dragged_row(ui, &response, index, Dragged(index)).map(|(Dragged(from), gap)| (from, gap)));
             let path = layer_path(index);
@@ -139,8 +215,8 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
             }
             response.context_menu(|ui| {
                 for (label, action) in [
-                    ("Copy", ClipAction::CopyLayer(index)),
-                    ("Cut", ClipAction::CutLayer(index)),
+                    ("Copy", ClipAction::CopyLayers(state.chosen())),
+                    ("Cut", ClipAction::CutLayers(state.chosen())),
                     ("Paste after", ClipAction::Ask(Wanted::Layers { after: Some(index) })),
                 ] {
                     if ui.button(label).clicked() {
@@ -150,31 +226,39 @@ fn list(ui: &mut egui::Ui, state: &mut LayersState, draft: &mut Draft<'_>) {
                 }
                 locks.entry(ui, &path);
             });
-            let told = "Drag to change the order; right-click to copy, paste or lock the layer";
+            let told = "Drag to change the order; Ctrl or Shift selects several; right-click to copy, paste or lock";
             response.on_hover_text(told).accessible_name(format!("Layer {}", layer.name));
         });
     }
-    clipboard_keys(ui, top, state.selected, draft);
+    if let Some((_, enabled)) = switched.filter(|(index, _)| chosen.contains(index) && chosen.len() > 1) {
+        for (other, layer) in draft.planet.layers.iter_mut().enumerate() {
+            if chosen.contains(&other) {
+                layer.enabled = enabled;
+            }
+        }
+        draft.name_edit(layer_edit::counted(if enabled { "Turn on" } else { "Turn off" }, chosen.len()));
+    }
+    clipboard_keys(ui, top, state, draft);
     if let Some((from, gap)) = moved {
         let to = layer_edit::move_to_gap(draft.planet, from, gap);
-        state.selected = to;
+        state.select(to);
         if to != from {
             draft.name_edit("Move layer");
         }
     }
 }
 
-/// The clipboard keys of the desktop, for the selected layer while the pointer is over the list.
-fn clipboard_keys(ui: &egui::Ui, top: f32, selected: usize, draft: &mut Draft<'_>) {
+/// The clipboard keys of the desktop, for the selected layers while the pointer is over the list.
+fn clipboard_keys(ui: &egui::Ui, top: f32, state: &LayersState, draft: &mut Draft<'_>) {
     let list = egui::Rect::from_min_max(egui::pos2(ui.min_rect().left(), top), ui.min_rect().max);
     if ui.ctx().text_edit_focused() || !ui.rect_contains_pointer(list) {
         return;
     }
-    let wanted = Wanted::Layers { after: Some(selected) };
+    let wanted = Wanted::Layers { after: state.chosen().last().copied() };
     let action = ui.input(|input| {
         input.events.iter().find_map(|event| match event {
-            egui::Event::Copy => Some(ClipAction::CopyLayer(selected)),
-            egui::Event::Cut => Some(ClipAction::CutLayer(selected)),
+            egui::Event::Copy => Some(ClipAction::CopyLayers(state.chosen())),
+            egui::Event::Cut => Some(ClipAction::CutLayers(state.chosen())),
             egui::Event::Paste(text) => Some(ClipAction::Paste(wanted, text.clone())),
             _ => None,
         })

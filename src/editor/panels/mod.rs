@@ -200,11 +200,16 @@ impl PanelState {
     pub fn tab_link(&self) -> TabLink {
         let links = |tab: &usize| PANELS[*tab].paints || PANELS[*tab].plates;
         let active = Some(self.layout.active()).filter(|tab| links(tab) && self.layout.visible().any(|t| t == *tab));
-        match active.or_else(|| self.layout.visible().find(links)).map(|tab| &PANELS[tab]) {
+        let link = match active.or_else(|| self.layout.visible().find(links)).map(|tab| &PANELS[tab]) {
             Some(Panel { paints: true, .. }) => self.biomes.link(),
             Some(_) => self.structure.link(),
             None => TabLink::default(),
-        }
+        };
+        let (solo, overlay) = match self.layout.visible().any(|tab| PANELS[tab].part == "layers") {
+            true => self.layers.link(),
+            false => (Vec::new(), None),
+        };
+        TabLink { solo, overlay, ..link }
     }
 
     /// A click on the planet. Gives the name of the edit.
@@ -279,7 +284,7 @@ impl PanelState {
         self.layout.open(tab);
         self.finding.reveal(tab, path.clone(), name);
         match path.segments() {
-            [Segment::Field("layers"), Segment::Index(index), ..] => self.layers.selected = *index,
+            [Segment::Field("layers"), Segment::Index(index), ..] => self.layers.select(*index),
             [Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index), ..] => {
                 self.biomes.palette.selected = *index;
             }

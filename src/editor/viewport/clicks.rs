@@ -1,5 +1,6 @@
 //! Clicks on the planet that are for the open tab.
 
+use super::layer_view::LayerOverlay;
 use super::pointer::{Probe, UnderPointer, in_view};
 use crate::editor::painter::is_chord;
 use crate::lod::View;
@@ -30,6 +31,10 @@ pub struct TabLink {
     pub picks: bool,
     /// Whether a plain click picks a plate, and a drag with Ctrl moves it.
     pub plates: bool,
+    /// Indices of the layers that are seen alone; empty for all.
+    pub solo: Vec<usize>,
+    /// What is shown of a layer.
+    pub overlay: Option<LayerOverlay>,
 }
 
 /// The newest click for the open tab. The ground there is found on another thread.

@@ -7,6 +7,7 @@
 //! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
 //!   upload
 //! - [`compare`]: another planet beside the one that is edited
+//! - [`layer_view`]: layers alone, and an overlay of what one does
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
 //!   dragged
@@ -21,6 +22,7 @@ pub mod compare;
 pub mod frames;
 pub mod ground;
 pub mod input;
+pub mod layer_view;
 mod outline;
 mod picture;
 mod plate_drag;
@@ -51,6 +53,7 @@ use eframe::egui_wgpu::RenderState;
 use frames::FrameLog;
 use glam::DVec3;
 use ground::PlanetGround;
+use layer_view::LayerView;
 use picture::{Meters, Picture, Subject, quality_for};
 use pointer::{Probe, UnderPointer, in_view};
 use std::sync::Arc;
@@ -70,6 +73,7 @@ pub struct Viewport {
     pub frames: FrameLog,
     /// What the open tab shows on the planet, and which clicks and drags it takes.
     pub tab: TabLink,
+    layer_view: LayerView,
     /// The planet that this one is compared with.
     compare: Option<Compare>,
     maps: Option<Arc<MapStore>>,
@@ -111,6 +115,7 @@ impl Viewport {
             frame_meter: FrameMeter::default(),
             frames: FrameLog::default(),
             tab: TabLink::default(),
+            layer_view: LayerView::default(),
             compare: None,
             builder: Builder::with_options(BuilderOptions::default().maps(maps.clone()), waker()),
             maps,
@@ -191,6 +196,11 @@ impl Viewport {
     /// How often each look-up texture has been made since the start.
     pub fn lut_runs(&self) -> Option<LutRuns> {
         self.picture.lut_runs()
+    }
+
+    /// Layers alone, and the overlay of what one does.
+    pub fn layer_view(&self) -> &LayerView {
+        &self.layer_view
     }
 
     /// The ground under the pointer, if the pointer is over the globe.
@@ -300,6 +310,8 @@ impl Viewport {
             return None;
         }
 
+        let seen = self.layer_view.seen(valid, &self.tab.solo, self.tab.overlay.is_some());
+        let valid = &seen;
         self.picture.advance(self.builder.surface().as_ref(), &mut self.frames, ui.ctx());
         let surface = self.surface();
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
@@ -329,7 +341,7 @@ impl Viewport {
         self.builder.request(valid, &wanted);
         self.look_under_pointer(&response, &view, surface.as_ref());
         self.clicks.look((ui, &response), &self.tab, &view, surface.as_ref());
-        if let Some(surface) = surface {
+        if let Some(surface) = surface.clone() {
             self.draw(surface, valid, view, pressed, now_secs);
         }
         if let Some(wait) = self.picture.refines_after(&self.settings, now_secs).filter(|_| !self.is_busy()) {
@@ -338,6 +350,9 @@ impl Viewport {
         if let Some(texture) = self.picture.texture() {
             let uv = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
             ui.painter().image(texture, rect, uv, egui::Color32::WHITE);
+        }
+        if let Some(surface) = &surface {
+            self.layer_view.paint(ui, rect, self.tab.overlay, (&view, surface));
         }
         if let Some(compare) = &mut self.compare {
             let (settings, radius_m) = (&self.settings, self.ground_radius_m);

@@ -40,7 +40,9 @@ pub fn show(ui: &mut egui::Ui, rect: Rect, state: &State, commands: &mut Command
         bottom -= 30.0;
     }
     let view = state.viewport.settings.debug_view;
-    if let Some(legend) = state.viewport.surface().and_then(|surface| Legend::of(view, &surface)) {
+    let of_layer = state.viewport.layer_view().legend();
+    let of_view = || state.viewport.surface().and_then(|surface| Legend::of(view, &surface));
+    if let Some(legend) = of_layer.or_else(of_view) {
         show_legend(ui, pos2(rect.left() + ASIDE, bottom), &legend);
     }
 }

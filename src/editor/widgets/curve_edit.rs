@@ -1,6 +1,7 @@
-//! A curve through points: drag a point, double-click to add one, right-click to remove one.
+//! A curve through points: drag a point, double-click to add one, right-click to remove one, or type its numbers.
 
 use super::number::format_digits;
+use super::typed::{Allowed, plain_field};
 use crate::planet::param::{Curve, MAX_CURVE_POINTS, Unit};
 use crate::terrain::curve_at;
 use eframe::egui::{self, Pos2, Rect};
@@ -74,6 +75,37 @@ impl CurveEdit<'_> {
                 ui.weak("Drag a point; double-click to add one; right-click one to remove it");
             })
             .accessible_name(self.name);
+        egui::CollapsingHeader::new("Points").id_salt(self.name).show(ui, |ui| self.points(ui, curve));
+    }
+
+    /// The points as numbers.
+    fn points(&self, ui: &mut egui::Ui, curve: &mut Curve) {
+        let mut typed = None;
+        for (index, point) in curve.iter().enumerate() {
+            ui.horizontal(|ui| {
+                let mut new = *point;
+                for (value, axis) in new.iter_mut().zip(["in", "out"]) {
+                    let allowed = Allowed::numbers(self.unit, -self.most, self.most);
+                    let speed = (0.002 * self.span(curve)).max(1e-4);
+                    let field = plain_field(ui, value, speed, 5, allowed);
+                    field.accessible_name(format!("Point {} {axis} of {}", index + 1, self.name));
+                    if axis == "in" {
+                        ui.weak("becomes");
+                    }
+                }
+                if new != *point {
+                    typed = Some((index, new));
+                }
+            });
+        }
+        if let Some((index, [x, y])) = typed {
+            let step = self.least_step * 1.001;
+            let low = index.checked_sub(1).and_then(|i| curve.get(i)).map_or(-self.most, |before| before[0] + step);
+            let high = curve.get(index + 1).map_or(self.most, |after| after[0] - step);
+            if low <= high {
+                curve[index] = [x.clamp(low, high), y];
+            }
+        }
     }
 
     /// Range of the axes: that of the points, and never too small to use.

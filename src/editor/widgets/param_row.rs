@@ -27,12 +27,22 @@ pub struct Row<'a> {
     pub problem: Option<&'a str>,
     /// Why its value has no effect now.
     pub idle: Option<&'static str>,
-    /// Key and name of each biome of the palette, for a parameter that refers to one.
-    pub biomes: &'a [(char, String)],
+    /// The biomes of the palette, for a parameter that refers to one.
+    pub biomes: &'a [BiomeName],
     /// Whether the field for a number or a text takes the focus now.
     pub takes_focus: bool,
     /// What variations leave as it is.
     pub locks: &'a LockView,
+}
+
+/// A biome that a parameter may refer to.
+pub struct BiomeName {
+    /// Its key.
+    pub key: char,
+    /// Its name.
+    pub name: String,
+    /// Its colour, linear.
+    pub color: [f64; 3],
 }
 
 /// Opacity of a row whose value has no effect now.
@@ -210,7 +220,7 @@ impl Paste {
         });
         let Some(text) = text else { return };
         ui.data_mut(|data| data.remove::<Self>(Self::place()));
-        let keys: Vec<char> = row.biomes.iter().map(|(key, _)| *key).collect();
+        let keys: Vec<char> = row.biomes.iter().map(|biome| biome.key).collect();
         match read_value(row.param, &value.as_ref(), &text, &keys) {
             Ok(new) => value.set(&new),
             Err(why) => typed::refuse(ui, label.id, why),
@@ -423,18 +433,32 @@ fn choice_box(ui: &mut egui::Ui, name: &str, choice: &mut dyn Choice) {
     }
 }
 
-/// The biomes of the palette, by name. A key of no biome shows as "None".
-fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[(char, String)]) {
-    let chosen = biomes.iter().find(|(other, _)| other == key);
+/// The biomes of the palette, by colour and name. A key of no biome shows as "None".
+fn biome_box(ui: &mut egui::Ui, name: &str, key: &mut char, biomes: &[BiomeName]) {
+    let chosen = biomes.iter().find(|biome| biome.key == *key);
+    let height = ui.spacing().interact_size.y;
+    if let Some(biome) = chosen {
+        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(height), egui::Sense::hover());
+        swatch(ui, rect, biome.color);
+    }
     egui::ComboBox::from_id_salt("biome")
-        .selected_text(chosen.map_or("None", |(_, name)| name.as_str()))
+        .selected_text(chosen.map_or("None", |biome| biome.name.as_str()))
         .width(ui.available_width().min(160.0))
         .truncate()
         .show_ui(ui, |ui| {
-            for (other, name) in biomes {
-                ui.selectable_value(key, *other, name);
+            for biome in biomes {
+                ui.horizontal(|ui| {
+                    let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(height), egui::Sense::hover());
+                    swatch(ui, rect, biome.color);
+                    ui.selectable_value(key, biome.key, &biome.name);
+                });
             }
         })
         .response
         .accessible_name(name);
+}
+
+fn swatch(ui: &egui::Ui, rect: egui::Rect, color: [f64; 3]) {
+    let [r, g, b] = color.map(|component| component as f32);
+    ui.painter().rect_filled(rect.shrink(3.0), 3.0, egui::Rgba::from_rgb(r, g, b));
 }

@@ -1,7 +1,7 @@
 //! All parameters of a part, a row for each, under the headings of their sections. A filter lists them in the order of
 //! the file. A new parameter shows without code here.
 
-use super::param_row::{Row, param_row};
+use super::param_row::{BiomeName, Row, param_row};
 use super::problem_at;
 use super::row_view::RowView;
 use crate::editor::panels::sections::{Section, sections_of};
@@ -21,8 +21,8 @@ pub struct Grid<'a> {
     pub skip: &'a [&'a str],
     /// Problems, the filter, and the row that was searched for.
     pub shown: RowView<'a>,
-    /// Key and name of each biome of the palette, if a parameter refers to one.
-    pub biomes: &'a [(char, String)],
+    /// The biomes of the palette, if a parameter refers to one.
+    pub biomes: &'a [BiomeName],
 }
 
 /// Shows the parameters of `part`; their reset buttons restore the values of `default`. Gives the path of the parameter
