@@ -6,6 +6,7 @@
 use super::apply::apply_all;
 use super::command::{Action, Command, Commands};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
+use super::files::library::Library;
 use super::files::recent::Recent;
 use super::handlers::{self, answers, baking, open_file, opening, shooting};
 use super::painter::survey::Surveyor;
@@ -24,6 +25,7 @@ use super::viewport::Viewport;
 use super::views::bake::BakeWindow;
 use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
+use super::views::library::LibraryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
 use super::views::text::TextWindow;
@@ -54,6 +56,7 @@ pub struct EditorApp {
     place: PlaceWindow,
     text: TextWindow,
     bake: BakeWindow,
+    library: LibraryWindow,
     surveyor: Surveyor,
     /// Where solved world maps are kept.
     maps: Option<Arc<MapStore>>,
@@ -100,6 +103,7 @@ impl EditorApp {
             place: PlaceWindow::default(),
             text: TextWindow::default(),
             bake: BakeWindow::default(),
+            library: LibraryWindow::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
             maps,
             was_typing: false,
@@ -118,6 +122,8 @@ impl EditorApp {
     pub fn with_recovery(mut self, folder: &Path) -> Self {
         self.state.notices.claim_in(folder);
         self.state.recent = Recent::open(folder);
+        self.state.shelf.library = Some(Library::new(folder.join("library")));
+        self.state.pictures_folder = Some(folder.join("pictures"));
         let last = self.state.recent.paths().first().filter(|path| path.is_file()).cloned();
         if let Some(last) = last.filter(|_| self.state.document.path().is_none() && self.state.messages.is_empty()) {
             opening::begin_with(&mut self.state, &last);
@@ -321,6 +327,7 @@ impl eframe::App for EditorApp {
         templates::show(&ctx, &self.state, &mut self.commands);
         self.text.show(&ctx, &self.state, &mut self.commands);
         self.bake.show(&ctx, &self.state, &mut self.commands);
+        self.library.show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);

@@ -2,7 +2,7 @@
 
 use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, VariationAction, Window};
 use super::commands;
-use super::handlers::{answers, baking, bookmarks, clipboard, opening, pictures, place, shooting, variations};
+use super::handlers::{answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, variations};
 use super::state::State;
 use super::state::questions::Goal;
 use eframe::egui;
@@ -30,7 +30,9 @@ pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -
 fn takes_typed_value(action: &Action) -> bool {
     match action {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
-        Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) | Action::Browse(_) => true,
+        Action::Library(_) | Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) | Action::Browse(_) => {
+            true
+        }
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) | Action::Bake(_) => false,
         Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) | Action::Clip(_) => true,
         Action::Variation(action) => matches!(action, VariationAction::Take(_) | VariationAction::UnlockAll),
@@ -77,6 +79,8 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::Text) => state.shows.text = false,
         Action::Close(Window::Bake) => state.shows.bake = false,
         Action::Bake(action) => baking::act(state, ctx, action),
+        Action::Close(Window::Library) => state.shows.library = false,
+        Action::Library(action) => library::act(state, ctx, action),
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
         Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),
         Action::Shoot(Shoot::Cancel) => {

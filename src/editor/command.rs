@@ -40,6 +40,8 @@ pub enum Command {
     ResetLayout,
     /// Show or hide the window that bakes maps.
     Bake,
+    /// Show or hide the library.
+    Library,
     TogglePerformance,
     ToggleOverlay,
     Text,
@@ -99,6 +101,8 @@ pub enum Action {
     Shoot(Shoot),
     /// Bake maps for other programs.
     Bake(BakeAction),
+    /// Take something out of the library, or keep something in it.
+    Library(LibraryAction),
     /// Change a setting of the view.
     Set(Setting),
     /// Answer the question on screen.
@@ -132,6 +136,8 @@ pub enum Window {
     Text,
     /// Maps for other programs.
     Bake,
+    /// Planets and parts that the user keeps.
+    Library,
 }
 
 /// A change of what the side panel shows.
@@ -226,6 +232,19 @@ pub enum Shoot {
     Ask(Subject),
     /// Stop what is being taken.
     Cancel,
+}
+
+/// An action on the library. Numbers are indices of the items shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LibraryAction {
+    /// Open a planet as a document of its own; take a part.
+    Open(usize),
+    /// Take a planet or a part over into the open planet: an undo step.
+    Take(usize),
+    /// Keep a part of the open planet; empty: all of it.
+    Keep(&'static str),
+    /// Move an item out of the library.
+    Remove(usize),
 }
 
 /// An action on maps for other programs.

@@ -41,6 +41,12 @@ pub(super) fn rows() -> Vec<Row> {
         })
         .within(Menu::File, 2)
         .keys([plain(Key::F10)]),
+        Row::new(Command::Library, "Library", "Planets and parts to take, and a place to keep your own.", |s, _| {
+            s.shows.library ^= true;
+            s.shelf.is_current = false;
+        })
+        .within(Menu::File, 0)
+        .keys([ctrl(Key::L)]),
         Row::new(
             Command::Bake,
             "Bake maps…",

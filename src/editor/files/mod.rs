@@ -10,4 +10,5 @@ pub mod claim;
 pub mod dialogs;
 pub mod disk;
 pub mod file_names;
+pub mod library;
 pub mod recent;

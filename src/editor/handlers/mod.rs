@@ -9,6 +9,7 @@
 //! - [`pictures`]: height maps
 //! - [`variations`]: variations of the planet, and locks
 //! - [`clipboard`]: parts and layers as text
+//! - [`library`]: planets and parts that the user keeps
 //! - [`compare`]: a kept planet beside the one that is edited
 //! - [`bookmarks`]: views kept in the preset
 //! - [`place`]: the flight to a location
@@ -20,6 +21,7 @@ pub mod biome_table;
 pub mod bookmarks;
 pub mod clipboard;
 pub mod compare;
+pub mod library;
 pub mod open_file;
 pub mod opening;
 pub mod pictures;

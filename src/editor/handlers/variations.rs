@@ -7,10 +7,11 @@ use crate::editor::state::sheet::Seen;
 use crate::editor::state::templates;
 use crate::editor::state::thumbnails::Thumbnails;
 use crate::editor::state::variations::Around;
-use crate::planet::locks;
 use crate::planet::param::ParamPath;
+use crate::planet::{Planet, locks};
 use crate::render::Renderer;
 use eframe::egui;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Changes what varies, or takes a variation: one undo step.
@@ -52,20 +53,33 @@ pub fn update(state: &mut State, ctx: &egui::Context) {
     if state.shows.templates {
         if state.templates.cells.is_empty() {
             let planets = templates::ALL.iter().map(|entry| Arc::new(entry.template.shown()));
-            let renderer = state.viewport.second_renderer();
-            state.templates.set(planets.collect(), &Seen::default(), || Some(thumbnails(renderer?, ctx)));
+            let (renderer, kept) = (state.viewport.second_renderer(), state.pictures_folder.clone());
+            state.templates.set(planets.collect(), &Seen::default(), || Some(thumbnails(renderer?, kept, ctx)));
         }
         state.templates.poll(ctx);
     }
-    let missing = state.variations.sheet.missing() + state.templates.missing();
+    if state.shows.library {
+        if !state.shelf.is_current {
+            let here = state.document.valid_planet().clone();
+            state.shelf.read(state.recent.paths(), &here);
+            let none = || Arc::new(Planet::default());
+            let planets = state.shelf.items.iter().map(|item| item.planet.as_ref().map_or_else(|_| none(), Arc::clone));
+            let planets = planets.collect();
+            let (renderer, kept) = (state.viewport.second_renderer(), state.pictures_folder.clone());
+            state.shelf.sheet.set(planets, &Seen::default(), || Some(thumbnails(renderer?, kept, ctx)));
+        }
+        state.shelf.sheet.poll(ctx);
+    }
+    let missing = state.variations.sheet.missing() + state.templates.missing() + state.shelf.sheet.missing();
     if missing > 0 {
         state.viewport.postpone_refinement(ctx.input(|input| input.time));
     }
 }
 
-fn thumbnails(renderer: Renderer, ctx: &egui::Context) -> Thumbnails {
+/// `kept`: the folder where pictures are kept between runs.
+fn thumbnails(renderer: Renderer, kept: Option<PathBuf>, ctx: &egui::Context) -> Thumbnails {
     let ctx = ctx.clone();
-    Thumbnails::start(renderer, move || ctx.request_repaint())
+    Thumbnails::start(renderer, kept, move || ctx.request_repaint())
 }
 
 fn update_variations(state: &mut State, ctx: &egui::Context) {
@@ -81,5 +95,5 @@ fn update_variations(state: &mut State, ctx: &egui::Context) {
         time_secs: state.viewport.settings.time_secs,
     };
     let renderer = || state.viewport.second_renderer();
-    state.variations.update(ctx, &around, || Some(thumbnails(renderer()?, ctx)));
+    state.variations.update(ctx, &around, || Some(thumbnails(renderer()?, None, ctx)));
 }

@@ -8,6 +8,7 @@
 //! - [`notices`]: notices of the editor
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
+//! - [`shelf`]: what the library shows
 //! - [`shooting`]: photographs and films
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
 //! - [`sheet`], [`thumbnails`]: planets with small pictures; the thread that draws them
@@ -22,6 +23,7 @@ pub mod pictures;
 pub mod questions;
 pub mod recovery;
 pub mod sheet;
+pub mod shelf;
 pub mod shooting;
 pub mod templates;
 pub mod thumbnails;
@@ -42,7 +44,9 @@ use pictures::Pictures;
 use questions::Questions;
 use recovery::{Orphan, Recovery};
 use sheet::Sheet;
+use shelf::Shelf;
 use shooting::{PhotoSettings, Shooting};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use variations::Variations;
@@ -90,6 +94,8 @@ pub struct Shows {
     pub text: bool,
     /// Maps for other programs.
     pub bake: bool,
+    /// The library.
+    pub library: bool,
 }
 
 impl Shows {
@@ -107,6 +113,7 @@ impl Shows {
         templates: false,
         text: false,
         bake: false,
+        library: false,
     };
 }
 
@@ -140,6 +147,10 @@ pub struct State {
     pub photo: PhotoSettings,
     /// The photographs that are being taken.
     pub shooting: Option<Shooting>,
+    /// What the library shows.
+    pub shelf: Shelf,
+    /// Where small pictures are kept between runs; None: nowhere.
+    pub pictures_folder: Option<PathBuf>,
     /// What the user wants to bake.
     pub bake: BakeSettings,
     /// The small picture of a map.
@@ -182,6 +193,8 @@ impl State {
             panel_asks: Vec::new(),
             photo: PhotoSettings::default(),
             shooting: None,
+            shelf: Shelf::default(),
+            pictures_folder: None,
             bake: BakeSettings::default(),
             bake_preview: BakePreview::default(),
             baking: None,

@@ -1,11 +1,19 @@
-//! Small pictures, drawn on another thread with the viewport's pipelines.
+//! Small pictures, drawn on another thread with the viewport's pipelines, and kept in files between runs.
 
 use crate::film::Thumbnail;
+use crate::planet::file::write_atomically;
+use crate::planet::{Key, VERSION};
 use crate::render::{Renderer, srgb_from_linear};
 use eframe::egui::{Color32, ColorImage};
+use image::ImageEncoder as _;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// Most pictures that are kept between runs.
+const MOST_KEPT: usize = 400;
 
 /// A picture of the newest batch: its number there, and the picture or what went wrong.
 pub type Drawn = (usize, Result<ColorImage, String>);
@@ -18,19 +26,31 @@ pub struct Thumbnails {
 }
 
 impl Thumbnails {
-    /// Draws with `renderer`. `wake` is called when a picture is there.
-    pub fn start(mut renderer: Renderer, wake: impl Fn() + Send + 'static) -> Self {
+    /// Draws with `renderer`. `kept`: the folder where pictures are kept; None: nowhere. `wake` is called when a picture
+    /// is there.
+    pub fn start(mut renderer: Renderer, kept: Option<PathBuf>, wake: impl Fn() + Send + 'static) -> Self {
         let (jobs, wanted) = channel::<(u64, usize, Thumbnail)>();
         let (done, drawn) = channel();
         let batch = Arc::new(AtomicU64::new(0));
         let newest = Arc::clone(&batch);
         std::thread::spawn(move || {
+            let kept = kept.map(KeptPictures::open);
             for (of, number, thumbnail) in wanted {
                 if of != newest.load(Ordering::Relaxed) {
                     continue;
                 }
                 let side = thumbnail.side_px as usize;
-                let picture = thumbnail.draw(&mut renderer).map(|pixels| image(&pixels, side));
+                let file = kept.as_ref().map(|kept| kept.file(&thumbnail));
+                let picture = match file.as_deref().and_then(read) {
+                    Some(picture) => Ok(picture),
+                    None => {
+                        let drawn = thumbnail.draw(&mut renderer).map(|pixels| image(&pixels, side));
+                        if let (Some(file), Ok(picture)) = (&file, &drawn) {
+                            write(file, picture);
+                        }
+                        drawn
+                    }
+                };
                 // The receiver is gone if the editor has closed.
                 if done.send((of, (number, picture))).is_err() {
                     return;
@@ -61,6 +81,56 @@ impl Drop for Thumbnails {
     fn drop(&mut self) {
         // What waits is not drawn any more.
         self.batch.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// The folder of pictures that are kept between runs: each named by all that it shows.
+struct KeptPictures {
+    folder: PathBuf,
+}
+
+impl KeptPictures {
+    /// Opens the folder. The oldest pictures go when there are too many.
+    fn open(folder: PathBuf) -> Self {
+        let files = fs::read_dir(&folder).into_iter().flatten().filter_map(|entry| {
+            let entry = entry.ok()?;
+            Some((entry.metadata().ok()?.modified().ok()?, entry.path()))
+        });
+        let mut files: Vec<_> = files.collect();
+        files.sort();
+        let surplus = files.len().saturating_sub(MOST_KEPT);
+        for (_, path) in &files[..surplus] {
+            // Somebody else may have removed it already.
+            let _ = fs::remove_file(path);
+        }
+        Self { folder }
+    }
+
+    fn file(&self, thumbnail: &Thumbnail) -> PathBuf {
+        let seen = (thumbnail.place, thumbnail.time_secs.to_bits(), thumbnail.side_px);
+        let key = Key::of(&(env!("CARGO_PKG_VERSION"), VERSION, thumbnail.planet.to_text(), seen));
+        self.folder.join(format!("{:032x}.png", key.bits()))
+    }
+}
+
+fn read(file: &Path) -> Option<ColorImage> {
+    let picture = image::open(file).ok()?.into_rgb8();
+    let size = [picture.width() as usize, picture.height() as usize];
+    Some(ColorImage::from_rgb(size, &picture))
+}
+
+/// A picture that cannot be kept is drawn again in the next run.
+fn write(file: &Path, picture: &ColorImage) {
+    let rgb: Vec<u8> = picture.pixels.iter().flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
+    let [width, height] = picture.size.map(|side| side as u32);
+    let mut bytes = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
+    if encoder.write_image(&rgb, width, height, image::ExtendedColorType::Rgb8).is_ok()
+        && let Some(folder) = file.parent()
+        && fs::create_dir_all(folder).is_ok()
+        && let Err(error) = write_atomically(file, &bytes)
+    {
+        log::debug!("{}: the picture is not kept: {error}", file.display());
     }
 }
 

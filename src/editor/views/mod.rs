@@ -5,7 +5,7 @@
 //! - [`overlay`]: compass, scale and legend over the picture
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`variations`], [`templates`], [`text`], [`place`],
+//! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`library`], [`variations`], [`templates`], [`text`], [`place`],
 //!   [`finder`]: windows
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
@@ -15,6 +15,7 @@ pub mod controls;
 mod differences;
 pub mod finder;
 pub mod history;
+pub mod library;
 pub mod look;
 pub mod menus;
 pub mod overlay;

@@ -1,6 +1,6 @@
 //! Keys and dropped files, as commands.
 
-use super::{bake, controls, history, performance, photo, place, templates, text, variations};
+use super::{bake, controls, history, library, performance, photo, place, templates, text, variations};
 use crate::editor::command::{Action, Command, Commands, PanelAction, Window};
 use crate::editor::commands;
 use crate::editor::panels::biomes;
@@ -58,6 +58,7 @@ fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Co
         (templates::layer(), state.shows.templates, Window::Templates),
         (text::layer(), state.shows.text, Window::Text),
         (bake::layer(), state.shows.bake, Window::Bake),
+        (library::layer(), state.shows.library, Window::Library),
         (variations::layer(), state.shows.variations, Window::Variations),
     ];
     let order: Vec<egui::LayerId> = ctx.memory(|memory| memory.layer_ids().collect());

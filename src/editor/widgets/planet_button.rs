@@ -5,7 +5,7 @@ use eframe::egui;
 
 /// Shows the button; `name` is its accessible name.
 pub fn planet_button(ui: &mut egui::Ui, cell: &Cell, name: &str, told: &str, side: f32) -> egui::Response {
-    let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(side), egui::Sense::click());
+    let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(side), egui::Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name));
     let visuals = ui.style().interact(&response);
     let painter = ui.painter();

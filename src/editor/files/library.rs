@@ -1,0 +1,163 @@
+//! The library: planets and parts that the user keeps, as preset files in a folder of the editor.
+//!
+//! A part is a preset that holds nothing but, say, clouds. What is removed moves to a folder beside, so that nothing is
+//! lost by a click.
+
+use crate::planet::file::write_atomically;
+use crate::planet::{Planet, snippet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Most files that are listed.
+const MOST: usize = 300;
+/// The folder of what was removed.
+const REMOVED: &str = "removed";
+/// Parts that can be kept, with their names. Empty: a whole planet.
+pub const PARTS: [(&str, &str); 9] = [
+    ("", "planet"),
+    ("layers", "terrain"),
+    ("structure", "structure"),
+    ("climate", "climate"),
+    ("biomes", "biomes"),
+    ("water", "water"),
+    ("atmosphere", "atmosphere"),
+    ("clouds", "clouds"),
+    ("star", "star"),
+];
+
+/// What a file of the library holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// The file.
+    pub path: PathBuf,
+    /// The name of the file without its ending.
+    pub name: String,
+    /// The part that it holds; empty: a whole planet.
+    pub part: &'static str,
+    /// The planet of the file, or what is wrong with it. Of a part, all else is at its defaults.
+    pub planet: Result<Planet, String>,
+}
+
+/// The folder of the library.
+#[derive(Clone, Debug)]
+pub struct Library {
+    folder: PathBuf,
+}
+
+impl Library {
+    /// The library in a folder, which need not be there yet.
+    pub fn new(folder: PathBuf) -> Self {
+        Self { folder }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// What is in it, by name.
+    pub fn list(&self) -> Vec<Kept> {
+        let Ok(read) = fs::read_dir(&self.folder) else { return Vec::new() };
+        let is_preset = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|ending| ending == "ron");
+        let mut paths: Vec<PathBuf> = read.filter_map(|entry| Some(entry.ok()?.path())).filter(is_preset).collect();
+        paths.sort();
+        paths.truncate(MOST);
+        paths.into_iter().map(kept).collect()
+    }
+
+    /// Keeps a part of a planet under a name that is free. Gives the file.
+    ///
+    /// # Errors
+    /// The planet does not have the part, or the file cannot be written.
+    pub fn keep(&self, planet: &Planet, part: &str) -> Result<PathBuf, String> {
+        let text = snippet::of_part(planet, part).ok_or_else(|| format!("{} has no {part}", planet.name))?;
+        let told = |error: &dyn std::fmt::Display| format!("{}: {error}", self.folder.display());
+        fs::create_dir_all(&self.folder).map_err(|error| told(&error))?;
+        let label = PARTS.iter().find(|(other, _)| *other == part).map_or(part, |(_, label)| label);
+        let stem: String = planet.name.chars().map(|c| if c.is_alphanumeric() || c == ' ' { c } else { '-' }).collect();
+        let stem = match (stem.trim(), part) {
+            ("", _) => label.to_owned(),
+            (stem, "") => stem.to_owned(),
+            (stem, _) => format!("{stem} {label}"),
+        };
+        let path = free(&self.folder, &stem);
+        write_atomically(&path, text.as_bytes()).map_err(|error| told(&error))?;
+        Ok(path)
+    }
+
+    /// Moves a file of the library out of it. Gives its new place.
+    ///
+    /// # Errors
+    /// The file cannot be moved.
+    pub fn remove(&self, path: &Path) -> Result<PathBuf, String> {
+        let folder = self.folder.join(REMOVED);
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let moved = fs::create_dir_all(&folder).and_then(|()| {
+            let to = free(&folder, &stem);
+            fs::rename(path, &to).map(|()| to)
+        });
+        moved.map_err(|error| format!("{}: {error}", path.display()))
+    }
+}
+
+/// A path in the folder with this name, or with the first number after it that is free.
+fn free(folder: &Path, stem: &str) -> PathBuf {
+    let numbered = |number: u32| match number {
+        1 => folder.join(format!("{stem}.ron")),
+        number => folder.join(format!("{stem} {number}.ron")),
+    };
+    (1..).map(numbered).find(|path| !path.exists()).unwrap_or_else(|| folder.join(stem))
+}
+
+fn kept(path: PathBuf) -> Kept {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let source = path.display().to_string();
+    let read = fs::read_to_string(&path)
+        .map_err(|error| format!("{source}: {error}"))
+        .and_then(|text| snippet::read(&source, &text));
+    let (part, planet) = match read {
+        Ok(read) => {
+            let part = PARTS.iter().map(|(part, _)| *part).find(|part| read.has(part)).unwrap_or_default();
+            (part, Ok(read.planet().clone()))
+        }
+        Err(why) => ("", Err(why)),
+    };
+    Kept { path, name, part, planet }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planet::shipped;
+
+    #[test]
+    fn what_is_kept_is_listed_and_what_is_removed_is_not_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = Library::new(folder.path().join("library"));
+        assert!(library.list().is_empty());
+        let planet = shipped::default_planet();
+        let first = library.keep(&planet, "clouds").unwrap();
+        let second = library.keep(&planet, "clouds").unwrap();
+        assert_ne!(first, second, "nothing is replaced");
+        library.keep(&planet, "").unwrap();
+        let listed = library.list();
+        let parts: Vec<_> = listed.iter().map(|kept| kept.part).collect();
+        assert_eq!(parts, ["", "clouds", "clouds"], "{listed:?}");
+        assert_eq!(listed[1].planet.as_ref().unwrap().clouds, planet.clouds);
+        let moved = library.remove(&first).unwrap();
+        assert!(moved.exists() && library.list().len() == 2);
+    }
+
+    #[test]
+    fn a_planet_without_the_part_and_a_broken_file_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = Library::new(folder.path().to_owned());
+        let bare = Planet { name: "Bare".to_owned(), ..Planet::default() };
+        assert!(library.keep(&bare, "water").unwrap_err().contains("Bare has no water"));
+        fs::write(folder.path().join("broken.ron"), "(version: 3, radius_km: \"x\")").unwrap();
+        assert!(library.list()[0].planet.is_err());
+        let named = Planet { name: "../a/b".to_owned(), ..Planet::default() };
+        let path = library.keep(&named, "").unwrap();
+        assert_eq!(path.parent(), Some(folder.path()), "a name never leaves the folder");
+    }
+}
