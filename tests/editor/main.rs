@@ -8,6 +8,7 @@
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `bake`: maps for other programs
 //! - `layers`: several layers at once, layers alone
+//! - `library`: planets and parts that the user keeps
 //! - `docks`: tabs that are moved
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
@@ -32,6 +33,7 @@ mod input;
 #[path = "../support/layered.rs"]
 mod layered;
 mod layers;
+mod library;
 mod monkey;
 mod painter;
 mod photo;

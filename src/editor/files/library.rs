@@ -60,7 +60,7 @@ impl Library {
         let Ok(read) = fs::read_dir(&self.folder) else { return Vec::new() };
         let is_preset = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|ending| ending == "ron");
         let mut paths: Vec<PathBuf> = read.filter_map(|entry| Some(entry.ok()?.path())).filter(is_preset).collect();
-        paths.sort();
+        paths.sort_by_cached_key(|path| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()));
         paths.truncate(MOST);
         paths.into_iter().map(kept).collect()
     }
@@ -142,7 +142,7 @@ mod tests {
         library.keep(&planet, "").unwrap();
         let listed = library.list();
         let parts: Vec<_> = listed.iter().map(|kept| kept.part).collect();
-        assert_eq!(parts, ["", "clouds", "clouds"], "{listed:?}");
+        assert_eq!(parts, ["", "clouds", "clouds"]);
         assert_eq!(listed[1].planet.as_ref().unwrap().clouds, planet.clouds);
         let moved = library.remove(&first).unwrap();
         assert!(moved.exists() && library.list().len() == 2);

@@ -3,6 +3,7 @@
 //! - [`dialogs`]: file dialogs that never block the window
 //! - [`disk`]: whether a file has changed on disk
 //! - [`claim`]: whether another window has a file open
+//! - [`library`]: planets and parts that the user keeps
 //! - [`recent`]: files that were opened or saved last
 //! - [`file_names`]: extensions, names for people, equal files
 
