@@ -145,6 +145,7 @@ impl Draft<'_> {
 }
 
 /// Selections and half-typed names. Not part of the document.
+#[derive(Default)]
 pub struct PanelState {
     /// Where each tab stands, and which ones are open.
     pub layout: Layout,
@@ -158,21 +159,6 @@ pub struct PanelState {
     pub biomes: biomes::BiomesState,
     structure: structure::StructureState,
     turned_off: parts::TurnedOff,
-}
-
-impl Default for PanelState {
-    fn default() -> Self {
-        Self {
-            layout: Layout::default(),
-            dropped_at: None,
-            document_number: 0,
-            finding: Finding::default(),
-            layers: layers::LayersState::default(),
-            biomes: biomes::BiomesState::default(),
-            structure: structure::StructureState::default(),
-            turned_off: parts::TurnedOff::default(),
-        }
-    }
 }
 
 impl PanelState {
