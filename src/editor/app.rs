@@ -29,6 +29,7 @@ use super::views::library::LibraryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
 use super::views::text::TextWindow;
+use super::views::tour::TourCard;
 use super::views::{
     controls, look, menus, overlay, performance, photo, problems, prompts::Prompts, status, templates, variations,
 };
@@ -43,6 +44,8 @@ use std::time::Instant;
 /// The keys under which eframe keeps between runs whether the tabs are shown, and where they stand.
 const SHOWN_KEY: &str = "tellus_layout";
 const LAYOUT_KEY: &str = "tellus_docks";
+/// The key that is there once the editor has run: the tour begins by itself where it is not.
+const TOURED_KEY: &str = "tellus_toured";
 
 /// The editor.
 pub struct EditorApp {
@@ -57,6 +60,7 @@ pub struct EditorApp {
     text: TextWindow,
     bake: BakeWindow,
     library: LibraryWindow,
+    tour: TourCard,
     surveyor: Surveyor,
     /// Where solved world maps are kept.
     maps: Option<Arc<MapStore>>,
@@ -84,6 +88,7 @@ impl EditorApp {
         let mut state = State::new(planet, viewport, Box::new(NativeDialogs::default()));
         let stored = |key: &str| cc.storage.and_then(|storage| storage.get_string(key));
         state.shows.panel = stored(SHOWN_KEY).as_deref() != Some("hidden");
+        state.shows.tour = cc.storage.is_some() && stored(TOURED_KEY).is_none() && path.is_none();
         let layout = stored(LAYOUT_KEY).and_then(|text| Layout::from_text(&text)).unwrap_or_default();
         state.adapter = cc.wgpu_render_state.as_ref().map_or_else(String::new, |state| {
             let info = state.adapter.get_info();
@@ -104,6 +109,7 @@ impl EditorApp {
             text: TextWindow::default(),
             bake: BakeWindow::default(),
             library: LibraryWindow::default(),
+            tour: TourCard::default(),
             surveyor: Surveyor::new(move || ctx.request_repaint()),
             maps,
             was_typing: false,
@@ -328,6 +334,7 @@ impl eframe::App for EditorApp {
         self.text.show(&ctx, &self.state, &mut self.commands);
         self.bake.show(&ctx, &self.state, &mut self.commands);
         self.library.show(&ctx, &self.state, &mut self.commands);
+        self.tour.show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);
         problems::show_said(&ctx, &self.state);
@@ -345,6 +352,7 @@ impl eframe::App for EditorApp {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         storage.set_string(SHOWN_KEY, if self.state.shows.panel { "shown" } else { "hidden" }.to_owned());
+        storage.set_string(TOURED_KEY, "yes".to_owned());
         storage.set_string(LAYOUT_KEY, self.panels.layout.to_text());
     }
 }

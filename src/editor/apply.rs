@@ -80,6 +80,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::Bake) => state.shows.bake = false,
         Action::Bake(action) => baking::act(state, ctx, action),
         Action::Close(Window::Library) => state.shows.library = false,
+        Action::Close(Window::Tour) => state.shows.tour = false,
         Action::Library(action) => library::act(state, ctx, action),
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
         Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),

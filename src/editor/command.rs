@@ -42,6 +42,8 @@ pub enum Command {
     Bake,
     /// Show or hide the library.
     Library,
+    /// Begin or leave the tour.
+    Tour,
     TogglePerformance,
     ToggleOverlay,
     Text,
@@ -138,6 +140,8 @@ pub enum Window {
     Bake,
     /// Planets and parts that the user keeps.
     Library,
+    /// The steps for a first look around.
+    Tour,
 }
 
 /// A change of what the side panel shows.

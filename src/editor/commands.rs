@@ -278,6 +278,8 @@ fn view_and_help() -> Vec<Row> {
             |s, _| s.viewport.settings.playing ^= true,
         )
         .keys([ctrl(Key::Space)]),
+        Row::new(Command::Tour, "Tour", "Six steps for a first look around.", |s, _| s.shows.tour ^= true)
+            .within(Menu::Help, 0),
         Row::new(Command::Controls, "Controls", "List the keys, and how to move around.", |s, _| {
             s.shows.controls ^= true;
         })

@@ -4,7 +4,6 @@
 //! level and counts where the ground is below it.
 
 use super::Terrain;
-#[cfg(feature = "bake")]
 use super::landform::coarsest_spacing_rad;
 use super::landform::river_points;
 use super::query::Sample;

@@ -9,6 +9,7 @@
 //! - `bake`: maps for other programs
 //! - `layers`: several layers at once, layers alone
 //! - `library`: planets and parts that the user keeps
+//! - `tour`: steps for a first look around
 //! - `docks`: tabs that are moved
 //! - `clipboard`: layers and parts as text
 //! - `history`: the list of undo steps; `place`: the flight to a latitude and longitude
@@ -40,6 +41,7 @@ mod photo;
 mod place;
 mod plates;
 mod text;
+mod tour;
 mod variations;
 mod viewport;
 

@@ -127,7 +127,7 @@ pub struct Draft<'a> {
     pub under_pointer: Option<&'a UnderPointer>,
     /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
-    /// Whether the top of the tab stays and only the [`rest`] of it scrolls.
+    /// Whether the top of the tab stays and only the rest of it scrolls.
     pub top_stays: bool,
     /// The commands of the panels, beside edits.
     pub commands: &'a mut Commands,

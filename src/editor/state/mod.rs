@@ -96,6 +96,8 @@ pub struct Shows {
     pub bake: bool,
     /// The library.
     pub library: bool,
+    /// The tour.
+    pub tour: bool,
 }
 
 impl Shows {
@@ -114,6 +116,7 @@ impl Shows {
         text: false,
         bake: false,
         library: false,
+        tour: false,
     };
 }
 

@@ -7,6 +7,7 @@
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
 //! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`library`], [`variations`], [`templates`], [`text`], [`place`],
 //!   [`finder`]: windows
+//! - [`tour`]: steps for a first look around
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
 
@@ -30,4 +31,5 @@ pub mod shortcuts;
 pub mod status;
 pub mod templates;
 pub mod text;
+pub mod tour;
 pub mod variations;

@@ -68,7 +68,6 @@ pub(crate) use octaves::Arithmetic;
 pub(crate) use scratch::Scratch;
 use scratch::{Folded, JETS, Scratch64};
 use std::sync::Arc;
-#[cfg(feature = "bake")]
 pub(crate) use structure::coarsest_spacing_rad;
 pub(crate) use structure::river_points;
 use varying::Around;

@@ -53,7 +53,6 @@ struct Memory {
 
 /// The greatest distance between points, as an angle, at which values have the coarsest level of rivers. `side`: cells
 /// along the side of a face of the solved drainage.
-#[cfg(feature = "bake")]
 pub(crate) fn coarsest_spacing_rad(side: usize) -> f64 {
     (2.0 / (side as f64 * VALUE_POINTS)).next_down()
 }
