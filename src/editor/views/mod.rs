@@ -5,8 +5,8 @@
 //! - [`overlay`]: compass, scale and legend over the picture
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
-//! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`library`], [`variations`], [`templates`], [`text`], [`place`],
-//!   [`finder`]: windows
+//! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`library`], [`variations`], [`templates`],
+//!   [`text`], [`place`], [`finder`]: windows
 //! - [`tour`]: steps for a first look around
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
