@@ -26,8 +26,8 @@ pub struct Thumbnails {
 }
 
 impl Thumbnails {
-    /// Draws with `renderer`. `kept`: the folder where pictures are kept; None: nowhere. `wake` is called when a picture
-    /// is there.
+    /// Draws with `renderer`. `kept`: the folder where pictures are kept; None: nowhere. `wake` is called when a
+    /// picture is there.
     pub fn start(mut renderer: Renderer, kept: Option<PathBuf>, wake: impl Fn() + Send + 'static) -> Self {
         let (jobs, wanted) = channel::<(u64, usize, Thumbnail)>();
         let (done, drawn) = channel();

@@ -85,8 +85,8 @@ pub struct LayerView {
 }
 
 impl LayerView {
-    /// The planet as it is seen: with the layers `solo` alone, without its structure, unless there are none; and without
-    /// clouds over those or over an overlay.
+    /// The planet as it is seen: with the layers `solo` alone and without its structure, unless there are none; and
+    /// without clouds over those or over an overlay.
     pub(super) fn seen(&mut self, planet: &Arc<Planet>, solo: &[usize], has_overlay: bool) -> Arc<Planet> {
         if solo.is_empty() && !has_overlay {
             self.seen = None;
