@@ -202,7 +202,7 @@ impl Map {
     }
 
     /// Whether it shows clouds, which change with time.
-    pub(super) fn is_of_clouds(self) -> bool {
+    pub fn is_of_clouds(self) -> bool {
         matches!(self, Map::CloudCover | Map::MiddleCover | Map::VeilCover | Map::FogCover)
     }
 

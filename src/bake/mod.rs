@@ -36,6 +36,7 @@ pub use format::Format;
 pub use maps::Map;
 pub use preview::Preview;
 pub use projection::{Projection, Region};
+pub(crate) use sidecar::preset_hash;
 
 use crate::clouds::CloudField;
 use crate::planet::file::{Target, write_atomically_with};

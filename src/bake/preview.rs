@@ -14,11 +14,13 @@ use std::path::PathBuf;
 /// A small picture of a map. The faces of a cube stand side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
+    /// The map.
+    pub map: Map,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
     /// sRGB, row by row from the top. Single values are grey from the least (black) to the greatest (white).
     pub pixels: Vec<[u8; 3]>,
-    /// What black and white stand for.
+    /// The least and the greatest value, in the map's unit.
     pub range: [f64; 2],
 }
 
@@ -68,7 +70,7 @@ impl Bake {
             }
         }
         let size_px = [(width * pictures) as u32, height as u32];
-        Some(Preview { size_px, pixels, range: [least.into(), most.into()] })
+        Some(Preview { map, size_px, pixels, range: [least.into(), most.into()] })
     }
 }
 

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 /// A hash of everything in a preset but the editor's own section, with the pixels of its pictures. The same on every
 /// machine, wherever the preset is.
-pub(super) fn preset_hash(planet: &Planet) -> Key {
+pub(crate) fn preset_hash(planet: &Planet) -> Key {
     let bare = Planet { editor: None, ..planet.clone() };
     let pictures: Vec<_> = bare.pictures().map(|(_, file, layout)| file.picture(layout)).collect();
     Key::of(&(bare.to_text(), pictures))

@@ -129,7 +129,7 @@ impl EditorApp {
         self.state.notices.claim_in(folder);
         self.state.recent = Recent::open(folder);
         self.state.shelf.library = Some(Library::new(folder.join("library")));
-        self.state.pictures_folder = Some(folder.join("pictures"));
+        self.state.thumbnails_folder = Some(folder.join("pictures"));
         let last = self.state.recent.paths().first().filter(|path| path.is_file()).cloned();
         if let Some(last) = last.filter(|_| self.state.document.path().is_none() && self.state.messages.is_empty()) {
             opening::begin_with(&mut self.state, &last);

@@ -1,5 +1,5 @@
-//! Parameters that have no effect where the others stand: the width of floes on a sea without ice, the softness of a
-//! sharp blend. The editor greys them.
+//! Parameters that have no effect where the others stand: the softness of a sharp blend, the size of patches where
+//! there are none. The editor greys them.
 
 use super::layers::Blend;
 use super::param::{ParamPath, Segment};

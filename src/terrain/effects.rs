@@ -7,7 +7,6 @@ use super::height::LayerFields;
 use super::lane::CHUNK;
 use super::points::unit;
 use super::query::with_scratch;
-
 use super::relief;
 use glam::DVec3;
 use rayon::prelude::*;

@@ -13,7 +13,7 @@
 //! - `draft`: quick answers on coarse grids while a slider is dragged
 //! - `floodplain`: land that rivers and lakes keep wet
 //! - `coast`: signed distance to the coast; `picture`: maps as debug views show them
-//! - `store`: map files; `bytes`: their binary encoding
+//! - `store`: map files; `bytes`: their binary encoding; `once`: values made when they are first asked for
 //!
 //! The module knows nothing of layers or noise: data goes from the terrain's heights into a map, and from the map into
 //! the terrain's climate. The finest maps depend on the preset alone, never on drafts or earlier maps.
@@ -28,6 +28,7 @@ mod floodplain;
 pub(crate) mod grid;
 mod map;
 pub(crate) mod noise;
+mod once;
 #[cfg(feature = "render")]
 mod picture;
 pub(crate) mod plates;

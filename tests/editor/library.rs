@@ -1,6 +1,6 @@
 //! The library: keeping, finding, taking and removing planets and parts.
 
-use crate::app::{self, Editor, canvas, click, drag, planet, send, undo_label};
+use crate::app::{self, Editor, canvas, click, drag, planet, send, undo_label, until};
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
@@ -11,11 +11,23 @@ use tellus::planet::shipped;
 fn open(folder: &Path) -> Editor {
     let mut harness = app::open_file(None, ScriptedDialogs::default(), folder);
     send(&mut harness, Command::Library);
+    until_listed(&mut harness, "Aurel: earth-like");
     harness
 }
 
-fn keep(harness: &mut Editor, part: &'static str) {
+fn until_listed(harness: &mut Editor, name: &'static str) {
+    until(harness, name, |harness| harness.query_all_by_label(name).next().is_some());
+    harness.run_steps(3);
+}
+
+fn keep(harness: &mut Editor, part: &'static str, name: &'static str) {
     harness.state_mut().push(Action::Library(LibraryAction::Keep(part)));
+    until_listed(harness, name);
+}
+
+fn open_cinnabar(harness: &mut Editor) {
+    let cinnabar = shipped::ALL.iter().position(|preset| preset.file == "cinnabar.ron").unwrap();
+    harness.state_mut().push(Action::OpenShipped(cinnabar));
     harness.run_steps(6);
 }
 
@@ -26,12 +38,11 @@ fn a_part_that_was_kept_is_taken_into_another_planet_as_one_step() {
     let clouds = planet(&harness).clouds;
     click(&mut harness, "Keep …");
     click(&mut harness, "Its clouds");
-    harness.run_steps(6);
     let name = "Layered clouds";
+    until_listed(&mut harness, name);
     assert!(folder.path().join("library").join(format!("{name}.ron")).is_file());
-    let cinnabar = shipped::ALL.iter().position(|preset| preset.file == "cinnabar.ron").unwrap();
-    harness.state_mut().push(Action::OpenShipped(cinnabar));
-    harness.run_steps(6);
+    open_cinnabar(&mut harness);
+    until_listed(&mut harness, name);
     assert_ne!(planet(&harness).clouds, clouds);
     let layers = planet(&harness).layers;
     harness.get_by_role_and_label(Role::Button, name).click();
@@ -59,15 +70,17 @@ fn words_and_tags_narrow_the_list_down() {
 fn an_item_dropped_on_the_planet_is_taken_and_undo_brings_the_planet_back() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = open(folder.path());
-    let before = planet(&harness);
-    keep(&mut harness, "water");
-    harness.run_steps(4);
+    let water = planet(&harness).water;
+    keep(&mut harness, "water", "Layered water");
+    open_cinnabar(&mut harness);
+    until_listed(&mut harness, "Layered water");
+    assert_ne!(planet(&harness).water, water);
     let from = harness.get_all_by_label("Layered water").next().unwrap().rect().center();
     let to = canvas(&harness).right_bottom() - eframe::egui::vec2(30.0, 30.0);
     drag(&mut harness, from, to);
     harness.run_steps(4);
-    // The planet has this water already.
-    assert_eq!(planet(&harness), before);
+    assert_eq!(planet(&harness).water, water);
+    let before = planet(&harness);
     let from = harness.get_all_by_label("Aurel: earth-like").next().unwrap().rect().center();
     drag(&mut harness, from, to);
     harness.run_steps(4);
@@ -80,7 +93,7 @@ fn an_item_dropped_on_the_planet_is_taken_and_undo_brings_the_planet_back() {
 fn what_is_removed_moves_aside() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = open(folder.path());
-    keep(&mut harness, "");
+    keep(&mut harness, "", "Layered");
     let file = folder.path().join("library").join("Layered.ron");
     assert!(file.is_file());
     harness.state_mut().push(Action::Library(LibraryAction::Remove(0)));

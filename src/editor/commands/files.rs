@@ -43,7 +43,7 @@ pub(super) fn rows() -> Vec<Row> {
         .keys([plain(Key::F10)]),
         Row::new(Command::Library, "Library", "Planets and parts to take, and a place to keep your own.", |s, _| {
             s.shows.library ^= true;
-            s.shelf.is_current = false;
+            s.shelf.forget();
         })
         .within(Menu::File, 0)
         .keys([ctrl(Key::L)]),

@@ -3,7 +3,8 @@
 //! A part is a preset that holds nothing but, say, clouds. What is removed moves to a folder beside, so that nothing is
 //! lost by a click.
 
-use crate::planet::file::write_atomically;
+use crate::planet::file::{read_text, write_atomically};
+use crate::planet::picture::folder_of;
 use crate::planet::{Planet, snippet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,7 +35,7 @@ pub struct Kept {
     pub name: String,
     /// The part that it holds; empty: a whole planet.
     pub part: &'static str,
-    /// The planet of the file, or what is wrong with it. Of a part, all else is at its defaults.
+    /// The planet of the file without its pictures, or what is wrong with it. Of a part, all else is at its defaults.
     pub planet: Result<Planet, String>,
 }
 
@@ -48,11 +49,6 @@ impl Library {
     /// The library in a folder, which need not be there yet.
     pub fn new(folder: PathBuf) -> Self {
         Self { folder }
-    }
-
-    /// The folder.
-    pub fn folder(&self) -> &Path {
-        &self.folder
     }
 
     /// What is in it, by name.
@@ -70,7 +66,9 @@ impl Library {
     /// # Errors
     /// The planet does not have the part, or the file cannot be written.
     pub fn keep(&self, planet: &Planet, part: &str) -> Result<PathBuf, String> {
-        let text = snippet::of_part(planet, part).ok_or_else(|| format!("{} has no {part}", planet.name))?;
+        // Paths of pictures are relative to the folder of their preset.
+        let moved = planet.moved_to(&self.folder);
+        let text = snippet::of_part(&moved, part).ok_or_else(|| format!("{} has no {part}", planet.name))?;
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", self.folder.display());
         fs::create_dir_all(&self.folder).map_err(|error| told(&error))?;
         let label = PARTS.iter().find(|(other, _)| *other == part).map_or(part, |(_, label)| label);
@@ -111,14 +109,13 @@ fn free(folder: &Path, stem: &str) -> PathBuf {
 
 fn kept(path: PathBuf) -> Kept {
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let source = path.display().to_string();
-    let read = fs::read_to_string(&path)
-        .map_err(|error| format!("{source}: {error}"))
-        .and_then(|text| snippet::read(&source, &text));
-    let (part, planet) = match read {
+    let read = read_text(&path).map_err(|error| error.to_string());
+    let (part, planet) = match read.and_then(|text| snippet::read(&path.display().to_string(), &text)) {
         Ok(read) => {
             let part = PARTS.iter().map(|(part, _)| *part).find(|part| read.has(part)).unwrap_or_default();
-            (part, Ok(read.planet().clone()))
+            let mut planet = read.planet().clone();
+            planet.set_folder(&folder_of(&path));
+            (part, Ok(planet))
         }
         Err(why) => ("", Err(why)),
     };
@@ -128,7 +125,7 @@ fn kept(path: PathBuf) -> Kept {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::shipped;
+    use crate::planet::{HeightMap, Layer, Shape, shipped};
 
     #[test]
     fn what_is_kept_is_listed_and_what_is_removed_is_not_lost() {
@@ -146,6 +143,27 @@ mod tests {
         assert_eq!(listed[1].planet.as_ref().unwrap().clouds, planet.clouds);
         let moved = library.remove(&first).unwrap();
         assert!(moved.exists() && library.list().len() == 2);
+    }
+
+    #[test]
+    fn a_height_map_is_found_from_the_library_too() {
+        let folder = tempfile::tempdir().unwrap();
+        let base = std::fs::canonicalize(folder.path()).unwrap();
+        fs::create_dir(base.join("mine")).unwrap();
+        fs::write(base.join("mine/map.png"), "").unwrap();
+        let map = HeightMap { file: "map.png".to_owned().into(), ..HeightMap::default() };
+        let layer = Layer { shape: Shape::HeightMap(map), ..Layer::default() };
+        let mut planet = Planet { layers: vec![layer], ..Planet::default() };
+        planet.set_folder(&base.join("mine"));
+        let library = Library::new(base.join("library"));
+        for part in ["", "layers"] {
+            library.keep(&planet, part).unwrap();
+        }
+        for kept in library.list() {
+            let kept = kept.planet.unwrap();
+            let (_, file, _) = kept.pictures().next().unwrap();
+            assert_eq!(fs::canonicalize(file.location().unwrap()).unwrap(), base.join("mine/map.png"));
+        }
     }
 
     #[test]

@@ -43,11 +43,12 @@ pub fn start(state: &mut State, ctx: &egui::Context, folder: &Path) {
 
 /// Asks for the small picture while its window is open, and says what has become of a bake once it has ended.
 pub fn poll(state: &mut State, ctx: &egui::Context) {
-    if state.shows.bake
-        && let Some(surface) = state.viewport.surface()
-    {
+    if state.shows.bake {
         let (waker, time_secs) = (ctx.clone(), state.viewport.settings.time_secs);
-        state.bake_preview.ask(&state.bake, &surface.terrain, time_secs, move || waker.request_repaint());
+        let of = (state.document.valid_planet(), state.viewport.map_store());
+        state.bake_preview.ask(&state.bake, of, time_secs, move || waker.request_repaint());
+    } else {
+        state.bake_preview = Default::default();
     }
     let Some((result, folder)) =
         state.baking.as_ref().and_then(|baking| Some((baking.ended()?, baking.folder.display().to_string())))

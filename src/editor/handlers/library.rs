@@ -50,7 +50,7 @@ fn keep(state: &mut State, part: &str) {
         Ok(path) => {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             state.notices.say(format!("Kept {name} in the library"));
-            state.shelf.is_current = false;
+            state.shelf.forget();
         }
         Err(why) => state.report("Nothing was kept", vec![why]),
     }
@@ -62,7 +62,7 @@ fn remove(state: &mut State, index: usize) {
     match library.remove(&path) {
         Ok(to) => {
             state.notices.say(format!("Moved to {}", to.display()));
-            state.shelf.is_current = false;
+            state.shelf.forget();
         }
         Err(why) => state.report("Nothing was removed", vec![why]),
     }

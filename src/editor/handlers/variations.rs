@@ -4,11 +4,12 @@ use crate::editor::command::VariationAction;
 use crate::editor::state::State;
 use crate::editor::state::describe::locked;
 use crate::editor::state::sheet::Seen;
+use crate::editor::state::shelf::Item;
 use crate::editor::state::templates;
 use crate::editor::state::thumbnails::Thumbnails;
 use crate::editor::state::variations::Around;
+use crate::planet::locks;
 use crate::planet::param::ParamPath;
-use crate::planet::{Planet, locks};
 use crate::render::Renderer;
 use eframe::egui;
 use std::path::PathBuf;
@@ -50,23 +51,23 @@ pub fn update(state: &mut State, ctx: &egui::Context) {
     } else {
         state.variations.close();
     }
+    let kept = || state.thumbnails_folder.clone();
     if state.shows.templates {
         if state.templates.cells.is_empty() {
             let planets = templates::ALL.iter().map(|entry| Arc::new(entry.template.shown()));
-            let (renderer, kept) = (state.viewport.second_renderer(), state.pictures_folder.clone());
-            state.templates.set(planets.collect(), &Seen::default(), || Some(thumbnails(renderer?, kept, ctx)));
+            let start = || Some(thumbnails(state.viewport.second_renderer()?, kept(), ctx));
+            state.templates.set(planets.collect(), &Seen::default(), start);
         }
         state.templates.poll(ctx);
     }
     if state.shows.library {
-        if !state.shelf.is_current {
-            let here = state.document.valid_planet().clone();
-            state.shelf.read(state.recent.paths(), &here);
-            let none = || Arc::new(Planet::default());
-            let planets = state.shelf.items.iter().map(|item| item.planet.as_ref().map_or_else(|_| none(), Arc::clone));
-            let planets = planets.collect();
-            let (renderer, kept) = (state.viewport.second_renderer(), state.pictures_folder.clone());
-            state.shelf.sheet.set(planets, &Seen::default(), || Some(thumbnails(renderer?, kept, ctx)));
+        let (waker, here) = (ctx.clone(), (state.document.valid_planet(), state.document_number));
+        if state.shelf.update(state.recent.paths(), here, move || waker.request_repaint()) {
+            // A file that cannot be read has a cell too.
+            let planet = |item: &Item| item.planet.as_ref().map_or_else(|_| Arc::default(), Arc::clone);
+            let planets = state.shelf.items.iter().map(planet).collect();
+            let start = || Some(thumbnails(state.viewport.second_renderer()?, kept(), ctx));
+            state.shelf.sheet.set(planets, &Seen::default(), start);
         }
         state.shelf.sheet.poll(ctx);
     }

@@ -29,6 +29,20 @@ impl Dock {
     /// Every place, in the order of a menu.
     pub const ALL: [Dock; 4] = [Dock::Right, Dock::Below, Dock::Left, Dock::Window];
 
+    /// Its letter in the stored layout.
+    fn letter(self) -> char {
+        match self {
+            Dock::Right => 'r',
+            Dock::Below => 'b',
+            Dock::Left => 'l',
+            Dock::Window => 'w',
+        }
+    }
+
+    fn of_letter(letter: char) -> Option<Self> {
+        Self::ALL.into_iter().find(|dock| dock.letter() == letter)
+    }
+
     /// The name in menus.
     pub fn label(self) -> &'static str {
         match self {
@@ -105,8 +119,7 @@ impl Layout {
 
     /// The layout as text, to be kept between runs.
     pub fn to_text(&self) -> String {
-        let letter = |dock: &Dock| ['r', 'b', 'l', 'w'][*dock as usize];
-        let docks: String = self.docks.iter().map(letter).collect();
+        let docks: String = self.docks.iter().map(|dock| dock.letter()).collect();
         let [right, below, left] = self.open;
         format!("{VERSION} {docks} {right} {below} {left}")
     }
@@ -115,7 +128,7 @@ impl Layout {
     pub fn from_text(text: &str) -> Option<Self> {
         let mut words = text.split(' ');
         (words.next()? == VERSION).then_some(())?;
-        let letters: Option<Vec<Dock>> = words.next()?.chars().map(dock_of).collect();
+        let letters: Option<Vec<Dock>> = words.next()?.chars().map(Dock::of_letter).collect();
         let docks = letters?.try_into().ok()?;
         let open: Option<Vec<usize>> = words.map(|word| word.parse().ok().filter(|tab| *tab < TABS)).collect();
         let open: [usize; 3] = open?.try_into().ok()?;
@@ -124,10 +137,6 @@ impl Layout {
         layout.active = first;
         Some(layout)
     }
-}
-
-fn dock_of(letter: char) -> Option<Dock> {
-    Dock::ALL.into_iter().find(|dock| ['r', 'b', 'l', 'w'][*dock as usize] == letter)
 }
 
 #[cfg(test)]

@@ -1,12 +1,11 @@
 //! Maps for other programs: what the user chose, the small picture of a map, and the bake on another thread.
 
+use super::job::{GoOn, Job};
 use crate::bake::{Bake, Detail, Format, Map, Outcome, Preview, Projection, Region};
 use crate::planet::Planet;
 use crate::terrain::{MapStore, Terrain};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Width of the small picture, pixels.
 const PREVIEW_PX: u32 = 288;
@@ -89,10 +88,9 @@ impl BakeSettings {
         bake
     }
 
-    /// What the small picture shows: another value needs another picture.
-    fn shown(&self) -> (Map, Form, Region) {
-        let region = if self.form == Form::Region { self.region } else { Self::default().region };
-        (self.previewed, self.form, region)
+    /// Whether the small picture of these settings is that of others.
+    fn shows_the_same(&self, other: &Self) -> bool {
+        self.previewed == other.previewed && self.projection() == other.projection()
     }
 }
 
@@ -101,24 +99,15 @@ impl BakeSettings {
 pub struct BakePreview {
     /// The newest one, with a number that tells it from others.
     pub newest: Option<(u64, Preview)>,
-    wanted: Option<Wanted>,
-    under_way: Option<Receiver<Option<Preview>>>,
+    asked: Option<Asked>,
+    under_way: Option<Job<Option<Preview>>>,
 }
 
-#[derive(Clone)]
-struct Wanted {
-    shown: (Map, Form, Region),
-    terrain: Arc<Terrain>,
+/// What a small picture was asked of.
+struct Asked {
+    settings: BakeSettings,
+    planet: Arc<Planet>,
     time_secs: f64,
-}
-
-impl Wanted {
-    fn is_same(&self, other: &Self) -> bool {
-        let clouds = matches!(self.shown.0, Map::CloudCover | Map::MiddleCover | Map::VeilCover | Map::FogCover);
-        self.shown == other.shown
-            && Arc::ptr_eq(&self.terrain, &other.terrain)
-            && (!clouds || self.time_secs == other.time_secs)
-    }
 }
 
 impl BakePreview {
@@ -131,36 +120,36 @@ impl BakePreview {
     pub fn ask(
         &mut self,
         settings: &BakeSettings,
-        terrain: &Arc<Terrain>,
+        (planet, store): (&Arc<Planet>, Option<Arc<MapStore>>),
         time_secs: f64,
-        wake: impl Fn() + Send + 'static,
+        wake: impl Fn() + Send + Sync + 'static,
     ) {
-        if let Some(receiver) = &self.under_way {
-            match receiver.try_recv() {
-                Err(TryRecvError::Empty) => return,
-                Ok(Some(preview)) => {
-                    let number = self.newest.as_ref().map_or(0, |(number, _)| number + 1);
-                    self.newest = Some((number, preview));
-                }
-                Ok(None) | Err(TryRecvError::Disconnected) => {}
-            }
+        let is_asked = self.asked.as_ref().is_some_and(|asked| {
+            asked.settings.shows_the_same(settings)
+                && Arc::ptr_eq(&asked.planet, planet)
+                && (!settings.previewed.is_of_clouds() || asked.time_secs == time_secs)
+        });
+        if let Some(ended) = self.under_way.as_ref().and_then(Job::ended) {
             self.under_way = None;
+            if let Some(preview) = ended.flatten() {
+                let number = self.newest.as_ref().map_or(0, |(number, _)| number + 1);
+                self.newest = Some((number, preview));
+            }
         }
-        let wanted = Wanted { shown: settings.shown(), terrain: Arc::clone(terrain), time_secs };
-        if self.wanted.as_ref().is_some_and(|asked| asked.is_same(&wanted)) {
+        if is_asked || settings.previewed.missing(planet).is_some() {
             return;
         }
-        let bake = settings.bake(Arc::clone(terrain), time_secs);
-        let map = settings.previewed;
-        self.wanted = Some(wanted);
-        let (sender, receiver) = channel();
-        self.under_way = Some(receiver);
-        rayon::spawn(move || {
-            let preview = map.missing(bake.terrain.planet()).is_none().then(|| bake.preview(map, PREVIEW_PX, &|| true));
-            // The receiver is gone if the editor has closed.
-            let _ = sender.send(preview.flatten());
-            wake();
-        });
+        if let Some(stale) = &self.under_way {
+            return stale.stop();
+        }
+        let (asked, planet) = (settings.clone(), Arc::clone(planet));
+        self.asked = Some(Asked { settings: settings.clone(), planet: Arc::clone(&planet), time_secs });
+        let work = move |go_on: GoOn<'_>| {
+            // The document's planet is valid.
+            let terrain = Terrain::load(planet, store, go_on).ok().flatten()?;
+            asked.bake(Arc::new(terrain), time_secs).preview(asked.previewed, PREVIEW_PX, &|| go_on(0.0))
+        };
+        self.under_way = Some(Job::start(work, wake));
     }
 }
 
@@ -168,10 +157,7 @@ impl BakePreview {
 pub struct Baking {
     /// The folder of the maps.
     pub folder: PathBuf,
-    /// Ten-thousandths that are done.
-    done: Arc<AtomicU32>,
-    cancelled: Arc<AtomicBool>,
-    result: Receiver<Result<Outcome, String>>,
+    job: Job<Result<Outcome, String>>,
 }
 
 impl Baking {
@@ -183,55 +169,28 @@ impl Baking {
         (folder, time_secs): (&Path, f64),
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
-        let (done, cancelled) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(false)));
-        let (sender, result) = channel();
-        let (told, stop, to) = (Arc::clone(&done), Arc::clone(&cancelled), folder.to_owned());
-        std::thread::spawn(move || {
-            let goes_on = || !stop.load(Ordering::Relaxed);
-            let baked = Terrain::load(planet, store, &|_| goes_on()).map_err(|error| error.to_string());
-            let baked = baked.and_then(|terrain| match terrain {
-                Some(terrain) => {
-                    let bake = settings.bake(Arc::new(terrain), time_secs);
-                    let baked = bake.run(&to, &|share| {
-                        let share = (share * 1e4) as u32;
-                        if told.swap(share, Ordering::Relaxed) / 50 != share / 50 {
-                            wake();
-                        }
-                        goes_on()
-                    });
-                    baked.map_err(|error| error.to_string())
-                }
-                None => Ok(Outcome::Stopped),
-            });
-            // The receiver is gone if the editor has closed.
-            let _ = sender.send(baked);
-            wake();
-        });
-        Self { folder: folder.to_owned(), done, cancelled, result }
+        let to = folder.to_owned();
+        let work = move |go_on: GoOn<'_>| {
+            let terrain = Terrain::load(planet, store, &|_| go_on(0.0)).map_err(|error| error.to_string())?;
+            let Some(terrain) = terrain else { return Ok(Outcome::Stopped) };
+            settings.bake(Arc::new(terrain), time_secs).run(&to, go_on).map_err(|error| error.to_string())
+        };
+        Self { folder: folder.to_owned(), job: Job::start(work, wake) }
     }
 
     /// Share that is done, 0 to 1.
     pub fn done(&self) -> f64 {
-        f64::from(self.done.load(Ordering::Relaxed)) * 1e-4
+        self.job.done()
     }
 
     /// Stops. The same bake goes on from there.
     pub fn cancel(&self) {
-        self.cancelled.store(true, Ordering::Relaxed);
+        self.job.stop();
     }
 
     /// How it ended, once it has.
     pub fn ended(&self) -> Option<Result<Outcome, String>> {
-        match self.result.try_recv() {
-            Ok(result) => Some(result),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("the maps could not be computed; try again".to_owned())),
-        }
-    }
-}
-
-impl Drop for Baking {
-    fn drop(&mut self) {
-        self.cancel();
+        let failed = || Err("the maps could not be computed; try again".to_owned());
+        self.job.ended().map(|result| result.unwrap_or_else(failed))
     }
 }

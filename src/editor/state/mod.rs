@@ -8,6 +8,7 @@
 //! - [`notices`]: notices of the editor
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
+//! - [`job`]: work on a thread of its own; [`baking`]: maps for other programs
 //! - [`shelf`]: what the library shows
 //! - [`shooting`]: photographs and films
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
@@ -17,6 +18,7 @@ pub mod baking;
 pub mod describe;
 pub mod document;
 pub mod history;
+pub mod job;
 pub mod notices;
 pub mod open_file;
 pub mod pictures;
@@ -153,7 +155,7 @@ pub struct State {
     /// What the library shows.
     pub shelf: Shelf,
     /// Where small pictures are kept between runs; None: nowhere.
-    pub pictures_folder: Option<PathBuf>,
+    pub thumbnails_folder: Option<PathBuf>,
     /// What the user wants to bake.
     pub bake: BakeSettings,
     /// The small picture of a map.
@@ -197,7 +199,7 @@ impl State {
             photo: PhotoSettings::default(),
             shooting: None,
             shelf: Shelf::default(),
-            pictures_folder: None,
+            thumbnails_folder: None,
             bake: BakeSettings::default(),
             bake_preview: BakePreview::default(),
             baking: None,

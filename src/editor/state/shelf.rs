@@ -1,5 +1,6 @@
 //! What the library window shows: shipped planets, files that were open, and what the user keeps.
 
+use super::job::Job;
 use super::sheet::Sheet;
 use crate::editor::files::library::{Kept, Library};
 use crate::editor::state::templates;
@@ -28,7 +29,7 @@ pub struct Item {
     pub part: &'static str,
     /// Words that find it: what it is and what it has.
     pub tags: Vec<&'static str>,
-    /// The planet, or what is wrong with the file.
+    /// The planet without its pictures, or what is wrong with the file.
     pub planet: Result<Arc<Planet>, String>,
 }
 
@@ -41,25 +42,34 @@ pub struct Shelf {
     pub items: Vec<Item>,
     /// Their pictures, in the same order.
     pub sheet: Sheet,
-    /// Whether the items are those of the files.
-    pub is_current: bool,
+    /// The number of the document that parts are shown on; None: the files are to be read again.
+    read_for: Option<u64>,
+    reading: Option<Job<Vec<Item>>>,
 }
 
 impl Shelf {
-    /// Reads all items again. `recent`: files that were open. `here`: the open planet, which parts are shown on.
-    pub fn read(&mut self, recent: &[PathBuf], here: &Planet) {
-        self.is_current = true;
-        let mut items: Vec<Item> =
-            self.library.iter().flat_map(Library::list).map(|kept| of_kept(kept, here)).collect();
-        items.extend(recent.iter().filter(|path| path.is_file()).map(|path| of_file(path)));
-        items.extend(shipped::ALL.iter().enumerate().map(|(index, preset)| {
-            let planet = preset.load().map_err(|error| error.to_string());
-            let told = templates::ALL.iter().find(|entry| entry.template == templates::Template::Shipped(preset.file));
-            let name = planet.as_ref().map_or(preset.file.to_owned(), |planet| planet.name.clone());
-            let name = told.map_or(name.clone(), |entry| format!("{name}: {}", entry.name.to_lowercase()));
-            item(Origin::Shipped(index), name, "", planet)
-        }));
-        self.items = items;
+    /// Reads the files again when the items are asked for next.
+    pub fn forget(&mut self) {
+        self.read_for = None;
+    }
+
+    /// Reads the items on another thread, unless they are there. `recent`: files that were open. `here`: the open
+    /// planet, which parts are shown on, and the number of its document. Gives whether there are other items now.
+    pub fn update(
+        &mut self,
+        recent: &[PathBuf],
+        (here, document_number): (&Arc<Planet>, u64),
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> bool {
+        if self.read_for != Some(document_number) {
+            self.read_for = Some(document_number);
+            let (library, recent, here) = (self.library.clone(), recent.to_vec(), Arc::clone(here));
+            self.reading = Some(Job::start(move |_| read(library.as_ref(), &recent, &here), wake));
+        }
+        let Some(ended) = self.reading.as_ref().and_then(Job::ended) else { return false };
+        self.reading = None;
+        self.items = ended.unwrap_or_default();
+        true
     }
 
     /// Indices of the items whose name or tags have all words of a text.
@@ -71,6 +81,19 @@ impl Shelf {
         };
         (0..self.items.len()).filter(|index| fits(&self.items[*index])).collect()
     }
+}
+
+fn read(library: Option<&Library>, recent: &[PathBuf], here: &Planet) -> Vec<Item> {
+    let mut items: Vec<Item> = library.into_iter().flat_map(Library::list).map(|kept| of_kept(kept, here)).collect();
+    items.extend(recent.iter().filter(|path| path.is_file()).map(|path| of_file(path)));
+    items.extend(shipped::ALL.iter().enumerate().map(|(index, preset)| {
+        let planet = preset.load().map_err(|error| error.to_string());
+        let told = templates::ALL.iter().find(|entry| entry.template == templates::Template::Shipped(preset.file));
+        let name = planet.as_ref().map_or(preset.file.to_owned(), |planet| planet.name.clone());
+        let name = told.map_or(name.clone(), |entry| format!("{name}: {}", entry.name.to_lowercase()));
+        item(Origin::Shipped(index), name, "", planet)
+    }));
+    items
 }
 
 fn of_kept(kept: Kept, here: &Planet) -> Item {
@@ -89,7 +112,7 @@ fn of_kept(kept: Kept, here: &Planet) -> Item {
 
 fn of_file(path: &Path) -> Item {
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    item(Origin::File(path.to_owned()), name, "", Planet::load(path).map_err(|error| error.to_string()))
+    item(Origin::File(path.to_owned()), name, "", Planet::open(path).map_err(|error| error.to_string()))
 }
 
 fn item(origin: Origin, name: String, part: &'static str, planet: Result<Planet, String>) -> Item {
@@ -129,7 +152,7 @@ mod tests {
         let planet = shipped::default_planet();
         library.keep(&planet, "clouds").unwrap();
         let mut shelf = Shelf { library: Some(library), ..Shelf::default() };
-        shelf.read(&[], &Planet::default());
+        shelf.items = read(shelf.library.as_ref(), &[], &Planet::default());
         assert_eq!(shelf.items.len(), 1 + shipped::ALL.len());
         let found = |text: &str| shelf.found(text).len();
         assert_eq!((found(""), found("part clouds"), found("shipped")), (shelf.items.len(), 1, shipped::ALL.len()));

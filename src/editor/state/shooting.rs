@@ -1,12 +1,10 @@
 //! Photographs and films: what the user set, and the one that is being taken on another thread.
 
+use super::job::Job;
 use crate::film::Sequence;
 use crate::lod::Quality;
 use crate::render::Renderer;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// What is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,56 +54,30 @@ pub struct Shooting {
     pub first: PathBuf,
     /// How many photographs.
     pub count: usize,
-    /// Ten-thousandths that are done.
-    done: Arc<AtomicU32>,
-    cancelled: Arc<AtomicBool>,
-    result: Receiver<Result<usize, String>>,
+    job: Job<Result<usize, String>>,
 }
 
 impl Shooting {
     /// Takes photographs on another thread. `wake` is called when there is progress.
-    pub fn start(sequence: Sequence, mut renderer: Renderer, wake: impl Fn() + Send + 'static) -> Self {
-        let (done, cancelled) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(false)));
-        let (sender, result) = channel();
+    pub fn start(sequence: Sequence, mut renderer: Renderer, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let (first, count) = (sequence.first_file(), sequence.count());
-        let (told, stop) = (Arc::clone(&done), Arc::clone(&cancelled));
-        std::thread::spawn(move || {
-            let taken = sequence.take(&mut renderer, &mut |share| {
-                let share = (share * 1e4) as u32;
-                if told.swap(share, Ordering::Relaxed) != share {
-                    wake();
-                }
-                !stop.load(Ordering::Relaxed)
-            });
-            // The receiver is gone if the editor has closed.
-            let _ = sender.send(taken);
-            wake();
-        });
-        Self { first, count, done, cancelled, result }
+        let job = Job::start(move |go_on| sequence.take(&mut renderer, &mut |share| go_on(share)), wake);
+        Self { first, count, job }
     }
 
     /// Share that is done, 0 to 1.
     pub fn done(&self) -> f64 {
-        f64::from(self.done.load(Ordering::Relaxed)) * 1e-4
+        self.job.done()
     }
 
     /// Stops after the tile that is being drawn. Files that are written stay.
     pub fn cancel(&self) {
-        self.cancelled.store(true, Ordering::Relaxed);
+        self.job.stop();
     }
 
     /// The number of files written, or what went wrong, once it has ended.
     pub fn ended(&self) -> Option<Result<usize, String>> {
-        match self.result.try_recv() {
-            Ok(result) => Some(result),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("the picture could not be drawn; try again".to_owned())),
-        }
-    }
-}
-
-impl Drop for Shooting {
-    fn drop(&mut self) {
-        self.cancel();
+        let failed = || Err("the picture could not be drawn; try again".to_owned());
+        self.job.ended().map(|result| result.unwrap_or_else(failed))
     }
 }

@@ -1,8 +1,9 @@
 //! Small pictures, drawn on another thread with the viewport's pipelines, and kept in files between runs.
 
+use crate::bake::preset_hash;
 use crate::film::Thumbnail;
 use crate::planet::file::write_atomically;
-use crate::planet::{Key, VERSION};
+use crate::planet::{Key, Planet, VERSION};
 use crate::render::{Renderer, srgb_from_linear};
 use eframe::egui::{Color32, ColorImage};
 use image::ImageEncoder as _;
@@ -39,6 +40,7 @@ impl Thumbnails {
                 if of != newest.load(Ordering::Relaxed) {
                     continue;
                 }
+                let thumbnail = with_pictures(thumbnail);
                 let side = thumbnail.side_px as usize;
                 let file = kept.as_ref().map(|kept| kept.file(&thumbnail));
                 let picture = match file.as_deref().and_then(read) {
@@ -84,6 +86,16 @@ impl Drop for Thumbnails {
     }
 }
 
+/// Reads height maps that are not loaded. A layer whose picture cannot be read is flat.
+fn with_pictures(thumbnail: Thumbnail) -> Thumbnail {
+    if thumbnail.planet.missing_pictures().is_empty() {
+        return thumbnail;
+    }
+    let mut planet = Planet::clone(&thumbnail.planet);
+    planet.load_pictures();
+    Thumbnail { planet: Arc::new(planet), ..thumbnail }
+}
+
 /// The folder of pictures that are kept between runs: each named by all that it shows.
 struct KeptPictures {
     folder: PathBuf,
@@ -108,7 +120,7 @@ impl KeptPictures {
 
     fn file(&self, thumbnail: &Thumbnail) -> PathBuf {
         let seen = (thumbnail.place, thumbnail.time_secs.to_bits(), thumbnail.side_px);
-        let key = Key::of(&(env!("CARGO_PKG_VERSION"), VERSION, thumbnail.planet.to_text(), seen));
+        let key = Key::of(&(env!("CARGO_PKG_VERSION"), VERSION, preset_hash(&thumbnail.planet), seen));
         self.folder.join(format!("{:032x}.png", key.bits()))
     }
 }

@@ -4,6 +4,7 @@
 //! The overlay is evaluated on another thread at a grid of points over the picture, so that it shows any quantity the
 //! evaluator knows, at any distance, and costs the renderer nothing.
 
+use crate::editor::state::job::Job;
 use crate::editor::widgets::number::length_text;
 use crate::lod::View;
 use crate::planet::Planet;
@@ -13,7 +14,6 @@ use eframe::egui::{self, Color32, Rect};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Distance between points of the grid, in points of the window.
 const SPACING: f32 = 7.0;
@@ -43,7 +43,7 @@ pub struct LayerOverlay {
 }
 
 /// Values at a grid of points over the picture, row by row from the top; NaN where there is no ground.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Values {
     size: [usize; 2],
     values: Vec<f32>,
@@ -81,7 +81,7 @@ pub struct LayerView {
     seen: Option<Seen>,
     shown: Option<(Question, Values)>,
     texture: Option<egui::TextureHandle>,
-    under_way: Option<(Question, Receiver<Values>)>,
+    under_way: Option<(Question, Job<Values>)>,
 }
 
 impl LayerView {
@@ -163,28 +163,22 @@ impl LayerView {
     }
 
     fn ask(&mut self, ui: &egui::Ui, question: Question) {
-        let (sender, receiver) = channel();
         let (asked, ctx) = (question.clone(), ui.ctx().clone());
-        self.under_way = Some((question, receiver));
-        rayon::spawn(move || {
-            // The receiver is gone if the overlay has been taken away.
-            let _ = sender.send(evaluate(&asked));
-            ctx.request_repaint();
-        });
+        let job = Job::start(move |_| evaluate(&asked), move || ctx.request_repaint());
+        self.under_way = Some((question, job));
     }
 
     fn receive(&mut self, ui: &egui::Ui) {
-        let Some((question, receiver)) = self.under_way.take() else { return };
-        match receiver.try_recv() {
-            Ok(values) => {
-                let pixels = values.values.iter().map(|value| color(question.overlay.quantity, *value, values.most));
-                let image = egui::ColorImage::new(values.size, pixels.collect());
-                self.texture = Some(ui.ctx().load_texture("layer overlay", image, egui::TextureOptions::LINEAR));
-                self.shown = Some((question, values));
-            }
-            Err(TryRecvError::Empty) => self.under_way = Some((question, receiver)),
-            Err(TryRecvError::Disconnected) => {}
-        }
+        let Some(ended) = self.under_way.as_ref().and_then(|(_, job)| job.ended()) else { return };
+        let Some((question, _)) = self.under_way.take() else { return };
+        // What could not be evaluated is not asked again: it has no values.
+        let values = ended.unwrap_or_default();
+        let pixels = values.values.iter().map(|value| color(question.overlay.quantity, *value, values.most));
+        let image = egui::ColorImage::new(values.size, pixels.collect());
+        let is_empty = values.values.is_empty();
+        let load = || ui.ctx().load_texture("layer overlay", image, egui::TextureOptions::LINEAR);
+        self.texture = (!is_empty).then(load);
+        self.shown = Some((question, values));
     }
 }
 

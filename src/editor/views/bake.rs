@@ -81,9 +81,18 @@ impl BakeWindow {
         }
     }
 
+    /// The small picture in a box whose size depends on the form alone, so that nothing below moves when it arrives.
     fn preview(&mut self, ui: &mut egui::Ui, state: &State) {
+        let width = ui.available_width();
+        let aspect = match state.bake.form {
+            Form::Globe => 0.5,
+            Form::Cube => 1.0 / 6.0,
+            Form::Region => 0.6,
+        };
+        let (rect, area) = ui.allocate_exact_size(egui::vec2(width, width * aspect), egui::Sense::hover());
+        ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
         let Some((number, preview)) = &state.bake_preview.newest else {
-            ui.weak("The small picture comes when the planet is built.");
+            ui.weak("The small picture is being made …");
             return;
         };
         if self.shown.as_ref().is_none_or(|(shown, _)| shown != number) {
@@ -94,9 +103,12 @@ impl BakeWindow {
             self.shown = Some((*number, texture));
         }
         let Some((_, texture)) = &self.shown else { return };
-        let map = state.bake.previewed;
-        let picture = egui::Image::new(texture).max_width(ui.available_width()).corner_radius(2.0);
-        ui.add(picture).on_hover_text(format!("{}, small", map.label()));
+        let map = preview.map;
+        let size = texture.size_vec2();
+        let fitted = size * (rect.size() / size).min_elem();
+        let at = egui::Rect::from_center_size(rect.center(), fitted);
+        egui::Image::new(texture).corner_radius(2.0).paint_at(ui, at);
+        area.on_hover_text(format!("{}, small", map.label()));
         let [low, high] = preview.range;
         let range = match map.unit() {
             _ if map.channels() > 1 || map == Map::Biome => String::new(),

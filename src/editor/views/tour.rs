@@ -27,15 +27,15 @@ const STEPS: [Step; 6] = [
     Step {
         about: About::Picture,
         title: "A planet of your own",
-        text: "Begin from a template, take one from the library, or change the one you see. These six steps show the way; \
-               leave them whenever you like.",
+        text: "Begin from a template, take one from the library, or change the one you see. These six steps show \
+               the way; leave them whenever you like.",
         tries: &[("New planet", Command::New), ("Library", Command::Library)],
     },
     Step {
         about: About::Picture,
         title: "Look around",
-        text: "Drag to turn the planet, scroll towards a place, double-click to fly there. Walk on the ground, and come \
-               back to the orbit.",
+        text: "Drag to turn the planet, scroll towards a place, double-click to fly there. Walk on the ground, and \
+               come back to the orbit.",
         tries: &[
             ("Walk", Command::Move(crate::editor::viewport::camera::Mode::Walk)),
             ("Orbit", Command::Move(crate::editor::viewport::camera::Mode::Orbit)),
@@ -44,8 +44,8 @@ const STEPS: [Step; 6] = [
     Step {
         about: About::Tabs,
         title: "Change it",
-        text: "Each tab is a part of the planet. Move a slider, and the planet follows at once. Every gesture is one step, \
-               and undo goes all the way back. Drag the name of a tab to put it elsewhere.",
+        text: "Each tab is a part of the planet. Move a slider, and the planet follows at once. Every gesture is one \
+               step, and undo goes all the way back. Drag the name of a tab to put it elsewhere.",
         tries: &[("Undo", Command::Undo), ("History", Command::History)],
     },
     Step {
@@ -57,8 +57,8 @@ const STEPS: [Step; 6] = [
     Step {
         about: About::Picture,
         title: "Explore",
-        text: "Nine variations surround the planet you see: click one to take it, again and again. A padlock keeps what you \
-               like as it is.",
+        text: "Nine variations surround the planet you see: click one to take it, again and again. A padlock keeps what \
+               you like as it is.",
         tries: &[("Variations", Command::Variations)],
     },
     Step {

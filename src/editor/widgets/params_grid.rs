@@ -33,7 +33,8 @@ pub fn params_grid(
     part: &mut dyn Params,
     default: &mut dyn Params,
 ) -> Option<ParamPath> {
-    let mut rows = Rows { grid, defaults: values(default, &grid.base), browse: None };
+    let (now, defaults) = (values(part, &grid.base), values(default, &grid.base));
+    let mut rows = Rows { grid, now, defaults, browse: None };
     let sections = if grid.shown.filter.is_active() { &[] } else { sections_of(&grid.base) };
     rows.show(ui, part, |field| !sections.iter().any(|section| section.fields.contains(&field)));
     for section in sections {
@@ -47,6 +48,8 @@ type Known = (ParamPath, &'static str, Value);
 
 struct Rows<'a> {
     grid: &'a Grid<'a>,
+    /// The values at the start of the frame.
+    now: Vec<Known>,
     defaults: Vec<Known>,
     browse: Option<ParamPath>,
 }
@@ -62,11 +65,11 @@ impl Rows<'_> {
 
     fn section(&mut self, ui: &mut egui::Ui, section: &Section, part: &mut dyn Params) {
         let (mut is_empty, mut is_changed) = (true, false);
-        for (path, name, value) in values(part, &self.grid.base) {
-            let field = self.field(&path).unwrap_or_default();
+        for (path, name, value) in &self.now {
+            let field = self.field(path).unwrap_or_default();
             if section.fields.contains(&field) && !self.grid.skip.contains(&field) {
                 is_empty = false;
-                let is_default = |(at, of, default): &Known| *at == path && *of == name && *default == value;
+                let is_default = |(at, of, default): &Known| at == path && of == name && default == value;
                 is_changed = is_changed || !self.defaults.iter().any(is_default);
             }
         }

@@ -18,6 +18,7 @@ use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use super::map::KeepGoing;
 use super::noise::{fbm_row, hash, noise as one_octave, ramp};
+use super::once::made;
 use crate::planet::Plates as Params;
 use crate::sphere::raster::Raster;
 use edges::NO_EDGE_KM;
@@ -125,7 +126,7 @@ impl Plates {
     pub(crate) fn across(&self) -> &Arc<Across> {
         /// The greatest gradient by the greatest of those at the cells. The spline is smooth over two cells.
         const BETWEEN: f64 = 1.5;
-        self.across.get_or_init(|| {
+        made(&self.across, || {
             let side = self.rock.side;
             let raster = Raster::cube(side, self.across_rad.clone());
             let slope = |dir: &DVec3| {

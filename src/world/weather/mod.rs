@@ -13,6 +13,7 @@ use super::bytes::{Reader, Writer};
 use super::cells::Cells;
 use super::grid::smoothed;
 use super::map::KeepGoing;
+use super::once::made;
 use crate::planet::Weather as Params;
 use crate::sphere::geo::east_north;
 use crate::sphere::raster::Raster;
@@ -190,18 +191,6 @@ impl Weather {
     /// What a lake loses beyond the rain that falls on it, in mm a year.
     pub(crate) fn dryness_mm(&self) -> Vec<f64> {
         self.evaporation_mm.iter().zip(&self.rain_mm).map(|(potential, rain)| potential - rain).collect()
-    }
-}
-
-/// What a lock holds, made if it is not there. It is made on all cores, so no lock may be held meanwhile: whoever waits
-/// for it could be the one that a core must finish first.
-fn made<T>(lock: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
-    match lock.get() {
-        Some(made) => made,
-        None => {
-            let made = make();
-            lock.get_or_init(|| made)
-        }
     }
 }
 
