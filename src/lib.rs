@@ -36,6 +36,7 @@
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `bake` (feature `bake`): maps of a planet in files
+//! - `capi` (feature `capi`): the C interface
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
 //! - `film` (feature `render`): photographs and films in files
 //! - `editor` (feature `editor`): the application
@@ -60,6 +61,8 @@ mod world;
 
 #[cfg(feature = "bake")]
 pub mod bake;
+#[cfg(any(feature = "capi", test))]
+pub mod capi;
 #[cfg(feature = "render")]
 pub mod film;
 #[cfg(feature = "render")]

@@ -36,7 +36,6 @@ pub use format::Format;
 pub use maps::Map;
 pub use preview::Preview;
 pub use projection::{Projection, Region};
-pub(crate) use sidecar::preset_hash;
 
 use crate::clouds::CloudField;
 use crate::planet::file::{Target, write_atomically_with};
@@ -294,7 +293,7 @@ impl Bake {
     fn key(&self) -> Key {
         let time_secs = Some(self.time_secs).filter(|_| self.maps.iter().any(|map| map.is_of_clouds()));
         let program = (env!("CARGO_PKG_VERSION"), VERSION);
-        let planet = sidecar::preset_hash(self.terrain.planet());
+        let planet = Key::of_planet(self.terrain.planet());
         Key::of(&(program, planet, self.projection, self.size, self.detail, &self.maps, time_secs))
     }
 

@@ -4,16 +4,8 @@ use super::Bake;
 use super::format::Shape;
 use super::maps::{Map, Range, mean_color};
 use super::projection::Projection;
-use crate::planet::{Key, Planet, VERSION};
+use crate::planet::{Key, VERSION};
 use serde_json::{Value, json};
-
-/// A hash of everything in a preset but the editor's own section, with the pixels of its pictures. The same on every
-/// machine, wherever the preset is.
-pub(crate) fn preset_hash(planet: &Planet) -> Key {
-    let bare = Planet { editor: None, ..planet.clone() };
-    let pictures: Vec<_> = bare.pictures().map(|(_, file, layout)| file.picture(layout)).collect();
-    Key::of(&(bare.to_text(), pictures))
-}
 
 /// What a program must know to read the map in `file`.
 pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &Shape) -> Value {
@@ -34,7 +26,7 @@ pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &S
         "encoding": encoding(map, shape),
         "radius_m": planet.radius_m(),
         "sea_level_m": planet.sea_level_m(),
-        "preset_hash": format!("{:032x}", preset_hash(planet).bits()),
+        "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
         // The version of presets pins the algorithm of the terrain, too.
         "algorithm_version": VERSION,
         "made_by": concat!("tellus ", env!("CARGO_PKG_VERSION")),

@@ -133,11 +133,11 @@ fn what_is_not_possible_is_said_before_anything_is_written() {
 #[test]
 fn the_hash_of_a_preset_is_of_what_is_baked() {
     let planet = Planet::from_text("islet.ron", PLANET).unwrap();
-    let hash = sidecar::preset_hash(&planet);
+    let hash = Key::of_planet(&planet);
     let mut other = planet.clone();
     other.editor = Some(crate::planet::EditorNotes::default());
     other.set_folder(Path::new("/somewhere/else"));
-    assert_eq!(sidecar::preset_hash(&other), hash);
+    assert_eq!(Key::of_planet(&other), hash);
     other.layers[0].amplitude_m += 1.0;
-    assert_ne!(sidecar::preset_hash(&other), hash);
+    assert_ne!(Key::of_planet(&other), hash);
 }

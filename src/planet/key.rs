@@ -1,5 +1,6 @@
 //! Content keys: equal content has equal keys, in every process and on every machine.
 
+use super::Planet;
 use std::fmt::{self, Write as _};
 
 /// A 128-bit hash of compiled content.
@@ -17,6 +18,14 @@ impl Key {
         // Hashing never fails, and derived `Debug` fails only where its writer does.
         let _ = write!(hash, "{content:?}");
         Self(hash.0)
+    }
+
+    /// The key of everything in a preset but the editor's own section, with the pixels of its pictures. The same on
+    /// every machine, wherever the preset is.
+    pub fn of_planet(planet: &Planet) -> Self {
+        let bare = Planet { editor: None, ..planet.clone() };
+        let pictures: Vec<_> = bare.pictures().map(|(_, file, layout)| file.picture(layout)).collect();
+        Self::of(&(bare.to_text(), pictures))
     }
 
     /// The hash as a number.

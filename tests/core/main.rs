@@ -2,6 +2,7 @@
 //!
 //! - `preset`, `heightmap`, `nonsense`: files and values, good and bad
 //! - `idle`: parameters without effect
+//! - `header`: the C header
 //! - `saving`: saves that are killed
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
@@ -12,6 +13,7 @@
 
 mod allocations;
 mod atmosphere;
+mod header;
 mod heightmap;
 mod idle;
 mod joining;

@@ -1,6 +1,5 @@
 //! Small pictures, drawn on another thread with the viewport's pipelines, and kept in files between runs.
 
-use crate::bake::preset_hash;
 use crate::film::Thumbnail;
 use crate::planet::file::write_atomically;
 use crate::planet::{Key, Planet, VERSION};
@@ -120,7 +119,7 @@ impl KeptPictures {
 
     fn file(&self, thumbnail: &Thumbnail) -> PathBuf {
         let seen = (thumbnail.place, thumbnail.time_secs.to_bits(), thumbnail.side_px);
-        let key = Key::of(&(env!("CARGO_PKG_VERSION"), VERSION, preset_hash(&thumbnail.planet), seen));
+        let key = Key::of(&(env!("CARGO_PKG_VERSION"), VERSION, Key::of_planet(&thumbnail.planet), seen));
         self.folder.join(format!("{:032x}.png", key.bits()))
     }
 }

@@ -59,7 +59,7 @@ impl BakeWindow {
         }
         let mut open = true;
         let window = egui::Window::new("Bake maps").id(id()).open(&mut open).default_pos([12.0, 40.0]);
-        window.default_size([330.0, 660.0]).vscroll(true).show(ctx, |ui| {
+        window.default_size([330.0, 680.0]).vscroll(true).show(ctx, |ui| {
             let (mut settings, planet) = (state.bake.clone(), state.document.valid_planet());
             maps(ui, &mut settings, planet);
             ui.add_space(4.0);
@@ -85,9 +85,8 @@ impl BakeWindow {
     fn preview(&mut self, ui: &mut egui::Ui, state: &State) {
         let width = ui.available_width();
         let aspect = match state.bake.form {
-            Form::Globe => 0.5,
+            Form::Globe | Form::Region => 0.5,
             Form::Cube => 1.0 / 6.0,
-            Form::Region => 0.6,
         };
         let (rect, area) = ui.allocate_exact_size(egui::vec2(width, width * aspect), egui::Sense::hover());
         ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);

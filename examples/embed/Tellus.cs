@@ -1,0 +1,204 @@
+// Declarations of include/tellus.h for C# (.NET, Unity, Godot), and a class over them. Copy this file into a project and
+// put the shared library where the engine looks for native libraries (Unity: Assets/Plugins). See docs/embedding.md.
+
+using System;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace Tellus
+{
+    /// The surface under one direction. The layout is that of TellusSample in tellus.h.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Sample
+    {
+        /// Height of the ground above the reference sphere, below the sea too.
+        public double HeightM;
+        /// Surface of the sea, lake or river over the ground; NaN where there is none.
+        public double WaterLevelM;
+        /// Unit normal of the ground in the planet frame.
+        public double NormalX, NormalY, NormalZ;
+        /// Angle between the ground and the horizontal.
+        public double SlopeRad;
+        /// Temperature at the surface.
+        public double TemperatureC;
+        /// Rain and snow in a year.
+        public double RainMm;
+        /// Index of the biome; see Planet.BiomeName.
+        public uint Biome;
+    }
+
+    /// A call failed; the message says why.
+    public sealed class TellusException : Exception
+    {
+        public TellusException(string message) : base(message) { }
+    }
+
+    /// A planet. Any number of threads may ask at once; dispose of it when none does any more.
+    public sealed class Planet : SafeHandle
+    {
+        // The runtime creates the handle that a function returns.
+        private Planet() : base(IntPtr.Zero, true) { }
+
+        public override bool IsInvalid => handle == IntPtr.Zero;
+
+        protected override bool ReleaseHandle()
+        {
+            Native.tellus_planet_free(handle);
+            return true;
+        }
+
+        /// Loads a preset. Solved maps of a structure are kept in cacheFolder, if there is one.
+        public static Planet FromFile(string path, string cacheFolder = null)
+        {
+            return Loaded(Native.tellus_planet_from_file(Utf8(path), Utf8(cacheFolder)));
+        }
+
+        /// Loads a preset from text; name stands for the file in messages.
+        public static Planet FromText(string name, string preset, string cacheFolder = null)
+        {
+            return Loaded(Native.tellus_planet_from_text(Utf8(name), Utf8(preset), Utf8(cacheFolder)));
+        }
+
+        public static string LibraryVersion => Text(Native.tellus_version());
+
+        public string Name => Text(Native.tellus_name(this));
+
+        /// 32 hexadecimal digits, equal for equal planets on every machine.
+        public string Hash => Text(Native.tellus_hash(this));
+
+        public double RadiusM => Native.tellus_radius_m(this);
+
+        public uint BiomeCount => Native.tellus_biome_count(this);
+
+        public string BiomeName(uint biome)
+        {
+            IntPtr name = Native.tellus_biome_name(this, biome);
+            Check(name != IntPtr.Zero);
+            return Text(name);
+        }
+
+        /// The unit direction (x, y, z) of a place in the planet frame.
+        public static double[] Direction(double latDeg, double lonDeg)
+        {
+            var direction = new double[3];
+            Check(Native.tellus_direction(latDeg, lonDeg, direction));
+            return direction;
+        }
+
+        /// Heights of the ground under directions of three numbers each.
+        public double[] Heights(double[] directions)
+        {
+            var heightsM = new double[directions.Length / 3];
+            Check(Native.tellus_heights(this, directions, (UIntPtr)heightsM.Length, heightsM));
+            return heightsM;
+        }
+
+        /// The surface under directions of three numbers each.
+        public Sample[] Samples(double[] directions)
+        {
+            var samples = new Sample[directions.Length / 3];
+            Check(Native.tellus_samples(this, directions, (UIntPtr)samples.Length, samples));
+            return samples;
+        }
+
+        /// Distance along a ray to the ground or the sea; infinite if it meets neither.
+        public double Raycast(double[] originM, double[] direction)
+        {
+            if (originM.Length != 3 || direction.Length != 3)
+                throw new ArgumentException("an origin and a direction have three numbers each");
+            double distanceM = Native.tellus_raycast(this, originM, direction);
+            Check(!double.IsNaN(distanceM));
+            return distanceM;
+        }
+
+        /// A square of the globe: positions in metres from the centre, unit normals and triangles, three numbers each.
+        public void Tile(uint face, uint level, uint x, uint y, uint side,
+            out double[] positionsM, out float[] normals, out uint[] indices)
+        {
+            if (side < 2 || side > MaxTileSide)
+                throw new ArgumentOutOfRangeException(nameof(side), side, "use 2 to " + MaxTileSide);
+            positionsM = new double[3 * side * side];
+            normals = new float[3 * side * side];
+            indices = new uint[6 * (side - 1) * (side - 1)];
+            Check(Native.tellus_tile(this, face, level, x, y, side, positionsM, normals));
+            Check(Native.tellus_tile_indices(side, indices));
+        }
+
+        public const uint MaxTileSide = 4097;
+
+        private static Planet Loaded(Planet planet)
+        {
+            Check(!planet.IsInvalid);
+            return planet;
+        }
+
+        private static void Check(bool done)
+        {
+            if (!done)
+                throw new TellusException(Text(Native.tellus_last_error()));
+        }
+
+        // Texts of the library are UTF-8 and stay the library's.
+        private static string Text(IntPtr text)
+        {
+            if (text == IntPtr.Zero)
+                return null;
+            int length = 0;
+            while (Marshal.ReadByte(text, length) != 0)
+                length++;
+            var bytes = new byte[length];
+            Marshal.Copy(text, bytes, 0, length);
+            return Encoding.UTF8.GetString(bytes);
+        }
+
+        private static byte[] Utf8(string text)
+        {
+            return text == null ? null : Encoding.UTF8.GetBytes(text + "\0");
+        }
+    }
+
+    /// The functions as tellus.h declares them.
+    internal static class Native
+    {
+        private const string Library = "tellus";
+
+        [DllImport(Library)] internal static extern IntPtr tellus_version();
+        [DllImport(Library)] internal static extern IntPtr tellus_last_error();
+        [DllImport(Library)] internal static extern Planet tellus_planet_from_file(byte[] path, byte[] cacheFolder);
+        [DllImport(Library)]
+        internal static extern Planet tellus_planet_from_text(byte[] name, byte[] preset, byte[] cacheFolder);
+        [DllImport(Library)] internal static extern void tellus_planet_free(IntPtr planet);
+        [DllImport(Library)] internal static extern IntPtr tellus_name(Planet planet);
+        [DllImport(Library)] internal static extern IntPtr tellus_hash(Planet planet);
+        [DllImport(Library)] internal static extern double tellus_radius_m(Planet planet);
+        [DllImport(Library)] internal static extern uint tellus_biome_count(Planet planet);
+        [DllImport(Library)] internal static extern IntPtr tellus_biome_name(Planet planet, uint biome);
+
+        // A C bool has one byte.
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_direction(double latDeg, double lonDeg, [Out] double[] direction);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_heights(
+            Planet planet, double[] directions, UIntPtr count, [Out] double[] heightsM);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_samples(
+            Planet planet, double[] directions, UIntPtr count, [Out] Sample[] samples);
+
+        [DllImport(Library)]
+        internal static extern double tellus_raycast(Planet planet, double[] originM, double[] direction);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_tile(Planet planet, uint face, uint level, uint x, uint y, uint side,
+            [Out] double[] positionsM, [Out] float[] normals);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_tile_indices(uint side, [Out] uint[] indices);
+    }
+}

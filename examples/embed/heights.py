@@ -1,0 +1,78 @@
+"""Prints the ground under some places, and the extent of a tile.
+
+Build the library first (docs/embedding.md), then: python3 examples/embed/heights.py target/debug/libtellus.so
+"""
+
+import ctypes
+import math
+import sys
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_float, c_size_t, c_uint32, c_void_p
+
+SIDE = 33
+
+
+class Sample(ctypes.Structure):
+    _fields_ = [
+        ("height_m", c_double),
+        ("water_level_m", c_double),
+        ("normal", c_double * 3),
+        ("slope_rad", c_double),
+        ("temperature_c", c_double),
+        ("rain_mm", c_double),
+        ("biome", c_uint32),
+    ]
+
+
+def load(path):
+    library = ctypes.CDLL(path)
+    numbers = POINTER(c_double)
+    signatures = {
+        "tellus_last_error": (c_char_p, []),
+        "tellus_planet_from_file": (c_void_p, [c_char_p, c_char_p]),
+        "tellus_planet_free": (None, [c_void_p]),
+        "tellus_name": (c_char_p, [c_void_p]),
+        "tellus_hash": (c_char_p, [c_void_p]),
+        "tellus_radius_m": (c_double, [c_void_p]),
+        "tellus_biome_name": (c_char_p, [c_void_p, c_uint32]),
+        "tellus_direction": (c_bool, [c_double, c_double, numbers]),
+        "tellus_samples": (c_bool, [c_void_p, numbers, c_size_t, POINTER(Sample)]),
+        "tellus_tile": (c_bool, [c_void_p] + [c_uint32] * 5 + [numbers, POINTER(c_float)]),
+    }
+    for name, (result, arguments) in signatures.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library
+
+
+def main():
+    tellus = load(sys.argv[1])
+
+    def check(answer):
+        if not answer:
+            sys.exit("error: " + tellus.tellus_last_error().decode())
+        return answer
+
+    path = sys.argv[2] if len(sys.argv) > 2 else "planets/pallor.ron"
+    planet = check(tellus.tellus_planet_from_file(path.encode(), None))
+    print(tellus.tellus_name(planet).decode(), tellus.tellus_hash(planet).decode())
+
+    places = [(48.2, 16.4), (-33.9, 151.2), (0.0, -78.5)]
+    directions = (c_double * (3 * len(places)))()
+    for index, (lat_deg, lon_deg) in enumerate(places):
+        direction = (c_double * 3)()
+        check(tellus.tellus_direction(lat_deg, lon_deg, direction))
+        directions[3 * index : 3 * index + 3] = direction[:]
+    samples = (Sample * len(places))()
+    check(tellus.tellus_samples(planet, directions, len(places), samples))
+    for sample in samples:
+        print(f"{sample.height_m:.3f} {tellus.tellus_biome_name(planet, sample.biome).decode()}")
+
+    positions_m = (c_double * (3 * SIDE * SIDE))()
+    check(tellus.tellus_tile(planet, 0, 4, 3, 5, SIDE, positions_m, None))
+    radius_m = tellus.tellus_radius_m(planet)
+    heights_m = [math.hypot(*positions_m[i : i + 3]) - radius_m for i in range(0, len(positions_m), 3)]
+    print(f"tile {min(heights_m):.3f} {max(heights_m):.3f}")
+    tellus.tellus_planet_free(planet)
+
+
+main()

@@ -1,0 +1,223 @@
+/* Tellus: planets from one small file. Made from src/capi/mod.rs; docs/embedding.md tells more. */
+
+#ifndef TELLUS_H
+#define TELLUS_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/**
+ * Most vertices along the side of a tile.
+ */
+#define TELLUS_MAX_TILE_SIDE 4097
+
+/**
+ * A planet, ready for queries. Any number of threads may ask at once.
+ */
+typedef struct TellusPlanet TellusPlanet;
+
+/**
+ * The surface under one direction.
+ */
+typedef struct TellusSample {
+  /**
+   * Height of the ground above the reference sphere, below the sea too.
+   */
+  double height_m;
+  /**
+   * Surface of the sea, lake or river over the ground; NaN where there is none.
+   */
+  double water_level_m;
+  /**
+   * Unit normal of the ground in the planet frame.
+   */
+  double normal[3];
+  /**
+   * Angle between the ground and the horizontal.
+   */
+  double slope_rad;
+  /**
+   * Temperature at the surface.
+   */
+  double temperature_c;
+  /**
+   * Rain and snow in a year.
+   */
+  double rain_mm;
+  /**
+   * Index of the biome; see `tellus_biome_name`.
+   */
+  uint32_t biome;
+} TellusSample;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The version of the library.
+ */
+const char *tellus_version(void);
+
+/**
+ * What went wrong in the last call that failed on this thread; empty if none did. Valid until the next call that fails
+ * on this thread.
+ */
+const char *tellus_last_error(void);
+
+/**
+ * Loads a preset from a file, with its height maps. NULL if that failed.
+ *
+ * A planet with a structure solves its maps first, which takes a second or more. They are kept in `cache_folder` for
+ * the next time; NULL keeps none.
+ *
+ * # Safety
+ * `path` and `cache_folder` are NULL or end with a zero byte.
+ */
+struct TellusPlanet *tellus_planet_from_file(const char *path,
+                                             const char *cache_folder);
+
+/**
+ * Loads a preset from text. Height maps must have absolute paths. `name` stands for the file in messages. NULL if that
+ * failed. See `tellus_planet_from_file` for `cache_folder`.
+ *
+ * # Safety
+ * `name`, `preset` and `cache_folder` are NULL or end with a zero byte.
+ */
+struct TellusPlanet *tellus_planet_from_text(const char *name,
+                                             const char *preset,
+                                             const char *cache_folder);
+
+/**
+ * Frees a planet. NULL is ignored.
+ *
+ * # Safety
+ * `planet` is NULL or came from this library, is not freed twice, and no thread uses it any more.
+ */
+void tellus_planet_free(struct TellusPlanet *planet);
+
+/**
+ * The name of the planet. Valid as long as the planet; NULL if `planet` is NULL.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+const char *tellus_name(const struct TellusPlanet *planet);
+
+/**
+ * A hash of all that the planet is, as 32 hexadecimal digits; the same on every machine. Valid as long as the planet.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+const char *tellus_hash(const struct TellusPlanet *planet);
+
+/**
+ * Radius of the reference sphere in metres; NaN if `planet` is NULL.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+double tellus_radius_m(const struct TellusPlanet *planet);
+
+/**
+ * Number of biomes.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+uint32_t tellus_biome_count(const struct TellusPlanet *planet);
+
+/**
+ * The name of a biome. Valid as long as the planet; NULL if there is no such biome.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library.
+ */
+const char *tellus_biome_name(const struct TellusPlanet *planet, uint32_t biome);
+
+/**
+ * The unit direction of a place in the planet frame, whose Z points to the north pole and whose X points to latitude 0,
+ * longitude 0. False if `direction` is NULL.
+ *
+ * # Safety
+ * `direction` is NULL or holds 3 numbers.
+ */
+bool tellus_direction(double lat_deg,
+                      double lon_deg,
+                      double *direction);
+
+/**
+ * Heights of the ground in metres under `count` directions of 3 numbers each, on the calling thread. False, and nothing
+ * written, if that failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `directions` is NULL or holds 3 `count` numbers, and `heights_m` is
+ * NULL or holds `count`.
+ */
+bool tellus_heights(const struct TellusPlanet *planet,
+                    const double *directions,
+                    size_t count,
+                    double *heights_m);
+
+/**
+ * The surface under `count` directions of 3 numbers each, on the calling thread. False, and nothing written, if that
+ * failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `directions` is NULL or holds 3 `count` numbers, and `samples` is NULL
+ * or holds `count`.
+ */
+bool tellus_samples(const struct TellusPlanet *planet,
+                    const double *directions,
+                    size_t count,
+                    struct TellusSample *samples);
+
+/**
+ * Distance in metres along a ray (planet frame, metres from the centre) to the ground or the sea, whichever is nearer:
+ * infinite if it meets neither, NaN if that failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `origin_m` and `direction` are NULL or hold 3 numbers.
+ */
+double tellus_raycast(const struct TellusPlanet *planet,
+                      const double *origin_m,
+                      const double *direction);
+
+/**
+ * The vertices of a square of the globe, `side` by `side`: positions in the planet frame (metres from the centre) and
+ * unit normals, 3 numbers each, column by column within rows. Neighbours of one level share their edges to the bit.
+ *
+ * `face` is 0 to 5: +X, -X, +Y, -Y, +Z, -Z. A face has `2^level` by `2^level` squares, `level` 0 to 22. `normals` may be
+ * NULL. False, and nothing written, if that failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `positions_m` and `normals` are NULL or hold 3 `side` `side` numbers.
+ */
+bool tellus_tile(const struct TellusPlanet *planet,
+                 uint32_t face,
+                 uint32_t level,
+                 uint32_t x,
+                 uint32_t y,
+                 uint32_t side,
+                 double *positions_m,
+                 float *normals);
+
+/**
+ * The triangles of a tile of `side` by `side` vertices: 6 (`side` - 1)^2 indices, counter-clockwise from outside. False,
+ * and nothing written, if that failed.
+ *
+ * # Safety
+ * `indices` is NULL or holds 6 (`side` - 1)^2 numbers.
+ */
+bool tellus_tile_indices(uint32_t side,
+                         uint32_t *indices);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* TELLUS_H */

@@ -1,0 +1,121 @@
+//! The functions, called as C calls them.
+
+use super::*;
+use crate::planet::shipped;
+use std::ffi::CStr;
+
+struct Held(*mut TellusPlanet);
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        // SAFETY: it came from the library, and this is its end.
+        unsafe { tellus_planet_free(self.0) };
+    }
+}
+
+fn error() -> String {
+    // SAFETY: the text is valid until the next failure on this thread.
+    unsafe { CStr::from_ptr(tellus_last_error()) }.to_str().unwrap().to_owned()
+}
+
+fn load(text: &str) -> *mut TellusPlanet {
+    let text = CString::new(text).unwrap();
+    // SAFETY: both texts end with a zero byte.
+    unsafe { tellus_planet_from_text(c"test.ron".as_ptr(), text.as_ptr(), std::ptr::null()) }
+}
+
+fn pallor() -> Held {
+    Held(load(shipped::ALL.iter().find(|preset| preset.file == "pallor.ron").unwrap().text))
+}
+
+#[test]
+fn answers_are_those_of_the_evaluator() {
+    let planet = pallor();
+    let preset = shipped::ALL.iter().find(|preset| preset.file == "pallor.ron").unwrap();
+    let terrain = Terrain::try_new(preset.load().unwrap().into()).unwrap();
+    let dirs: Vec<DVec3> = crate::sphere::spread(700).collect();
+    let numbers: Vec<f64> = dirs.iter().flat_map(|dir| dir.to_array()).collect();
+    let mut heights_m = vec![0.0; dirs.len()];
+    let mut samples = vec![TellusSample::of(&crate::terrain::Sample::default()); dirs.len()];
+    // SAFETY: the buffers are as long as they are said to be.
+    unsafe {
+        assert!(tellus_heights(planet.0, numbers.as_ptr(), dirs.len(), heights_m.as_mut_ptr()));
+        assert!(tellus_samples(planet.0, numbers.as_ptr(), dirs.len(), samples.as_mut_ptr()));
+        assert_eq!(tellus_radius_m(planet.0), terrain.planet().radius_m());
+        assert_eq!(CStr::from_ptr(tellus_name(planet.0)).to_str().unwrap(), terrain.planet().name);
+        assert_eq!(CStr::from_ptr(tellus_hash(planet.0)).to_bytes().len(), 32);
+        assert_eq!(tellus_biome_count(planet.0) as usize, terrain.planet().biomes.palette.len());
+    }
+    assert_eq!(heights_m, terrain.heights_m(&dirs));
+    for (sample, found) in samples.iter().zip(terrain.samples(&dirs, Wanted::ALL)) {
+        assert_eq!((sample.height_m, sample.biome as usize), (found.height_m, found.biome));
+        assert_eq!((sample.normal, sample.temperature_c), (found.normal_planet.to_array(), found.temperature_c));
+        assert_eq!(sample.water_level_m.is_nan(), found.water_level_m.is_none());
+    }
+    let above = dirs[3] * (terrain.planet().radius_m() + heights_m[3] + 1000.0);
+    // SAFETY: both hold 3 numbers.
+    let distance_m = unsafe { tellus_raycast(planet.0, above.to_array().as_ptr(), (-dirs[3]).to_array().as_ptr()) };
+    assert!((distance_m - 1000.0).abs() < 1e-3, "{distance_m}");
+}
+
+#[test]
+fn tiles_share_edges_and_their_triangles_face_outwards() {
+    const SIDE: usize = 9;
+    let planet = pallor();
+    let tile = |face, x| {
+        let (mut positions_m, mut normals) = ([[0.0; 3]; SIDE * SIDE], [[0.0; 3]; SIDE * SIDE]);
+        let (to, normals_to) = (positions_m.as_mut_ptr().cast(), normals.as_mut_ptr().cast());
+        // SAFETY: the buffers hold the vertices of a tile.
+        assert!(unsafe { tellus_tile(planet.0, face, 3, x, 2, SIDE as u32, to, normals_to) });
+        (positions_m.map(DVec3::from_array), normals.map(glam::Vec3::from_array))
+    };
+    let mut indices = [0_u32; 6 * (SIDE - 1) * (SIDE - 1)];
+    // SAFETY: the buffer holds the indices of a tile.
+    assert!(unsafe { tellus_tile_indices(SIDE as u32, indices.as_mut_ptr()) });
+    for face in 0..6 {
+        let ((left, normals), (right, _)) = (tile(face, 4), tile(face, 5));
+        for row in 0..SIDE {
+            assert_eq!(left[row * SIDE + SIDE - 1], right[row * SIDE]);
+        }
+        for triangle in indices.as_chunks::<3>().0 {
+            let [a, b, c] = triangle.map(|index| left[index as usize]);
+            assert!((b - a).cross(c - a).dot(a) > 0.0, "face {face}");
+        }
+        assert!(left.iter().zip(&normals).all(|(at, normal)| at.as_vec3().dot(*normal) > 0.0));
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_told_and_leaves_the_buffers_alone() {
+    assert!(load("(version: 1, name: \"X\", radius_km: -3.0)").is_null());
+    assert!(error().starts_with("test.ron:1:") && error().contains("radius_km"), "{}", error());
+    let planet = pallor();
+    let mut heights_m = [7.0; 2];
+    let mut ask = |planet: *const TellusPlanet, dirs: *const f64, count: usize, to_nowhere: bool| {
+        let to = if to_nowhere { std::ptr::null_mut() } else { heights_m.as_mut_ptr() };
+        // SAFETY: what is not NULL is as long as it is said to be, or said to be impossibly long.
+        let is_done = unsafe { tellus_heights(planet, dirs, count, to) };
+        assert!(!is_done && heights_m == [7.0; 2]);
+        error()
+    };
+    let (up, bad) = ([0.0, 0.0, 1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, f64::NAN, 0.0, 0.0]);
+    assert_eq!(ask(std::ptr::null(), up.as_ptr(), 2, false), "planet is NULL");
+    assert_eq!(ask(planet.0, std::ptr::null(), 2, false), "directions is NULL");
+    assert_eq!(ask(planet.0, up.as_ptr(), 2, true), "heights_m is NULL");
+    assert_eq!(ask(planet.0, bad.as_ptr(), 2, false), "direction 1 is zero or not finite");
+    assert!(ask(planet.0, up.as_ptr(), usize::MAX / 2, false).contains("cannot hold"));
+    let mut room = [0.0; 12];
+    // SAFETY: the buffer is large enough for a side of 2; other sides are refused.
+    let mut tile = |face, level, x, side| unsafe {
+        assert!(!tellus_tile(planet.0, face, level, x, 0, side, room.as_mut_ptr(), std::ptr::null_mut()));
+        error()
+    };
+    assert_eq!(tile(6, 0, 0, 2), "face is 6; use 0 to 5");
+    assert_eq!(tile(0, 23, 0, 2), "level is 23; use 0 to 22");
+    assert_eq!(tile(0, 1, 2, 2), "x and y are 2 and 0; at level 1 they go from 0 to 1");
+    assert_eq!(tile(0, 1, 1, 1), "side is 1; use 2 to 4097");
+    // SAFETY: a planet of the library.
+    assert!(unsafe { tellus_biome_name(planet.0, 10_000) }.is_null() && error().contains("no biome 10000"));
+    let failed = answer(3, || -> Result<i32, String> { panic!("as asked") });
+    assert!(failed == 3 && error().contains("please report"));
+}
