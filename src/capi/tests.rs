@@ -34,7 +34,7 @@ fn answers_are_those_of_the_evaluator() {
     let preset = shipped::ALL.iter().find(|preset| preset.file == "pallor.ron").unwrap();
     let terrain = Terrain::try_new(preset.load().unwrap().into()).unwrap();
     let dirs: Vec<DVec3> = crate::sphere::spread(700).collect();
-    let numbers: Vec<f64> = dirs.iter().flat_map(|dir| dir.to_array()).collect();
+    let numbers: Vec<f64> = dirs.iter().flat_map(DVec3::to_array).collect();
     let mut heights_m = vec![0.0; dirs.len()];
     let mut samples = vec![TellusSample::of(&crate::terrain::Sample::default()); dirs.len()];
     // SAFETY: the buffers are as long as they are said to be.
