@@ -116,6 +116,11 @@ fn mend_biomes(biomes: &mut Biomes, old: &Biomes) {
     if biomes.cliff_start_deg > biomes.cliff_full_deg {
         (biomes.cliff_start_deg, biomes.cliff_full_deg) = (old.cliff_start_deg, old.cliff_full_deg);
     }
+    for (biome, old) in biomes.palette.iter_mut().zip(&old.palette) {
+        if biome.steep_from_deg > biome.steep_to_deg {
+            (biome.steep_from_deg, biome.steep_to_deg) = (old.steep_from_deg, old.steep_to_deg);
+        }
+    }
 }
 
 /// The same of masks.
@@ -225,9 +230,9 @@ fn atmosphere(kind: Kind, dice: &mut Dice) -> Atmosphere {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::Shape;
     use crate::planet::locks;
     use crate::planet::param::{Choice, Segment};
+    use crate::planet::{Shape, Steep};
     use proptest::prelude::*;
 
     fn assert_valid(planet: &Planet) -> Result<(), TestCaseError> {
@@ -253,6 +258,17 @@ mod tests {
         #[test]
         fn variations_are_valid(seed: u64, other: u64, strength in 0.0..=1.0_f64) {
             assert_valid(&vary(&random(seed), other, strength))?;
+        }
+    }
+
+    #[test]
+    fn steep_rules_stay_in_order() {
+        let mut planet = random(5);
+        for biome in &mut planet.biomes.palette {
+            (biome.steep, biome.steep_from_deg, biome.steep_to_deg) = (Steep::Biome, 38.0, 40.0);
+        }
+        for seed in 0..100 {
+            assert_eq!(validate::problems(&vary(&planet, seed, 0.25)), []);
         }
     }
 

@@ -36,6 +36,11 @@ fn bias_factor(step: u32) -> f64 {
 }
 /// Greatest step of the LOD bias: a factor of 64.
 const MAX_BIAS: u32 = 48;
+/// The step for ground so rugged that its cut exceeds the budget even with the greatest LOD bias: the nearest nodes of
+/// each level are split, as far as the budget goes.
+const RATIONED: u32 = MAX_BIAS + 1;
+/// Tiles that a split adds.
+const MORE_TILES: usize = 3;
 
 /// Builds the tiles of a view. `keep_going` is asked before each layer of each tile; once it says no, no finer level is
 /// begun, but the coarsest level is always built. Tiles are taken from `cache` and stored there. `before` is the last
@@ -136,6 +141,9 @@ fn within_budget(choose: &mut dyn FnMut(u32) -> Choice, budget: usize, before: u
         }
     }
     let mut choice = choose(MAX_BIAS);
+    if !fits(&choice) {
+        return choose(RATIONED);
+    }
     let mut too_strict = None;
     while choice.complete && choice.bias > too_strict.map_or(0, |step| step + 1) {
         let step = too_strict.map_or(choice.bias / 2, |step| u32::midpoint(step, choice.bias));
@@ -175,12 +183,19 @@ fn choose(
                 .count();
             return choice;
         }
-        // The coarsest cut must serve, whatever its size.
-        if choice.seen + wanted.len() > budget && bias < MAX_BIAS {
+        let room = budget.saturating_sub(choice.seen + wanted.len());
+        if room == 0 && bias < RATIONED {
             choice.seen += wanted.len();
             return choice;
         }
         wanted.sort_by(|a, b| away_m(a).total_cmp(&away_m(b)));
+        if bias == RATIONED {
+            // A quarter of the budget is for neighbours of split nodes. Half of the room for each level leaves some for
+            // the ground before the eye.
+            let room = room.saturating_sub(budget / 4);
+            let most = (room / MORE_TILES / 2).max(usize::from(room >= MORE_TILES));
+            choice.seen += wanted.drain(most.min(wanted.len())..).filter(|tile| selection.sees(tile)).count();
+        }
         let children: Vec<NodeId> = wanted.iter().flat_map(|tile| tile.id.children()).collect();
         if !builder.build(&children, keep_going) {
             // Out of time: continue with the tiles that are there.

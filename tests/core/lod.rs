@@ -10,7 +10,7 @@ use tellus::lod::chords::chords;
 use tellus::lod::morph::{COARSEST_MORPHING, shifts_m};
 use tellus::lod::range::FULL_AT;
 use tellus::lod::tile::{TILE_QUADS, TILE_SIDE};
-use tellus::lod::{Camera, Culling, Quality, Tile, Vertex, View, opening};
+use tellus::lod::{Camera, Culling, Quality, Selection, Tile, Vertex, View, opening};
 use tellus::planet::{Fbm, Layer, Planet, Shape, random, shipped};
 use tellus::sphere::{Edge, LatLon};
 use tellus::terrain::Terrain;
@@ -298,4 +298,28 @@ fn a_view_never_shows_more_triangles_than_its_quality_allows() {
         assert!(seen <= most && seen > most / 2, "{what}, {most} are allowed");
         assert_meets(&surface);
     }
+}
+
+/// Walls everywhere: even the greatest LOD bias asks for more tiles than the budget has.
+#[test]
+fn ground_rugged_beyond_measure_stays_within_the_budget_and_whole() {
+    let shape = Shape::Fbm(Fbm { wavelength_km: 2.0, octaves: 18, gain: 0.9, ..Fbm::default() });
+    let layers = vec![Layer { amplitude_m: 100_000.0, shape, ..Layer::default() }];
+    let planet = Arc::new(Planet { radius_km: 50.0, layers, water: None, ..Planet::default() });
+    let place = LatLon::from_degrees(12.0, 40.0);
+    let ground_m = Terrain::try_new(planet.clone()).unwrap().height_m(place.direction());
+    let camera = Camera::over(place, planet.radius_m() + ground_m + 100.0, 0.4, -0.1, Camera::DEFAULT_FOV_Y_RAD);
+    let view = View { camera, size_px: [160, 90], quality: Quality::Low };
+    let surface = build_now(&planet, &view).unwrap();
+    let lowest_radius_m = lowest_radius_m(&surface.terrain);
+    let culling = Culling::new(&view, lowest_radius_m);
+    let seen = surface.leaves.iter().filter(|leaf| culling.sees(&leaf.tile)).count();
+    let most = budget_tiles(Quality::Low);
+    assert!(seen <= most && seen > most / 2, "{seen} of {most}");
+    let selection = Selection::new(&view, &surface.ranges, lowest_radius_m, None);
+    assert!(surface.leaves.iter().any(|leaf| selection.wants_split(&leaf.tile)), "the budget was not the limit");
+    // The ground before the eye is not what is left over.
+    let finest = surface.leaves.iter().map(|leaf| leaf.tile.id.level).max();
+    assert!(finest >= Some(8), "{finest:?}");
+    assert_meets(&surface);
 }
