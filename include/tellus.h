@@ -140,8 +140,8 @@ uint32_t tellus_biome_count(const struct TellusPlanet *planet);
 const char *tellus_biome_name(const struct TellusPlanet *planet, uint32_t biome);
 
 /**
- * The unit direction of a place in the planet frame, whose Z points to the north pole and whose X points to latitude 0,
- * longitude 0. False if `direction` is NULL.
+ * The unit direction of a place in the planet frame: Z points to the north pole, X to latitude 0 and longitude 0.
+ * False if `direction` is NULL.
  *
  * # Safety
  * `direction` is NULL or holds 3 numbers.
@@ -151,8 +151,8 @@ bool tellus_direction(double lat_deg,
                       double *direction);
 
 /**
- * Heights of the ground in metres under `count` directions of 3 numbers each, on the calling thread. False, and nothing
- * written, if that failed.
+ * Heights of the ground in metres under `count` directions of 3 numbers each, on the calling thread. False, and
+ * nothing written, if that failed.
  *
  * # Safety
  * `planet` is NULL or a planet of this library; `directions` is NULL or holds 3 `count` numbers, and `heights_m` is
@@ -191,8 +191,8 @@ double tellus_raycast(const struct TellusPlanet *planet,
  * The vertices of a square of the globe, `side` by `side`: positions in the planet frame (metres from the centre) and
  * unit normals, 3 numbers each, column by column within rows. Neighbours of one level share their edges to the bit.
  *
- * `face` is 0 to 5: +X, -X, +Y, -Y, +Z, -Z. A face has `2^level` by `2^level` squares, `level` 0 to 22. `normals` may be
- * NULL. False, and nothing written, if that failed.
+ * `face` is 0 to 5: +X, -X, +Y, -Y, +Z, -Z. A face has `2^level` by `2^level` squares, `level` 0 to 22. `normals` may
+ * be NULL. False, and nothing written, if that failed.
  *
  * # Safety
  * `planet` is NULL or a planet of this library; `positions_m` and `normals` are NULL or hold 3 `side` `side` numbers.
@@ -207,8 +207,8 @@ bool tellus_tile(const struct TellusPlanet *planet,
                  float *normals);
 
 /**
- * The triangles of a tile of `side` by `side` vertices: 6 (`side` - 1)^2 indices, counter-clockwise from outside. False,
- * and nothing written, if that failed.
+ * The triangles of a tile of `side` by `side` vertices: 6 (`side` - 1)^2 indices, counter-clockwise from outside.
+ * False, and nothing written, if that failed.
  *
  * # Safety
  * `indices` is NULL or holds 6 (`side` - 1)^2 numbers.

@@ -187,8 +187,8 @@ pub unsafe extern "C" fn tellus_biome_name(planet: *const TellusPlanet, biome: u
     })
 }
 
-/// The unit direction of a place in the planet frame: Z points to the north pole, X to latitude 0 and longitude 0. False
-/// if `direction` is NULL.
+/// The unit direction of a place in the planet frame: Z points to the north pole, X to latitude 0 and longitude 0.
+/// False if `direction` is NULL.
 ///
 /// # Safety
 /// `direction` is NULL or holds 3 numbers.

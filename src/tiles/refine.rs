@@ -184,7 +184,7 @@ fn choose(
             return choice;
         }
         let room = budget.saturating_sub(choice.seen + wanted.len());
-        if room == 0 && bias < RATIONED {
+        if choice.seen + wanted.len() > budget && bias < RATIONED {
             choice.seen += wanted.len();
             return choice;
         }
