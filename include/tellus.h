@@ -72,7 +72,7 @@ const char *tellus_last_error(void);
  * Loads a preset from a file, with its height maps. NULL if that failed.
  *
  * A planet with a structure solves its maps first, which takes a second or more. They are kept in `cache_folder` for
- * the next time; NULL keeps none.
+ * the next time, at most 1 GiB of them; NULL keeps none.
  *
  * # Safety
  * `path` and `cache_folder` are NULL or end with a zero byte.
@@ -141,7 +141,7 @@ const char *tellus_biome_name(const struct TellusPlanet *planet, uint32_t biome)
 
 /**
  * The unit direction of a place in the planet frame: Z points to the north pole, X to latitude 0 and longitude 0.
- * False if `direction` is NULL.
+ * `lat_deg` is -90 to 90. False, and nothing written, if that failed.
  *
  * # Safety
  * `direction` is NULL or holds 3 numbers.

@@ -88,7 +88,7 @@ namespace Tellus
         /// Heights of the ground under directions of three numbers each.
         public double[] Heights(double[] directions)
         {
-            var heightsM = new double[directions.Length / 3];
+            var heightsM = new double[Count(directions)];
             Check(Native.tellus_heights(this, directions, (UIntPtr)heightsM.Length, heightsM));
             return heightsM;
         }
@@ -96,7 +96,7 @@ namespace Tellus
         /// The surface under directions of three numbers each.
         public Sample[] Samples(double[] directions)
         {
-            var samples = new Sample[directions.Length / 3];
+            var samples = new Sample[Count(directions)];
             Check(Native.tellus_samples(this, directions, (UIntPtr)samples.Length, samples));
             return samples;
         }
@@ -125,6 +125,13 @@ namespace Tellus
         }
 
         public const uint MaxTileSide = 4097;
+
+        private static int Count(double[] directions)
+        {
+            if (directions.Length % 3 != 0)
+                throw new ArgumentException("directions have three numbers each, not " + directions.Length + " in all");
+            return directions.Length / 3;
+        }
 
         private static Planet Loaded(Planet planet)
         {

@@ -38,6 +38,15 @@ pub(super) unsafe fn text<'a>(text: *const c_char, name: &str) -> Result<&'a str
     unsafe { CStr::from_ptr(text) }.to_str().map_err(|error| format!("{name} is not UTF-8: {error}"))
 }
 
+/// A text of the caller's, or None for NULL.
+///
+/// # Safety
+/// As [`text`].
+pub(super) unsafe fn optional_text<'a>(words: *const c_char, name: &str) -> Result<Option<&'a str>, String> {
+    // SAFETY: the caller's promise.
+    if words.is_null() { Ok(None) } else { unsafe { text(words, name) }.map(Some) }
+}
+
 /// A buffer to read.
 ///
 /// # Safety

@@ -13,7 +13,7 @@ mod tests;
 use crate::planet::{Key, Planet};
 use crate::sphere::{Face, LatLon, NodeId};
 use crate::terrain::{MapStore, Scratch, Terrain, Wanted};
-use answers::{answer, input, last_error, output, text};
+use answers::{answer, input, last_error, optional_text, output, text};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::ffi::{CString, c_char};
@@ -74,7 +74,7 @@ pub extern "C" fn tellus_last_error() -> *const c_char {
 /// Loads a preset from a file, with its height maps. NULL if that failed.
 ///
 /// A planet with a structure solves its maps first, which takes a second or more. They are kept in `cache_folder` for
-/// the next time; NULL keeps none.
+/// the next time, at most 1 GiB of them; NULL keeps none.
 ///
 /// # Safety
 /// `path` and `cache_folder` are NULL or end with a zero byte.
@@ -85,9 +85,7 @@ pub unsafe extern "C" fn tellus_planet_from_file(
 ) -> *mut TellusPlanet {
     answer(std::ptr::null_mut(), || {
         // SAFETY: the caller's promise.
-        let path = unsafe { text(path, "path") }?;
-        // SAFETY: the caller's promise.
-        let folder = if cache_folder.is_null() { None } else { Some(unsafe { text(cache_folder, "cache_folder") }?) };
+        let (path, folder) = unsafe { (text(path, "path")?, optional_text(cache_folder, "cache_folder")?) };
         let planet = Planet::load(path).map_err(|error| error.to_string())?;
         ready(planet, folder)
     })
@@ -108,7 +106,7 @@ pub unsafe extern "C" fn tellus_planet_from_text(
         // SAFETY: the caller's promise.
         let (name, preset) = unsafe { (text(name, "name")?, text(preset, "preset")?) };
         // SAFETY: the caller's promise.
-        let folder = if cache_folder.is_null() { None } else { Some(unsafe { text(cache_folder, "cache_folder") }?) };
+        let folder = unsafe { optional_text(cache_folder, "cache_folder") }?;
         let mut planet = Planet::from_text(name, preset).map_err(|error| error.to_string())?;
         if let Some((path, why)) = planet.load_pictures().into_iter().next() {
             return Err(format!("{name}: {path}: {why}"));
@@ -188,13 +186,16 @@ pub unsafe extern "C" fn tellus_biome_name(planet: *const TellusPlanet, biome: u
 }
 
 /// The unit direction of a place in the planet frame: Z points to the north pole, X to latitude 0 and longitude 0.
-/// False if `direction` is NULL.
+/// `lat_deg` is -90 to 90. False, and nothing written, if that failed.
 ///
 /// # Safety
 /// `direction` is NULL or holds 3 numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tellus_direction(lat_deg: f64, lon_deg: f64, direction: *mut f64) -> bool {
     answer(false, || {
+        if !((-90.0..=90.0).contains(&lat_deg) && lon_deg.is_finite()) {
+            return Err(format!("{lat_deg},{lon_deg} is no location; use -90 to 90 and a finite number of degrees"));
+        }
         // SAFETY: the caller's promise.
         let direction = unsafe { output(direction, 3, "direction") }?;
         direction.copy_from_slice(&LatLon::from_degrees(lat_deg, lon_deg).direction().to_array());
@@ -219,7 +220,8 @@ pub unsafe extern "C" fn tellus_heights(
         // SAFETY: the caller's promise.
         let terrain = &unsafe { valid(planet) }?.terrain;
         // SAFETY: the caller's promise.
-        let (dirs, heights_m) = unsafe { (directions_of(directions, count)?, output(heights_m, count, "heights_m")?) };
+        let (dirs, heights_m) =
+            unsafe { (directions_of(directions, count, "directions")?, output(heights_m, count, "heights_m")?) };
         SCRATCH.with_borrow_mut(|scratch| terrain.heights_into(dirs, heights_m, scratch));
         Ok(true)
     })
@@ -242,7 +244,8 @@ pub unsafe extern "C" fn tellus_samples(
         // SAFETY: the caller's promise.
         let terrain = &unsafe { valid(planet) }?.terrain;
         // SAFETY: the caller's promise.
-        let (dirs, samples) = unsafe { (directions_of(directions, count)?, output(samples, count, "samples")?) };
+        let (dirs, samples) =
+            unsafe { (directions_of(directions, count, "directions")?, output(samples, count, "samples")?) };
         SCRATCH.with_borrow_mut(|scratch| {
             const BATCH: usize = 256;
             let mut found = [crate::terrain::Sample::default(); BATCH];
@@ -274,7 +277,7 @@ pub unsafe extern "C" fn tellus_raycast(
         // SAFETY: the caller's promise.
         let origin_m = DVec3::from_slice(unsafe { input(origin_m, 3, "origin_m") }?);
         // SAFETY: the caller's promise.
-        let dir = unsafe { directions_of(direction, 1) }?[0];
+        let dir = unsafe { directions_of(direction, 1, "direction") }?[0];
         if !origin_m.is_finite() {
             return Err("origin_m is not finite".to_owned());
         }
@@ -387,12 +390,12 @@ unsafe fn valid<'a>(planet: *const TellusPlanet) -> Result<&'a TellusPlanet, Str
 
 /// # Safety
 /// `numbers` is NULL or holds 3 `count` numbers that outlive the answer.
-unsafe fn directions_of<'a>(numbers: *const f64, count: usize) -> Result<&'a [DVec3], String> {
+unsafe fn directions_of<'a>(numbers: *const f64, count: usize, name: &str) -> Result<&'a [DVec3], String> {
     const { assert!(size_of::<DVec3>() == 24 && align_of::<DVec3>() == align_of::<f64>()) };
     // SAFETY: three numbers lie in memory as a vector does; the caller's promise.
-    let dirs: &[DVec3] = unsafe { input(numbers.cast(), count, "directions") }?;
+    let dirs: &[DVec3] = unsafe { input(numbers.cast(), count, name) }?;
     match dirs.iter().position(|dir| !dir.is_finite() || *dir == DVec3::ZERO) {
-        Some(index) => Err(format!("direction {index} is zero or not finite")),
+        Some(index) => Err(format!("{name}: vector {index} is zero or not finite; use a direction of any length")),
         None => Ok(dirs),
     }
 }

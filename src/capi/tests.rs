@@ -24,15 +24,18 @@ fn load(text: &str) -> *mut TellusPlanet {
     unsafe { tellus_planet_from_text(c"test.ron".as_ptr(), text.as_ptr(), std::ptr::null()) }
 }
 
+fn preset() -> &'static shipped::Shipped {
+    shipped::ALL.iter().find(|preset| preset.file == "pallor.ron").unwrap()
+}
+
 fn pallor() -> Held {
-    Held(load(shipped::ALL.iter().find(|preset| preset.file == "pallor.ron").unwrap().text))
+    Held(load(preset().text))
 }
 
 #[test]
 fn answers_are_those_of_the_evaluator() {
     let planet = pallor();
-    let preset = shipped::ALL.iter().find(|preset| preset.file == "pallor.ron").unwrap();
-    let terrain = Terrain::try_new(preset.load().unwrap().into()).unwrap();
+    let terrain = Terrain::try_new(preset().load().unwrap().into()).unwrap();
     let dirs: Vec<DVec3> = crate::sphere::spread(700).collect();
     let numbers: Vec<f64> = dirs.iter().flat_map(DVec3::to_array).collect();
     let mut heights_m = vec![0.0; dirs.len()];
@@ -102,8 +105,21 @@ fn what_cannot_be_done_is_told_and_leaves_the_buffers_alone() {
     assert_eq!(ask(std::ptr::null(), up.as_ptr(), 2, false), "planet is NULL");
     assert_eq!(ask(planet.0, std::ptr::null(), 2, false), "directions is NULL");
     assert_eq!(ask(planet.0, up.as_ptr(), 2, true), "heights_m is NULL");
-    assert_eq!(ask(planet.0, bad.as_ptr(), 2, false), "direction 1 is zero or not finite");
+    assert_eq!(
+        ask(planet.0, bad.as_ptr(), 2, false),
+        "directions: vector 1 is zero or not finite; use a direction of any length"
+    );
     assert!(ask(planet.0, up.as_ptr(), usize::MAX / 2, false).contains("cannot hold"));
+    // SAFETY: NULL is refused, and a direction that is refused is not read.
+    let is_nan = |from: *const f64| unsafe { tellus_raycast(planet.0, from, std::ptr::null()) }.is_nan();
+    assert!(is_nan(std::ptr::null()) && error() == "origin_m is NULL", "{}", error());
+    assert!(is_nan(up.as_ptr()) && error() == "direction is NULL", "{}", error());
+    for (lat_deg, lon_deg) in [(f64::NAN, 0.0), (91.0, 0.0), (0.0, f64::INFINITY)] {
+        let mut direction = [7.0; 3];
+        // SAFETY: the buffer holds 3 numbers.
+        assert!(!unsafe { tellus_direction(lat_deg, lon_deg, direction.as_mut_ptr()) } && direction == [7.0; 3]);
+        assert!(error().contains("is no location; use -90 to 90"), "{}", error());
+    }
     let mut room = [0.0; 12];
     // SAFETY: the buffer is large enough for a side of 2; other sides are refused.
     let mut tile = |face, level, x, side| unsafe {

@@ -61,4 +61,15 @@ mod tests {
         // The hash of `7`; keys outlive a process once maps are kept on disk.
         assert_eq!(Key::of(&7), Key(0xd228_cb69_3d1a_8caf_7891_2b70_4e4a_4bde));
     }
+    #[test]
+    fn the_key_of_a_planet_is_of_its_surface_and_not_of_its_place() {
+        let planet = Planet { layers: vec![crate::planet::Layer::default()], ..Planet::default() };
+        let key = Key::of_planet(&planet);
+        let mut other = planet.clone();
+        other.editor = Some(crate::planet::EditorNotes::default());
+        other.set_folder(std::path::Path::new("/somewhere/else"));
+        assert_eq!(Key::of_planet(&other), key);
+        other.layers[0].amplitude_m += 1.0;
+        assert_ne!(Key::of_planet(&other), key);
+    }
 }
