@@ -149,7 +149,7 @@ pub(super) fn srgb_byte(value: f64) -> u8 {
 }
 
 /// IEC 61966-2-1, from 0 to 1. The renderer has the same; this one gives the same bits on every machine.
-fn srgb_from_linear(value: f64) -> f64 {
+pub(super) fn srgb_from_linear(value: f64) -> f64 {
     let value = value.clamp(0.0, 1.0);
     if value <= 0.003_130_8 { value * 12.92 } else { 1.055 * libm::pow(value, 1.0 / 2.4) - 0.055 }
 }

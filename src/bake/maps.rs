@@ -270,13 +270,13 @@ pub(super) fn mean_color(biome: &Biome) -> [f64; 3] {
 }
 
 /// Depth of the water over the ground.
-fn depth_m(sample: &Sample) -> f64 {
+pub(super) fn depth_m(sample: &Sample) -> f64 {
     sample.water_level_m.map_or(0.0, |level_m| level_m - sample.height_m)
 }
 
 /// The colour of the ground through the water over it, seen and lit from straight above: light passes the water twice
 /// (Beer, Lambert), and deep water scatters its own colour back. Lakes have the water of the sea, or common water.
-fn through_water(planet: &Planet, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
+pub(super) fn through_water(planet: &Planet, sample: &Sample, ground: [f64; 3]) -> [f64; 3] {
     let depth_m = depth_m(sample);
     if depth_m <= 0.0 {
         return ground;

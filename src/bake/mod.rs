@@ -1,4 +1,4 @@
-//! Maps of a planet in files: heights, normals, climate, biomes, water, clouds.
+//! Maps of a planet in files: heights, normals, climate, biomes, water, clouds. Meshes are in [`mesh`].
 //!
 //! Baked values are the evaluator's: the value of a pixel is what [`Terrain::sample`] answers at the pixel's centre, to
 //! half a step of the file's numbers. With [`Detail::Pixel`] it is what the evaluator answers for points as far apart
@@ -12,6 +12,7 @@
 //! - `maps`: what can be baked; `projection`: where pixels lie; `format`: kinds of file, and steps of their numbers
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
+//! - `mesh`: meshes with textures
 //! - `preview`: a small picture of a map; `progress`, `error`
 
 mod error;
@@ -19,6 +20,7 @@ mod format;
 mod geotiff;
 mod ktx2;
 mod maps;
+pub mod mesh;
 mod openexr;
 mod png;
 mod preview;
@@ -263,17 +265,8 @@ impl Bake {
         if self.projection == Projection::Equirect && !size.is_multiple_of(2) {
             return Err(format!("{size} is odd, and the map is half as high as wide; use {}", size + 1));
         }
-        if let Projection::Region(Region { lat_deg, lon_deg, side_km }) = self.projection {
-            let longest_km = longest_side_km(planet.radius_km);
-            if !(side_km > 0.0 && side_km <= longest_km) {
-                return Err(format!(
-                    "a region of {side_km} km is out of range; use more than 0 and at most {longest_km:.0} km on {}",
-                    planet.name
-                ));
-            }
-            if !((-90.0..=90.0).contains(&lat_deg) && lon_deg.abs() <= 360.0) {
-                return Err(format!("{lat_deg},{lon_deg} is no location; use -90 to 90 and -360 to 360 degrees"));
-            }
+        if let Projection::Region(region) = &self.projection {
+            region.check(planet)?;
         }
         if !self.time_secs.is_finite() {
             return Err(format!("a time of {} s is out of range; use a finite number", self.time_secs));

@@ -4,12 +4,13 @@
 //! - Cube: six flat faces in the order +X, -X, +Y, -Y, +Z, -Z of [`Face::ALL`](crate::sphere::Face::ALL), turned as
 //!   WebGPU, Vulkan, Direct3D and OpenGL expect the faces of a cube texture that is sampled with directions in the
 //!   planet frame.
-//! - Region: azimuthal equidistant about a centre (Snyder 1987, "Map projections: a working manual", chapter 25): true
-//!   distances and bearings from the centre; north is up there. Square pixels.
+//! - Region: azimuthal equidistant about a centre, see [`Tangent::direction`]: true distances and bearings from the
+//!   centre; north is up there. Square pixels.
 
+use crate::planet::Planet;
 use crate::sphere::LatLon;
 use crate::sphere::cube::texture_direction;
-use crate::sphere::geo::east_north;
+use crate::sphere::tangent::Tangent;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -33,6 +34,24 @@ pub struct Region {
     pub lon_deg: f64,
     /// Length of a side, from the outer edge of the first pixel to that of the last, through the centre.
     pub side_km: f64,
+}
+
+impl Region {
+    /// What is wrong with it.
+    pub(super) fn check(&self, planet: &Planet) -> Result<(), String> {
+        let Self { lat_deg, lon_deg, side_km } = self;
+        let longest_km = longest_side_km(planet.radius_km);
+        if !(*side_km > 0.0 && *side_km <= longest_km) {
+            return Err(format!(
+                "a region of {side_km} km is out of range; use more than 0 and at most {longest_km:.0} km on {}",
+                planet.name
+            ));
+        }
+        if !((-90.0..=90.0).contains(lat_deg) && lon_deg.abs() <= 360.0) {
+            return Err(format!("{lat_deg},{lon_deg} is no location; use -90 to 90 and -360 to 360 degrees"));
+        }
+        Ok(())
+    }
 }
 
 impl Projection {
@@ -63,16 +82,8 @@ enum Kind {
         columns: Vec<(f64, f64)>,
     },
     Cube,
-    Region(Tangent),
-}
-
-/// The plane of a region.
-struct Tangent {
-    center: DVec3,
-    east: DVec3,
-    north: DVec3,
-    /// Angle at the planet's centre between two pixels beside the middle.
-    pixel_rad: f64,
+    /// The plane of a region, and the angle at the planet's centre between two pixels beside the middle.
+    Region(Tangent, f64),
 }
 
 impl Grid {
@@ -91,9 +102,8 @@ impl Grid {
             }
             Projection::Cube => Kind::Cube,
             Projection::Region(region) => {
-                let center = LatLon::from_degrees(region.lat_deg, region.lon_deg).direction();
-                let (east, north) = east_north(center);
-                Kind::Region(Tangent { center, east, north, pixel_rad: region.side_km / radius_km / side })
+                let tangent = Tangent::at(LatLon::from_degrees(region.lat_deg, region.lon_deg));
+                Kind::Region(tangent, region.side_km / radius_km / side)
             }
         };
         Self { width: size, height, kind }
@@ -104,7 +114,7 @@ impl Grid {
         match &self.kind {
             Kind::Equirect { .. } => TAU / f64::from(self.width),
             Kind::Cube => 2.0 / f64::from(self.width),
-            Kind::Region(Tangent { pixel_rad, .. }) => *pixel_rad,
+            Kind::Region(_, pixel_rad) => *pixel_rad,
         }
     }
 
@@ -129,15 +139,10 @@ impl Grid {
                 let side = self.width as usize;
                 texture_direction(picture, side, f64::from(x) + 0.5, f64::from(y) + 0.5)
             }
-            Kind::Region(Tangent { center, east, north, pixel_rad }) => {
+            Kind::Region(tangent, pixel_rad) => {
                 let middle = f64::from(self.width) / 2.0;
                 let (right, up) = (f64::from(x) + 0.5 - middle, middle - f64::from(y) - 0.5);
-                let away = libm::hypot(right, up);
-                if away == 0.0 {
-                    return *center;
-                }
-                let (sin, cos) = libm::sincos(away * pixel_rad);
-                (*center * cos + (*east * right + *north * up) * (sin / away)).normalize()
+                tangent.direction(right * pixel_rad, up * pixel_rad)
             }
         }
     }

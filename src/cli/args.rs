@@ -63,6 +63,16 @@ pub(super) fn focal_length(text: &str) -> Result<f64, String> {
     number(text, 4.0, 1300.0)
 }
 
+/// A depth in metres, or none.
+pub(super) fn depth(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1e12)
+}
+
+/// A factor on lengths.
+pub(super) fn scale(text: &str) -> Result<f64, String> {
+    number(text, 1e-9, 1e9)
+}
+
 /// A length in metres that is not 0.
 pub(super) fn length(text: &str) -> Result<f64, String> {
     number(text, 1e-4, 1e12)

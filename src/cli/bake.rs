@@ -121,7 +121,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Tells a person at a terminal how much is done, if it takes long.
-fn told() -> impl Fn(f64) -> bool + Sync {
+pub(super) fn told() -> impl Fn(f64) -> bool + Sync {
     let (start, last) = (Instant::now(), AtomicU32::new(0));
     let is_read = std::io::stderr().is_terminal();
     move |done| {

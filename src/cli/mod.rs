@@ -1,7 +1,7 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `film`, `check`, `sample`, `bake`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands
+//! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands
 //! - `points`: many points for `sample`
 //! - `headless`: a GPU without a window
 //! - `camera`: what a photographer sets, for `render` and `film`
@@ -16,6 +16,7 @@ mod check;
 mod film;
 mod headless;
 mod maps;
+mod mesh;
 mod new;
 mod points;
 mod render;
@@ -51,6 +52,7 @@ enum Command {
     Check(check::Args),
     Sample(sample::Args),
     Bake(Box<bake::Args>),
+    Mesh(Box<mesh::Args>),
     Rivers(rivers::Args),
     Maps(maps::Args),
     Sky(sky::Args),
@@ -99,6 +101,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
         Some(Command::Bake(args)) => bake::run(&args),
+        Some(Command::Mesh(args)) => mesh::run(&args),
         Some(Command::Rivers(args)) => rivers::run(&args),
         Some(Command::Maps(args)) => maps::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),

@@ -7,13 +7,16 @@
 //! - [`cube`]: faces and the mapping, with its inverse
 //! - [`node`]: addresses of quadtree nodes and their neighbours across all face edges
 //! - [`geo`]: latitude, longitude, local north and east, evenly spread directions
+//! - [`tangent`]: the local frame of a place
 //! - [`raster`]: grids of numbers over the sphere, sampled smoothly
 
 pub mod cube;
 pub mod geo;
 pub mod node;
 pub mod raster;
+pub mod tangent;
 
 pub use cube::Face;
 pub use geo::{LatLon, spread};
 pub use node::{Edge, NodeId};
+pub use tangent::Tangent;

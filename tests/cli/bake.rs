@@ -14,13 +14,13 @@ use std::time::{Duration, Instant};
 use tellus::sphere::LatLon;
 use tellus::sphere::geo::east_north;
 
-fn command(args: &[&str]) -> assert_cmd::Command {
+pub(crate) fn command(args: &[&str]) -> assert_cmd::Command {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tellus");
     command.env("TELLUS_MAPS", "").current_dir(env!("CARGO_MANIFEST_DIR")).args(args);
     command
 }
 
-fn run(args: &[&str]) -> (i32, String) {
+pub(crate) fn run(args: &[&str]) -> (i32, String) {
     let output = command(args).output().unwrap();
     assert_eq!(output.stdout, b"");
     (output.status.code().unwrap_or(-1), String::from_utf8(output.stderr).unwrap())
@@ -42,7 +42,7 @@ fn about(folder: &Path, name: &str) -> Value {
 }
 
 /// The answers of `tellus sample` at locations.
-fn sampled(places: &[(f64, f64)]) -> Vec<Value> {
+pub(crate) fn sampled(places: &[(f64, f64)]) -> Vec<Value> {
     let mut input = String::new();
     for (lat, lon) in places {
         writeln!(input, "{lat},{lon}").unwrap();

@@ -3,6 +3,7 @@
 //! - `bake`: maps against `tellus sample`; `decode`: readers of their files
 //! - `commands`: answers, messages, exit status
 //! - `rivers`: rivers as GeoJSON, many points
+//! - `mesh`: meshes against `tellus sample`
 //! - `house`: the length of files and comments
 //! - `hostile`: broken and oversized files
 //! - `readme`: the README's examples, presets and pictures
@@ -14,6 +15,7 @@ mod decode;
 #[cfg(unix)]
 mod hostile;
 mod house;
+mod mesh;
 mod readme;
 mod rivers;
 

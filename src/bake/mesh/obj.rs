@@ -1,0 +1,109 @@
+//! Wavefront OBJ with a material file (MTL) and textures beside it. Each level of detail is an object; colours at
+//! vertices follow their positions, as many readers expect.
+
+use super::geometry::Geometry;
+use super::surface::WATER_ROUGHNESS;
+use super::{MADE_BY, MeshBake, Piece, beside};
+use crate::bake::BakeError;
+use crate::bake::format::srgb_from_linear;
+use crate::planet::Water;
+use crate::planet::file::{write_atomically, write_atomically_with};
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes the file and those beside it. The OBJ comes last: what it names is there.
+pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece]) -> Result<Vec<PathBuf>, BakeError> {
+    let mut files = Vec::new();
+    let mut write = |path: PathBuf, bytes: &[u8]| -> Result<String, BakeError> {
+        write_atomically(&path, bytes).map_err(|error| BakeError::file(&path, error))?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        files.push(path);
+        Ok(name)
+    };
+    let mut materials = format!("# {MADE_BY}\n");
+    for piece in pieces {
+        materials.push_str(&format!("\nnewmtl {}\nKs 0 0 0\nPr 0.9\n", piece.name));
+        if let Some(textures) = &piece.textures {
+            let mut texture =
+                |kind: &str, bytes: &[u8]| write(beside(path, &format!("_{}_{kind}.png", piece.name)), bytes);
+            let albedo = texture("albedo", &textures.albedo)?;
+            let normal = texture("normal", &textures.normal)?;
+            let roughness = texture("roughness", &textures.roughness)?;
+            materials.push_str(&format!("Kd 1 1 1\nmap_Kd {albedo}\nnorm {normal}\nmap_Pr {roughness}\n"));
+        }
+    }
+    if pieces.iter().any(|piece| !piece.water.is_empty()) {
+        materials.push_str(&water_material(mesh.terrain.planet().water.as_ref()));
+    }
+    let library = write(beside(path, ".mtl"), materials.as_bytes())?;
+    let encode = &mut |file: &mut File| encode(mesh, pieces, &library, BufWriter::new(file));
+    write_atomically_with(path, None, encode).map_err(|error| BakeError::file(path, error))?;
+    files.insert(0, path.to_owned());
+    Ok(files)
+}
+
+fn encode(mesh: &MeshBake, pieces: &[Piece], library: &str, mut out: impl Write) -> io::Result<()> {
+    writeln!(out, "# {MADE_BY}")?;
+    if let Some(about) = mesh.about().as_object() {
+        for (key, value) in about {
+            writeln!(out, "# {key}: {value}")?;
+        }
+    }
+    writeln!(out, "mtllib {library}")?;
+    let mut first = 1;
+    for piece in pieces {
+        for (level, geometry) in piece.levels.iter().enumerate() {
+            let name =
+                if piece.levels.len() > 1 { format!("{}_LOD{level}", piece.name) } else { piece.name.to_owned() };
+            object(&mut out, &name, piece.name, geometry, piece.textures.is_none(), &mut first)?;
+        }
+        for (level, geometry) in piece.water.iter().enumerate() {
+            let name = if piece.levels.len() > 1 { format!("_LOD{level}") } else { String::new() };
+            object(&mut out, &format!("{}_water{name}", piece.name), "water", geometry, false, &mut first)?;
+        }
+    }
+    out.flush()
+}
+
+/// `first`: number of the object's first vertex in the file.
+fn object(
+    out: &mut impl Write,
+    name: &str,
+    material: &str,
+    geometry: &Geometry,
+    has_colors: bool,
+    first: &mut usize,
+) -> io::Result<()> {
+    writeln!(out, "o {name}\nusemtl {material}")?;
+    let mut line = String::new();
+    for (i, position) in geometry.positions.iter().enumerate() {
+        line.clear();
+        let _ = write!(line, "v {} {} {}", position.x, position.y, position.z);
+        if let Some(color) = geometry.colors.get(i).filter(|_| has_colors) {
+            let [red, green, blue] = color.to_array().map(|value| srgb_from_linear(value.into()));
+            let _ = write!(line, " {red:.4} {green:.4} {blue:.4}");
+        }
+        writeln!(out, "{line}")?;
+    }
+    for normal in &geometry.normals {
+        writeln!(out, "vn {:.5} {:.5} {:.5}", normal.x, normal.y, normal.z)?;
+    }
+    // Pictures begin at the lower left here.
+    for uv in &geometry.uvs {
+        writeln!(out, "vt {} {}", uv.x, 1.0 - uv.y)?;
+    }
+    for triangle in &geometry.triangles {
+        let [a, b, c] = triangle.map(|index| index as usize + *first);
+        writeln!(out, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}")?;
+    }
+    *first += geometry.positions.len();
+    Ok(())
+}
+
+fn water_material(water: Option<&Water>) -> String {
+    let common = Water::default();
+    let [red, green, blue] = water.unwrap_or(&common).color.map(srgb_from_linear);
+    format!("\nnewmtl water\nKd {red:.4} {green:.4} {blue:.4}\nKs 0 0 0\nd 0.75\nPr {WATER_ROUGHNESS}\n")
+}

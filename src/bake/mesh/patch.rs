@@ -1,0 +1,90 @@
+//! The vertices of a square.
+
+use super::square::Square;
+use super::surface::{BAND, Point, Surface};
+use crate::bake::progress::Progress;
+use glam::{DVec3, Vec3};
+
+/// A square of vertices in the frame of the mesh, row by row from the top.
+pub(super) struct Patch {
+    /// Vertices along a side.
+    pub(super) side: usize,
+    pub(super) vertices: Vec<Vertex>,
+    /// The centre of the planet, metres.
+    pub(super) center_m: DVec3,
+}
+
+pub(super) struct Vertex {
+    pub(super) position_m: DVec3,
+    pub(super) normal: Vec3,
+    /// Unit vector along the surface to where `u` grows.
+    pub(super) tangent: Vec3,
+    /// Linear sRGB.
+    pub(super) color: Vec3,
+    /// The surface of the water over the vertex, where that is a mesh of its own.
+    pub(super) water_m: Option<DVec3>,
+}
+
+impl Patch {
+    pub(super) fn new(square: &Square, cells: u32, surface: &Surface<'_>, progress: &Progress<'_>) -> Self {
+        let side = cells as usize + 1;
+        let direction = |row: usize, column: usize| {
+            square.direction(column as f64 / f64::from(cells), row as f64 / f64::from(cells))
+        };
+        let mut vertices = Vec::with_capacity(side * side);
+        for first in (0..side).step_by(BAND) {
+            let rows = first..(first + BAND).min(side);
+            let points = surface.band(rows, side, &direction, square.spacing_rad(cells), progress);
+            for row in points.chunks_exact(side) {
+                let dir = |i: usize| row[i.min(side - 1)].dir_planet;
+                let along = |i: usize| dir(i + 1) - dir(i.saturating_sub(1));
+                vertices.extend(row.iter().enumerate().map(|(i, point)| vertex(square, point, along(i), surface)));
+            }
+        }
+        Self { side, vertices, center_m: square.center_m() }
+    }
+
+    /// The vertex of a row and a column.
+    pub(super) fn at(&self, row: usize, column: usize) -> &Vertex {
+        &self.vertices[row * self.side + column]
+    }
+
+    /// Normal and tangent between vertices, as a renderer interpolates them over a triangle. Not of unit length.
+    pub(super) fn between(&self, u: f64, v: f64) -> (DVec3, DVec3) {
+        let cells = self.side - 1;
+        let cell = |w: f64| {
+            let at = w * cells as f64;
+            let first = (at as usize).min(cells - 1);
+            (first, at - first as f64)
+        };
+        let ((column, right), (row, down)) = (cell(u), cell(v));
+        // The diagonal of a cell runs from its lower left to its upper right corner.
+        let (corners, weights) = if right + down <= 1.0 {
+            ([(0, 0), (0, 1), (1, 0)], [1.0 - right - down, right, down])
+        } else {
+            ([(1, 1), (1, 0), (0, 1)], [right + down - 1.0, 1.0 - right, 1.0 - down])
+        };
+        let mut sums = (DVec3::ZERO, DVec3::ZERO);
+        for ((below, beside), weight) in corners.into_iter().zip(weights) {
+            let vertex = self.at(row + below, column + beside);
+            sums.0 += vertex.normal.as_dvec3() * weight;
+            sums.1 += vertex.tangent.as_dvec3() * weight;
+        }
+        sums
+    }
+}
+
+/// `along`: a chord to where `u` grows, in the planet frame.
+fn vertex(square: &Square, point: &Point, along: DVec3, surface: &Surface<'_>) -> Vertex {
+    let (dir, normal) = (point.dir_planet, point.normal_planet);
+    // The vector of the tangent plane whose horizontal part is `along`.
+    let tangent = along - dir * (normal.dot(along) / normal.dot(dir));
+    let level_m = point.water_level_m.filter(|_| surface.has_water_apart());
+    Vertex {
+        position_m: square.position_m(dir, point.height_m),
+        normal: square.turned(normal).as_vec3(),
+        tangent: square.turned(tangent.normalize()).as_vec3(),
+        color: DVec3::from_array(point.color).as_vec3(),
+        water_m: level_m.map(|level_m| square.position_m(dir, level_m)),
+    }
+}

@@ -1,0 +1,251 @@
+//! Meshes of a small planet: their vertices, borders, triangles, skirts, water and textures.
+
+use super::*;
+use crate::planet::Planet;
+use crate::sphere::LatLon;
+use glam::{DVec3, Vec3};
+use std::collections::{HashMap, HashSet};
+
+const PLANET: &str = r#"(
+    version: 3,
+    name: "Islet",
+    radius_km: 40.0,
+    layers: [(name: "Hills", amplitude_m: 800.0, shape: Fbm(wavelength_km: 12.0, octaves: 4))],
+    water: (level_m: -50.0),
+)"#;
+
+const REGION: Area = Area::Region(Region { lat_deg: 20.0, lon_deg: -40.0, side_km: 8.0 });
+
+fn mesh(area: Area, cells: u32) -> MeshBake {
+    let planet = Planet::from_text("islet.ron", PLANET).unwrap();
+    MeshBake::new(Arc::new(Terrain::try_new(planet.into()).unwrap()), area, cells, MeshFormat::Glb)
+}
+
+fn patches(mesh: &MeshBake) -> Vec<(Square, Patch)> {
+    let surface = Surface::new(mesh);
+    let progress = Progress::new(1, &|_| true);
+    let squares = Square::all(&mesh.area, mesh.terrain.planet().radius_m());
+    let patch = |square| {
+        let patch = Patch::new(&square, mesh.cells, &surface, &progress);
+        (square, patch)
+    };
+    squares.into_iter().map(patch).collect()
+}
+
+fn patch(mesh: &MeshBake) -> (Square, Patch) {
+    patches(mesh).swap_remove(0)
+}
+
+#[test]
+fn vertices_lie_where_the_evaluator_puts_them() {
+    for area in [Area::Globe, REGION] {
+        for water in MeshWater::ALL {
+            let mesh = MeshBake { water, ..mesh(area, 12) };
+            let mut wet = 0;
+            for (square, patch) in patches(&mesh) {
+                for (i, vertex) in patch.vertices.iter().enumerate() {
+                    let (row, column) = (i / patch.side, i % patch.side);
+                    let dir = square.direction(column as f64 / 12.0, row as f64 / 12.0);
+                    let sample = mesh.terrain.sample(dir);
+                    let level_m = sample.water_level_m.filter(|level_m| *level_m > sample.height_m);
+                    wet += usize::from(level_m.is_some());
+                    let height_m = match water {
+                        MeshWater::Surface => level_m.unwrap_or(sample.height_m),
+                        _ => sample.height_m,
+                    };
+                    assert!((vertex.position_m.distance(patch.center_m) - 40_000.0 - height_m).abs() < 1e-6);
+                    let apart = vertex.water_m.map(|water_m| water_m.distance(patch.center_m) - 40_000.0);
+                    match level_m.filter(|_| water == MeshWater::Apart) {
+                        Some(level_m) => assert!(apart.is_some_and(|apart| (apart - level_m).abs() < 1e-6)),
+                        None => assert_eq!(apart, None),
+                    }
+                    assert!((vertex.normal.length() - 1.0).abs() < 1e-5);
+                    assert!((vertex.tangent.length() - 1.0).abs() < 1e-5);
+                    assert!(vertex.normal.dot(vertex.tangent).abs() < 1e-5);
+                }
+            }
+            assert!(wet > 10, "{area:?}: {wet}");
+        }
+    }
+}
+
+#[test]
+fn a_globe_has_no_gap_and_no_triangle_that_faces_inwards() {
+    let mesh = MeshBake { levels: 3, ..mesh(Area::Globe, 8) };
+    for stride in [1, 2, 4] {
+        // Each edge of the surface, between positions as they are in the file, is run through once in each direction.
+        let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
+        for (_, patch) in patches(&mesh) {
+            let geometry = Geometry::new(&patch, stride, 0.0, 1.0);
+            for triangle in &geometry.triangles {
+                let [a, b, c] = triangle.map(|index| geometry.positions[index as usize]);
+                assert!((b - a).cross(c - a).dot(a + b + c) > 0.0);
+                for [from, to] in [[a, b], [b, c], [c, a]] {
+                    *edges.entry([from, to].map(|p| (p + 0.0).to_array().map(f32::to_bits))).or_default() += 1;
+                }
+            }
+        }
+        assert!(!edges.is_empty());
+        for ([from, to], count) in &edges {
+            assert_eq!((*count, edges.get(&[*to, *from])), (1, Some(&1)), "stride {stride}");
+        }
+    }
+}
+
+#[test]
+fn normals_of_a_globe_agree_across_the_borders_of_squares() {
+    let mut seen: HashMap<[u32; 3], Vec3> = HashMap::new();
+    let mut shared = 0;
+    for (_, patch) in patches(&mesh(Area::Globe, 8)) {
+        for vertex in &patch.vertices {
+            let key = (vertex.position_m.as_vec3() + 0.0).to_array().map(f32::to_bits);
+            match seen.insert(key, vertex.normal) {
+                Some(normal) => {
+                    shared += 1;
+                    assert_eq!(normal, vertex.normal);
+                }
+                None => {}
+            }
+        }
+    }
+    // 12 edges of 7 inner vertices, and two more at each of 8 corners.
+    assert_eq!(shared, 12 * 7 + 8 * 2);
+}
+
+#[test]
+fn frames_are_those_of_gltf() {
+    let radius_m = 40_000.0;
+    let at = |area: &Area, lat_deg: f64, lon_deg: f64| {
+        let squares = Square::all(area, radius_m);
+        squares[0].position_m(LatLon::from_degrees(lat_deg, lon_deg).direction(), 0.0)
+    };
+    for (lat_deg, lon_deg, axis) in [(90.0, 0.0, DVec3::Y), (0.0, 0.0, DVec3::X), (0.0, 90.0, DVec3::NEG_Z)] {
+        assert!(at(&Area::Globe, lat_deg, lon_deg).distance(axis * radius_m) < 1e-6);
+    }
+    assert!(at(&REGION, 20.0, -40.0).length() < 1e-6);
+    let north = at(&REGION, 20.1, -40.0);
+    assert!(north.z < -60.0 && north.x.abs() < 1e-6 && north.y < 0.0, "{north}");
+    let east = at(&REGION, 20.0, -39.9);
+    assert!(east.x > 60.0 && east.z.abs() < 0.1, "{east}");
+    let square = &Square::all(&REGION, radius_m)[0];
+    assert!(square.center_m().distance(DVec3::new(0.0, -radius_m, 0.0)) < 1e-6);
+    // The middle of the upper side of a texture is north.
+    let top = square.direction(0.5, 0.0);
+    assert!(square.position_m(top, 0.0).z < -3900.0);
+}
+
+#[test]
+fn skirts_hang_from_the_border_and_face_outwards() {
+    let mesh = MeshBake { skirt_m: 100.0, ..mesh(REGION, 8) };
+    let (_, patch) = patch(&mesh);
+    for stride in [1, 2] {
+        let bare = Geometry::new(&patch, stride, 0.0, 1.0);
+        let skirted = Geometry::new(&patch, stride, 100.0, 1.0);
+        let border = 4 * 8 / stride;
+        assert_eq!(skirted.positions.len(), bare.positions.len() + border);
+        assert_eq!(skirted.triangles.len(), bare.triangles.len() + 2 * border);
+        let center = patch.center_m.as_vec3();
+        let above: HashSet<_> = skirted.triangles[bare.triangles.len()..].iter().flatten().collect();
+        assert_eq!(above.len(), 2 * border);
+        for triangle in &skirted.triangles[bare.triangles.len()..] {
+            let [a, b, c] = triangle.map(|index| skirted.positions[index as usize]);
+            let middle = (a + b + c) / 3.0;
+            let out = Vec3::new(middle.x, 0.0, middle.z);
+            assert!((b - a).cross(c - a).dot(out) > 0.0, "{a} {b} {c}");
+        }
+        for below in &skirted.positions[bare.positions.len()..] {
+            let hangs = |from: &Vec3| {
+                let drop = from.distance(*below);
+                (drop - 100.0).abs() < 0.1 && (from.distance(center) - below.distance(center) - 100.0).abs() < 0.1
+            };
+            assert!(bare.positions.iter().any(hangs), "{below}");
+        }
+    }
+}
+
+#[test]
+fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
+    let mesh = MeshBake { water: MeshWater::Apart, ..mesh(REGION, 32) };
+    let (_, patch) = patch(&mesh);
+    let wet: Vec<_> = patch.vertices.iter().filter_map(|vertex| vertex.water_m).collect();
+    let water = Geometry::water(&patch, 1, 1.0).unwrap();
+    assert!(wet.len() > 20 && wet.len() < water.positions.len(), "{} of {}", wet.len(), water.positions.len());
+    assert!(water.positions.len() < patch.vertices.len());
+    // A sea is level.
+    for position in &water.positions {
+        assert!((position.as_dvec3().distance(patch.center_m) - 39_950.0).abs() < 0.01);
+    }
+    for water_m in wet {
+        assert!(water.positions.iter().any(|position| position.distance(water_m.as_vec3()) < 0.01));
+    }
+    let dry = MeshBake { water: MeshWater::Surface, ..mesh };
+    assert!(Geometry::water(&self::patch(&dry).1, 1, 1.0).is_none());
+}
+
+#[test]
+fn textures_of_normals_turn_the_meshs_normals_into_the_grounds() {
+    let mesh = MeshBake { water: MeshWater::None, ..mesh(REGION, 8) };
+    let (square, patch) = patch(&mesh);
+    let surface = Surface::new(&mesh);
+    let textures = Textures::new(&square, 64, &patch, &surface, &Progress::new(1, &|_| true)).unwrap();
+    let pixels = |file: &[u8]| {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut bytes).unwrap();
+        bytes
+    };
+    let (normals, roughness) = (pixels(&textures.normal), pixels(&textures.roughness));
+    assert_eq!((normals.len(), roughness.len()), (64 * 64 * 3, 64 * 64 * 3));
+    let mut differing = 0;
+    for (i, texel) in normals.chunks_exact(3).enumerate() {
+        let (u, v) = (((i % 64) as f64 + 0.5) / 64.0, ((i / 64) as f64 + 0.5) / 64.0);
+        let stored = DVec3::from_array([0, 1, 2].map(|k| f64::from(texel[k]) / 255.0 * 2.0 - 1.0));
+        // As a shader does it.
+        let (normal, tangent) = patch.between(u, v);
+        let (normal, tangent) = (normal.normalize(), tangent.normalize());
+        let found = tangent * stored.x + normal.cross(tangent) * stored.y + normal * stored.z;
+        let wanted = square.turned(mesh.terrain.sample(square.direction(u, v)).normal_planet);
+        // Texels of 125 m show all of a planet whose finest wave is 1500 m long.
+        assert!(found.normalize().dot(wanted) > 0.9995, "{i}: {found} {wanted}");
+        differing += usize::from(normal.dot(wanted) < 0.999);
+    }
+    assert!(differing > 100, "the mesh alone shows all: {differing}");
+    assert!(roughness.chunks_exact(3).all(|texel| texel[0] == 0xff && texel[1] > 0 && texel[2] == 0));
+}
+
+#[test]
+fn what_cannot_be_made_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.glb");
+    let whole = mesh(REGION, 8);
+    let far = Area::Region(Region { lat_deg: 0.0, lon_deg: 0.0, side_km: 1e6 });
+    for (mesh, words) in [
+        (MeshBake { cells: 5000, ..whole.clone() }, "more than 8 million vertices"),
+        (MeshBake { cells: 0, ..whole.clone() }, "0 cells"),
+        (MeshBake { levels: 5, ..whole.clone() }, "use a multiple of 16"),
+        (MeshBake { levels: 0, ..whole.clone() }, "use 1 to 8"),
+        (MeshBake { area: far, ..whole.clone() }, "a region of 1000000 km is out of range"),
+        (MeshBake { texture_px: Some(20_000), ..whole.clone() }, "use 2 to 11585"),
+        (MeshBake { skirt_m: -1.0, ..whole.clone() }, "skirt of -1 m"),
+        (MeshBake { scale: 0.0, ..whole.clone() }, "scale of 0"),
+    ] {
+        let error = mesh.run(&path, &|_| true).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    let bare = Planet { water: None, ..Planet::clone(whole.terrain.planet()) };
+    let terrain = Arc::new(Terrain::try_new(bare.into()).unwrap());
+    let error = MeshBake { terrain, water: MeshWater::Apart, ..whole.clone() }.run(&path, &|_| true).unwrap_err();
+    assert!(error.to_string().contains("neither a sea nor a structure"), "{error}");
+    // Nothing is left of a mesh that was stopped.
+    assert_eq!(whole.run(&path, &|_| false).unwrap(), Outcome::Stopped);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_spacing_becomes_cells_that_can_be_halved() {
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 1000.0, 1), 8);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 900.0, 1), 9);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 900.0, 3), 12);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 1e-300, 3) % 4, 0);
+    assert_eq!(MeshBake::cells_for(&Area::Globe, 40_000.0, 1e9, 4), 8);
+}

@@ -1,0 +1,117 @@
+//! `tellus mesh`: a planet or a region as a mesh in a file.
+
+use super::bake::told;
+use super::{Failure, args, load, maps, tell};
+use crate::bake::mesh::{Area, MeshBake, MeshFormat, MeshWater};
+use crate::bake::{Detail, Outcome, Region};
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Cells along a side, unless a spacing is given.
+const DEFAULT_CELLS: u32 = 256;
+
+/// Write a planet or a region as a mesh: glTF 2.0 (GLB) or OBJ
+#[derive(clap::Args)]
+#[command(
+    after_help = "A globe is six meshes about the planet's centre, +Y to the north pole, +X to 0°N 0°E. A region is one \
+    mesh about its centre on the reference sphere, +X to the east, +Y up, -Z to the north. Heights of vertices are \
+    those of `tellus sample`."
+)]
+pub(super) struct Args {
+    /// The preset
+    #[arg(value_name = "FILE.ron")]
+    file: PathBuf,
+    /// The file to write. A .glb holds its textures; an .obj has a .mtl and .png files beside it
+    #[arg(short, long, value_name = "OUT.glb|OUT.obj")]
+    output: PathBuf,
+    /// Greatest distance between vertices along a square's middle [default: 1/256 of a side of the region, or of a side
+    /// of one of the six squares of a globe]
+    #[arg(long, value_name = "METRES", value_parser = args::length)]
+    spacing: Option<f64>,
+    #[arg(
+        long,
+        help = "Latitude of the centre of a region in degrees, north positive [default: the whole globe]",
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::latitude,
+        requires_all = ["lon", "km"]
+    )]
+    lat: Option<f64>,
+    #[arg(
+        long,
+        help = "Longitude of the centre of a region in degrees, east positive",
+        value_name = "DEG",
+        allow_hyphen_values = true,
+        value_parser = args::longitude,
+        requires_all = ["lat", "km"]
+    )]
+    lon: Option<f64>,
+    /// Length of a side of a region
+    #[arg(long, value_name = "KILOMETRES", value_parser = args::region, requires_all = ["lat", "lon"])]
+    km: Option<f64>,
+    /// Width of textures of colour, normals and roughness, of each square; without it vertices have colours
+    #[arg(long, value_name = "PIXELS")]
+    texture: Option<u32>,
+    /// surface: the mesh runs on seas, lakes and rivers, which are opaque. apart: on the ground, with a transparent
+    /// mesh of the water over it. none: on the ground, without water
+    #[arg(
+        long,
+        value_name = "CHOICE",
+        default_value = "surface",
+        value_parser = PossibleValuesParser::new(MeshWater::ALL.map(MeshWater::name)).try_map(|name| MeshWater::named(&name).ok_or(name))
+    )]
+    water: MeshWater,
+    /// Levels of detail, each with half the vertices of the one before along a side: nodes NAME_LOD0, NAME_LOD1 and so
+    /// on, linked by MSFT_lod in a .glb
+    #[arg(long, value_name = "N", default_value = "1")]
+    lods: u32,
+    /// Depth of skirts around the squares, which hide gaps between levels of detail
+    #[arg(long, value_name = "METRES", default_value = "0", value_parser = args::depth)]
+    skirt: f64,
+    /// Units of the file in a metre, such as 0.001 for kilometres
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = args::scale)]
+    scale: f64,
+    /// all: what `tellus sample` answers. pixel: without valleys and rivers of a structure that are too narrow for the
+    /// vertices; a globe takes seconds instead of hours
+    #[arg(
+        long,
+        value_name = "DETAIL",
+        default_value = "all",
+        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
+    )]
+    detail: Detail,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let Some(format) = MeshFormat::of(&args.output) else {
+        let path = args.output.display();
+        return Err(format!("{path}: the ending names no kind of mesh; use .glb or .obj").into());
+    };
+    let planet = Arc::new(load(&args.file)?);
+    let area = match (args.lat, args.lon, args.km) {
+        (Some(lat_deg), Some(lon_deg), Some(side_km)) => Area::Region(Region { lat_deg, lon_deg, side_km }),
+        _ => Area::Globe,
+    };
+    let cells = match args.spacing {
+        Some(spacing_m) => MeshBake::cells_for(&area, planet.radius_m(), spacing_m, args.lods),
+        None => DEFAULT_CELLS,
+    };
+    let mesh = MeshBake {
+        texture_px: args.texture,
+        water: args.water,
+        levels: args.lods,
+        skirt_m: args.skirt,
+        scale: args.scale,
+        detail: args.detail,
+        ..MeshBake::new(Arc::new(maps::terrain(planet)?), area, cells, format)
+    };
+    if mesh.is_slow() {
+        tell(
+            "note: every river under these vertices is made, milliseconds for each; --detail pixel leaves out the narrow ones",
+        );
+    }
+    match mesh.run(&args.output, &told()).map_err(|error| error.to_string())? {
+        Outcome::Done(_) | Outcome::Stopped | Outcome::Shard { .. } => Ok(()),
+    }
+}
