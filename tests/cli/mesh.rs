@@ -180,7 +180,8 @@ fn an_obj_names_its_materials_and_has_the_same_vertices() {
     assert_eq!(names[..3], ["region.glb", "region.mtl", "region.obj"]);
     assert_eq!(names[3..], expected);
     let text = fs::read_to_string(&obj).unwrap();
-    let numbers = |line: &str| line.split(' ').skip(1).map(|n| f64::from(n.parse::<f32>().unwrap())).collect::<Vec<_>>();
+    let numbers =
+        |line: &str| line.split(' ').skip(1).map(|n| f64::from(n.parse::<f32>().unwrap())).collect::<Vec<_>>();
     let vertices: Vec<_> = text.lines().filter(|line| line.starts_with("v ")).map(numbers).collect();
     let glb = Glb::read(&glb);
     let nodes = glb.nodes();

@@ -99,12 +99,9 @@ fn normals_of_a_globe_agree_across_the_borders_of_squares() {
     for (_, patch) in patches(&mesh(Area::Globe, 8)) {
         for vertex in &patch.vertices {
             let key = (vertex.position_m.as_vec3() + 0.0).to_array().map(f32::to_bits);
-            match seen.insert(key, vertex.normal) {
-                Some(normal) => {
-                    shared += 1;
-                    assert_eq!(normal, vertex.normal);
-                }
-                None => {}
+            if let Some(normal) = seen.insert(key, vertex.normal) {
+                shared += 1;
+                assert_eq!(normal, vertex.normal);
             }
         }
     }
