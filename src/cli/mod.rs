@@ -27,6 +27,7 @@ mod sky;
 use crate::planet::Planet;
 use crate::planet::picture::is_contained;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use std::borrow::Cow;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -140,7 +141,20 @@ fn load(path: &Path) -> Result<Planet, Failure> {
 
 /// Prints a line on standard error.
 fn tell(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", printable(line));
+}
+
+/// A text with escapes in the place of control characters: names of files can hold commands for the terminal.
+fn printable(text: &str) -> Cow<'_, str> {
+    let is_control = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(is_control) {
+        return text.into();
+    }
+    let mut printable = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_control(c) { printable.extend(c.escape_default()) } else { printable.push(c) }
+    }
+    printable.into()
 }
 
 /// Prints a line on standard output. It is no failure if the reader has stopped reading (`tellus ... | head -1`).
@@ -151,7 +165,7 @@ fn print(text: &str) -> Result<(), Failure> {
 /// As [`print`]. Whether the reader is still there.
 fn print_on(text: &str) -> Result<bool, Failure> {
     let mut out = io::stdout().lock();
-    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+    match writeln!(out, "{}", printable(text)).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(format!("cannot write to standard output: {error}").into())
         }

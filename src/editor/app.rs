@@ -5,6 +5,7 @@
 
 use super::apply::apply_all;
 use super::command::{Action, Command, Commands};
+use super::files::crash::{self, Doing};
 use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::library::Library;
 use super::files::recent::Recent;
@@ -15,6 +16,7 @@ use super::panels::docks::Bench;
 use super::panels::layout::Layout;
 use super::state::State;
 use super::state::baking::BakeSettings;
+use super::state::device::DeviceWatch;
 use super::state::document::Document;
 use super::state::pictures::Pictures;
 use super::state::questions::Questions;
@@ -136,9 +138,52 @@ impl EditorApp {
         }
         match Recovery::open(folder) {
             Ok((recovery, orphans)) => (self.state.recovery, self.state.orphans) = (Some(recovery), orphans),
-            Err(error) => log::warn!("{}: no working copy is kept: {error}", folder.display()),
+            Err(error) => {
+                log::warn!("{}: no working copy is kept: {error}", folder.display());
+                self.state.notices.unkept = Some(format!("{}: {error}", folder.display()));
+            }
+        }
+        let reports = crash::take_new(folder);
+        if let Some(newest) = reports.last() {
+            let told = format!("A report of what happened is in {}.", newest.display());
+            self.state.report("Tellus stopped at an error the last time", vec![told]);
         }
         self
+    }
+
+    /// Answers errors of the window's graphics device, and its loss: `restart` starts another editor in the place of
+    /// this one, or says why it cannot.
+    pub fn watch_device(
+        mut self,
+        cc: &eframe::CreationContext<'_>,
+        restart: impl FnMut() -> Result<(), String> + 'static,
+    ) -> Self {
+        if let Some(state) = &cc.wgpu_render_state {
+            self.state.device = DeviceWatch::new(&state.device, &cc.egui_ctx);
+        }
+        self.state.restart = Some(Box::new(restart));
+        self
+    }
+
+    /// Tells crash reports what the user does.
+    pub fn tell(mut self, doing: Doing) -> Self {
+        doing.note_adapter(&self.state.adapter);
+        self.state.doing = doing;
+        self
+    }
+
+    /// Takes over the unsaved work that an editor left when it lost its graphics device.
+    pub fn continue_after_loss(mut self) -> Self {
+        opening::recover(&mut self.state, true);
+        self.state
+            .notices
+            .say("The graphics device was lost. The editor began anew; your work is as it was.".to_owned());
+        self
+    }
+
+    /// What went wrong with the graphics device.
+    pub fn device(&self) -> &DeviceWatch {
+        &self.state.device
     }
 
     /// The document.
@@ -293,6 +338,8 @@ impl eframe::App for EditorApp {
         open_file::poll(state, ctx);
         shooting::poll(state);
         baking::poll(state, ctx);
+        handlers::device::poll(state);
+        state.doing.note_file(state.document.path());
         self.commands = apply_all(state, ctx, self.commands.take());
         handlers::clipboard::poll(state, ctx);
         handlers::variations::update(state, ctx);

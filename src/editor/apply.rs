@@ -21,6 +21,7 @@ pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -
             deferred.push(action);
             continue;
         }
+        state.doing.note_action(&action);
         apply(state, ctx, action);
     }
     deferred

@@ -32,11 +32,16 @@ pub use app::EditorApp;
 use crate::render::Renderer;
 use crate::terrain::MapStore;
 use eframe::{egui, egui_wgpu};
+use files::crash::{self, Doing};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// The name of the editor for the desktop, and of the folder that keeps the layout.
 const APP_ID: &str = "tellus";
+
+/// The environment variable of an editor that another one started because its graphics device was lost.
+const RESTARTED: &str = "TELLUS_RESTARTED";
 
 /// Opens the editor's window, with a preset if one is given, and stays until it is closed. `maps`: where solved world
 /// maps are kept.
@@ -52,14 +57,38 @@ pub fn run(path: Option<PathBuf>, maps: Option<Arc<MapStore>>) -> Result<(), Str
         wgpu_options: wgpu_configuration(),
         ..Default::default()
     };
+    let folder = eframe::storage_dir(APP_ID);
+    let doing = Doing::default();
+    if let Some(folder) = &folder {
+        crash::report_panics(folder, &doing);
+    }
     let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let app = EditorApp::new(cc, path, maps);
-        Ok(Box::new(match eframe::storage_dir(APP_ID) {
+        let app = EditorApp::new(cc, path.clone(), maps).tell(doing).watch_device(cc, restarts(path));
+        let app = match folder {
             Some(folder) => app.with_recovery(&folder),
             None => app,
-        }))
+        };
+        let follows_loss = std::env::var_os(RESTARTED).is_some();
+        Ok(Box::new(if follows_loss { app.continue_after_loss() } else { app }))
     };
     eframe::run_native(APP_ID, options, Box::new(create)).map_err(|error| explain(&error))
+}
+
+/// Starts another editor with the same file, and ends this process.
+fn restarts(path: Option<PathBuf>) -> impl FnMut() -> Result<(), String> {
+    let started = Instant::now();
+    move || {
+        // A device that is lost again and again would start editors for ever.
+        if std::env::var_os(RESTARTED).is_some() && started.elapsed() < Duration::from_secs(60) {
+            return Err("It was lost again right after a restart. Update its driver, or choose another adapter with \
+                        WGPU_ADAPTER_NAME. Unsaved work is offered at the next start."
+                .to_owned());
+        }
+        let program = std::env::current_exe().map_err(|error| error.to_string())?;
+        let mut command = std::process::Command::new(program);
+        command.args(&path).env(RESTARTED, "1").spawn().map_err(|error| error.to_string())?;
+        std::process::exit(0)
+    }
 }
 
 /// Whether the editor can begin with this file: it can be read, or a new planet can be saved under its name.

@@ -6,13 +6,23 @@ use super::param::ParamPath;
 use super::picture::folder_of;
 use super::problem::Problem;
 use super::{Planet, VERSION, explain, locate, migrate, text, validate};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fs::{File, Permissions};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 /// Longest preset that is read, in bytes. A preset with every list at its limit is far shorter.
 pub const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// How names of unfinished files begin and end.
+const UNFINISHED: &str = ".tellus-";
+const UNFINISHED_END: &str = ".tmp";
+/// Age from which an unfinished file is one that a killed writer left.
+const ABANDONED: Duration = Duration::from_secs(3600);
+/// Most links from a path to a file.
+const MOST_LINKS: usize = 40;
 
 /// A preset that could not be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -225,8 +235,9 @@ pub(crate) fn write_atomically_with(
     let Target { path: target, folder, permissions } = Target::checked(path)?;
     let unfinished = beside.unwrap_or(&folder);
     let failed = |what: &str, error: &io::Error| format!("{what}: {error}; the old file is as it was");
+    sweep(unfinished);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".tellus-").suffix(".tmp");
+    builder.prefix(UNFINISHED).suffix(UNFINISHED_END);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file = builder
@@ -247,6 +258,35 @@ pub(crate) fn write_atomically_with(
     Ok(())
 }
 
+/// Where a link leads whose target is missing; the path itself if it is no link.
+fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // More links than this are a circle, which the system refuses.
+    for _ in 0..MOST_LINKS {
+        let Ok(target) = std::fs::read_link(&path) else { break };
+        path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
+    }
+    path
+}
+
+/// Removes the unfinished files that killed writers left in a folder; each process looks once. A writer that is at work
+/// has touched its file lately.
+fn sweep(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
+        return;
+    }
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
+        if name.starts_with(UNFINISHED) && name.ends_with(UNFINISHED_END) && age().is_some_and(|age| age > ABANDONED) {
+            // It may belong to somebody else.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// A place where a file can be written.
 pub(crate) struct Target {
     path: PathBuf,
@@ -258,8 +298,11 @@ pub(crate) struct Target {
 impl Target {
     /// Checks that a file can be written or replaced here, as far as that is known before.
     pub(crate) fn checked(path: &Path) -> Result<Self, String> {
-        // A link stays a link; its target is replaced.
-        let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        // A link stays a link; its target is replaced, or made.
+        let target = std::fs::canonicalize(path).unwrap_or_else(|_| followed(path));
+        if std::fs::symlink_metadata(&target).is_ok_and(|metadata| metadata.is_symlink()) {
+            return Err("is a link that leads around in a circle; name a file".to_owned());
+        }
         let folder = match target.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),

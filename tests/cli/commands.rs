@@ -344,3 +344,20 @@ fn a_film_is_numbered_frames() {
     let (status, _, err) = run(&["film", LAYERED, "-o", text_of(&film)]);
     assert!(status == 1 && err.contains("the planet has no bookmarks to fly over"), "{err}");
 }
+
+#[cfg(unix)]
+#[test]
+fn names_of_files_cannot_command_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("\u{1b}[31mred\u{7}.ron");
+    std::fs::write(&path, "(version: 3, radius_km: -1.0)").unwrap();
+    for args in [["check"], ["sample"], ["render"]] {
+        let more = if args == ["check"] { &[][..] } else { &["--lat", "0", "--lon", "0"] };
+        let more = if args == ["render"] { &["-o", "out.png"] } else { more };
+        let output = assert_cmd::cargo::cargo_bin_cmd!("tellus").args(args).arg(&path).args(more).output().unwrap();
+        let said = [output.stdout, output.stderr].concat();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(!said.is_empty() && said.iter().all(|&byte| byte >= b' ' || byte == b'\n'), "{said:?}");
+        assert!(String::from_utf8(said).unwrap().contains("\\u{1b}[31mred\\u{7}.ron"));
+    }
+}

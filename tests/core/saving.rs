@@ -57,3 +57,43 @@ fn a_killed_save_leaves_the_old_file_or_the_new_one() {
     }
     assert!(seen[0] > 20 && seen[1] > 20, "{seen:?}: the moments are not random");
 }
+
+#[test]
+fn unfinished_files_of_killed_writers_are_swept() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let hours_ago = std::time::SystemTime::now() - Duration::from_secs(2 * 3600);
+    for (name, is_old) in [(".tellus-old.tmp", true), (".tellus-new.tmp", false), (".other-old.tmp", true)] {
+        std::fs::write(at(name), "half a planet").unwrap();
+        if is_old {
+            std::fs::File::options().write(true).open(at(name)).unwrap().set_modified(hours_ago).unwrap();
+        }
+    }
+    Planet::default().save(at("planet.ron")).unwrap();
+    let mut names: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    // A writer may be at work on the new one.
+    assert_eq!(names, [".other-old.tmp", ".tellus-new.tmp", "planet.ron"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_whose_target_is_missing_stays_a_link() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("planets")).unwrap();
+    symlink("planets/real.ron", at("second.ron")).unwrap();
+    symlink("second.ron", at("first.ron")).unwrap();
+    Planet::default().save(at("first.ron")).unwrap();
+    assert!(std::fs::symlink_metadata(at("first.ron")).unwrap().is_symlink());
+    assert!(std::fs::symlink_metadata(at("planets/real.ron")).unwrap().is_file());
+    // A folder that is not there is not made.
+    symlink("none/real.ron", at("lost.ron")).unwrap();
+    let error = Planet::default().save(at("lost.ron")).unwrap_err().to_string();
+    assert!(error.contains("there is no folder") && error.contains("none"), "{error}");
+    // A circle.
+    symlink("b.ron", at("a.ron")).unwrap();
+    symlink("a.ron", at("b.ron")).unwrap();
+    assert!(Planet::default().save(at("a.ron")).is_err());
+}

@@ -1,6 +1,7 @@
 //! Tests of the real editor without a window: here its panels.
 //!
 //! - `files`: opening and saving without losing work
+//! - `crash`: what is left after a crash, and what is told of it
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure
@@ -24,6 +25,7 @@
 mod app;
 mod bake;
 mod clipboard;
+mod crash;
 mod disk;
 mod docks;
 mod files;

@@ -13,7 +13,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
-use tellus::editor::files::dialogs::{FileDialogs, ScriptedDialogs};
+use tellus::editor::files::dialogs::{FileDialogs, NoDialogs, ScriptedDialogs};
 use tellus::editor::viewport::pointer::UnderPointer;
 use tellus::planet::Planet;
 use tellus::render::Renderer;
@@ -52,6 +52,24 @@ pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recov
     let (file, recovery) = (file.map(Path::to_owned), recovery.to_owned());
     start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
         EditorApp::with_planet(cc, layered(), file, None).with_dialogs(Box::new(dialogs)).with_recovery(&recovery)
+    })
+}
+
+/// The same without a file, with an answer to the loss of its graphics device.
+pub fn open_watched(recovery: &Path, restart: impl FnMut() -> Result<(), String> + 'static) -> Editor {
+    let recovery = recovery.to_owned();
+    start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
+        let app = EditorApp::with_planet(cc, layered(), None, None).watch_device(cc, restart);
+        app.with_dialogs(Box::new(NoDialogs)).with_recovery(&recovery)
+    })
+}
+
+/// The editor that takes over the work of one that lost its graphics device.
+pub fn open_after_loss(recovery: &Path) -> Editor {
+    let recovery = recovery.to_owned();
+    start(Harness::builder().with_size(egui::vec2(1024.0, 640.0)).with_step_dt(1.0 / 60.0), move |cc| {
+        let app = EditorApp::with_planet(cc, layered(), None, None).with_dialogs(Box::new(NoDialogs));
+        app.with_recovery(&recovery).continue_after_loss()
     })
 }
 

@@ -13,6 +13,7 @@
 //! - [`compare`]: a kept planet beside the one that is edited
 //! - [`bookmarks`]: views kept in the preset
 //! - [`place`]: the flight to a location
+//! - [`device`]: the graphics device fails
 //! - [`window`]: full screen and theme
 
 pub mod answers;
@@ -21,6 +22,7 @@ pub mod biome_table;
 pub mod bookmarks;
 pub mod clipboard;
 pub mod compare;
+pub mod device;
 pub mod library;
 pub mod open_file;
 pub mod opening;

@@ -139,6 +139,7 @@ pub fn recover(state: &mut State, keep: bool) {
         Some(recovery) if keep => recovery.adopt(&orphan.file),
         _ => recovery::remove(&orphan.file),
     }
+    recovery::remove(&orphan.file.with_extension("lock"));
     if keep {
         state.replace_document(Document::unsaved(orphan.planet));
     }

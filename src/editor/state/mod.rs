@@ -6,6 +6,7 @@
 //! - [`questions`]: questions about files
 //! - [`open_file`]: the watch over the open file
 //! - [`notices`]: notices of the editor
+//! - [`device`]: the graphics device
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
 //! - [`job`]: work on a thread of its own; [`baking`]: maps for other programs
@@ -16,6 +17,7 @@
 
 pub mod baking;
 pub mod describe;
+pub mod device;
 pub mod document;
 pub mod history;
 pub mod job;
@@ -32,12 +34,14 @@ pub mod thumbnails;
 pub mod variations;
 
 use super::command::{PanelAction, Wanted};
+use super::files::crash::Doing;
 use super::files::dialogs::FileDialogs;
 use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
 use baking::{BakePreview, BakeSettings, Baking};
+use device::DeviceWatch;
 use document::Document;
 use eframe::egui;
 use notices::Notices;
@@ -176,6 +180,12 @@ pub struct State {
     pub recovery: Option<Recovery>,
     /// The name of the graphics adapter.
     pub adapter: String,
+    /// What went wrong with the graphics device.
+    pub device: DeviceWatch,
+    /// Starts another editor in the place of this one, and says why it cannot.
+    pub restart: Option<Box<dyn FnMut() -> Result<(), String>>>,
+    /// What a crash report tells.
+    pub doing: Doing,
     /// Start of this frame.
     pub frame_start: Instant,
 }
@@ -210,6 +220,9 @@ impl State {
             orphans: Vec::new(),
             recovery: None,
             adapter: String::new(),
+            device: DeviceWatch::default(),
+            restart: None,
+            doing: Doing::default(),
             frame_start: Instant::now(),
         }
     }

@@ -26,6 +26,8 @@ pub struct Notices {
     /// The file that was claimed, with None where that failed: it is not tried again in every frame.
     claim: Option<(PathBuf, Option<Claim>)>,
     shared: bool,
+    /// Why unsaved work is not kept in a working copy.
+    pub unkept: Option<String>,
     looked: Option<Instant>,
     /// Reports windows that come and go while this one draws nothing. The inner None: the system cannot watch.
     watch: Option<Option<RecommendedWatcher>>,

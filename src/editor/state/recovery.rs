@@ -19,11 +19,12 @@ const INTERVAL: Duration = Duration::from_secs(2);
 pub struct Recovery {
     file: PathBuf,
     /// Held while this editor runs; the system releases it after a crash.
-    _lock: File,
+    lock: Option<File>,
     lock_path: PathBuf,
     written: Option<Arc<Planet>>,
     last_write: Option<Instant>,
-    writing: Option<JoinHandle<()>>,
+    writing: Option<JoinHandle<Result<(), String>>>,
+    problem: Option<String>,
 }
 
 /// A working copy that a crash left behind.
@@ -33,6 +34,8 @@ pub struct Orphan {
     pub file: PathBuf,
     /// The planet.
     pub planet: Planet,
+    /// Held until the question about it is answered: no other editor asks meanwhile.
+    _lock: Arc<File>,
 }
 
 impl Recovery {
@@ -55,15 +58,16 @@ impl Recovery {
             if file.exists() {
                 // A file that cannot be read stays: the user may still repair it.
                 if let Ok(planet) = Planet::open(&file) {
-                    orphans.push(Orphan { file, planet });
+                    orphans.push(Orphan { file, planet, _lock: Arc::new(lock) });
                 }
             } else {
                 own = Some((file, lock, lock_path));
             }
         }
         let (file, lock, lock_path) =
-            own.ok_or_else(|| io::Error::other("too many recovery files, remove old ones"))?;
-        let recovery = Self { file, _lock: lock, lock_path, written: None, last_write: None, writing: None };
+            own.ok_or_else(|| io::Error::other("it holds too many recovery files; remove old ones"))?;
+        let lock = Some(lock);
+        let recovery = Self { file, lock, lock_path, written: None, last_write: None, writing: None, problem: None };
         Ok((recovery, orphans))
     }
 
@@ -73,7 +77,7 @@ impl Recovery {
         if self.writing.as_ref().is_some_and(|thread| !thread.is_finished()) {
             return Some(INTERVAL / 10);
         }
-        self.writing = None;
+        self.finish_writing();
         let Some(planet) = document.to_recover() else {
             self.forget();
             return None;
@@ -88,12 +92,36 @@ impl Recovery {
         self.last_write = Some(Instant::now());
         self.written = Some(planet.clone());
         let (planet, file) = (planet.clone(), self.file.clone());
-        self.writing = Some(std::thread::spawn(move || {
-            if let Err(error) = planet.save(&file) {
+        self.writing = Some(std::thread::spawn(move || planet.save(&file).map_err(|error| error.to_string())));
+        // The result is looked at then.
+        Some(INTERVAL)
+    }
+
+    /// Why the working copy could not be written last.
+    pub fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    fn finish_writing(&mut self) {
+        let Some(thread) = self.writing.take() else { return };
+        match thread.join() {
+            Ok(Ok(())) => self.problem = None,
+            failed => {
+                let error = failed.ok().and_then(Result::err).unwrap_or_else(|| "the writer failed".to_owned());
                 log::warn!("unsaved work could not be written to the working copy: {error}");
+                // It is tried again.
+                (self.problem, self.written) = (Some(error), None);
             }
-        }));
-        None
+        }
+    }
+
+    /// Writes unsaved work now and leaves it for the next editor, which finds it as after a crash. Whether there is
+    /// nothing to lose.
+    pub fn leave(&mut self, document: &Document) -> bool {
+        self.finish_writing();
+        let is_kept = document.to_recover().is_none_or(|planet| planet.save(&self.file).is_ok());
+        self.lock = None;
+        is_kept
     }
 
     /// Makes the working copy of a crashed editor this editor's own.
@@ -105,19 +133,18 @@ impl Recovery {
 
     /// Deletes the working copy: there is no unsaved work.
     pub fn forget(&mut self) {
-        if let Some(thread) = self.writing.take() {
-            // A panic in the thread leaves at most a stale file.
-            let _ = thread.join();
-        }
-        if self.written.take().is_some() {
+        self.finish_writing();
+        if self.written.take().is_some() | self.problem.take().is_some() {
             remove(&self.file);
         }
     }
 
-    /// Deletes the working copy and the lock: the editor ends regularly.
+    /// Deletes the working copy and the lock: the editor ends regularly. What was left for the next editor stays.
     pub fn close(&mut self) {
-        self.forget();
-        remove(&self.lock_path);
+        if self.lock.is_some() {
+            self.forget();
+            remove(&self.lock_path);
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Notices and problems above the picture, and the last action below it.
 
 use crate::editor::state::State;
+use crate::editor::state::recovery::Recovery;
 use eframe::egui;
 
 /// Most problems that are listed; the rest are counted.
@@ -37,14 +38,17 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
     });
 }
 
-/// Notices about the open file.
+/// Notices about the open file and the working copy.
 fn notices(state: &State) -> Vec<String> {
     let shared = state
         .document
         .path()
         .filter(|_| state.notices.is_shared())
         .map(|path| format!("{} is open in another window too: the last save wins.", path.display()));
-    shared.into_iter().chain(state.open_file.notice.clone()).collect()
+    let unkept = state.recovery.as_ref().and_then(Recovery::problem).or(state.notices.unkept.as_deref());
+    let unkept =
+        unkept.map(|why| format!("Unsaved work would be lost in a crash; save often. No working copy is kept: {why}."));
+    shared.into_iter().chain(unkept).chain(state.open_file.notice.clone()).collect()
 }
 
 /// Shows the last action of the editor.
