@@ -8,11 +8,15 @@
 use super::{Quality, View};
 use crate::lod::tile::TILE_QUADS;
 
-/// Least range of a level in its vertex spacings, however small the picture: nodes must be small relative to their
-/// distance, or shading changes visibly from level to level.
+/// Least range of a level in its vertex spacings: nodes must be small relative to their distance, or shading changes
+/// visibly from level to level.
 const LEAST_SPACINGS: f64 = 100.0;
-/// The same once the LOD bias reaches `BIAS_LIMITS[1]`: the least range shrinks to fit the triangle budget.
+/// The same in small pictures, and once the LOD bias reaches `BIAS_LIMITS[1]`: the least range shrinks to fit the
+/// triangle budget. Below 50, tiles would lack chords of older vertices (`eye_spacings`).
 const FEWEST_SPACINGS: f64 = 70.0;
+/// Least range of a level's detail textures. In small pictures their texels are far smaller than pixels at
+/// [`FEWEST_SPACINGS`].
+const FEWEST_SHADED: f64 = 40.0;
 /// Greatest range relative to the least: tiles know the chords of older vertices only this far (`morph.rs`).
 const MOST_OVER_LEAST: f64 = 3.0;
 /// LOD bias beyond which the spacing on screen grows, and beyond which [`LEAST_SPACINGS`] shrinks.
@@ -31,6 +35,8 @@ pub struct Ranges {
     pub least_spacings: f64,
     /// Greatest range of a level in its vertex spacings.
     pub most_spacings: f64,
+    /// Range of a level's detail textures in its vertex spacings: at most the least range of its vertices.
+    pub shaded_spacings: f64,
     /// Metres of distance for each metre of geometric error: at this distance the error meets the tolerance.
     pub reach: f64,
 }
@@ -47,11 +53,13 @@ impl Ranges {
         };
         let focal_px = 1.0 / view.pixel_rad();
         // A level takes over where the coarser level, with twice the spacing, has become too coarse.
-        let floor = (LEAST_SPACINGS * BIAS_LIMITS[1] / bias).clamp(FEWEST_SPACINGS, LEAST_SPACINGS);
-        let least_spacings = (2.0 * focal_px / (coarsest_px * (bias / BIAS_LIMITS[0]).max(1.0))).max(floor);
+        let wanted = 2.0 * focal_px / (coarsest_px * (bias / BIAS_LIMITS[0]).max(1.0));
+        let floor = (LEAST_SPACINGS * BIAS_LIMITS[1] / bias).min(2.0 * wanted).clamp(FEWEST_SPACINGS, LEAST_SPACINGS);
+        let least_spacings = wanted.max(floor);
+        let shaded_spacings = wanted.max(FEWEST_SHADED).min(least_spacings);
         let most_spacings = (2.0 * focal_px / finest_px).clamp(least_spacings, MOST_OVER_LEAST * least_spacings);
         let root_spacing_m = spacing_rad(0) * radius_m;
-        Self { root_spacing_m, least_spacings, most_spacings, reach: focal_px / (error_px * bias) }
+        Self { root_spacing_m, least_spacings, most_spacings, shaded_spacings, reach: focal_px / (error_px * bias) }
     }
 
     /// Distance, in spacings of the finest level, that the eye may move from where the LOD cut was made. Beyond it, a
@@ -69,9 +77,14 @@ impl Ranges {
         self.root_spacing_m / f64::from(1_u32 << level)
     }
 
-    /// Distance inside which all ground is shown at this level or finer.
+    /// Distance inside which all ground has the vertices of this level.
     pub fn always_m(&self, level: u8) -> f64 {
         self.spacing_m(level) * self.least_spacings
+    }
+
+    /// Distance inside which all ground has the detail textures of this level, or finer ones.
+    pub fn shaded_m(&self, level: u8) -> f64 {
+        self.spacing_m(level) * self.shaded_spacings
     }
 
     /// Distance at which a vertex born at a level begins to appear, given the expected error without it.

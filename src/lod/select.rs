@@ -50,7 +50,7 @@ impl<'a> Selection<'a> {
     /// Whether shading needs a finer detail texture than the tile's.
     pub fn wants_finer_detail(&self, tile: &Tile) -> bool {
         let level = tile.id.level + 1;
-        level <= NodeId::MAX_LEVEL && self.is_within(tile, &|_| self.ranges.always_m(level))
+        level <= NodeId::MAX_LEVEL && self.is_within(tile, &|_| self.ranges.shaded_m(level))
     }
 
     /// Whether the picture shows any part of the tile.

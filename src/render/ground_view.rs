@@ -31,13 +31,13 @@ struct Instance {
 
 impl Instance {
     fn new(leaf: &Leaf, ranges: &Ranges, layer: Option<u32>) -> Self {
-        let fade = |level: u8| match level {
+        let fade = |level: u8, range_m: f64| match level {
             // Level 0 has no parent.
             0 => [1e30, 2e30],
-            level => [SHADED_AT, 1.0].map(|share| (ranges.always_m(level) * share) as f32),
+            _ => [SHADED_AT, 1.0].map(|share| (range_m * share) as f32),
         };
         let id = leaf.tile.id;
-        let [begin, end] = fade(id.level);
+        let [begin, end] = fade(id.level, ranges.always_m(id.level));
         let mut instance = Self {
             fade_level_layer: [begin, end, f32::from(id.level), layer.map_or(-1.0, |layer| layer as f32)],
             slope_axis: slope_axis(id.face).as_vec3().to_array(),
@@ -47,7 +47,7 @@ impl Instance {
         };
         if let Some(detail) = &leaf.detail {
             let [side, x, y] = id.within(detail.id).map(|part| part as f32);
-            let [begin, end] = fade(detail.id.level);
+            let [begin, end] = fade(detail.id.level, ranges.shaded_m(detail.id.level));
             let texel_m = ranges.spacing_m(detail.id.level) / DETAIL_PER_QUAD;
             instance.detail_place = [x, y, side, detail.base_m];
             instance.detail_fade = [begin, end, texel_m as f32, 0.0];

@@ -113,7 +113,8 @@ fn look_at_poses(step: usize, randoms: u64) {
 /// The same surface without morphing: all vertices at their exact positions, shading of each tile's own level.
 fn unmorphed(surface: &Surface) -> Surface {
     let mut stiff = surface.clone();
-    (stiff.ranges.least_spacings, stiff.ranges.most_spacings) = (1e12, 1e12);
+    let ranges = &mut stiff.ranges;
+    (ranges.least_spacings, ranges.most_spacings, ranges.shaded_spacings) = (1e12, 1e12, 1e12);
     stiff
 }
 

@@ -3,7 +3,7 @@
 use crate::support::{Gpu, SIZE_PX, camera, frame, gpu, surface_of, view_of};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
-use tellus::planet::{Biome, Biomes, Detail, Planet, Steep, Table};
+use tellus::planet::{Biome, Biomes, Detail, Fbm, Layer, Planet, Shape, Steep, Table};
 use tellus::render::DebugView;
 use tellus::tiles::Surface;
 
@@ -124,7 +124,11 @@ fn patterns_show_from_near_and_fade_away() {
 fn lava_glows_and_flows() {
     let mut gpu = gpu();
     let lava = Biome { detail: Detail::Lava, glow: 3.0, flow_m_s: 0.2, ..grey(0.05) };
-    let planet = Arc::new(ball(lava.clone()));
+    // It flows downhill.
+    let hills = Shape::Fbm(Fbm { wavelength_km: 0.1, octaves: 2, ..Fbm::default() });
+    let layers = vec![Layer { amplitude_m: 20.0, shape: hills, ..Layer::default() }];
+    let hilly = |biome: Biome| Planet { layers: layers.clone(), ..ball(biome) };
+    let planet = Arc::new(hilly(lava.clone()));
     let camera = camera(&planet, PLACE.0, PLACE.1, 4.0, 0.0, -60.0);
     let surface = surface(&planet, &camera);
     let night = (-PLACE.0, PLACE.1 + 180.0);
@@ -137,9 +141,9 @@ fn lava_glows_and_flows() {
     let red = first.chunks(4).filter(|p| p[0] > 60 && p[0] > p[2]).count();
     assert!(red > 500, "{red} pixels glow");
     assert_ne!(first, draw(&planet, 3.0), "it flows");
-    let cold = ball(Biome { glow: 0.0, ..lava.clone() });
+    let cold = hilly(Biome { glow: 0.0, ..lava.clone() });
     assert!(draw(&cold, 0.0).chunks(4).all(|p| p[0] < 4), "without glow the night is dark");
-    let still = ball(Biome { flow_m_s: 0.0, ..lava });
+    let still = hilly(Biome { flow_m_s: 0.0, ..lava });
     assert_eq!(draw(&still, 0.0), draw(&still, 3.0), "without flow it stands");
 }
 
