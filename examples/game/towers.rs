@@ -1,5 +1,7 @@
 //! The game's own mesh: a row of towers on the ground, drawn between the renderer's opaque stage and its air.
 
+#![allow(dead_code)]
+
 use tellus::glam::{DVec3, Vec3};
 use tellus::render::wgpu::util::DeviceExt as _;
 use tellus::render::{BodyId, DEPTH_FORMAT, PreparedFrame, RADIANCE_FORMAT, RenderError, Renderer, air_wgsl, wgpu};
@@ -22,7 +24,11 @@ impl Tower {
     /// A tower on the ground under a direction.
     pub(crate) fn on_ground(terrain: &Terrain, dir_planet: DVec3, width_m: f64, height_m: f64) -> Self {
         let dir = dir_planet.normalize();
-        let foot_planet_m = dir * (terrain.planet().radius_m() + terrain.height_m(dir) - 0.1 * height_m);
+        Self::at(dir * (terrain.planet().radius_m() + terrain.height_m(dir) - 0.1 * height_m), width_m, height_m)
+    }
+
+    /// A tower that stands anywhere, upright.
+    pub(crate) fn at(foot_planet_m: DVec3, width_m: f64, height_m: f64) -> Self {
         Self { foot_planet_m, width_m, height_m }
     }
 

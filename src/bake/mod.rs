@@ -380,6 +380,7 @@ impl Shard {
     }
 }
 
+/// Makes a folder if there is none.
 fn make_folder(folder: &Path) -> Result<(), BakeError> {
     if folder.exists() && !folder.is_dir() {
         return Err(BakeError::file(folder, "is a file; name a folder"));

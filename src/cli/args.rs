@@ -63,7 +63,12 @@ pub(super) fn focal_length(text: &str) -> Result<f64, String> {
     number(text, 4.0, 1300.0)
 }
 
-/// A depth in metres, or none.
+/// A height over the reference sphere, above or below it.
+pub(super) fn level(text: &str) -> Result<f64, String> {
+    number(text, -1e8, 1e8)
+}
+
+/// A length that may be 0.
 pub(super) fn depth(text: &str) -> Result<f64, String> {
     number(text, 0.0, 1e12)
 }

@@ -1,7 +1,9 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations
-//! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `rivers`, `maps`, `sky`, `new`, `bench`: the subcommands
+//! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`, `new`, `bench`:
+//!   the subcommands
+//! - `geojson`: features and lines for `rivers` and `coasts`
 //! - `points`: many points for `sample`
 //! - `headless`: a GPU without a window
 //! - `camera`: what a photographer sets, for `render` and `film`
@@ -13,7 +15,9 @@ mod bake;
 mod bench;
 mod camera;
 mod check;
+mod coasts;
 mod film;
+mod geojson;
 mod headless;
 mod maps;
 mod mesh;
@@ -23,6 +27,7 @@ mod render;
 mod rivers;
 mod sample;
 mod sky;
+mod tiles;
 
 use crate::planet::Planet;
 use crate::planet::picture::is_contained;
@@ -54,7 +59,9 @@ enum Command {
     Sample(sample::Args),
     Bake(Box<bake::Args>),
     Mesh(Box<mesh::Args>),
+    Tiles(tiles::Args),
     Rivers(rivers::Args),
+    Coasts(coasts::Args),
     Maps(maps::Args),
     Sky(sky::Args),
     New(new::Args),
@@ -103,7 +110,9 @@ pub fn run() -> ExitCode {
         Some(Command::Sample(args)) => sample::run(&args),
         Some(Command::Bake(args)) => bake::run(&args),
         Some(Command::Mesh(args)) => mesh::run(&args),
+        Some(Command::Tiles(args)) => tiles::run(&args),
         Some(Command::Rivers(args)) => rivers::run(&args),
+        Some(Command::Coasts(args)) => coasts::run(&args),
         Some(Command::Maps(args)) => maps::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),
         Some(Command::New(args)) => new::run(&args),

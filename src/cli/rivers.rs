@@ -1,17 +1,16 @@
 //! `tellus rivers`: the rivers, lakes and basins of a planet as GeoJSON (RFC 7946).
 //!
-//! Rivers are LineStrings from source to mouth; one that crosses the antimeridian is a MultiLineString that is split
-//! there (section 3.1.9). The arrays of numbers in the properties have the shape of the coordinates. Lakes are
-//! MultiPoints, basins are Points at their mouths.
+//! Rivers are LineStrings from source to mouth; one that crosses the antimeridian is a MultiLineString. The arrays of
+//! numbers in the properties have the shape of the coordinates. Lakes are MultiPoints, basins are Points at their
+//! mouths.
 
+use super::geojson::{self, Place, feature, lon_lat_deg, parts, rounded, shaped};
 use super::{Failure, args, load, maps};
 use crate::planet::Planet;
 use crate::planet::file::write_atomically;
 use crate::sphere::LatLon;
 use crate::terrain::{Basin, Course, CoursePoint, Lake, Mouth};
 use serde_json::{Value, json};
-use std::f64::consts::PI;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -45,12 +44,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let rivers = terrain.rivers(least_m3_s);
     let courses = rivers.courses.iter().map(course);
     let features = courses.chain(rivers.lakes.iter().map(lake)).chain(rivers.basins.iter().map(basin));
-    let mut text = "{\"type\":\"FeatureCollection\",\"features\":[".to_owned();
-    for (k, feature) in features.enumerate() {
-        let comma = if k == 0 { "" } else { "," };
-        write!(text, "{comma}\n{feature}").map_err(|error| error.to_string())?;
-    }
-    text.push_str("\n]}\n");
+    let text = geojson::collection(features)?;
     write_atomically(&args.output, text.as_bytes()).map_err(|error| format!("{}: {error}", args.output.display()))?;
     Ok(())
 }
@@ -60,23 +54,24 @@ fn default_m3_s(planet: &Planet) -> f64 {
     DEFAULT_M3_S * size * size
 }
 
-fn feature(geometry: &Value, properties: &Value) -> Value {
-    json!({ "type": "Feature", "geometry": geometry, "properties": properties })
-}
+impl Place for CoursePoint {
+    fn place(&self) -> LatLon {
+        self.place
+    }
 
-/// Longitude and latitude in degrees: the order of GeoJSON. Six digits are a tenth of a metre on the Earth.
-fn lon_lat_deg(place: LatLon) -> [f64; 2] {
-    let (lat, lon) = place.to_degrees();
-    [rounded(lon, 1e6), rounded(lat, 1e6)]
-}
-
-fn rounded(value: f64, per_unit: f64) -> f64 {
-    (value * per_unit).round() / per_unit
+    fn towards(&self, other: &Self, share: f64, place: LatLon) -> Self {
+        let between = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            place,
+            height_m: between(self.height_m, other.height_m),
+            width_m: between(self.width_m, other.width_m),
+            discharge_m3_s: between(self.discharge_m3_s, other.discharge_m3_s),
+        }
+    }
 }
 
 fn course(course: &Course) -> Value {
     let parts = parts(&course.points);
-    let coordinates = shaped(&parts, |point| json!(lon_lat_deg(point.place)));
     let number = |value: fn(&CoursePoint) -> f64| shaped(&parts, |point| json!(rounded(value(point), 1e3)));
     let (into, into_id) = match course.mouth {
         Mouth::Sea => ("sea", Value::Null),
@@ -95,45 +90,7 @@ fn course(course: &Course) -> Value {
         "width_m": number(|point| point.width_m),
         "discharge_m3_s": number(|point| point.discharge_m3_s),
     });
-    let kind = if parts.len() == 1 { "LineString" } else { "MultiLineString" };
-    feature(&json!({ "type": kind, "coordinates": coordinates }), &properties)
-}
-
-/// A value for each point: an array, or one for each part if there are several.
-fn shaped(parts: &[Vec<CoursePoint>], value: impl Fn(&CoursePoint) -> Value) -> Value {
-    let mut arrays: Vec<Value> = parts.iter().map(|part| part.iter().map(&value).collect()).collect();
-    if arrays.len() == 1 { arrays.swap_remove(0) } else { Value::Array(arrays) }
-}
-
-/// Cuts a line where it crosses the antimeridian. Both parts end there.
-fn parts(points: &[CoursePoint]) -> Vec<Vec<CoursePoint>> {
-    let mut parts = vec![Vec::new()];
-    let mut last: Option<CoursePoint> = None;
-    for &point in points {
-        if let Some(before) = last.filter(|before| (point.place.lon_rad - before.place.lon_rad).abs() > PI) {
-            let [end, start] = crossing(&before, &point);
-            parts.last_mut().into_iter().for_each(|part| part.push(end));
-            parts.push(vec![start]);
-        }
-        parts.last_mut().into_iter().for_each(|part| part.push(point));
-        last = Some(point);
-    }
-    parts
-}
-
-/// The point between two others that lies on the antimeridian, as each of them would write it.
-fn crossing(a: &CoursePoint, b: &CoursePoint) -> [CoursePoint; 2] {
-    let (from, to) = (a.place.direction(), b.place.direction());
-    let share = if from.y == to.y { 0.5 } else { (from.y / (from.y - to.y)).clamp(0.0, 1.0) };
-    let at = from.lerp(to, share);
-    let lat_rad = LatLon::from_direction(at).lat_rad;
-    let between = |a: f64, b: f64| a + (b - a) * share;
-    [a, b].map(|near| CoursePoint {
-        place: LatLon { lat_rad, lon_rad: PI.copysign(near.place.lon_rad) },
-        height_m: between(a.height_m, b.height_m),
-        width_m: between(a.width_m, b.width_m),
-        discharge_m3_s: between(a.discharge_m3_s, b.discharge_m3_s),
-    })
+    feature(&geojson::line(&parts), &properties)
 }
 
 fn lake(lake: &Lake) -> Value {

@@ -12,6 +12,7 @@
 //!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
+//! - [`watch`]: a preset that changes on disk while a game runs
 //! - [`shipped`]: the presets that come with the program
 //! - `idle`: parameters that have no effect where the others stand
 //! - [`notes`]: the editor's own section of a preset; [`locks`]: what variations leave as it is
@@ -51,6 +52,7 @@ pub mod table;
 mod tables;
 pub(crate) mod text;
 pub mod validate;
+pub mod watch;
 
 pub use airs::STARTING_AIRS;
 pub use biome::{Biome, Detail, Steep};

@@ -79,6 +79,13 @@ impl NodeId {
         ((f64::from(self.x) + u) * scale - 1.0, (f64::from(self.y) + v) * scale - 1.0)
     }
 
+    /// The share `number / count` of a side, to a multiple of 2⁻³²: at such shares neighbours agree on shared points to
+    /// the bit, whatever the count.
+    pub fn side_share(number: u32, count: u32) -> f64 {
+        const STEPS: f64 = (1_u64 << 32) as f64;
+        (f64::from(number) / f64::from(count) * STEPS).round() / STEPS
+    }
+
     /// Unit vector through a point of the node; see [`NodeId::face_coordinates`].
     pub fn direction(self, u: f64, v: f64) -> DVec3 {
         let (s, t) = self.face_coordinates(u, v);
@@ -148,6 +155,30 @@ mod tests {
                         };
                         let shared = corners(node).iter().filter(|c| corners(other).contains(c)).count();
                         assert!(shared >= 2, "{node:?} {edge:?} {other:?} share {shared} corners");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn neighbours_share_points_whatever_the_count() {
+        let bits = |dir: DVec3| dir.to_array().map(|c| (c + 0.0).to_bits());
+        for count in [3, 30, 97] {
+            for level in [0, 3] {
+                let side = 1 << level;
+                for node in Face::ALL.map(|face| NodeId { level, face, x: side - 1, y: side / 2 }) {
+                    let border = |node: NodeId| -> Vec<[u64; 3]> {
+                        let sides = (0..=count).flat_map(|i| {
+                            let share = NodeId::side_share(i, count);
+                            [(share, 0.0), (share, 1.0), (0.0, share), (1.0, share)]
+                        });
+                        sides.map(|(u, v)| bits(node.direction(u, v))).collect()
+                    };
+                    for edge in Edge::ALL {
+                        let (here, there) = (border(node), border(node.neighbour(edge)));
+                        let shared = here.iter().filter(|point| there.contains(point)).count();
+                        assert!(shared > count as usize, "{node:?} {edge:?} share {shared} points of {count}");
                     }
                 }
             }

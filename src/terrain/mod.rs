@@ -11,6 +11,7 @@
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `query`, `raycast`: the queries of [`Terrain`]; `water`: water, wind and rain at points
+//! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
 //! - `effects`: what one layer does at points
 //! - `kept`: the fields that a tile keeps from one edit to the next
@@ -26,8 +27,10 @@ pub mod bench;
 pub(crate) mod biome;
 pub(crate) mod border;
 mod by_hand;
+mod chunk;
 pub(crate) mod climate;
 pub(crate) mod coarse;
+mod contours;
 mod effects;
 pub(crate) mod evaluate;
 pub(crate) mod field;
@@ -53,6 +56,8 @@ use crate::world::weather::Weather;
 use crate::world::{Inputs, KeepGoing, MapWork, World};
 #[cfg(feature = "render")]
 use crate::world::{MapPicture, MapView};
+pub use chunk::{Chunk, ChunkGrid};
+pub use contours::Contour;
 pub use effects::LayerEffect;
 pub use height::curve_at;
 

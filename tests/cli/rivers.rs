@@ -1,4 +1,4 @@
-//! `tellus rivers`, and `tellus sample` at many points.
+//! `tellus rivers`, `tellus coasts`, and `tellus sample` at many points.
 
 use crate::LAYERED;
 use serde_json::Value;
@@ -206,4 +206,43 @@ fn a_sample_on_a_planet_with_rivers_says_what_water_there_is() {
     let first = input.lines().next().unwrap().split_once(',').unwrap();
     let (status, shown, _) = run(&["sample", planet, "--lat", first.0, "--lon", first.1], "");
     assert!(status == 0 && shown.contains("wind   ") && shown.contains("basin  "), "{shown}");
+}
+
+#[test]
+fn coasts_are_closed_lines_at_the_sea_level() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out.geojson");
+    let out = out.to_str().unwrap();
+    let coasts = |more: &[&str]| {
+        let (status, shown, err) = run(&[&["coasts", LAYERED, "-o", out], more].concat(), "");
+        assert_eq!((status, shown.as_str(), err.as_str()), (0, "", ""));
+        let all: Value = serde_json::from_slice(&std::fs::read(out).unwrap()).unwrap();
+        all["features"].as_array().unwrap().clone()
+    };
+    let lines = coasts(&["--spacing", "100000"]);
+    assert!(lines.len() > 20, "{}", lines.len());
+    let mut places = Vec::new();
+    for line in &lines {
+        let mut points = Vec::new();
+        positions(&line["geometry"]["coordinates"], &mut points);
+        assert!(points.len() >= 4 && points.first() == points.last(), "{line}");
+        places.extend(points.into_iter().step_by(40));
+    }
+    let input: String = places.iter().map(|[lon, lat]| format!("{lat},{lon}\n")).collect();
+    let (_, answers, _) = run(&["sample", LAYERED, "--points", "-"], &input);
+    let level_m = tellus::planet::Planet::load(LAYERED).unwrap().sea_level_m().unwrap();
+    for answer in json_lines(&answers) {
+        // Coordinates are rounded to a decimetre.
+        assert!((answer["height_m"].as_f64().unwrap() - level_m).abs() < 0.5, "{answer}");
+    }
+    let long = coasts(&["--spacing", "100000", "--min-length", "3000"]);
+    assert!(!long.is_empty() && long.len() < lines.len());
+    assert!(long.iter().all(|line| line["properties"]["length_km"].as_f64().unwrap() >= 3000.0));
+    let high = coasts(&["--spacing", "100000", "--height", "2000"]);
+    assert!(high.iter().all(|line| line["properties"]["height_m"] == 2000.0));
+
+    let (status, _, err) = run(&["coasts", "planets/pallor.ron", "-o", out], "");
+    assert!(status == 1 && err.contains("has no sea; name the --height"), "{err}");
+    let (status, _, err) = run(&["coasts", LAYERED, "-o", out, "--spacing", "1"], "");
+    assert!(status == 1 && err.contains("use 610.812 m or more"), "{err}");
 }

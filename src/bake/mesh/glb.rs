@@ -8,7 +8,7 @@ use super::{MADE_BY, MeshBake, Piece};
 use crate::bake::BakeError;
 use crate::planet::Water;
 use crate::planet::file::write_atomically_with;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -31,9 +31,12 @@ const COVERAGE: f64 = 0.5;
 /// Opacity of water in a mesh of its own.
 const WATER_OPACITY: f64 = 0.75;
 
-/// Writes the file.
-pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece]) -> Result<Vec<PathBuf>, BakeError> {
+/// Writes the file. `origin`: where the origin of the pieces is, in the frame and the units of the file.
+pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece], origin: DVec3) -> Result<Vec<PathBuf>, BakeError> {
     let mut document = Document::new(mesh);
+    if origin != DVec3::ZERO {
+        document.nodes[0]["translation"] = json!(origin.to_array());
+    }
     for piece in pieces {
         document.add(piece);
     }

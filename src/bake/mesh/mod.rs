@@ -10,7 +10,8 @@
 //! - region: the origin is the region's centre on the reference sphere, +X points east, +Y up, -Z north.
 //!
 //! - `square`: a square of the sphere, and the frame; `surface`: ground and water at points; `patch`: the vertices of a
-//!   square; `geometry`: triangles of a level of detail; `textures`; `material`; `glb`, `obj`: encoders
+//!   square; `geometry`: triangles of a level of detail; `textures`; `glb`, `obj`: encoders;
+//!   `tileset`: 3D Tiles
 
 mod geometry;
 mod glb;
@@ -21,6 +22,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod textures;
+mod tileset;
 
 use super::progress::Progress;
 use super::{BakeError, Detail, Outcome, Region};
@@ -28,6 +30,7 @@ use crate::planet::file::Target;
 use crate::planet::{Key, VERSION};
 use crate::terrain::Terrain;
 use geometry::Geometry;
+use glam::DVec3;
 use patch::Patch;
 use serde_json::{Value, json};
 use square::Square;
@@ -36,6 +39,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use surface::Surface;
 use textures::Textures;
+
+pub use tileset::Tileset;
 
 /// Most vertices of a mesh, all squares together; they take up to 100 bytes each.
 const MAX_VERTICES: u64 = 1 << 23;
@@ -208,7 +213,7 @@ impl MeshBake {
             pieces.push(Piece { name: square.name(), levels, water, textures });
         }
         match self.format {
-            MeshFormat::Glb => glb::write(self, path, &pieces),
+            MeshFormat::Glb => glb::write(self, path, &pieces, DVec3::ZERO),
             MeshFormat::Obj => obj::write(self, path, &pieces),
         }
         .map(Outcome::Done)

@@ -3,6 +3,7 @@
 use super::square::Square;
 use super::surface::{BAND, Point, Surface};
 use crate::bake::progress::Progress;
+use crate::sphere::NodeId;
 use glam::{DVec3, Vec3};
 
 /// A square of vertices in the frame of the mesh, row by row from the top.
@@ -29,7 +30,7 @@ impl Patch {
     pub(super) fn new(square: &Square, cells: u32, surface: &Surface<'_>, progress: &Progress<'_>) -> Self {
         let side = cells as usize + 1;
         let direction = |row: usize, column: usize| {
-            square.direction(column as f64 / f64::from(cells), row as f64 / f64::from(cells))
+            square.direction(NodeId::side_share(column as u32, cells), NodeId::side_share(row as u32, cells))
         };
         let mut vertices = Vec::with_capacity(side * side);
         for first in (0..side).step_by(BAND) {

@@ -1,8 +1,9 @@
 //! Meshes of a small planet: their vertices, borders, triangles, skirts, water and textures.
 
+use super::tileset;
 use super::*;
 use crate::planet::Planet;
-use crate::sphere::LatLon;
+use crate::sphere::{LatLon, NodeId};
 use glam::{DVec3, Vec3};
 use std::collections::{HashMap, HashSet};
 
@@ -45,7 +46,8 @@ fn vertices_lie_where_the_evaluator_puts_them() {
             for (square, patch) in patches(&mesh) {
                 for (i, vertex) in patch.vertices.iter().enumerate() {
                     let (row, column) = (i / patch.side, i % patch.side);
-                    let dir = square.direction(column as f64 / 12.0, row as f64 / 12.0);
+                    let dir =
+                        square.direction(NodeId::side_share(column as u32, 12), NodeId::side_share(row as u32, 12));
                     let sample = mesh.terrain.sample(dir);
                     let level_m = sample.water_level_m.filter(|level_m| *level_m > sample.height_m);
                     wet += usize::from(level_m.is_some());
@@ -71,7 +73,7 @@ fn vertices_lie_where_the_evaluator_puts_them() {
 
 #[test]
 fn a_globe_has_no_gap_and_no_triangle_that_faces_inwards() {
-    let mesh = MeshBake { levels: 3, ..mesh(Area::Globe, 8) };
+    let mesh = MeshBake { levels: 3, ..mesh(Area::Globe, 12) };
     for stride in [1, 2, 4] {
         // Each edge of the surface, between positions as they are in the file, is run through once in each direction.
         let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
@@ -236,6 +238,98 @@ fn what_cannot_be_made_is_refused() {
     // Nothing is left of a mesh that was stopped.
     assert_eq!(whole.run(&path, &|_| false).unwrap(), Outcome::Stopped);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+fn tiles(levels: u8) -> Tileset {
+    Tileset { cells: 4, ..Tileset::new(mesh(Area::Globe, 1).terrain, levels) }
+}
+
+#[test]
+fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
+    let tileset = tiles(2);
+    let folder = tempfile::tempdir().unwrap();
+    assert!(
+        matches!(tileset.run(folder.path(), &|_| true).unwrap(), Outcome::Done(files) if files.len() == 1 + 6 * 21)
+    );
+    let json: Value = serde_json::from_slice(&std::fs::read(folder.path().join("tileset.json")).unwrap()).unwrap();
+    let mut tiles = Vec::new();
+    let mut open = json["root"]["children"].as_array().unwrap().clone();
+    while let Some(tile) = open.pop() {
+        open.extend(tile["children"].as_array().into_iter().flatten().cloned());
+        tiles.push(tile);
+    }
+    assert_eq!(tiles.len(), 6 * 21);
+    let by_uri: HashMap<String, _> = tileset.nodes().into_iter().map(|node| (tileset::uri(node), node)).collect();
+    let numbers =
+        |array: &Value| -> Vec<f64> { array.as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect() };
+    for tile in &tiles {
+        let uri = tile["content"]["uri"].as_str().unwrap();
+        let node = by_uri[uri];
+        assert_eq!(tile["geometricError"] == 0.0, tile["children"].is_null());
+        let bytes = std::fs::read(folder.path().join(uri)).unwrap();
+        let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+        let glb: Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+        let (bounds, origin) = (numbers(&tile["boundingVolume"]["box"]), numbers(&glb["nodes"][0]["translation"]));
+        // The first view holds positions: those of the surface, then those of the skirt.
+        let floats = bytes[28 + length..].as_chunks().0;
+        for (i, vertex) in floats[..(25 + 16) * 3].chunks_exact(3).enumerate() {
+            let at = DVec3::from_array([0, 1, 2].map(|k| f64::from(f32::from_le_bytes(vertex[k])) + origin[k]));
+            // Readers turn y up to z up.
+            let planet_m = DVec3::new(at.x, -at.z, at.y);
+            let from_center = planet_m - DVec3::from_slice(&bounds);
+            for axis in bounds[3..].chunks_exact(3).map(DVec3::from_slice) {
+                let share = from_center.dot(axis) / axis.length_squared();
+                assert!(share.abs() <= 1.0, "{uri}: {share}");
+            }
+            if i < 25 {
+                // Directions of neighbours agree to the bit.
+                let dir = node.direction((i % 5) as f64 / 4.0, 1.0 - (i / 5) as f64 / 4.0);
+                let sample = tileset.terrain.sample(dir);
+                let wanted_m = dir * (40_000.0 + sample.water_level_m.unwrap_or(sample.height_m));
+                assert!(planet_m.distance(wanted_m) < 0.01, "{uri}: {planet_m}, not {wanted_m}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_region_divides_only_what_is_near_and_always_into_four() {
+    let region = Some(Region { lat_deg: 20.0, lon_deg: -40.0, side_km: 4.0 });
+    let (whole, part) = (tiles(5).nodes(), Tileset { region, ..tiles(5) }.nodes());
+    assert_eq!(whole.len(), 6 * 1365);
+    assert!(part.len() > 126 && part.len() < 400, "{}", part.len());
+    let center = LatLon::from_degrees(20.0, -40.0).direction();
+    assert!(part.contains(&NodeId::containing(center, 5)));
+    for node in &part {
+        assert!(node.parent().is_none_or(|parent| parent.children().iter().all(|child| part.contains(child))));
+    }
+}
+
+#[test]
+fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    let asked = std::sync::atomic::AtomicU32::new(0);
+    let some = |_| asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 10;
+    assert_eq!(tiles(1).run(folder.path(), &some).unwrap(), Outcome::Stopped);
+    assert!(!folder.path().join("tileset.json").exists());
+    let kept = folder.path().join("0/pos_x_0_0.glb");
+    std::fs::write(&kept, "kept").unwrap();
+    assert!(matches!(tiles(1).run(folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
+    assert_eq!(std::fs::read(&kept).unwrap(), b"kept");
+    assert!(folder.path().join("1/neg_z_1_1.glb").is_file());
+    let other = Tileset { cells: 5, ..tiles(1) }.run(folder.path(), &|_| true).unwrap_err().to_string();
+    assert!(other.contains("holds tiles of another bake"), "{other}");
+    for (tileset, words) in [
+        (Tileset { cells: 0, ..tiles(1) }, "0 cells"),
+        (Tileset { texture_px: Some(1), ..tiles(1) }, "use 2 to 1024"),
+        (Tileset { water: MeshWater::Apart, ..tiles(1) }, "no mesh of the water"),
+        (tiles(17), "use 0 to 16"),
+        (tiles(9), "use fewer --levels, or a region"),
+    ] {
+        let error = tileset.run(&folder.path().join("none"), &|_| true).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    assert!(!folder.path().join("none").exists());
 }
 
 #[test]

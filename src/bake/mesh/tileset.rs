@@ -1,0 +1,301 @@
+//! 3D Tiles 1.1 (OGC 22-025r4): the globe as a tree of GLB files, one for each square of the quadtree, and the tileset
+//! that lists them. Four squares replace the one that they divide. Neighbours of one level share their borders to the
+//! bit; skirts hide the gaps between levels.
+//!
+//! Each file is written as a whole, so that an interrupted bake goes on with the files that are missing.
+
+use super::geometry::Geometry;
+use super::patch::Patch;
+use super::square::Square;
+use super::surface::Surface;
+use super::textures::Textures;
+use super::{Area, MADE_BY, MeshBake, MeshFormat, MeshWater, Piece, glb};
+use crate::bake::progress::Progress;
+use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
+use crate::planet::file::write_atomically;
+use crate::planet::{Key, VERSION};
+use crate::sphere::{Face, LatLon, NodeId, Tangent};
+use crate::terrain::Terrain;
+use glam::DVec3;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Finest level.
+const MAX_LEVEL: u8 = 16;
+/// Most tiles.
+const MAX_TILES: usize = 200_000;
+/// Most texels along a side of a tile.
+const MAX_TEXTURE: u32 = 1024;
+/// Most cells along a side of a tile.
+const MAX_CELLS: u32 = 256;
+/// Geometric error of a tile as a share of the distance between its vertices: ground of constant slope 1 in 2 deviates
+/// by this from the straight line between two of them.
+const ERROR: f64 = 0.25;
+/// Points along a side of a tile from which its box is found, and what the box is enlarged by for the border between.
+const BORDER: u32 = 16;
+const BETWEEN: f64 = 1.002;
+/// Depth of skirts in distances between vertices.
+const SKIRT: f64 = 1.0;
+
+/// A tileset that is to be written.
+#[derive(Clone, Debug)]
+pub struct Tileset {
+    /// The planet, with its final world maps.
+    pub terrain: Arc<Terrain>,
+    /// The finest level; level 0 is a face of the cube sphere.
+    pub levels: u8,
+    /// Where levels beyond [`Tileset::WHOLE`] are; None for everywhere.
+    pub region: Option<Region>,
+    /// Cells along a side of a tile.
+    pub cells: u32,
+    /// Width of the textures of a tile in pixels; None for colours at the vertices.
+    pub texture_px: Option<u32>,
+    /// Whether the mesh runs on seas, lakes and rivers, or on the ground beneath.
+    pub water: MeshWater,
+    /// How much of a structure is in the tiles.
+    pub detail: Detail,
+}
+
+impl Tileset {
+    /// The finest level that a tileset with a region has outside of it.
+    pub const WHOLE: u8 = 2;
+
+    /// A tileset of the whole globe with colours at its vertices.
+    pub fn new(terrain: Arc<Terrain>, levels: u8) -> Self {
+        Self {
+            terrain,
+            levels,
+            region: None,
+            cells: 64,
+            texture_px: None,
+            water: MeshWater::Surface,
+            detail: Detail::All,
+        }
+    }
+
+    /// Writes `tileset.json` and the tiles `LEVEL/FACE_X_Y.glb` to a folder, which is made if there is none. Tiles that
+    /// an earlier run of the same bake left there are kept. The tileset comes last.
+    ///
+    /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
+    /// answers no, the bake stops; the same bake goes on from there.
+    ///
+    /// # Errors
+    /// What is wrong with what was asked for, before anything is written; or with a file. No file is left half-written.
+    pub fn run(&self, folder: &Path, go_on: &(dyn Fn(f64) -> bool + Sync)) -> Result<Outcome, BakeError> {
+        profiling::scope!("bake a tileset");
+        self.check().map_err(BakeError::Asked)?;
+        let nodes = self.nodes();
+        if nodes.len() > MAX_TILES {
+            let message = format!("{} tiles are more than {MAX_TILES}; use fewer --levels, or a region", nodes.len());
+            return Err(BakeError::Asked(message));
+        }
+        make_folder(folder)?;
+        self.claim(folder)?;
+        let missing: Vec<NodeId> = nodes.iter().copied().filter(|node| !folder.join(uri(*node)).is_file()).collect();
+        for level in 0..=self.levels {
+            make_folder(&folder.join(level.to_string()))?;
+        }
+        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px));
+        let side = u64::from(self.cells) + 1;
+        let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
+        missing.par_iter().with_max_len(1).try_for_each(|node| {
+            if progress.is_stopped() { Ok(()) } else { self.write(*node, &folder.join(uri(*node)), &progress) }
+        })?;
+        if progress.is_stopped() {
+            return Ok(Outcome::Stopped);
+        }
+        let path = folder.join("tileset.json");
+        let text = format!("{:#}\n", self.tileset());
+        write_atomically(&path, text.as_bytes()).map_err(|error| BakeError::file(&path, error))?;
+        let tiles = nodes.into_iter().map(|node| folder.join(uri(node)));
+        Ok(Outcome::Done([path].into_iter().chain(tiles).collect()))
+    }
+
+    fn check(&self) -> Result<(), String> {
+        let planet = self.terrain.planet();
+        if !self.terrain.has_final_maps() {
+            return Err("the world maps of the terrain are not final; load it with Terrain::load".to_owned());
+        }
+        if self.levels > MAX_LEVEL {
+            return Err(format!("level {} is out of range; use 0 to {MAX_LEVEL}", self.levels));
+        }
+        if !(1..=MAX_CELLS).contains(&self.cells) {
+            return Err(format!("{} cells are out of range; use 1 to {MAX_CELLS}", self.cells));
+        }
+        match self.texture_px {
+            Some(px) if !(2..=MAX_TEXTURE).contains(&px) => {
+                return Err(format!("textures of {px} pixels are out of range; use 2 to {MAX_TEXTURE}"));
+            }
+            _ => {}
+        }
+        if self.water == MeshWater::Apart {
+            return Err("tiles have no mesh of the water; use surface or none".to_owned());
+        }
+        self.region.as_ref().map_or(Ok(()), |region| region.check(planet))
+    }
+
+    /// Notes which bake the folder belongs to.
+    fn claim(&self, folder: &Path) -> Result<(), BakeError> {
+        let program = (env!("CARGO_PKG_VERSION"), VERSION);
+        let planet = Key::of_planet(self.terrain.planet());
+        let water = self.water.name();
+        let key = Key::of(&(program, planet, self.cells, self.texture_px, water, self.detail));
+        let (path, wanted) = (folder.join("tiles.key"), format!("{:032x}\n", key.bits()));
+        match std::fs::read_to_string(&path) {
+            Ok(found) if found == wanted => Ok(()),
+            Ok(_) => {
+                let message = "holds tiles of another bake; name another folder, or remove that one";
+                Err(BakeError::file(folder, message))
+            }
+            Err(_) => write_atomically(&path, wanted.as_bytes()).map_err(|error| BakeError::file(&path, error)),
+        }
+    }
+
+    /// All nodes, the coarsest first.
+    pub(super) fn nodes(&self) -> Vec<NodeId> {
+        let (mut nodes, mut level) = (Vec::new(), NodeId::roots().to_vec());
+        while !level.is_empty() && nodes.len() <= MAX_TILES {
+            let next = level.iter().filter(|node| self.is_divided(**node)).flat_map(|node| node.children()).collect();
+            nodes.append(&mut level);
+            level = next;
+        }
+        nodes
+    }
+
+    fn is_divided(&self, node: NodeId) -> bool {
+        if node.level >= self.levels {
+            return false;
+        }
+        let Some(region) = self.region.filter(|_| node.level >= Self::WHOLE) else { return true };
+        let center = LatLon::from_degrees(region.lat_deg, region.lon_deg).direction();
+        let half_diagonal_rad = region.side_km / self.terrain.planet().radius_km / std::f64::consts::SQRT_2;
+        center.angle_between(node.direction(0.5, 0.5)) < half_diagonal_rad + radius_rad(node)
+    }
+
+    fn spacing_m(&self, node: NodeId) -> f64 {
+        let radius_m = self.terrain.planet().radius_m();
+        std::f64::consts::FRAC_PI_2 * radius_m / f64::from(self.cells) / f64::from(1_u32 << node.level)
+    }
+
+    fn write(&self, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
+        let mesh = MeshBake {
+            texture_px: self.texture_px,
+            water: self.water,
+            skirt_m: self.spacing_m(node) * SKIRT,
+            detail: self.detail,
+            ..MeshBake::new(Arc::clone(&self.terrain), Area::Globe, self.cells, MeshFormat::Glb)
+        };
+        let radius_m = self.terrain.planet().radius_m();
+        let origin_planet_m = node.direction(0.5, 0.5) * radius_m;
+        let (square, surface) = (Square::of_node(node, radius_m, origin_planet_m), Surface::new(&mesh));
+        let patch = Patch::new(&square, self.cells, &surface, progress);
+        if progress.is_stopped() {
+            return Ok(());
+        }
+        let textures = self.texture_px.map(|px| Textures::new(&square, px, &patch, &surface, progress));
+        let textures = textures.transpose().map_err(|error| BakeError::file(path, error))?;
+        if progress.is_stopped() {
+            return Ok(());
+        }
+        let levels = vec![Geometry::new(&patch, 1, mesh.skirt_m, mesh.scale)];
+        let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
+        glb::write(&mesh, path, &[piece], square.turned(origin_planet_m)).map(drop)
+    }
+
+    /// The list of tiles.
+    fn tileset(&self) -> Value {
+        let planet = self.terrain.planet();
+        let (_, highest_m) = self.terrain.height_bounds_m();
+        let top_m = planet.radius_m() + highest_m.max(planet.sea_level_m().unwrap_or(0.0)).max(0.0);
+        let children: Vec<Value> = NodeId::roots().into_iter().map(|root| self.tile(root)).collect();
+        json!({
+            "asset": {
+                "version": "1.1",
+                "extras": {
+                    "generator": MADE_BY,
+                    "planet": planet.name,
+                    "radius_m": planet.radius_m(),
+                    "sea_level_m": planet.sea_level_m(),
+                    "water": self.water.name(),
+                    "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
+                    "algorithm_version": VERSION,
+                },
+            },
+            "geometricError": planet.radius_m(),
+            "root": {
+                "boundingVolume": {
+                    "box": [0.0, 0.0, 0.0, top_m, 0.0, 0.0, 0.0, top_m, 0.0, 0.0, 0.0, top_m],
+                },
+                "geometricError": planet.radius_m(),
+                "refine": "REPLACE",
+                "children": children,
+            },
+        })
+    }
+
+    fn tile(&self, node: NodeId) -> Value {
+        let is_divided = self.is_divided(node);
+        let mut tile = json!({
+            "boundingVolume": { "box": self.bounding_box(node) },
+            "geometricError": if is_divided { self.spacing_m(node) * ERROR } else { 0.0 },
+            "content": { "uri": uri(node) },
+        });
+        if is_divided {
+            tile["children"] = node.children().into_iter().map(|child| self.tile(child)).collect();
+        }
+        tile
+    }
+
+    /// A box around a tile with its skirt, in the planet frame, metres: its centre, and half of each side as a vector.
+    fn bounding_box(&self, node: NodeId) -> [f64; 12] {
+        let planet = self.terrain.planet();
+        let around = Tangent::new(node.direction(0.5, 0.5));
+        let (lowest_m, highest_m) = self.terrain.height_bounds_near_m(around.up_planet, radius_rad(node));
+        let highest_m = planet.sea_level_m().map_or(highest_m, |sea_m| highest_m.max(sea_m));
+        let low_m = planet.radius_m() + lowest_m - self.spacing_m(node) * SKIRT;
+        let high_m = planet.radius_m() + highest_m;
+        // The extremes lie on the border, and the top in the middle.
+        let mut least = DVec3::new(0.0, 0.0, high_m);
+        let mut most = least;
+        let border = (0..=BORDER).flat_map(|i| {
+            let share = f64::from(i) / f64::from(BORDER);
+            [(share, 0.0), (share, 1.0), (0.0, share), (1.0, share)]
+        });
+        for (u, v) in border {
+            let dir = around.local(node.direction(u, v));
+            for radius_m in [low_m, high_m] {
+                (least, most) = (least.min(dir * radius_m), most.max(dir * radius_m));
+            }
+        }
+        let center = around.planet(0.5 * (least + most));
+        let half = 0.5 * (most - least) * BETWEEN;
+        let axes = [around.east_planet * half.x, around.north_planet * half.y, around.up_planet * half.z];
+        let mut numbers = [0.0; 12];
+        for (numbers, vector) in numbers.chunks_mut(3).zip([center].into_iter().chain(axes)) {
+            numbers.copy_from_slice(&vector.to_array());
+        }
+        numbers
+    }
+}
+
+/// Angle from the centre of a node to its farthest corner.
+fn radius_rad(node: NodeId) -> f64 {
+    let center = node.direction(0.5, 0.5);
+    let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
+    corners.into_iter().map(|(u, v)| center.angle_between(node.direction(u, v))).fold(0.0, f64::max)
+}
+
+/// Where the file of a tile is.
+pub(super) fn uri(NodeId { level, face, x, y }: NodeId) -> String {
+    let face = match face {
+        Face::PosX => "pos_x",
+        Face::NegX => "neg_x",
+        Face::PosY => "pos_y",
+        Face::NegY => "neg_y",
+        Face::PosZ => "pos_z",
+        Face::NegZ => "neg_z",
+    };
+    format!("{level}/{face}_{x}_{y}.glb")
+}
