@@ -132,7 +132,7 @@ fn fly(preset: &Path) -> Result<(), Failure> {
                 terrain = Arc::new(Terrain::try_new(planet.into())?);
                 reloads += 1;
                 let rise_m = clearance_m - lander.clearance_m(&terrain, &mut scratch);
-                println!("{seconds:.0} s: the preset has changed; the ground here has risen by {rise_m:.0} m");
+                println!("{seconds:.0} s: the preset has changed; the ground here has moved by {rise_m:+.0} m");
             }
             Some(Err(error)) => println!("{error}"),
             None => {}

@@ -8,9 +8,8 @@
 //!   centre; north is up there. Square pixels.
 
 use crate::planet::Planet;
-use crate::sphere::LatLon;
 use crate::sphere::cube::texture_direction;
-use crate::sphere::tangent::Tangent;
+use crate::sphere::{Face, LatLon, Tangent};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -65,9 +64,6 @@ impl Projection {
     }
 }
 
-/// The faces in the names of files.
-const FACES: [&str; 6] = ["pos_x", "neg_x", "pos_y", "neg_y", "pos_z", "neg_z"];
-
 /// The pixels of a bake: one picture, or six of the same size.
 pub(super) struct Grid {
     pub(super) width: u32,
@@ -120,12 +116,12 @@ impl Grid {
 
     /// How many pictures there are.
     pub(super) fn pictures(&self) -> usize {
-        if matches!(self.kind, Kind::Cube) { FACES.len() } else { 1 }
+        if matches!(self.kind, Kind::Cube) { Face::ALL.len() } else { 1 }
     }
 
     /// The face of a picture, if it is one.
     pub(super) fn face(&self, picture: usize) -> Option<&'static str> {
-        FACES.get(picture).copied().filter(|_| matches!(self.kind, Kind::Cube))
+        Face::ALL.get(picture).filter(|_| matches!(self.kind, Kind::Cube)).map(|face| face.name())
     }
 
     /// Direction of the centre of a pixel. Rows count from the top.
@@ -156,7 +152,6 @@ pub(super) fn longest_side_km(radius_km: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sphere::Face;
 
     fn lat_lon(grid: &Grid, picture: usize, x: u32, y: u32) -> (f64, f64) {
         LatLon::from_direction(grid.direction(picture, x, y)).to_degrees()

@@ -4,33 +4,46 @@ use super::Bake;
 use super::format::Shape;
 use super::maps::{Map, Range, mean_color};
 use super::projection::Projection;
-use crate::planet::{Key, VERSION};
+use crate::planet::{Key, Planet, VERSION};
 use serde_json::{Value, json};
 
-/// What a program must know to read the map in `file`.
-pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &Shape) -> Value {
-    let planet = bake.terrain.planet();
-    let mut about = json!({
+/// What a program may want to know of the planet that something was baked from.
+pub(super) fn of_planet(planet: &Planet) -> Value {
+    json!({
         "planet": planet.name,
-        "map": map.name(),
-        "file": file,
-        "format": shape.format.name(),
-        "width": shape.width,
-        "height": shape.height,
-        "channels": channels(map),
-        "projection": bake.projection.name(),
-        "min": shape.steps.min,
-        "max": shape.steps.max,
-        "unit": map.unit(),
-        "detail": bake.detail.name(),
-        "encoding": encoding(map, shape),
         "radius_m": planet.radius_m(),
         "sea_level_m": planet.sea_level_m(),
         "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
         // The version of presets pins the algorithm of the terrain, too.
         "algorithm_version": VERSION,
-        "made_by": concat!("tellus ", env!("CARGO_PKG_VERSION")),
-    });
+        "made_by": MADE_BY,
+    })
+}
+
+/// The program that made a file.
+pub(super) const MADE_BY: &str = concat!("tellus ", env!("CARGO_PKG_VERSION"));
+
+/// What a program must know to read the map in `file`.
+pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &Shape) -> Value {
+    let planet = bake.terrain.planet();
+    let mut about = of_planet(planet);
+    let of_map = [
+        ("map", json!(map.name())),
+        ("file", json!(file)),
+        ("format", json!(shape.format.name())),
+        ("width", json!(shape.width)),
+        ("height", json!(shape.height)),
+        ("channels", channels(map)),
+        ("projection", json!(bake.projection.name())),
+        ("min", json!(shape.steps.min)),
+        ("max", json!(shape.steps.max)),
+        ("unit", json!(map.unit())),
+        ("detail", json!(bake.detail.name())),
+        ("encoding", json!(encoding(map, shape))),
+    ];
+    for (key, value) in of_map {
+        about[key] = value;
+    }
     if map.unit() == "m" {
         about["min_m"] = json!(shape.steps.min);
         about["max_m"] = json!(shape.steps.max);

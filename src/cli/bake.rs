@@ -1,7 +1,8 @@
 //! `tellus bake`: maps of a planet in files.
 
+use super::area::{DetailArgs, tell_slow};
 use super::{Failure, args, load, maps, tell};
-use crate::bake::{Bake, Detail, Format, MAX_SIZE, Map, Outcome, Projection, Region, Shard};
+use crate::bake::{Bake, Format, MAX_SIZE, Map, Outcome, Projection, Region, Shard};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -67,15 +68,8 @@ pub(super) struct Args {
     /// Length of a side of a region
     #[arg(long, value_name = "KILOMETRES", value_parser = args::region, required_if_eq("projection", "region"))]
     km: Option<f64>,
-    /// all: what `tellus sample` answers. pixel: without valleys and rivers of a structure that are too narrow for the
-    /// map's pixels, as the planet is drawn from afar; a map of the globe takes seconds instead of hours
-    #[arg(
-        long,
-        value_name = "DETAIL",
-        default_value = "all",
-        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
-    )]
-    detail: Detail,
+    #[command(flatten)]
+    detail: DetailArgs,
     /// Heights in metres that whole numbers run between [default: the lowest and the highest of the map]
     #[arg(long, value_name = "MIN,MAX", allow_hyphen_values = true, value_parser = args::heights)]
     range: Option<[f64; 2]>,
@@ -101,14 +95,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let terrain = Arc::new(maps::terrain(planet)?);
     let mut bake = Bake::new(terrain, args.what.clone(), projection, args.size, args.format);
-    bake.detail = args.detail;
+    bake.detail = args.detail.detail;
     bake.time_secs = args.time;
     bake.heights_m = args.range;
     bake.shard = args.shard.map(|(number, count)| Shard { number, count });
     if bake.is_slow() {
-        tell(
-            "note: every river under these pixels is made, milliseconds for each; --detail pixel leaves out the narrow ones",
-        );
+        tell_slow();
     }
     match bake.run(&args.output, &told()).map_err(|error| error.to_string())? {
         Outcome::Shard { missing: 0 } => tell("all strips are there; the same command without --shard joins them"),

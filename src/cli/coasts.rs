@@ -2,10 +2,10 @@
 
 use super::geojson::{self, feature, rounded};
 use super::{Failure, args, load, maps};
-use crate::bake::mesh::{Area, MeshBake};
 use crate::planet::file::{Target, write_atomically};
 use crate::terrain::Contour;
 use serde_json::{Value, json};
+use std::f64::consts::FRAC_PI_2;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -43,11 +43,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Err(format!("{file}: {} has no sea; name the --height of the lines", planet.name).into());
     };
     let cells = match args.spacing {
-        Some(spacing_m) => MeshBake::cells_for(&Area::Globe, planet.radius_m(), spacing_m, 1),
+        // Too many cells stay too many as a whole number.
+        Some(spacing_m) => (FRAC_PI_2 * planet.radius_m() / spacing_m).ceil() as u32,
         None => DEFAULT_CELLS,
     };
     if cells > MOST_CELLS {
-        let least_m = std::f64::consts::FRAC_PI_2 * planet.radius_m() / f64::from(MOST_CELLS);
+        let least_m = FRAC_PI_2 * planet.radius_m() / f64::from(MOST_CELLS);
         return Err(format!("--spacing: too small for the whole globe; use {least_m:.3} m or more").into());
     }
     let failed = |error: String| format!("{}: {error}", args.output.display());

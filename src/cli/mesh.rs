@@ -1,9 +1,9 @@
 //! `tellus mesh`: a planet or a region as a mesh in a file.
 
+use super::area::{DetailArgs, RegionArgs, tell_slow};
 use super::bake::told;
-use super::{Failure, args, load, maps, tell};
+use super::{Failure, args, load, maps};
 use crate::bake::mesh::{Area, MeshBake, MeshFormat, MeshWater};
-use crate::bake::{Detail, Outcome, Region};
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,27 +29,8 @@ pub(super) struct Args {
     /// of one of the six squares of a globe]
     #[arg(long, value_name = "METRES", value_parser = args::length)]
     spacing: Option<f64>,
-    #[arg(
-        long,
-        help = "Latitude of the centre of a region in degrees, north positive [default: the whole globe]",
-        value_name = "DEG",
-        allow_hyphen_values = true,
-        value_parser = args::latitude,
-        requires_all = ["lon", "km"]
-    )]
-    lat: Option<f64>,
-    #[arg(
-        long,
-        help = "Longitude of the centre of a region in degrees, east positive",
-        value_name = "DEG",
-        allow_hyphen_values = true,
-        value_parser = args::longitude,
-        requires_all = ["lat", "km"]
-    )]
-    lon: Option<f64>,
-    /// Length of a side of a region
-    #[arg(long, value_name = "KILOMETRES", value_parser = args::region, requires_all = ["lat", "lon"])]
-    km: Option<f64>,
+    #[command(flatten)]
+    region: RegionArgs,
     /// Width of textures of colour, normals and roughness, of each square; without it vertices have colours
     #[arg(long, value_name = "PIXELS")]
     texture: Option<u32>,
@@ -72,15 +53,8 @@ pub(super) struct Args {
     /// Units of the file in a metre, such as 0.001 for kilometres
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = args::scale)]
     scale: f64,
-    /// all: what `tellus sample` answers. pixel: without valleys and rivers of a structure that are too narrow for the
-    /// vertices; a globe takes seconds instead of hours
-    #[arg(
-        long,
-        value_name = "DETAIL",
-        default_value = "all",
-        value_parser = PossibleValuesParser::new(Detail::ALL.map(Detail::name)).try_map(|name| Detail::named(&name).ok_or(name))
-    )]
-    detail: Detail,
+    #[command(flatten)]
+    detail: DetailArgs,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -89,10 +63,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Err(format!("{path}: the ending names no kind of mesh; use .glb or .obj").into());
     };
     let planet = Arc::new(load(&args.file)?);
-    let area = match (args.lat, args.lon, args.km) {
-        (Some(lat_deg), Some(lon_deg), Some(side_km)) => Area::Region(Region { lat_deg, lon_deg, side_km }),
-        _ => Area::Globe,
-    };
+    let area = args.region.region().map_or(Area::Globe, Area::Region);
     let cells = match args.spacing {
         Some(spacing_m) => MeshBake::cells_for(&area, planet.radius_m(), spacing_m, args.lods),
         None => DEFAULT_CELLS,
@@ -103,15 +74,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         levels: args.lods,
         skirt_m: args.skirt,
         scale: args.scale,
-        detail: args.detail,
+        detail: args.detail.detail,
         ..MeshBake::new(Arc::new(maps::terrain(planet)?), area, cells, format)
     };
     if mesh.is_slow() {
-        tell(
-            "note: every river under these vertices is made, milliseconds for each; --detail pixel leaves out the narrow ones",
-        );
+        tell_slow();
     }
-    match mesh.run(&args.output, &told()).map_err(|error| error.to_string())? {
-        Outcome::Done(_) | Outcome::Stopped | Outcome::Shard { .. } => Ok(()),
-    }
+    mesh.run(&args.output, &told()).map_err(|error| error.to_string())?;
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! The command line: one file for each subcommand.
 //!
-//! - `args`: parsers of sizes, angles and locations
+//! - `args`: parsers of sizes, angles and locations; `area`: arguments that bakes share
 //! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`, `new`, `bench`:
 //!   the subcommands
 //! - `geojson`: features and lines for `rivers` and `coasts`
@@ -10,6 +10,7 @@
 //!
 //! Exit status 0 = done, 1 = the input is wrong (said on standard error), 2 = usage.
 
+mod area;
 mod args;
 mod bake;
 mod bench;

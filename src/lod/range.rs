@@ -98,3 +98,25 @@ impl Ranges {
 pub fn spacing_rad(level: u8) -> f64 {
     std::f64::consts::FRAC_PI_2 / (TILE_QUADS as f64 * f64::from(1_u32 << level))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::Camera;
+    use crate::sphere::LatLon;
+
+    #[test]
+    fn detail_textures_of_small_pictures_reach_less_far_and_vertices_keep_their_chords() {
+        let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), 7e6, 0.0, 0.0, Camera::DEFAULT_FOV_Y_RAD);
+        for quality in [Quality::Low, Quality::Medium, Quality::High] {
+            let ranges = |size_px| Ranges::new(&View { camera, size_px, quality }, 6e6, 1.0);
+            let (large, small) = (ranges([1280, 800]), ranges([160, 90]));
+            assert_eq!(large.shaded_spacings, large.least_spacings);
+            assert_eq!((small.shaded_spacings, small.least_spacings), (FEWEST_SHADED, FEWEST_SPACINGS));
+            for ranges in [large, small] {
+                assert!(ranges.shaded_spacings <= ranges.least_spacings && ranges.eye_spacings() > 0.0);
+                assert!(ranges.shaded_m(5) <= ranges.always_m(5));
+            }
+        }
+    }
+}

@@ -27,6 +27,12 @@ impl Face {
     /// All six, in the order of their number.
     pub const ALL: [Face; 6] = [Face::PosX, Face::NegX, Face::PosY, Face::NegY, Face::PosZ, Face::NegZ];
 
+    /// Its name in the names of files.
+    #[cfg(feature = "bake")]
+    pub(crate) fn name(self) -> &'static str {
+        ["pos_x", "neg_x", "pos_y", "neg_y", "pos_z", "neg_z"][self as usize]
+    }
+
     /// The axis (0 = x, 1 = y, 2 = z) and sign of the outward normal.
     pub fn axis(self) -> (usize, i64) {
         let number = self as usize;

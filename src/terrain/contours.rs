@@ -2,7 +2,6 @@
 //! (Maple 2003, "Geometric design and space planning using the marching squares and marching cube algorithms").
 
 use super::Terrain;
-use super::query::Scratch;
 use crate::sphere::{LatLon, NodeId};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,8 +9,6 @@ use std::collections::HashMap;
 
 /// Rows of vertices that are evaluated at a time.
 const BAND: u32 = 32;
-/// Directions for one task of a parallel query.
-const TASK: usize = 1024;
 /// Most evaluations that move a crossing from the straight line between two vertices onto the ground between them.
 const MOST_REFINEMENTS: usize = 24;
 /// Difference of height at which a crossing is on the line.
@@ -47,8 +44,8 @@ struct Crossings {
 
 impl Terrain {
     /// The lines at a height over the reference sphere, the longest first. `cells`: along each side of the six faces;
-    /// islands and bays smaller than a cell are left out, and so are
-    /// valleys of a structure that are too narrow for cells. Points lie on the ground of that height, to a decimetre.
+    /// islands and bays smaller than a cell are left out, and so are valleys of a structure that are too narrow for
+    /// cells. Points lie on the ground of that height, to a decimetre.
     pub fn contours(&self, height_m: f64, cells: u32) -> Vec<Contour> {
         profiling::scope!("contours");
         let cells = cells.max(1);
@@ -68,7 +65,7 @@ impl Terrain {
                     .flat_map(|row| (0..=cells).map(move |column| (row, column)))
                     .map(|(r, c)| dir(r, c))
                     .collect();
-                let over_m = self.spaced_heights_m(&dirs, spacing_rad).into_iter().map(|found_m| found_m - height_m);
+                let over_m = self.heights_spaced_m(&dirs, spacing_rad).into_iter().map(|found_m| found_m - height_m);
                 let vertices: Vec<(DVec3, f64)> = dirs.into_iter().zip(over_m).collect();
                 for row in vertices.chunks_exact(cells as usize + 1) {
                     for (below, above) in below.windows(2).zip(row.windows(2)) {
@@ -83,21 +80,12 @@ impl Terrain {
         crossings.lines(self.planet().radius_km + height_m / 1000.0)
     }
 
-    fn spaced_heights_m(&self, dirs: &[DVec3], spacing_rad: f64) -> Vec<f64> {
-        let mut heights_m = vec![0.0; dirs.len()];
-        let tasks = heights_m.par_chunks_mut(TASK).zip(dirs.par_chunks(TASK));
-        tasks.for_each_init(Scratch::default, |scratch, (heights_m, dirs)| {
-            self.heights_spaced_into(dirs, spacing_rad, heights_m, scratch);
-        });
-        heights_m
-    }
-
     /// Moves crossings onto the ground: in turns where a straight line between the ends crosses, and to their middle.
     fn refine(&self, crossings: &mut [Crossing], height_m: f64, spacing_rad: f64) {
         let mut open: Vec<&mut Crossing> = crossings.iter_mut().collect();
         for step in 0..MOST_REFINEMENTS {
             let dirs: Vec<DVec3> = open.iter().map(|crossing| crossing.dir).collect();
-            let heights_m = self.spaced_heights_m(&dirs, spacing_rad);
+            let heights_m = self.heights_spaced_m(&dirs, spacing_rad);
             open.par_iter_mut().zip(heights_m).for_each(|(crossing, found_m)| {
                 crossing.found_m = found_m - height_m;
             });

@@ -146,9 +146,16 @@ impl Terrain {
 
     /// [`Terrain::height_m`] of many directions, on all cores.
     pub fn heights_m(&self, dirs_planet: &[DVec3]) -> Vec<f64> {
+        self.heights_spaced_m(dirs_planet, 0.0)
+    }
+
+    /// As [`Terrain::heights_m`], without valleys of a structure that points `spacing_rad` apart would not show.
+    pub(super) fn heights_spaced_m(&self, dirs_planet: &[DVec3], spacing_rad: f64) -> Vec<f64> {
         let mut heights_m = vec![0.0; dirs_planet.len()];
         let tasks = heights_m.par_chunks_mut(TASK).zip(dirs_planet.par_chunks(TASK));
-        tasks.for_each(|(heights_m, dirs)| with_scratch(|scratch| self.heights_into(dirs, heights_m, scratch)));
+        tasks.for_each(|(heights_m, dirs)| {
+            with_scratch(|scratch| self.heights_spaced_into(dirs, spacing_rad, heights_m, scratch));
+        });
         heights_m
     }
 

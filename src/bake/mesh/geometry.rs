@@ -80,7 +80,7 @@ impl Geometry {
     pub(super) fn water(patch: &Patch, stride: usize, scale: f64) -> Option<Self> {
         let mut geometry = Self::default();
         let cells = (patch.side - 1) / stride;
-        let is_wet = |(row, column): (usize, usize)| patch.at(row * stride, column * stride).water_m.is_some();
+        let is_wet = |(row, column): (usize, usize)| patch.at(row * stride, column * stride).water_radius_m.is_some();
         // The index of each vertex in the mesh of the water.
         let mut numbers = vec![u32::MAX; (cells + 1) * (cells + 1)];
         for (row, column) in (0..cells).flat_map(|row| (0..cells).map(move |column| (row, column))) {
@@ -116,10 +116,7 @@ impl Geometry {
 /// Distance of the water from the planet's centre at a vertex, or its mean at the wet vertices around it: there is at
 /// least one.
 fn water_radius_m(patch: &Patch, row: usize, column: usize, stride: usize) -> f64 {
-    let radius_m = |row: usize, column: usize| {
-        let water_m = patch.at(row * stride, column * stride).water_m;
-        water_m.map(|water_m| water_m.distance(patch.center_m))
-    };
+    let radius_m = |row: usize, column: usize| patch.at(row * stride, column * stride).water_radius_m;
     radius_m(row, column).unwrap_or_else(|| {
         let last = (patch.side - 1) / stride;
         let near = |middle: usize| middle.saturating_sub(1)..=(middle + 1).min(last);

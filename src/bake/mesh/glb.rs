@@ -2,17 +2,18 @@
 //! detail follow MSFT_lod: a reader that does not know it shows the finest level.
 
 use super::geometry::Geometry;
-use super::surface::WATER_ROUGHNESS;
+use super::surface::{WATER_OPACITY, WATER_ROUGHNESS};
 use super::textures::Textures;
-use super::{MADE_BY, MeshBake, Piece};
+use super::{Piece, level_name};
 use crate::bake::BakeError;
-use crate::planet::Water;
+use crate::bake::sidecar::MADE_BY;
 use crate::planet::file::write_atomically_with;
+use crate::planet::{Planet, Water};
 use glam::{DVec3, Vec2, Vec3};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Numbers of the specification.
 const FLOAT: u32 = 5126;
@@ -28,12 +29,17 @@ const CHUNK_HEAD: usize = 8;
 
 /// Share of the picture's height below which a coarser level of detail does, for each halving.
 const COVERAGE: f64 = 0.5;
-/// Opacity of water in a mesh of its own.
-const WATER_OPACITY: f64 = 0.75;
 
-/// Writes the file. `origin`: where the origin of the pieces is, in the frame and the units of the file.
-pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece], origin: DVec3) -> Result<Vec<PathBuf>, BakeError> {
-    let mut document = Document::new(mesh);
+/// Writes the file. `about`: what the root tells; `origin`: where the origin of the pieces is, in the frame and the
+/// units of the file.
+pub(super) fn write(
+    planet: &Planet,
+    about: Value,
+    path: &Path,
+    pieces: &[Piece],
+    origin: DVec3,
+) -> Result<(), BakeError> {
+    let mut document = Document::new(planet, about);
     if origin != DVec3::ZERO {
         document.nodes[0]["translation"] = json!(origin.to_array());
     }
@@ -41,8 +47,7 @@ pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece], origin: DVec
         document.add(piece);
     }
     let write = &mut |file: &mut File| document.encode(BufWriter::new(file));
-    write_atomically_with(path, None, write).map_err(|error| BakeError::file(path, error))?;
-    Ok(vec![path.to_owned()])
+    write_atomically_with(path, None, write).map_err(|error| BakeError::file(path, error))
 }
 
 /// Data of the binary chunk, encoded when it is written.
@@ -107,8 +112,7 @@ struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn new(mesh: &MeshBake) -> Self {
-        let planet = mesh.terrain.planet();
+    fn new(planet: &Planet, about: Value) -> Self {
         Self {
             parts: Vec::new(),
             length: 0,
@@ -117,7 +121,7 @@ impl<'a> Document<'a> {
             images: Vec::new(),
             materials: Vec::new(),
             meshes: Vec::new(),
-            nodes: vec![json!({ "name": planet.name, "extras": mesh.about() })],
+            nodes: vec![json!({ "name": planet.name, "extras": about })],
             children: Vec::new(),
             has_levels: false,
             water_material: water_material(planet.water.as_ref()),
@@ -137,7 +141,7 @@ impl<'a> Document<'a> {
     fn add_levels(&mut self, name: &str, levels: &'a [Geometry], material: usize, is_textured: bool) {
         let first = self.nodes.len();
         for (level, geometry) in levels.iter().enumerate() {
-            let name = if levels.len() > 1 { format!("{name}_LOD{level}") } else { name.to_owned() };
+            let name = level_name(name, level, levels.len());
             let primitive = self.primitive(geometry, material, is_textured);
             self.nodes.push(json!({ "name": name, "mesh": self.meshes.len() }));
             self.meshes.push(json!({ "name": name, "primitives": [primitive] }));

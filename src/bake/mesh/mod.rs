@@ -25,9 +25,9 @@ mod textures;
 mod tileset;
 
 use super::progress::Progress;
+use super::sidecar::of_planet;
 use super::{BakeError, Detail, Outcome, Region};
 use crate::planet::file::Target;
-use crate::planet::{Key, VERSION};
 use crate::terrain::Terrain;
 use geometry::Geometry;
 use glam::DVec3;
@@ -42,7 +42,7 @@ use textures::Textures;
 
 pub use tileset::Tileset;
 
-/// Most vertices of a mesh, all squares together; they take up to 100 bytes each.
+/// Most vertices of a mesh, all squares together; they take some 200 bytes each.
 const MAX_VERTICES: u64 = 1 << 23;
 /// Most texels of the textures of one kind, all squares together.
 const MAX_TEXELS: u64 = 1 << 27;
@@ -144,6 +144,11 @@ struct Piece {
     textures: Option<Textures>,
 }
 
+/// The name of a level of detail: that of the piece if it has one level alone.
+fn level_name(name: &str, level: usize, levels: usize) -> String {
+    if levels > 1 { format!("{name}_LOD{level}") } else { name.to_owned() }
+}
+
 impl MeshBake {
     /// A mesh with colours at its vertices.
     pub fn new(terrain: Arc<Terrain>, area: Area, cells: u32, format: MeshFormat) -> Self {
@@ -195,7 +200,7 @@ impl MeshBake {
         let side = u64::from(self.cells) + 1;
         let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px));
         let progress = Progress::new(squares.len() as u64 * (side * side + texels), go_on);
-        let surface = Surface::new(self);
+        let surface = Surface { terrain: &self.terrain, water: self.water, detail: self.detail };
         let mut pieces = Vec::with_capacity(squares.len());
         for square in &squares {
             let patch = Patch::new(square, self.cells, &surface, &progress);
@@ -213,10 +218,12 @@ impl MeshBake {
             pieces.push(Piece { name: square.name(), levels, water, textures });
         }
         match self.format {
-            MeshFormat::Glb => glb::write(self, path, &pieces, DVec3::ZERO),
-            MeshFormat::Obj => obj::write(self, path, &pieces),
+            MeshFormat::Glb => {
+                glb::write(self.terrain.planet(), self.about(), path, &pieces, DVec3::ZERO)?;
+                Ok(Outcome::Done(vec![path.to_owned()]))
+            }
+            MeshFormat::Obj => obj::write(self, path, &pieces).map(Outcome::Done),
         }
-        .map(Outcome::Done)
     }
 
     /// What is wrong with what is asked for.
@@ -270,17 +277,11 @@ impl MeshBake {
     /// What a program may want to know of the mesh.
     fn about(&self) -> Value {
         let planet = self.terrain.planet();
-        let mut about = json!({
-            "planet": planet.name,
-            "radius_m": planet.radius_m(),
-            "sea_level_m": planet.sea_level_m(),
-            "units_per_m": self.scale,
-            "spacing_m": self.spacing_m(),
-            "water": self.water.name(),
-            "detail": self.detail.name(),
-            "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
-            "algorithm_version": VERSION,
-        });
+        let mut about = of_planet(planet);
+        about["units_per_m"] = json!(self.scale);
+        about["spacing_m"] = json!(self.spacing_m());
+        about["water"] = json!(self.water.name());
+        about["detail"] = json!(self.detail.name());
         if let Area::Region(region) = self.area {
             about["lat_deg"] = json!(region.lat_deg);
             about["lon_deg"] = json!(region.lon_deg);
@@ -297,9 +298,6 @@ fn side_m(area: &Area, radius_m: f64) -> f64 {
         Area::Region(region) => region.side_km * 1000.0,
     }
 }
-
-/// The program that made a file.
-const MADE_BY: &str = concat!("tellus ", env!("CARGO_PKG_VERSION"));
 
 /// A file beside another, with another ending of its name.
 fn beside(path: &Path, ending: &str) -> PathBuf {

@@ -2,10 +2,11 @@
 //! vertices follow their positions, as many readers expect.
 
 use super::geometry::Geometry;
-use super::surface::WATER_ROUGHNESS;
-use super::{MADE_BY, MeshBake, Piece, beside};
+use super::surface::{WATER_OPACITY, WATER_ROUGHNESS};
+use super::{MeshBake, Piece, beside, level_name};
 use crate::bake::BakeError;
 use crate::bake::format::srgb_from_linear;
+use crate::bake::sidecar::MADE_BY;
 use crate::planet::Water;
 use crate::planet::file::{write_atomically, write_atomically_with};
 use std::fmt::Write as _;
@@ -55,13 +56,12 @@ fn encode(mesh: &MeshBake, pieces: &[Piece], library: &str, mut out: impl Write)
     let mut first = 1;
     for piece in pieces {
         for (level, geometry) in piece.levels.iter().enumerate() {
-            let name =
-                if piece.levels.len() > 1 { format!("{}_LOD{level}", piece.name) } else { piece.name.to_owned() };
+            let name = level_name(piece.name, level, piece.levels.len());
             object(&mut out, &name, piece.name, geometry, piece.textures.is_none(), &mut first)?;
         }
         for (level, geometry) in piece.water.iter().enumerate() {
-            let name = if piece.levels.len() > 1 { format!("_LOD{level}") } else { String::new() };
-            object(&mut out, &format!("{}_water{name}", piece.name), "water", geometry, false, &mut first)?;
+            let name = level_name(&format!("{}_water", piece.name), level, piece.water.len());
+            object(&mut out, &name, "water", geometry, false, &mut first)?;
         }
     }
     out.flush()
@@ -105,5 +105,5 @@ fn object(
 fn water_material(water: Option<&Water>) -> String {
     let common = Water::default();
     let [red, green, blue] = water.unwrap_or(&common).color.map(srgb_from_linear);
-    format!("\nnewmtl water\nKd {red:.4} {green:.4} {blue:.4}\nKs 0 0 0\nd 0.75\nPr {WATER_ROUGHNESS}\n")
+    format!("\nnewmtl water\nKd {red:.4} {green:.4} {blue:.4}\nKs 0 0 0\nd {WATER_OPACITY}\nPr {WATER_ROUGHNESS}\n")
 }

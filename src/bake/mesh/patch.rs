@@ -22,8 +22,8 @@ pub(super) struct Vertex {
     pub(super) tangent: Vec3,
     /// Linear sRGB.
     pub(super) color: Vec3,
-    /// The surface of the water over the vertex, where that is a mesh of its own.
-    pub(super) water_m: Option<DVec3>,
+    /// Distance of the water over the vertex from the planet's centre, where that is a mesh of its own; metres.
+    pub(super) water_radius_m: Option<f64>,
 }
 
 impl Patch {
@@ -39,7 +39,7 @@ impl Patch {
             for row in points.chunks_exact(side) {
                 let dir = |i: usize| row[i.min(side - 1)].dir_planet;
                 let along = |i: usize| dir(i + 1) - dir(i.saturating_sub(1));
-                vertices.extend(row.iter().enumerate().map(|(i, point)| vertex(square, point, along(i), surface)));
+                vertices.extend(row.iter().enumerate().map(|(i, point)| vertex(square, point, along(i))));
             }
         }
         Self { side, vertices, center_m: square.center_m() }
@@ -76,16 +76,15 @@ impl Patch {
 }
 
 /// `along`: a chord to where `u` grows, in the planet frame.
-fn vertex(square: &Square, point: &Point, along: DVec3, surface: &Surface<'_>) -> Vertex {
+fn vertex(square: &Square, point: &Point, along: DVec3) -> Vertex {
     let (dir, normal) = (point.dir_planet, point.normal_planet);
     // The vector of the tangent plane whose horizontal part is `along`.
     let tangent = along - dir * (normal.dot(along) / normal.dot(dir));
-    let level_m = point.water_level_m.filter(|_| surface.has_water_apart());
     Vertex {
         position_m: square.position_m(dir, point.height_m),
         normal: square.turned(normal).as_vec3(),
         tangent: square.turned(tangent.normalize()).as_vec3(),
         color: DVec3::from_array(point.color).as_vec3(),
-        water_m: level_m.map(|level_m| square.position_m(dir, level_m)),
+        water_radius_m: point.water_level_m.map(|level_m| square.radius_m + level_m),
     }
 }

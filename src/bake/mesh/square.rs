@@ -1,15 +1,14 @@
 //! The squares of a mesh on the sphere, and the frame of its vertices.
 
 use super::{Area, Region};
-use crate::sphere::tangent::Tangent;
-use crate::sphere::{Face, LatLon, NodeId};
+use crate::sphere::{LatLon, NodeId, Tangent};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
 /// A square of the sphere with its coordinates: `u` to the right and `v` downwards, 0 to 1, as those of its textures.
 pub(super) struct Square {
     kind: Kind,
-    radius_m: f64,
+    pub(super) radius_m: f64,
     /// The origin of the frame of the mesh.
     origin_planet_m: DVec3,
 }
@@ -42,14 +41,7 @@ impl Square {
     pub(super) fn name(&self) -> &'static str {
         match &self.kind {
             Kind::Region(..) => "region",
-            Kind::Node(node) => match node.face {
-                Face::PosX => "pos_x",
-                Face::NegX => "neg_x",
-                Face::PosY => "pos_y",
-                Face::NegY => "neg_y",
-                Face::PosZ => "pos_z",
-                Face::NegZ => "neg_z",
-            },
+            Kind::Node(node) => node.face.name(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The surface that a mesh shows, at points: the evaluator's ground, or the water over it.
 
-use super::{MeshBake, MeshWater};
+use super::MeshWater;
 use crate::bake::Detail;
 use crate::bake::maps::{depth_m, mean_color, through_water};
 use crate::bake::progress::Progress;
@@ -15,12 +15,14 @@ pub(super) const BAND: usize = 32;
 
 /// Roughness of still water.
 pub(super) const WATER_ROUGHNESS: f64 = 0.1;
+/// Opacity of water in a mesh of its own.
+pub(super) const WATER_OPACITY: f64 = 0.75;
 
 /// What points of a mesh are computed from.
 pub(super) struct Surface<'a> {
-    terrain: &'a Terrain,
-    water: MeshWater,
-    detail: Detail,
+    pub(super) terrain: &'a Terrain,
+    pub(super) water: MeshWater,
+    pub(super) detail: Detail,
 }
 
 /// A point of the surface.
@@ -34,20 +36,11 @@ pub(super) struct Point {
     /// Linear sRGB.
     pub(super) color: [f64; 3],
     pub(super) roughness: f64,
-    /// Level of the water over the ground.
+    /// Level of the water over the ground, where that is a mesh of its own.
     pub(super) water_level_m: Option<f64>,
 }
 
-impl<'a> Surface<'a> {
-    pub(super) fn new(mesh: &'a MeshBake) -> Self {
-        Self { terrain: &mesh.terrain, water: mesh.water, detail: mesh.detail }
-    }
-
-    /// Whether water is a mesh of its own.
-    pub(super) fn has_water_apart(&self) -> bool {
-        self.water == MeshWater::Apart
-    }
-
+impl Surface<'_> {
     /// The points of some rows of a grid, row by row, on all cores; at most [`BAND`] rows. Empty if the bake has
     /// stopped.
     pub(super) fn band(
@@ -109,13 +102,18 @@ impl<'a> Surface<'a> {
             normal_planet: (dir_planet - slope).normalize(),
             color: ground,
             roughness: biome.map_or(1.0, |biome| biome.roughness),
-            water_level_m: sample.water_level_m.filter(|_| depth_m(sample) > 0.0),
+            water_level_m: None,
         };
-        if let (MeshWater::Surface, Some(level_m)) = (self.water, point.water_level_m) {
-            point.height_m = level_m;
-            point.normal_planet = dir_planet;
-            point.color = through_water(planet, sample, ground);
-            point.roughness = WATER_ROUGHNESS;
+        let level_m = sample.water_level_m.filter(|_| depth_m(sample) > 0.0);
+        match (self.water, level_m) {
+            (MeshWater::Surface, Some(level_m)) => {
+                point.height_m = level_m;
+                point.normal_planet = dir_planet;
+                point.color = through_water(planet, sample, ground);
+                point.roughness = WATER_ROUGHNESS;
+            }
+            (MeshWater::Apart, level_m) => point.water_level_m = level_m,
+            _ => {}
         }
         point
     }

@@ -22,8 +22,12 @@ fn mesh(area: Area, cells: u32) -> MeshBake {
     MeshBake::new(Arc::new(Terrain::try_new(planet.into()).unwrap()), area, cells, MeshFormat::Glb)
 }
 
+fn surface(mesh: &MeshBake) -> Surface<'_> {
+    Surface { terrain: &mesh.terrain, water: mesh.water, detail: mesh.detail }
+}
+
 fn patches(mesh: &MeshBake) -> Vec<(Square, Patch)> {
-    let surface = Surface::new(mesh);
+    let surface = surface(mesh);
     let progress = Progress::new(1, &|_| true);
     let squares = Square::all(&mesh.area, mesh.terrain.planet().radius_m());
     let patch = |square| {
@@ -56,7 +60,7 @@ fn vertices_lie_where_the_evaluator_puts_them() {
                         _ => sample.height_m,
                     };
                     assert!((vertex.position_m.distance(patch.center_m) - 40_000.0 - height_m).abs() < 1e-6);
-                    let apart = vertex.water_m.map(|water_m| water_m.distance(patch.center_m) - 40_000.0);
+                    let apart = vertex.water_radius_m.map(|radius_m| radius_m - 40_000.0);
                     match level_m.filter(|_| water == MeshWater::Apart) {
                         Some(level_m) => assert!(apart.is_some_and(|apart| (apart - level_m).abs() < 1e-6)),
                         None => assert_eq!(apart, None),
@@ -166,7 +170,11 @@ fn skirts_hang_from_the_border_and_face_outwards() {
 fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
     let mesh = MeshBake { water: MeshWater::Apart, ..mesh(REGION, 32) };
     let (_, patch) = patch(&mesh);
-    let wet: Vec<_> = patch.vertices.iter().filter_map(|vertex| vertex.water_m).collect();
+    let above = |vertex: &patch::Vertex| {
+        let up = (vertex.position_m - patch.center_m).normalize();
+        vertex.water_radius_m.map(|radius_m| patch.center_m + up * radius_m)
+    };
+    let wet: Vec<_> = patch.vertices.iter().filter_map(above).collect();
     let water = Geometry::water(&patch, 1, 1.0).unwrap();
     assert!(wet.len() > 20 && wet.len() < water.positions.len(), "{} of {}", wet.len(), water.positions.len());
     assert!(water.positions.len() < patch.vertices.len());
@@ -185,7 +193,7 @@ fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
 fn textures_of_normals_turn_the_meshs_normals_into_the_grounds() {
     let mesh = MeshBake { water: MeshWater::None, ..mesh(REGION, 8) };
     let (square, patch) = patch(&mesh);
-    let surface = Surface::new(&mesh);
+    let surface = surface(&mesh);
     let textures = Textures::new(&square, 64, &patch, &surface, &Progress::new(1, &|_| true)).unwrap();
     let pixels = |file: &[u8]| {
         let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
@@ -324,7 +332,7 @@ fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
         (Tileset { texture_px: Some(1), ..tiles(1) }, "use 2 to 1024"),
         (Tileset { water: MeshWater::Apart, ..tiles(1) }, "no mesh of the water"),
         (tiles(17), "use 0 to 16"),
-        (tiles(9), "use fewer --levels, or a region"),
+        (tiles(9), "use fewer levels, or a region"),
     ] {
         let error = tileset.run(&folder.path().join("none"), &|_| true).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");

@@ -65,12 +65,12 @@ impl Textures {
             for (row, points) in rows.zip(points.chunks_exact(side)) {
                 write(&mut albedo, &mut points.iter().map(|point| point.color.map(srgb_byte)))?;
                 write(&mut roughness, &mut points.iter().map(|point| [0xff, byte(point.roughness), 0]))?;
-                let normals = points.iter().enumerate().map(|(column, point)| {
+                let mut normals = points.iter().enumerate().map(|(column, point)| {
                     let (around, along) = patch.between(place(column), place(row));
                     let found = in_tangent_space(square.turned(point.normal_planet), around, along);
                     found.map(|component| byte(component * 0.5 + 0.5))
                 });
-                write(&mut normal, &mut { normals })?;
+                write(&mut normal, &mut normals)?;
             }
             if progress.is_stopped() {
                 return Ok(());

@@ -9,16 +9,18 @@ use super::patch::Patch;
 use super::square::Square;
 use super::surface::Surface;
 use super::textures::Textures;
-use super::{Area, MADE_BY, MeshBake, MeshFormat, MeshWater, Piece, glb};
+use super::{MeshWater, Piece, glb};
 use crate::bake::progress::Progress;
+use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
 use crate::planet::file::write_atomically;
 use crate::planet::{Key, VERSION};
-use crate::sphere::{Face, LatLon, NodeId, Tangent};
+use crate::sphere::{LatLon, NodeId, Tangent};
 use crate::terrain::Terrain;
 use glam::DVec3;
 use rayon::prelude::*;
 use serde_json::{Value, json};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -88,7 +90,7 @@ impl Tileset {
         self.check().map_err(BakeError::Asked)?;
         let nodes = self.nodes();
         if nodes.len() > MAX_TILES {
-            let message = format!("{} tiles are more than {MAX_TILES}; use fewer --levels, or a region", nodes.len());
+            let message = format!("these are more than {MAX_TILES} tiles; use fewer levels, or a region");
             return Err(BakeError::Asked(message));
         }
         make_folder(folder)?;
@@ -149,6 +151,7 @@ impl Tileset {
                 let message = "holds tiles of another bake; name another folder, or remove that one";
                 Err(BakeError::file(folder, message))
             }
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(BakeError::file(&path, error)),
             Err(_) => write_atomically(&path, wanted.as_bytes()).map_err(|error| BakeError::file(&path, error)),
         }
     }
@@ -180,16 +183,10 @@ impl Tileset {
     }
 
     fn write(&self, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
-        let mesh = MeshBake {
-            texture_px: self.texture_px,
-            water: self.water,
-            skirt_m: self.spacing_m(node) * SKIRT,
-            detail: self.detail,
-            ..MeshBake::new(Arc::clone(&self.terrain), Area::Globe, self.cells, MeshFormat::Glb)
-        };
         let radius_m = self.terrain.planet().radius_m();
         let origin_planet_m = node.direction(0.5, 0.5) * radius_m;
-        let (square, surface) = (Square::of_node(node, radius_m, origin_planet_m), Surface::new(&mesh));
+        let square = Square::of_node(node, radius_m, origin_planet_m);
+        let surface = Surface { terrain: &self.terrain, water: self.water, detail: self.detail };
         let patch = Patch::new(&square, self.cells, &surface, progress);
         if progress.is_stopped() {
             return Ok(());
@@ -199,9 +196,10 @@ impl Tileset {
         if progress.is_stopped() {
             return Ok(());
         }
-        let levels = vec![Geometry::new(&patch, 1, mesh.skirt_m, mesh.scale)];
+        let levels = vec![Geometry::new(&patch, 1, self.spacing_m(node) * SKIRT, 1.0)];
         let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
-        glb::write(&mesh, path, &[piece], square.turned(origin_planet_m)).map(drop)
+        let about = json!({ "spacing_m": self.spacing_m(node) });
+        glb::write(self.terrain.planet(), about, path, &[piece], square.turned(origin_planet_m))
     }
 
     /// The list of tiles.
@@ -209,19 +207,14 @@ impl Tileset {
         let planet = self.terrain.planet();
         let (_, highest_m) = self.terrain.height_bounds_m();
         let top_m = planet.radius_m() + highest_m.max(planet.sea_level_m().unwrap_or(0.0)).max(0.0);
+        let mut about = of_planet(planet);
+        about["water"] = json!(self.water.name());
+        about["detail"] = json!(self.detail.name());
         let children: Vec<Value> = NodeId::roots().into_iter().map(|root| self.tile(root)).collect();
         json!({
             "asset": {
                 "version": "1.1",
-                "extras": {
-                    "generator": MADE_BY,
-                    "planet": planet.name,
-                    "radius_m": planet.radius_m(),
-                    "sea_level_m": planet.sea_level_m(),
-                    "water": self.water.name(),
-                    "preset_hash": format!("{:032x}", Key::of_planet(planet).bits()),
-                    "algorithm_version": VERSION,
-                },
+                "extras": about,
             },
             "geometricError": planet.radius_m(),
             "root": {
@@ -289,13 +282,5 @@ fn radius_rad(node: NodeId) -> f64 {
 
 /// Where the file of a tile is.
 pub(super) fn uri(NodeId { level, face, x, y }: NodeId) -> String {
-    let face = match face {
-        Face::PosX => "pos_x",
-        Face::NegX => "neg_x",
-        Face::PosY => "pos_y",
-        Face::NegY => "neg_y",
-        Face::PosZ => "pos_z",
-        Face::NegZ => "neg_z",
-    };
-    format!("{level}/{face}_{x}_{y}.glb")
+    format!("{level}/{}_{x}_{y}.glb", face.name())
 }

@@ -51,7 +51,7 @@ impl Doing {
 
     /// Notes an action of the user.
     pub fn note_action(&self, action: &impl Debug) {
-        // Some actions hold a whole planet.
+        // Some actions hold a text of any length.
         let action: String = format!("{action:?}").chars().take(MOST_CHARS).collect();
         let actions = &mut self.0.lock().unwrap_or_else(PoisonError::into_inner).actions;
         if actions.len() == MOST_ACTIONS {

@@ -27,6 +27,8 @@ pub fn poll(state: &mut State) {
             None => Some("restart the editor".to_owned()),
         };
         if let Some(failed) = failed {
+            // The window may not be able to show it any more.
+            log::error!("the graphics device was lost: {failed}");
             state.report("The graphics device was lost", vec![reason, failed]);
         }
     }
