@@ -34,7 +34,7 @@ const COVERAGE: f64 = 0.5;
 /// units of the file.
 pub(super) fn write(
     planet: &Planet,
-    about: Value,
+    about: &Value,
     path: &Path,
     pieces: &[Piece],
     origin: DVec3,
@@ -112,7 +112,7 @@ struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn new(planet: &Planet, about: Value) -> Self {
+    fn new(planet: &Planet, about: &Value) -> Self {
         Self {
             parts: Vec::new(),
             length: 0,

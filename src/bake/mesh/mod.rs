@@ -219,7 +219,7 @@ impl MeshBake {
         }
         match self.format {
             MeshFormat::Glb => {
-                glb::write(self.terrain.planet(), self.about(), path, &pieces, DVec3::ZERO)?;
+                glb::write(self.terrain.planet(), &self.about(), path, &pieces, DVec3::ZERO)?;
                 Ok(Outcome::Done(vec![path.to_owned()]))
             }
             MeshFormat::Obj => obj::write(self, path, &pieces).map(Outcome::Done),

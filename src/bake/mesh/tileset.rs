@@ -199,7 +199,7 @@ impl Tileset {
         let levels = vec![Geometry::new(&patch, 1, self.spacing_m(node) * SKIRT, 1.0)];
         let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
         let about = json!({ "spacing_m": self.spacing_m(node) });
-        glb::write(self.terrain.planet(), about, path, &[piece], square.turned(origin_planet_m))
+        glb::write(self.terrain.planet(), &about, path, &[piece], square.turned(origin_planet_m))
     }
 
     /// The list of tiles.
