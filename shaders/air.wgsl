@@ -3,22 +3,44 @@
 #include "surface.wgsl"
 #include "scattering.wgsl"
 #include "stars.wgsl"
+#include "ring_light.wgsl"
 
 @group(2) @binding(2) var cloud_light: texture_2d<f32>;
 @group(2) @binding(3) var cloud_distance: texture_2d<f32>;
 
-// Radiance of a sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun).
+// Radiance of the corona over that of the disc, at a distance from its centre in radii (Baumbach, Strahlung, Ergiebigkeit
+// und Elektronendichte der Sonnenkorona, 1937). It shows when another body covers the disc.
+fn corona(radii: f32) -> f32 {
+    let x = 1.0 / radii;
+    return 1e-6 * (2.565 * pow(x, 17.0) + 1.425 * pow(x, 7.0) + 0.0532 * pow(x, 2.5));
+}
+
+// Radiance of a sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun), and of its
+// corona. A narrower disc than a pixel has less light.
 fn sun_disc(dir: vec3f) -> vec3f {
-    let sun = active_sun.dir;
+    let sun = active_sun.seen_dir;
     let off = length(cross(dir, sun));
     let soft = frame.pixel_rad * 0.7;
-    let radius = max(sin(active_sun.radius_rad), soft);
-    if dot(dir, sun) < 0.0 || off > radius + soft { return vec3f(0.0); }
+    let own = sin(active_sun.seen_radius_rad);
+    let radius = max(own, soft);
+    if dot(dir, sun) < 0.0 || off > 12.0 * radius + soft { return vec3f(0.0); }
+    let full = active_sun.irradiance * active_sun.disc_gain * (own * own / (radius * radius));
+    if off > radius + soft { return full * corona(off / radius) * (1.0 - smoothstep(6.0, 12.0, off / radius)); }
     let edge = 1.0 - smoothstep(radius - soft, radius + soft, off);
     let x = saturate1(off / radius);
     let depth = sqrt(1.0 - x * x);
     let limb = 1.0 - vec3f(0.50, 0.58, 0.68) * (1.0 - depth);
-    return active_sun.irradiance * (active_sun.disc_gain * edge) * limb;
+    return full * max(limb * edge, vec3f(4e-6));
+}
+
+// Bodies too small for a surface: points of light, drawn as the stars are.
+fn points(dir: vec3f, pixel_rad: f32) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < body.point_count; i++) {
+        let away = length(cross(dir, body.points[i].dir)) / max(pixel_rad, 0.0006);
+        if dot(dir, body.points[i].dir) > 0.0 { sum += body.points[i].light * exp(-1.6 * away * away); }
+    }
+    return sum;
 }
 
 struct Clouds {
@@ -191,7 +213,15 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         clouds = around.light;
         cloud_at = around.at_km;
     }
-    let seen = across_limb(pixel, dir, far, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
+    // Rings beyond the air are a part of the scene that it veils.
+    var rings = RingLight(vec3f(0.0), 1.0, NOTHING_KM);
+    for (var i = 0u; i < body.ring_count; i++) { rings = rings_along(dir, far); }
+    let shell_km = path_through_air(body.eye_altitude_km, dot(dir, body.eye_up), far);
+    let is_behind = shell_km.y > shell_km.x && rings.at_km > shell_km.x;
+    if is_behind { scene = scene * rings.transmittance + rings.light; }
+    var seen = across_limb(pixel, dir, far, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
+    if !is_behind { seen.light = seen.light * rings.transmittance + rings.light; }
+    seen.transmittance *= rings.transmittance;
     // Factor on the stars left by the bodies farther away.
     var star_light = select(vec3f(1.0), vec3f(0.0), ground);
     // Weight of the sky for metering: small from within the air, zero from outer space.
@@ -205,7 +235,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         let star_width_rad = frame.pixel_rad * max(frame.render_scale, 1.0);
         let spread = select(1.0, 0.5, frame.render_scale < 1.0);
         star_light = star_visibility * seen.transmittance;
-        if starry { star_light *= stars(dir, star_width_rad) * spread; }
+        if starry { star_light *= (stars(dir, star_width_rad) + points(dir, star_width_rad)) * spread; }
         let inside = 1.0 - smoothstep(0.1, 0.5, body.eye_altitude_km / max(body.air_height_km, 1e-3));
         let sky = seen.air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
         weight = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));

@@ -28,7 +28,7 @@ fn light_at(rel_m: vec3f, n: vec3f) -> Light {
     let open = 0.5 + 0.5 * dot(n, up);
     var out = Light(vec3f(0.0), vec3f(0.0));
     for (var i = 0u; i < body.sun_count; i++) {
-        use_sun(i);
+        use_sun_at(i, body.eye_km + rel_km);
         let sun_mu = dot(up, active_sun.dir);
         let sunlight = active_sun.irradiance * sun_transmittance(altitude_km, sun_mu);
         let shadow = cloud_shadow(rel_km, altitude_km, sun_mu, 0.001 * length(rel_m) * frame.pixel_rad);

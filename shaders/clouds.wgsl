@@ -158,6 +158,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             enter = mix(enter, inside, jitter);
         }
         was_empty = false;
+        let from_sun = sun_share(body.eye_km + dir * t);
         // Light after the layers above: what they leave of direct light, and what they make diffuse.
         let over = depth_over(way.layer, sky_here);
         let passes = let_through(over);
@@ -199,7 +200,7 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             let rise = (ahead.column - cloud.column) * thickness * RELIEF / (reach * max(sun_mu, RELIEF_LEAST_SUN));
             lit *= mix(1.0, clamp(1.0 - rise, RELIEF_LIMITS.x, RELIEF_LIMITS.y), from_above);
             let returned = mix(1.0, sent_back(layer.optical_depth * cloud.column), from_above);
-            let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * lit) + ambient) * returned;
+            let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * lit) + ambient) * from_sun * returned;
             let passed = exp(-extinction * density * length_km);
             let seen = out.transmittance * (1.0 - passed);
             out.light += seen * shine;
@@ -245,7 +246,7 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     out.transmittance = exp(-depth);
     out.at_km = t;
     for (var i = 0u; i < body.sun_count; i++) {
-        use_sun(i);
+        use_sun_at(i, body.eye_km + rel);
         let sun_mu = dot(up, active_sun.dir);
         let sunlight = active_sun.irradiance * sun_transmittance(sheet, sun_mu);
         let cosine = dot(dir, active_sun.dir);

@@ -1,5 +1,6 @@
 // Light of sun and sky at a point, from the LUTs.
 #include "air_model.wgsl"
+#include "eclipse.wgsl"
 #include "luts.wgsl"
 
 // Optical depth (rgb) and haze (a, km of its density at the reference sphere) along a ray that misses the ground, from

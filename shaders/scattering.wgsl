@@ -55,6 +55,7 @@ fn air_light(
             let direct = air.rayleigh * phase_rayleigh + air.mie * phase_mie;
             shine += direct * beam_transmittance(height, sun_mu) * visible;
         }
+        shine *= sun_share(up * (radius + h) + dir * t);
         let behind = saturate1((t1 - cloud_at) / max(length_km, 1e-6));
         let inside = out.transmittance * shine * shining_length(air.extinction, length_km);
         out.radiance += inside * mix(1.0, cloud_through, behind);

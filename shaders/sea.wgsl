@@ -232,7 +232,7 @@ fn water_radiance(water: Water) -> vec3f {
     var direct = vec3f(0.0);
     var mirrored_light = vec3f(0.0);
     for (var i = 0u; i < body.sun_count; i++) {
-        use_sun(i);
+        use_sun_at(i, body.eye_km + rel_km);
         let sun = active_sun.dir;
         let sun_mu = dot(up, sun);
         let sunlight = active_sun.irradiance * sun_transmittance(h, sun_mu);

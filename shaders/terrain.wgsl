@@ -454,7 +454,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let facet = Facet(n, (n - tilt) / area, area, v, up, rel_km, max(in.height_m * 0.001, 0.0), footprint_m * 0.001);
     var radiance = ground.glow;
     for (var i = 0u; i < body.sun_count; i++) {
-        use_sun(i);
+        use_sun_at(i, body.eye_km + rel_km);
         var from_here = from_ground;
         if i > 0u { from_here = visibility_at(on_mesh, up); }
         radiance += lit(ground, facet, from_here);

@@ -42,7 +42,7 @@ fn downwelling_at(up: vec3f) -> Downwelling {
     let h = max(body.sea_level_km, 0.0);
     var out = Downwelling(vec3f(0.0), vec3f(0.0), up);
     for (var i = 0u; i < body.sun_count; i++) {
-        use_sun(i);
+        use_sun_at(i, body.eye_km);
         let sun_mu = dot(up, active_sun.dir);
         var shadow = 1.0;
         if sun_mu > -0.1 { shadow = cloud_shadow(vec3f(0.0), h, sun_mu, 0.01); }
@@ -108,7 +108,7 @@ fn from_below(dir: vec3f, surface_km: f32, up: vec3f, deep: vec3f) -> vec3f {
         let fresnel = 0.02 + 0.98 * pow(1.0 - out_cosine, 5.0);
         var light = vec3f(0.0);
         for (var i = 0u; i < body.sun_count; i++) {
-            use_sun(i);
+            use_sun_at(i, body.eye_km);
             let sun_mu = dot(up, active_sun.dir);
             var shadow = 1.0;
             if sun_mu > -0.1 { shadow = cloud_shadow(dir * surface_km, h, sun_mu, 0.01); }

@@ -28,11 +28,13 @@
 //! - [`simd`]: instruction sets, chosen at run time
 //! - [`sphere`]: the globe as six squares; node addresses; latitude and longitude
 //! - [`planet`]: the preset's data, its parameters, loading and saving
+//! - [`system`]: several bodies: orbits, rotation, starlight
 //! - `world`: world maps: values for the whole globe, such as the distance to the coast
 //! - [`terrain`]: [`terrain::Terrain`], the evaluator of the ground
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`sea`]: waves, and the height of the water at a time
 //! - [`clouds`]: where clouds are, at any time
+//! - [`rings`]: rings along the radius: optical depth, light, shadow
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `bake` (feature `bake`): maps of a planet in files
@@ -52,9 +54,11 @@ pub mod atmosphere;
 pub mod clouds;
 pub mod lod;
 pub mod planet;
+pub mod rings;
 pub mod sea;
 pub mod simd;
 pub mod sphere;
+pub mod system;
 pub mod terrain;
 pub mod tiles;
 mod world;

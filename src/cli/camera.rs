@@ -103,6 +103,7 @@ impl CameraArgs {
             debug_view: self.view,
             post: self.post(),
             photo: self.photo(),
+            system: None,
             focuses: false,
         }
     }

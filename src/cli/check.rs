@@ -1,13 +1,15 @@
-//! `tellus check`: validates presets.
+//! `tellus check`: validates presets and system files.
 
 use super::{Failure, print, tell};
-use crate::planet::Planet;
-use std::path::PathBuf;
+use crate::planet::file::read_text;
+use crate::planet::{LoadError, Planet};
+use crate::system::System;
+use std::path::{Path, PathBuf};
 
-/// Check presets; every problem as file:line:column: path: message
+/// Check presets and system files; every problem as file:line:column: path: message
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The presets
+    /// The presets and system files
     #[arg(value_name = "FILE.ron", required = true)]
     files: Vec<PathBuf>,
 }
@@ -15,8 +17,8 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut all_valid = true;
     for file in &args.files {
-        match Planet::load(file) {
-            Ok(_) => print(&format!("{}: valid", file.display()))?,
+        match checked(file) {
+            Ok(()) => print(&format!("{}: valid", file.display()))?,
             Err(error) => {
                 // Without a prefix: text editors and CI find the line by `file:line:column:`.
                 tell(&error.to_string());
@@ -25,4 +27,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     if all_valid { Ok(()) } else { Err(Failure::Told) }
+}
+
+/// Checks a file. A system file is checked with the presets that it names.
+fn checked(file: &Path) -> Result<(), LoadError> {
+    let text = read_text(file)?;
+    if System::is_system(&text) {
+        return System::from_text(&file.display().to_string(), &text)?.load_planets(file).map(|_| ());
+    }
+    Planet::load(file).map(|_| ())
 }

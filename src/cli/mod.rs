@@ -1,7 +1,8 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations; `area`: arguments that bakes share
-//! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`, `new`, `bench`:
+//! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`, `system`, `new`,
+//!   `bench`:
 //!   the subcommands
 //! - `geojson`: features and lines for `rivers` and `coasts`
 //! - `points`: many points for `sample`
@@ -28,6 +29,7 @@ mod render;
 mod rivers;
 mod sample;
 mod sky;
+mod system;
 mod tiles;
 
 use crate::planet::Planet;
@@ -65,6 +67,7 @@ enum Command {
     Coasts(coasts::Args),
     Maps(maps::Args),
     Sky(sky::Args),
+    System(system::Args),
     New(new::Args),
     Bench(bench::Args),
 }
@@ -116,6 +119,7 @@ pub fn run() -> ExitCode {
         Some(Command::Coasts(args)) => coasts::run(&args),
         Some(Command::Maps(args)) => maps::run(&args),
         Some(Command::Sky(args)) => sky::run(&args),
+        Some(Command::System(args)) => system::run(&args),
         Some(Command::New(args)) => new::run(&args),
         Some(Command::Bench(args)) => bench::run(&args),
     };

@@ -1,7 +1,7 @@
 //! `tellus render`: a picture of a planet, without a window.
 
 use super::camera::{CameraArgs, told};
-use super::{Failure, args, headless, load, maps};
+use super::{Failure, args, headless, load, maps, system};
 use crate::film::Sequence;
 use crate::lod::{Camera, opening};
 use crate::render::{Photo, Renderer};
@@ -13,9 +13,15 @@ use std::sync::Arc;
 /// Draw a planet into a PNG or OpenEXR file
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The preset
+    /// The preset, or a system file with --body
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
+    /// The body of a system near which the camera is
+    #[arg(long, value_name = "NAME")]
+    body: Option<String>,
+    /// The body of the system at which the camera looks, in place of --heading and --pitch
+    #[arg(long, value_name = "NAME", requires = "body", conflicts_with_all = ["heading", "pitch"])]
+    towards: Option<String>,
     /// The picture to write: .png, or .exr for linear radiance without stars
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
@@ -59,7 +65,7 @@ pub(super) struct Args {
     )]
     pitch: Option<f64>,
     /// Location with the star overhead [default: from the preset, at --time]
-    #[arg(long, value_name = "LAT,LON", allow_hyphen_values = true, value_parser = args::location)]
+    #[arg(long, value_name = "LAT,LON", conflicts_with = "body", allow_hyphen_values = true, value_parser = args::location)]
     sun: Option<(f64, f64)>,
     /// Time in seconds; it moves the star, the clouds and the waves
     #[arg(long, value_name = "SECONDS", default_value = "0", allow_hyphen_values = true, value_parser = args::seconds)]
@@ -69,14 +75,26 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let planet = Arc::new(load(&args.file)?);
+    let system = match &args.body {
+        Some(body) => Some(system::place(&args.file, body)?),
+        None => None,
+    };
+    let planet = match &system {
+        Some(system) => Arc::new(system::lit_planet(system, args.time)?),
+        None => Arc::new(load(&args.file)?),
+    };
     let camera = &args.camera;
     camera.check_view(&planet, &args.file)?;
     let kind = camera.kind(&args.output)?;
     let gpu = headless::Gpu::open(camera.size.map(|side| side.min(Photo::MOST_TILE_PX)))?;
     let mut renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| format!("the renderer: {error}"))?;
     let terrain = Arc::new(maps::terrain(planet.clone())?);
-    let mut shot = camera.shot(&terrain, camera_of(args, &terrain)?, args.time);
+    let mut looking = camera_of(args, &terrain)?;
+    if let (Some(system), Some(towards)) = (&system, &args.towards) {
+        looking = system::towards(system, looking, towards, args.time)?;
+    }
+    let mut shot = camera.shot(&terrain, looking, args.time);
+    shot.system = system;
     shot.sun = args.sun.map(|(lat, lon)| LatLon::from_degrees(lat, lon));
     let sequence = Sequence::picture(shot, args.output.clone(), kind);
     gpu.checked(|| sequence.take(&mut renderer, &mut told()))?;

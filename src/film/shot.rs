@@ -1,5 +1,6 @@
 //! A photograph of a planet from a view: builds the ground for it and draws it.
 
+use super::place::InSystem;
 use crate::lod::View;
 use crate::render::{DebugView, Photo, Post, RenderError, Renderer, Scene};
 use crate::sphere::LatLon;
@@ -31,6 +32,8 @@ pub struct Shot {
     pub post: Post,
     /// Samples, lens, and kind of the pixels.
     pub photo: Photo,
+    /// The system that the planet is in, if it is not alone: its stars light the planet, and its bodies are drawn.
+    pub system: Option<InSystem>,
     /// Whether the lens is in focus where the middle of the picture is, whatever it says itself.
     pub focuses: bool,
 }
@@ -40,7 +43,7 @@ impl Shot {
     /// done.
     ///
     /// # Errors
-    /// As [`Renderer::render`].
+    /// As [`Renderer::render`]; and [`RenderError::Planet`] for a body of the system that cannot be evaluated.
     pub fn take(
         &self,
         renderer: &mut Renderer,
@@ -52,6 +55,10 @@ impl Shot {
         add_detail(&mut surface, &ground_view);
         let sun = self.sun.unwrap_or_else(|| self.revision.planet().star.place(self.time_secs));
         let mut scene = Scene::of_revision(self.revision.clone(), &surface, self.view, sun.direction());
+        let others = self.system.as_ref().map(|system| system.others(&mut scene, self.time_secs)).transpose()?;
+        for other in others.iter().flatten() {
+            scene.bodies.push(other.body());
+        }
         for body in &mut scene.bodies {
             body.frozen = (ground_view.size_px != self.view.size_px).then_some(ground_view);
         }

@@ -3,8 +3,9 @@
 //! ron reports a position and what it expected; serde_path_to_error adds the path; the description of the parameter
 //! adds what would be right.
 
-use super::param::{Domain, Form, Param, PartType};
-use super::{Mask, Planet, Problem, Shape, locate};
+use super::param::{Domain, Form, Param};
+use super::root::Root;
+use super::{Mask, Problem, Shape, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -18,13 +19,13 @@ pub(crate) fn options() -> ron::Options {
     ron::Options::default().with_default_extension(extensions)
 }
 
-/// Reads the whole text as one value.
-pub(crate) fn parse<T: DeserializeOwned>(text: &str) -> Result<T, Problem> {
-    let outside = |error: SpannedError| problem(text, String::new(), &error);
+/// Reads the whole text as one value: a file of an `R`, perhaps of an old version.
+pub(crate) fn parse<R: Root, T: DeserializeOwned>(text: &str) -> Result<T, Problem> {
+    let outside = |error: SpannedError| problem::<R>(text, String::new(), &error);
     let mut deserializer = ron::Deserializer::from_str_with_options(text, &options()).map_err(outside)?;
     let mut track = serde_path_to_error::Track::new();
     let value = T::deserialize(serde_path_to_error::Deserializer::new(&mut deserializer, &mut track));
-    let value = value.map_err(|code| problem(text, path_text(&track.path()), &deserializer.span_error(code)))?;
+    let value = value.map_err(|code| problem::<R>(text, path_text(&track.path()), &deserializer.span_error(code)))?;
     deserializer.end().map_err(|code| outside(deserializer.span_error(code)))?;
     Ok(value)
 }
@@ -43,7 +44,7 @@ fn path_text(path: &serde_path_to_error::Path) -> String {
     text
 }
 
-fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
+fn problem<R: Root>(text: &str, path: String, error: &SpannedError) -> Problem {
     let stop = locate::offset(text, error.span.end.line, error.span.end.col);
     let place = locate::find(text, &path);
     let at_value = place.map_or(stop, |place| place.value);
@@ -60,7 +61,7 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
         Error::ExpectedComma if text.get(stop..).is_some_and(|rest| rest.starts_with('.')) => {
             let (path, place) = last_value(text, stop);
             let offset = place.map_or(stop, |place| place.value);
-            let message = wanted(text, &path, offset);
+            let message = wanted::<R>(text, &path, offset);
             return Problem { path, ..at(text, offset, message) };
         }
         Error::ExpectedComma if text.get(stop..).is_none_or(|rest| rest.trim().is_empty()) => {
@@ -84,13 +85,13 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
         | Error::UnderscoreAtBeginning
             if place.is_some() =>
         {
-            (at_value, wanted(text, &path, at_value))
+            (at_value, wanted::<R>(text, &path, at_value))
         }
         Error::ExpectedDifferentLength { found, .. } => {
-            (at_value, format!("{found} numbers are too few; use {}", numbers(&path)))
+            (at_value, format!("{found} numbers are too few; use {}", numbers::<R>(&path)))
         }
-        Error::ExpectedStructLikeEnd if place.is_some_and(|p| parameter(&path).is_some() && p.value < stop) => {
-            (stop, format!("too many numbers; use {}", numbers(&path)))
+        Error::ExpectedStructLikeEnd if place.is_some_and(|p| parameter::<R>(&path).is_some() && p.value < stop) => {
+            (stop, format!("too many numbers; use {}", numbers::<R>(&path)))
         }
         Error::ExpectedStructLikeEnd => (stop, "a closing `)` is missing; add it here".to_owned()),
         Error::ExpectedArrayEnd => (stop, "a closing `]` is missing; add it here".to_owned()),
@@ -105,15 +106,16 @@ fn problem(text: &str, path: String, error: &SpannedError) -> Problem {
         }
         Error::Eof => (text.len(), TOO_EARLY.to_owned()),
         Error::TrailingCharacters => {
-            (stop, format!("{} stands behind the planet; remove all behind the last `)`", locate::excerpt(text, stop)))
+            let (found, thing) = (locate::excerpt(text, stop), R::THING);
+            (stop, format!("{found} stands behind the {thing}; remove all behind the last `)`"))
         }
-        Error::ExceededRecursionLimit => (stop, "brackets are nested too deeply; a preset needs few".to_owned()),
+        Error::ExceededRecursionLimit => (stop, format!("brackets are nested too deeply; a {} needs few", R::NOUN)),
         Error::ExpectedDifferentStructName { expected, found } => {
             (at_value, format!("`{found}` is not what belongs here; write `{expected}(...)` or only `(...)`"))
         }
         Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => {
             let found = locate::excerpt(text, stop);
-            (stop, format!("found {found}; a preset is written `(version: {}, ...)`", super::VERSION))
+            (stop, format!("found {found}; a {} is written `(version: {}, ...)`", R::NOUN, R::VERSION))
         }
         other => (stop, other.to_string()),
     };
@@ -167,12 +169,12 @@ fn stranger(what: &str, found: &str, known: &[&str]) -> String {
 }
 
 /// The message for a value of the wrong type: what was found, and what would be right.
-fn wanted(text: &str, path: &str, offset: usize) -> String {
+fn wanted<R: Root>(text: &str, path: &str, offset: usize) -> String {
     let found = locate::excerpt(text, offset);
-    let right = match parameter(path) {
+    let right = match parameter::<R>(path) {
         Some((param, names)) => in_words(param, names),
-        None if path == "version" => format!("a whole number, now {}", super::VERSION),
-        None => match (form(path), path.ends_with(']')) {
+        None if path == "version" => format!("a whole number, now {}", R::VERSION),
+        None => match (form::<R>(path), path.ends_with(']')) {
             (Some(Form::List), false) => "a list: `[(...), (...)]`".to_owned(),
             (Some(Form::Table), false) => "a list of rows: `[\"aab\", \"abb\"]`".to_owned(),
             (Some(Form::Table), true) => "a row of letters: `\"aab\"`".to_owned(),
@@ -184,12 +186,12 @@ fn wanted(text: &str, path: &str, offset: usize) -> String {
 }
 
 /// The form of the part at a path, or of the part whose element is at the path.
-fn form(path: &str) -> Option<Form> {
+fn form<R: Root>(path: &str) -> Option<Form> {
     let name = locate::steps(path).into_iter().rev().find_map(|step| match step {
         locate::Step::Field(name) => Some(name),
         locate::Step::Index(_) => None,
     })?;
-    Planet::all_parts().into_iter().find(|part| part.name == name).map(|part| part.form)
+    R::parts().into_iter().find(|part| part.name == name).map(|part| part.form)
 }
 
 fn in_words(param: &Param, names: &[&str]) -> String {
@@ -214,8 +216,8 @@ fn in_words(param: &Param, names: &[&str]) -> String {
 }
 
 /// The count of numbers in brackets that a path needs, in words.
-fn numbers(path: &str) -> &'static str {
-    match parameter(path) {
+fn numbers<R: Root>(path: &str) -> &'static str {
+    match parameter::<R>(path) {
         Some((Param { domain: Domain::Curve { .. }, .. }, _)) => "two for each point: `(from, to)`",
         _ => "three, for red, green and blue",
     }
@@ -227,7 +229,7 @@ fn list(names: &[&str], after: &str) -> String {
 }
 
 /// The description of the parameter at a path, and the names of its values if it is a choice.
-fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
+fn parameter<R: Root>(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
     // Elements of a list have the same parameters: indices are left out.
     let general = |steps: Vec<locate::Step<'_>>| -> Vec<Option<String>> {
         let name = |step: &locate::Step<'_>| match step {
@@ -239,8 +241,8 @@ fn parameter(path: &str) -> Option<(&'static Param, &'static [&'static str])> {
     let mut wanted = general(locate::steps(path));
     loop {
         let mut found = None;
-        for planet in <Planet as PartType>::every_kind() {
-            planet.each_value(&mut |path, param, value| {
+        for root in R::every_kind() {
+            root.look(&mut |path, param, value| {
                 if found.is_none() && general(locate::steps(&path.to_string())) == wanted {
                     found = Some((param, value.names()));
                 }

@@ -5,7 +5,8 @@ use super::open::{Opened, open};
 use super::param::ParamPath;
 use super::picture::folder_of;
 use super::problem::Problem;
-use super::{Planet, VERSION, explain, locate, migrate, text, validate};
+use super::root::Root;
+use super::{Planet, explain, locate, migrate, text, validate};
 use std::collections::{BTreeSet, HashMap};
 use std::fs::{File, Permissions};
 use std::io::{self, Read as _, Write as _};
@@ -106,16 +107,24 @@ impl Planet {
 
 /// Parses the text of a preset. Its values may be invalid: see [`checked`].
 pub(super) fn parsed(file: &str, text: &str) -> Result<Planet, LoadError> {
-    let invalid = |problems| LoadError::Invalid { file: file.to_owned(), problems };
-    let text = without_mark(text);
-    if text.len() as u64 > MAX_FILE_BYTES {
-        let message = format!("the text is longer than {} KiB; a preset is much shorter", MAX_FILE_BYTES >> 10);
-        return Err(invalid(vec![Problem { line: 0, column: 0, path: String::new(), message }]));
-    }
-    let version = version(text).map_err(|problem| invalid(vec![problem]))?;
-    let mut planet = migrate::read(version, text).map_err(|problem| invalid(vec![problem]))?;
+    let mut planet = read_as::<Planet>(file, text, migrate::read)?;
     planet.biomes.forget_idle_keys();
     Ok(planet)
+}
+
+/// Parses a text with the reader of its version.
+pub(crate) fn read_as<R: Root>(
+    file: &str,
+    text: &str,
+    read: impl FnOnce(u32, &str) -> Result<R, Problem>,
+) -> Result<R, LoadError> {
+    let invalid = |problem| LoadError::Invalid { file: file.to_owned(), problems: vec![problem] };
+    let text = without_mark(text);
+    if text.len() as u64 > MAX_FILE_BYTES {
+        let message = format!("the text is longer than {} KiB; a {} is much shorter", MAX_FILE_BYTES >> 10, R::NOUN);
+        return Err(invalid(Problem { line: 0, column: 0, path: String::new(), message }));
+    }
+    version::<R>(text).and_then(|version| read(version, text)).map_err(invalid)
 }
 
 /// Checks a planet that was parsed from a text.
@@ -160,13 +169,13 @@ pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 }
 
 /// The version of a text. It is found without parsing the rest, which a newer version may write differently.
-fn version(text: &str) -> Result<u32, Problem> {
-    let field = "version";
+fn version<R: Root>(text: &str) -> Result<u32, Problem> {
+    let (field, now) = ("version", R::VERSION);
     let Some(place) = locate::find(text, field) else {
         // For a text that is no preset at all, the parser's message is better than "the version is missing".
-        let problem = match explain::parse::<migrate::CurrentFile>(text) {
+        let problem = match explain::parse::<R, R::File>(text) {
             Err(problem) if problem.path.is_empty() && !problem.message.starts_with("there is no field") => problem,
-            _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version()) },
+            _ => Problem { path: field.to_owned(), ..explain::at(text, start(text), missing_version::<R>()) },
         };
         return Err(problem);
     };
@@ -175,19 +184,20 @@ fn version(text: &str) -> Result<u32, Problem> {
         text[place.value..].chars().take_while(|c| c.is_alphanumeric() || "._-+\"'".contains(*c)).collect();
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         let found = locate::excerpt(text, place.value);
-        return Err(problem(format!("{found} is not a version; use a whole number, now {VERSION}")));
+        return Err(problem(format!("{found} is not a version; use a whole number, now {now}")));
     }
     match digits.parse() {
-        Ok(0) => Err(problem(format!("there is no version 0; use {VERSION}"))),
-        Ok(version) if version <= VERSION => Ok(version),
+        Ok(0) => Err(problem(format!("there is no version 0; use {now}"))),
+        Ok(version) if version <= now => Ok(version),
         _ => Err(problem(format!(
-            "this preset has version {digits} and was made by a newer Tellus; this one reads up to version {VERSION}: update it"
+            "this {} has version {digits} and was made by a newer Tellus; this one reads up to version {now}: update it",
+            R::NOUN
         ))),
     }
 }
 
-fn missing_version() -> String {
-    format!("the version is missing; write `version: {VERSION}` as the first field")
+fn missing_version<R: Root>() -> String {
+    format!("the version is missing; write `version: {}` as the first field", R::VERSION)
 }
 
 fn start(text: &str) -> usize {
@@ -195,7 +205,7 @@ fn start(text: &str) -> usize {
 }
 
 /// Adds to the problems of parameters their locations in the text, and sorts them by location.
-fn all_placed(file: &str, text: &str, problems: Vec<(ParamPath, String)>) -> LoadError {
+pub(crate) fn all_placed(file: &str, text: &str, problems: Vec<(ParamPath, String)>) -> LoadError {
     let text = without_mark(text);
     let places = locate::all(text);
     let placed = |(path, message): (ParamPath, String)| placed(text, &places, path.to_string(), message);

@@ -5,7 +5,7 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Layer, Planet, Shape, Steep, Structure, TableRows, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Layer, Planet, Rings, Shape, Steep, Structure, TableRows, Water,
 };
 
 /// Why a parameter has no effect: a sentence without a full stop. None: it has one.
@@ -30,6 +30,7 @@ impl Planet {
             [Field("water"), Field(name)] => self.water.as_ref().and_then(|water| water_idle(water, name)),
             [Field("atmosphere"), Field(name)] => self.atmosphere.as_ref().and_then(|air| air_idle(air, name)),
             [Field("clouds"), Field(name)] => self.clouds.as_ref().and_then(|clouds| clouds_idle(clouds, name)),
+            [Field("rings"), Field(name)] => self.rings.as_ref().and_then(|rings| rings_idle(rings, name)),
             _ => None,
         }
     }
@@ -148,6 +149,14 @@ fn air_idle(air: &Atmosphere, name: &str) -> Idle {
         ),
         "absorber_height_km" | "absorber_width_km" => when(none(air.absorber_per_km), "Absorption is 0"),
         "aurora_lat_deg" => when(air.aurora == 0.0, "Aurora is 0"),
+        _ => None,
+    }
+}
+
+fn rings_idle(rings: &Rings, name: &str) -> Idle {
+    match name {
+        "ringlet_share" => when(rings.ringlets == 0.0, "Ringlets is 0"),
+        "seed" => when(rings.ringlets == 0.0 && rings.gaps == 0, "There are no ringlets and no gaps"),
         _ => None,
     }
 }

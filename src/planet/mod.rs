@@ -10,6 +10,8 @@
 //! - [`validate`]: ranges, references between names, the shape of the biome table
 //! - [`mod@file`]: loading and saving; `open` opens files, `text` writes a preset, `explain` parses one and explains
 //!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
+//! - `rings`: rings of a planet, and rings to start from
+//! - `root`: what a whole file holds: a planet or a system
 //! - [`structure`]: plates, weather and rivers of a preset
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`watch`]: a preset that changes on disk while a game runs
@@ -38,8 +40,10 @@ pub mod param;
 pub mod parts;
 pub mod picture;
 mod pictures;
-mod problem;
+pub(crate) mod problem;
 pub mod random;
+mod rings;
+pub(crate) mod root;
 mod seas;
 pub mod shapes;
 pub mod shipped;
@@ -64,6 +68,7 @@ pub use notes::{Bookmark, EditorNotes};
 pub use parts::{Atmosphere, Biomes, CLIMATE_BELTS, Climate, Clouds, Star, TableBlend, TableRows, Water};
 pub use picture::PictureLayout;
 pub use problem::Problem;
+pub use rings::{Rings, STARTING_RINGS};
 pub use seas::STARTING_SEAS;
 pub use shapes::{
     Billow, Canyons, CellStyle, Cells, Continents, Craters, Damped, Dunes, Fbm, Gullies, HeightMap, Ridged, Shape,
@@ -134,6 +139,8 @@ params! {
         atmosphere: Option<Atmosphere> = None;
         /// The clouds, or None.
         clouds: Option<Clouds> = None;
+        /// Rings in the plane of the equator, or None.
+        rings: Option<Rings> = None;
         /// The editor's own section, or None.
         editor: Option<EditorNotes> = None;
     }

@@ -72,6 +72,7 @@ pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,
+        rings: None,
         editor: None,
     };
     debug_assert!(validate::problems(&planet).is_empty());

@@ -4,9 +4,9 @@
 //! first element of a list from the others, nor one landform from another.
 
 use super::explain::options;
-use super::migrate::CurrentFile;
 use super::param::{Domain, Param, ValueRef};
-use super::{Mask, Planet, VERSION, locate};
+use super::root::Root;
+use super::{Mask, locate};
 use ron::ser::PrettyConfig;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -17,16 +17,16 @@ const COMMENT_CHARS: usize = 100;
 /// A space at which lines are not broken.
 const GLUE: &str = "\u{1}";
 
-/// Writes a planet.
-pub(crate) fn write(planet: &Planet) -> String {
+/// Writes a planet or a system.
+pub(crate) fn write<R: Root + Into<R::File>>(root: &R) -> String {
     // Raw strings instead of escapes keep names readable.
     let config = PrettyConfig::new().new_line("\n").escape_strings(false);
     let mut bare = String::new();
     // Writing plain data into a string cannot fail. If it did, the text would be refused when it is read.
-    let _ = options().to_writer_pretty(&mut bare, &CurrentFile::from(planet.clone()), config);
-    let mut text = header();
+    let _ = options().to_writer_pretty(&mut bare, &Into::<R::File>::into(root.clone()), config);
+    let mut text = header::<R>();
     let mut done = 0;
-    for (at, comment) in comments(planet, &bare) {
+    for (at, comment) in comments(root, &bare) {
         let line_start = bare[..at].rfind('\n').map_or(0, |i| i + 1);
         let indent = &bare[line_start..at];
         text.push_str(&bare[done..line_start]);
@@ -40,22 +40,24 @@ pub(crate) fn write(planet: &Planet) -> String {
     text
 }
 
-fn header() -> String {
+fn header<R: Root>() -> String {
     format!(
-        "// A planet for Tellus, format version {VERSION}. Fields that are left out take their default values.\n\
-         // Colours are linear sRGB. Comments are written anew when the file is saved.\n"
+        "// A {} for Tellus, format version {}. Fields that are left out take their default values.\n\
+         // Colours are linear sRGB. Comments are written anew when the file is saved.\n",
+        R::THING,
+        R::VERSION
     )
 }
 
 /// The comment of each parameter and part, with the offset of its first name.
-fn comments(planet: &Planet, bare: &str) -> Vec<(usize, String)> {
+fn comments<R: Root>(root: &R, bare: &str) -> Vec<(usize, String)> {
     // Each path has a description; each description is written once.
     let mut params: HashMap<String, String> = HashMap::new();
-    planet.each_value(&mut |path, param, value| {
+    root.look(&mut |path, param, value| {
         params.insert(path.to_string(), comment(param, value));
     });
     let mut parts: HashMap<&str, String> =
-        Planet::all_parts().into_iter().map(|part| (part.name, part.doc.to_owned())).collect();
+        R::parts().into_iter().map(|part| (part.name, part.doc.to_owned())).collect();
     if let Some(masks) = parts.get_mut("masks") {
         // Elements of the list name their kind, which has no comment of its own.
         let _ = write!(masks, " ({})", Mask::NAMES.join(", ").replace(' ', GLUE));

@@ -17,6 +17,7 @@
 //! - `luts`: LUTs of the air, `cloud_map`, `biome_table`, and the patterns `noise_tile`, `border_tile`, `material_maps`
 //!   (of `material_kinds`, by `material_noise`)
 //! - `uniforms`, `shared`, `wgsl`: what Rust and WGSL share, from one source; [`shaders`]: includes, checks, hot reload
+//! - `worlds`: the bodies of a system around a camera: places, lights, points
 //! - `gpu`: helpers around wgpu; `sky_probe`: single rays through the shaders of the air
 //!
 //! Each pass is named like its shader in `shaders/`. A new pass is a file here, a file there, and a line in `passes`.
@@ -67,6 +68,7 @@ mod uniforms;
 mod water;
 mod wgsl;
 mod white_balance;
+mod worlds;
 
 pub use biome_table::MarkedCells;
 #[cfg(feature = "cli")]
@@ -79,10 +81,10 @@ pub use photo::{Develop, Lens, Photo};
 pub use prepared::{OpaqueTargets, PreparedFrame};
 pub use renderer::Renderer;
 pub use scene::{
-    Body, BodyId, DebugView, Matrices, Metering, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
+    Body, BodyId, DebugView, Matrices, Metering, Point, Post, Projection, Reuse, Scene, Sun, ViewId, split_position,
 };
 pub use shaders::air_wgsl;
-pub use shared::MAX_SUNS;
+pub use shared::{MAX_POINTS, MAX_SUNS};
 pub use sky_probe::SkyAnswer;
 pub use targets::{DEPTH_FORMAT, RADIANCE_FORMAT};
 pub use tone::Tone;
@@ -90,6 +92,7 @@ pub(crate) use tone::srgb_from_linear;
 /// The GPU crate of all signatures.
 pub use wgpu;
 pub use white_balance::white_balance;
+pub use worlds::{Around, Worlds, mean_albedo};
 
 /// What one frame drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -22,7 +22,7 @@ pub struct BodyId(pub u32);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ViewId(pub u32);
 
-/// A light at infinity.
+/// A star, or light that another body reflects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sun {
@@ -32,8 +32,15 @@ pub struct Sun {
     pub color: [f64; 3],
     /// 1: white ground under it overhead has radiance 1.
     pub brightness: f64,
-    /// Angular radius of its disc.
+    /// Angular radius of its disc, seen from the camera.
     pub radius_rad: f64,
+    /// Its distance from the camera. The direction to it, its brightness and its angular radius are those at the
+    /// camera; a body elsewhere has its own. Infinite: the same everywhere.
+    pub distance_m: f64,
+    /// Whether it is a star, with a disc in the sky. Light that a neighbour reflects has none: the neighbour is seen.
+    pub has_disc: bool,
+    /// The one body that it lights; None for all.
+    pub only: Option<BodyId>,
 }
 
 impl Sun {
@@ -44,7 +51,46 @@ impl Sun {
             color: star.color,
             brightness: star.brightness,
             radius_rad: star.radius_deg.to_radians(),
+            distance_m: f64::INFINITY,
+            has_disc: true,
+            only: None,
         }
+    }
+
+    /// The same light at another place: metres from the camera, scene space.
+    pub(crate) fn at(&self, position_m: DVec3) -> Self {
+        if !self.distance_m.is_finite() {
+            return *self;
+        }
+        let towards = self.dir_scene * self.distance_m - position_m;
+        let distance_m = towards.length().max(1.0);
+        let ratio = self.distance_m / distance_m;
+        Self {
+            dir_scene: towards / distance_m,
+            brightness: self.brightness * ratio * ratio,
+            radius_rad: (self.radius_rad.sin() * ratio).min(1.0).asin(),
+            distance_m,
+            ..*self
+        }
+    }
+}
+
+/// A body that is too small or too far to have a surface: a point of light behind everything else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Point {
+    /// Unit vector towards it, scene space.
+    pub dir_scene: DVec3,
+    /// Its light as linear RGB, in the unit of stars: 2 for a bright one.
+    pub light: [f64; 3],
+}
+
+impl Point {
+    /// A point with an apparent magnitude, and a colour whose greatest component is 1.
+    pub fn new(dir_scene: DVec3, color: [f64; 3], magnitude: f64) -> Self {
+        // As the stars of the sky, which are compressed: a factor of 100 in light is one of 13.
+        let brightness = (2.0 * 10_f64.powf(-0.4 * magnitude * 0.56)).clamp(0.0, 12.0);
+        Self { dir_scene: dir_scene.normalize_or(DVec3::X), light: color.map(|c| c * brightness) }
     }
 }
 
@@ -226,8 +272,10 @@ pub struct Scene<'a> {
     pub size_px: [u32; 2],
     /// How well the picture is drawn.
     pub quality: Quality,
-    /// The lights, brightest first: at most [`super::MAX_SUNS`].
+    /// The lights, brightest first: at most [`super::MAX_SUNS`] for each body.
     pub suns: Vec<Sun>,
+    /// Bodies without a surface, brightest first: [`super::MAX_POINTS`] of them are drawn.
+    pub points: Vec<Point>,
     /// The planets, in any order.
     pub bodies: Vec<Body<'a>>,
     /// Seconds since time zero: drift of the clouds, waves.
@@ -254,6 +302,7 @@ impl<'a> Scene<'a> {
             size_px,
             quality,
             suns: Vec::new(),
+            points: Vec::new(),
             bodies: Vec::new(),
             time_secs: 0.0,
             debug_view: DebugView::Shaded,
@@ -277,6 +326,11 @@ impl<'a> Scene<'a> {
         let body = Body::new(BodyId::default(), surface, -view.camera.position_planet_m);
         scene.bodies.push(Body { revision, ..body });
         scene
+    }
+
+    /// The lights of a body.
+    pub(crate) fn suns_of(&self, id: BodyId) -> impl Iterator<Item = &Sun> {
+        self.suns.iter().filter(move |sun| sun.only.is_none_or(|only| only == id))
     }
 
     /// The camera as a body sees it: the view to build its tiles for. An off-axis picture lies inside the view's

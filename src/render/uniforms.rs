@@ -5,11 +5,13 @@
 mod air;
 pub(crate) mod clouds;
 mod ground;
+mod neighbours;
+mod rings;
 mod water;
 
 use super::scene::{self, Matrices, Scene, height_range_m, split_position};
 pub(crate) use super::shared::{Body, Frame};
-use super::shared::{MAX_SUNS, MIXTURE_ENTRIES, Octave, Sun};
+use super::shared::{MAX_POINTS, MAX_SUNS, MIXTURE_ENTRIES, Octave, Point, Sun};
 use super::white_balance::{camera_balance, white_balance};
 use super::{gpu, wgsl};
 use crate::lod::Quality;
@@ -95,12 +97,22 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, is_
         split_position(body.surface.morphing_eye_m(chosen.camera.position_planet_m));
     out.chosen_pixel_rad = chosen.pixel_rad() as f32;
     let body_from_scene = body.scene_from_body.inverse();
-    out.sun_count = scene.suns.len().min(MAX_SUNS) as u32;
-    for (slot, sun) in out.suns.iter_mut().zip(&scene.suns) {
-        *slot = sun_uniform(sun, body_from_scene);
+    let suns: Vec<(&scene::Sun, scene::Sun)> =
+        scene.suns_of(body.id).map(|sun| (sun, sun.at(body.position_m))).take(MAX_SUNS).collect();
+    out.sun_count = suns.len() as u32;
+    for (slot, (seen, sun)) in out.suns.iter_mut().zip(&suns) {
+        *slot = sun_uniform(sun, seen, body_from_scene);
     }
-    let widest = scene.suns.iter().map(|sun| sun.radius_rad).fold(0.0, f64::max);
-    out.lut_sun_radius_rad = widest as f32;
+    let discs = suns.iter().filter(|(_, sun)| sun.has_disc);
+    out.lut_sun_radius_rad = discs.map(|(_, sun)| sun.radius_rad).fold(0.0, f64::max) as f32;
+    neighbours::of(&mut out, scene, body, suns.iter().map(|(_, sun)| *sun));
+    if is_backmost {
+        out.point_count = scene.points.len().min(MAX_POINTS) as u32;
+        for (slot, point) in out.points.iter_mut().zip(&scene.points) {
+            let dir = (body_from_scene * point.dir_scene).as_vec3();
+            *slot = Point { dir, light: DVec3::from_array(point.light).as_vec3() };
+        }
+    }
     let marked = body.marked.is_some();
     out.marked = u32::from(marked);
     ground::from_eye(&mut out, planet, eye_m);
@@ -119,6 +131,7 @@ pub(crate) fn planet_only(planet: &crate::planet::Planet) -> Body {
     air::of(&mut out, planet);
     water::of(&mut out, planet);
     ground::of(&mut out, planet);
+    rings::of(&mut out, planet);
     out
 }
 
@@ -143,7 +156,8 @@ fn place(out: &mut Body, scene: &Scene<'_>, drawn: &Drawn, radius_m: f64, eye_m:
     out.pixel_up = out.ray_up * (2.0 / height as f32);
 }
 
-fn sun_uniform(sun: &scene::Sun, body_from_scene: DQuat) -> Sun {
+/// A light at a body, and as it is at the eye.
+fn sun_uniform(sun: &scene::Sun, seen: &scene::Sun, body_from_scene: DQuat) -> Sun {
     // White ground under a sun of brightness 1 overhead has radiance 1.
     let irradiance = DVec3::from_array(sun.color) * (sun.brightness * PI);
     // A disc as bright as the Sun's would exceed 16 bits.
@@ -152,7 +166,10 @@ fn sun_uniform(sun: &scene::Sun, body_from_scene: DQuat) -> Sun {
         dir: (body_from_scene * sun.dir_scene).as_vec3(),
         radius_rad: sun.radius_rad as f32,
         irradiance: irradiance.as_vec3(),
-        disc_gain: disc as f32,
+        disc_gain: if sun.has_disc { disc as f32 } else { 0.0 },
+        seen_dir: (body_from_scene * seen.dir_scene).as_vec3(),
+        seen_radius_rad: seen.radius_rad as f32,
+        per_km: (1000.0 / sun.distance_m) as f32,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::editor::widgets::row_view::RowView;
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Planet, STAR_KELVIN, STARTING_AIRS, STARTING_SEAS, STARTING_SKIES, Star, Starting,
+    Atmosphere, Climate, Clouds, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting,
     Structure, Water, star_color, star_kelvin,
 };
 use eframe::egui;
@@ -21,6 +21,7 @@ pub struct TurnedOff {
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
+    rings: Option<Rings>,
 }
 
 /// The planet's own parameters: name, seed, radius.
@@ -155,6 +156,17 @@ pub fn clouds(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'
     });
     ui.add_space(4.0);
     let label = optional(ui, "clouds", &mut draft.planet.clouds, &mut turned_off.clouds, draft.shown);
+    draft.label = label.or(draft.label.take());
+}
+
+/// The rings, if the planet has any.
+pub fn rings(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    start_from(ui, draft, "rings", STARTING_RINGS, |planet, rings| {
+        let seed = planet.rings.as_ref().map_or(rings.seed, |old| old.seed);
+        planet.rings = Some(Rings { seed, ..rings });
+    });
+    ui.add_space(4.0);
+    let label = optional(ui, "rings", &mut draft.planet.rings, &mut turned_off.rings, draft.shown);
     draft.label = label.or(draft.label.take());
 }
 

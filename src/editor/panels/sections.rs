@@ -92,6 +92,12 @@ const CLOUDS: &[Section] = &[
     open("Fog", &["fog", "fog_altitude_km", "fog_thickness_km", "fog_density"]),
 ];
 
+const RINGS: &[Section] = &[
+    open("Extent", &["inner_radii", "width_radii"]),
+    open("Density", &["optical_depth", "profile", "ringlets", "ringlet_share", "gaps", "seed"]),
+    open("Light", &["dust", "inner_color", "outer_color"]),
+];
+
 /// The sections of the part at `path`; none for a part whose parameters are few.
 pub fn sections_of(path: &ParamPath) -> &'static [Section] {
     use Segment::{Field, Index};
@@ -106,6 +112,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
         [Field("water")] => WATER,
         [Field("atmosphere")] => ATMOSPHERE,
         [Field("clouds")] => CLOUDS,
+        [Field("rings")] => RINGS,
         _ => &[],
     }
 }
@@ -113,7 +120,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Atmosphere, Biome, Biomes, Climate, Clouds, Layer, Planet, Plates, Star, Water};
+    use crate::planet::{Atmosphere, Biome, Biomes, Climate, Clouds, Layer, Planet, Plates, Rings, Star, Water};
 
     #[test]
     fn every_field_of_a_section_exists_and_stands_in_one_section() {
@@ -129,6 +136,7 @@ mod tests {
             (WATER, names(Water::PARAMS)),
             (ATMOSPHERE, names(Atmosphere::PARAMS)),
             (CLOUDS, names(Clouds::PARAMS)),
+            (RINGS, names(Rings::PARAMS)),
         ];
         for (sections, names) in parts {
             let fields: Vec<_> = sections.iter().flat_map(|section| section.fields).collect();

@@ -22,9 +22,9 @@ pub(crate) use v3::File as CurrentFile;
 pub(crate) fn read(version: u32, text: &str) -> Result<Planet, Problem> {
     let from_v2 = |file: v2::File| Migrate::<v3::File>::migrate(file).into();
     match version {
-        1 => parse::<v1::File>(text).map(|file| from_v2(file.migrate())),
-        2 => parse::<v2::File>(text).map(from_v2),
-        3 => parse::<v3::File>(text).map(Planet::from),
+        1 => parse::<Planet, v1::File>(text).map(|file| from_v2(file.migrate())),
+        2 => parse::<Planet, v2::File>(text).map(from_v2),
+        3 => parse::<Planet, v3::File>(text).map(Planet::from),
         _ => Err(Problem {
             line: 1,
             column: 1,

@@ -20,6 +20,8 @@ pub enum Unit {
     MillimetresPerYear,
     Hours,
     MillionYears,
+    Earths,
+    Kelvin,
 }
 
 impl Unit {
@@ -40,6 +42,8 @@ impl Unit {
             Unit::MillimetresPerYear => "mm/yr",
             Unit::Hours => "h",
             Unit::MillionYears => "Myr",
+            Unit::Earths => "Earths",
+            Unit::Kelvin => "K",
         }
     }
 }

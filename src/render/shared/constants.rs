@@ -1,10 +1,17 @@
 //! Sizes and counts that belong to the CPU and the shaders alike.
 
+use crate::rings;
 use crate::sea;
 use crate::terrain::border;
 
 /// The most suns of a scene.
 pub const MAX_SUNS: usize = 4;
+/// The most bodies that shade one body.
+pub(crate) const MAX_OCCLUDERS: usize = 4;
+/// The most bodies of a scene that are points.
+pub const MAX_POINTS: usize = 16;
+/// Entries of the profile of rings.
+pub(crate) const RING_ENTRIES: usize = rings::PROFILE_ENTRIES;
 /// The most plane waves of the sea near the eye.
 pub(crate) const WAVES: usize = sea::MOST_WAVES;
 /// How much higher crests of the sea are than troughs are deep; the least factor on slopes that it leaves.

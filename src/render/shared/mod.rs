@@ -7,7 +7,7 @@
 mod constants;
 mod structs;
 
-pub use constants::MAX_SUNS;
+pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use constants::*;
 pub(crate) use structs::*;
 
@@ -19,6 +19,7 @@ use super::wgsl::{Constant, constant};
 use super::{horizon_pool, material_noise, noise_tile};
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
+use crate::rings;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
 use crate::sphere::cube::C_SQUARED;
 use crate::terrain::border::{self, OCTAVE_TURN};
@@ -30,6 +31,11 @@ pub(crate) fn text() -> String {
     let size = |size: [u32; 2]| size.map(f64::from);
     let constants: &[(&str, &dyn Constant)] = &[
         ("MAX_SUNS", &(MAX_SUNS as u32)),
+        // Rings
+        ("RING_ENTRIES", &(RING_ENTRIES as u32)),
+        ("RINGLET_GAIN", &rings::RINGLET_GAIN),
+        ("RING_ORDERS", &rings::HIGHER_ORDERS),
+        ("RING_DUST_FORWARD", &rings::DUST_FORWARD),
         // Tiles
         ("TILE_QUADS", &(TILE_QUADS as u32)),
         ("TILE_SIDE", &(TILE_SIDE as u32)),
@@ -113,6 +119,8 @@ pub(crate) fn text() -> String {
     let structs = [
         Frame::declaration(),
         Sun::declaration(),
+        Occluder::declaration(),
+        Point::declaration(),
         Octave::declaration(),
         Wave::declaration(),
         CloudLayer::declaration(),

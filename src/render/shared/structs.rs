@@ -1,6 +1,8 @@
 //! The structs of uniform buffers, declared once for Rust and WGSL.
 
-use super::constants::{BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_SUNS, VARIATION_OCTAVES, WAVES};
+use super::constants::{
+    BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_SUNS, RING_ENTRIES, VARIATION_OCTAVES, WAVES,
+};
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
 
@@ -65,8 +67,35 @@ uniform_struct! {
         radius_rad: f32,
         /// Irradiance outside the air on a surface that faces it.
         irradiance: Vec3,
-        /// Radiance of its disc over its irradiance.
+        /// Radiance of its disc over its irradiance; 0 for light without a disc.
         disc_gain: f32,
+        /// Unit vector from the eye to it.
+        seen_dir: Vec3,
+        /// Angular radius of its disc, seen from the eye.
+        seen_radius_rad: f32,
+        /// 1 over its distance from the centre of the body in km; 0 at infinity.
+        per_km: f32,
+    }
+}
+
+uniform_struct! {
+    /// A round body that may cover a sun.
+    Occluder {
+        /// Its centre from the centre of the body that it may shade.
+        center_km: Vec3,
+        radius_km: f32,
+        /// Share of a sun's light that its air bends into its shadow.
+        glow: Vec3,
+    }
+}
+
+uniform_struct! {
+    /// A body too small for a surface.
+    Point {
+        /// Unit vector from the eye to it.
+        dir: Vec3,
+        /// Brightness in the unit of stars.
+        light: Vec3,
     }
 }
 
@@ -131,6 +160,25 @@ uniform_struct! {
         /// Suns that shine.
         sun_count: u32,
         suns: [Sun; MAX_SUNS],
+        /// Bodies that may cover a sun somewhere on this one.
+        occluder_count: u32,
+        occluders: [Occluder; MAX_OCCLUDERS],
+        /// Points of light behind everything: of the farthest body.
+        point_count: u32,
+        points: [Point; MAX_POINTS],
+        /// 1 with rings.
+        ring_count: u32,
+        ring_inner_km: f32,
+        ring_outer_km: f32,
+        /// Contrast of the ringlets, how many of the widest there are, octaves, and seed of their noise.
+        ringlets: f32,
+        ringlet_count: f32,
+        ringlet_octaves: u32,
+        ring_seed: u32,
+        /// Share of fine dust.
+        ring_dust: f32,
+        /// Colour and optical depth along the width of the rings.
+        ring_profile: [Vec4; RING_ENTRIES],
         /// Angular radius that the LUTs of the air were made with.
         lut_sun_radius_rad: f32,
         /// Rayleigh scattering at the reference sphere.

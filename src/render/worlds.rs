@@ -1,0 +1,236 @@
+//! The bodies of a system around a camera: where they stand in its scene, how they are lit, and which are points.
+//!
+//! Scene space has the axes of the camera's own body, and its origin at the camera, as the scene of a lone planet.
+
+use super::scene::{BodyId, Point, Projection, Scene, Sun};
+use super::shared::MAX_SUNS;
+use crate::planet::Planet;
+use crate::sphere::LatLon;
+use crate::system::light::{angle_at, reflected};
+use crate::system::{Ephemeris, Light, Pose, System};
+use glam::{DQuat, DVec3};
+use std::sync::Arc;
+
+/// Angular radius in pixels from which a body has a surface.
+const SURFACE_PX: f64 = 1.0;
+/// Least share of a body's starlight that is worth a light of its own when a neighbour reflects it.
+const LEAST_REFLECTED: f64 = 1e-7;
+/// Magnitude of the Sun at one astronomical unit.
+const SUN_MAGNITUDE: f64 = -26.74;
+/// Magnitude beyond which a body is not drawn.
+const FAINTEST: f64 = 9.0;
+
+/// A system whose presets are loaded.
+#[derive(Clone, Debug)]
+pub struct Worlds {
+    system: System,
+    ephemeris: Ephemeris,
+    planets: Vec<Option<Arc<Planet>>>,
+}
+
+impl Worlds {
+    /// A valid system and the planet of each of its bodies, as [`System::load_planets`] gives them.
+    pub fn new(system: System, planets: Vec<Option<Arc<Planet>>>) -> Self {
+        Self { ephemeris: Ephemeris::new(&system), system, planets }
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Its motion.
+    pub fn ephemeris(&self) -> &Ephemeris {
+        &self.ephemeris
+    }
+
+    /// The planet of a body as its preset has it; None for stars and points.
+    pub fn planet(&self, body: usize) -> Option<&Arc<Planet>> {
+        self.planets.get(body)?.as_ref()
+    }
+
+    /// Radius of each body, metres; 0 for points.
+    pub fn radii_m(&self) -> Vec<f64> {
+        (0..self.system.bodies.len()).map(|body| self.radius_m(body)).collect()
+    }
+
+    fn radius_m(&self, body: usize) -> f64 {
+        match (&self.planets[body], &self.system.bodies[body].light) {
+            (Some(planet), _) => planet.radius_m(),
+            (None, Some(light)) => light.radius_m(),
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The planet of a body with the star of its preset replaced by that of the system, as it stands at a time. Colour,
+    /// brightness and the sun's size in the sky follow; the ground does not change.
+    pub fn lit_planet(&self, body: usize, time_secs: f64) -> Option<Planet> {
+        let mut planet = (**self.planet(body)?).clone();
+        let poses = self.ephemeris.at(time_secs);
+        let (brightness, star, light) = self.stars(&poses, poses[body].position_m).into_iter().next()?;
+        let towards = poses[star].position_m - poses[body].position_m;
+        let under = LatLon::from_direction(poses[body].system_from_body.inverse() * towards.normalize_or(DVec3::X));
+        let (lat_deg, lon_deg) = under.to_degrees();
+        let of = &mut planet.star;
+        // The ranges of a preset hold.
+        (of.latitude_deg, of.longitude_deg, of.day_hours) = (lat_deg, lon_deg, 0.0);
+        of.brightness = brightness.clamp(0.0, 100.0);
+        of.color = light.color();
+        of.radius_deg = (light.radius_m() / towards.length()).min(1.0).asin().to_degrees().clamp(0.01, 20.0);
+        Some(planet)
+    }
+
+    /// The stars by their brightness at a place, brightest first.
+    fn stars(&self, poses: &[Pose], at_m: DVec3) -> Vec<(f64, usize, &Light)> {
+        let bodies = self.system.bodies.iter().enumerate();
+        let shining = bodies.filter_map(|(number, body)| Some((number, body.light.as_ref()?)));
+        let brightness = |number: usize, light: &Light| light.brightness_at((poses[number].position_m - at_m).length());
+        let mut stars: Vec<_> =
+            shining.map(|(number, light)| (brightness(number, light), number, light)).collect();
+        stars.sort_by(|a, b| b.0.total_cmp(&a.0));
+        stars
+    }
+
+    /// The bodies around a camera at a time. `eye_planet_m`: the camera in the frame of its own body.
+    pub fn around(&self, body: usize, eye_planet_m: DVec3, time_secs: f64) -> Around<'_> {
+        let poses = self.ephemeris.at(time_secs);
+        let own = poses[body];
+        let eye_m = own.position_m + own.system_from_body * eye_planet_m;
+        Around { worlds: self, body, scene_from_system: own.system_from_body.inverse(), eye_m, eye_planet_m, poses }
+    }
+}
+
+/// The bodies of a system around a camera.
+#[derive(Clone, Debug)]
+pub struct Around<'a> {
+    worlds: &'a Worlds,
+    body: usize,
+    scene_from_system: DQuat,
+    /// The camera in the frame of the system.
+    eye_m: DVec3,
+    eye_planet_m: DVec3,
+    poses: Vec<Pose>,
+}
+
+impl Around<'_> {
+    /// Centre of a body in scene space, metres from the camera, and the rotation from its frame to scene space.
+    pub fn place(&self, body: usize) -> (DVec3, DQuat) {
+        if body == self.body {
+            // Exact, however far the system reaches.
+            return (-self.eye_planet_m, DQuat::IDENTITY);
+        }
+        let own = self.poses[self.body];
+        let pose = self.poses[body];
+        let from_own_m = self.scene_from_system * (pose.position_m - own.position_m);
+        (from_own_m - self.eye_planet_m, self.scene_from_system * pose.system_from_body)
+    }
+
+    /// The bodies that have a surface in a picture: the camera's own and those as wide as two pixels, nearest first.
+    pub fn with_surface(&self, projection: &Projection, size_px: [u32; 2]) -> Vec<usize> {
+        let pixel_rad = 2.0 * projection.half_extent()[1] / f64::from(size_px[1].max(1));
+        let is_wide = |body: usize| {
+            body == self.body || self.worlds.radius_m(body) / self.place(body).0.length() > SURFACE_PX * pixel_rad
+        };
+        let mut bodies: Vec<usize> = (0..self.poses.len())
+            .filter(|body| self.worlds.planets[*body].is_some() && is_wide(*body))
+            .collect();
+        bodies.sort_by(|a, b| self.place(*a).0.length().total_cmp(&self.place(*b).0.length()));
+        bodies
+    }
+
+    /// Sets the lights and the points of a scene: stars, the light that neighbours reflect, and bodies without a
+    /// surface. `drawn`: the bodies with one.
+    pub fn light(&self, scene: &mut Scene<'_>, drawn: &[usize]) {
+        let stars = self.worlds.stars(&self.poses, self.eye_m);
+        scene.suns.clear();
+        for (brightness, star, light) in stars.iter().take(MAX_SUNS - 1) {
+            let (position_m, _) = self.place(*star);
+            let distance_m = position_m.length();
+            scene.suns.push(Sun {
+                dir_scene: position_m / distance_m,
+                color: light.color(),
+                brightness: *brightness,
+                radius_rad: (light.radius_m() / distance_m).min(1.0).asin(),
+                distance_m,
+                has_disc: true,
+                only: None,
+            });
+        }
+        scene.suns.extend(drawn.iter().filter_map(|body| self.brightest_neighbour(*body)));
+        let others = (0..self.poses.len()).filter(|body| !drawn.contains(body));
+        let mut points: Vec<(f64, Point)> = others.filter_map(|body| self.point(body)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        scene.points = points.into_iter().map(|(_, point)| point).collect();
+    }
+
+    /// The brightest light that a neighbour reflects to a body.
+    fn brightest_neighbour(&self, body: usize) -> Option<Sun> {
+        let own = self.poses[body].position_m;
+        let neighbours = (0..self.poses.len()).filter(|other| *other != body && self.worlds.planets[*other].is_some());
+        let lights = neighbours.filter_map(|other| {
+            let (share, color) = self.reflected(other, own)?;
+            let dir_scene = self.scene_from_system * (self.poses[other].position_m - own).normalize();
+            let radius_rad = (self.worlds.radius_m(other) / (self.poses[other].position_m - own).length()).min(1.0).asin();
+            Some((share, Sun {
+                dir_scene,
+                color,
+                brightness: share,
+                radius_rad,
+                distance_m: f64::INFINITY,
+                has_disc: false,
+                only: Some(BodyId(body as u32)),
+            }))
+        });
+        let (share, sun) = lights.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let direct = self.worlds.stars(&self.poses, own).first().map_or(0.0, |star| star.0);
+        (share > LEAST_REFLECTED * direct).then_some(sun)
+    }
+
+    /// Brightness and colour of the light that a body reflects to a place.
+    fn reflected(&self, body: usize, at_m: DVec3) -> Option<(f64, [f64; 3])> {
+        let planet = self.worlds.planets[body].as_ref()?;
+        let center_m = self.poses[body].position_m;
+        let (direct, star, light) = self.worlds.stars(&self.poses, center_m).into_iter().next()?;
+        let phase_rad = angle_at(center_m, self.poses[star].position_m, at_m);
+        let albedo = mean_albedo(planet);
+        let strength = albedo.into_iter().fold(0.0, f64::max);
+        let share = reflected(strength, planet.radius_m(), (center_m - at_m).length(), phase_rad);
+        let star_color = light.color();
+        let color = std::array::from_fn(|i| star_color[i] * albedo[i] / strength.max(1e-9));
+        Some((share * direct, color))
+    }
+
+    /// A body as a point, with its magnitude.
+    fn point(&self, body: usize) -> Option<(f64, Point)> {
+        // The brightest stars are suns with discs.
+        let is_sun = |star: usize| {
+            let stars = self.worlds.stars(&self.poses, self.eye_m);
+            stars.iter().take(MAX_SUNS - 1).any(|(_, number, _)| *number == star)
+        };
+        let (brightness, color) = match &self.worlds.system.bodies[body].light {
+            Some(_) if is_sun(body) => return None,
+            Some(light) => (light.brightness_at((self.poses[body].position_m - self.eye_m).length()), light.color()),
+            None => self.reflected(body, self.eye_m)?,
+        };
+        let magnitude = SUN_MAGNITUDE - 2.5 * brightness.max(1e-30).log10();
+        (magnitude < FAINTEST).then(|| (magnitude, Point::new(self.place(body).0, color, magnitude)))
+    }
+}
+
+/// Share of the light that a planet reflects, roughly: the mean of its biome table, its sea and its clouds.
+pub fn mean_albedo(planet: &Planet) -> [f64; 3] {
+    let biomes = &planet.biomes;
+    let color = |key: char| biomes.palette.iter().find(|biome| biome.key == key).map(|biome| biome.color);
+    let cells: Vec<[f64; 3]> = biomes.table.rows().iter().flat_map(|row| row.chars()).filter_map(color).collect();
+    let count = cells.len().max(1) as f64;
+    let mut albedo: [f64; 3] = std::array::from_fn(|i| cells.iter().map(|cell| cell[i]).sum::<f64>() / count);
+    if planet.water.is_some() {
+        let sea = [0.05, 0.06, 0.075];
+        albedo = std::array::from_fn(|i| 0.4 * albedo[i] + 0.6 * sea[i]);
+    }
+    if let Some(clouds) = &planet.clouds {
+        let covered = 1.0 - (1.0 - clouds.coverage) * (1.0 - 0.7 * clouds.middle) * (1.0 - 0.3 * clouds.veil);
+        albedo = std::array::from_fn(|i| albedo[i] * (1.0 - covered) + 0.55 * clouds.color[i] * covered);
+    }
+    albedo
+}

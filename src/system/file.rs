@@ -1,0 +1,201 @@
+//! Loading, checking and saving a system file; see [`crate::planet::file`], which does the same for presets.
+
+use super::{MAX_BODIES, Member, System, VERSION};
+use crate::planet::file::{LoadError, SaveError, all_placed, read_as, read_text, write_atomically};
+use crate::planet::param::{ParamPath, Segment};
+use crate::planet::picture::folder_of;
+use crate::planet::root::Root;
+use crate::planet::{Planet, Version, explain, locate, text};
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// The file: the version, then the fields of [`System`].
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "System", default, deny_unknown_fields)]
+pub(crate) struct File {
+    version: Version,
+    name: String,
+    bodies: Vec<Member>,
+}
+
+impl Default for File {
+    fn default() -> Self {
+        System::default().into()
+    }
+}
+
+impl From<System> for File {
+    fn from(system: System) -> Self {
+        Self { version: Version(VERSION), name: system.name, bodies: system.bodies }
+    }
+}
+
+impl Root for System {
+    type File = File;
+    const VERSION: u32 = VERSION;
+    const THING: &'static str = "system";
+    const NOUN: &'static str = "system file";
+}
+
+impl System {
+    /// Reads and checks a system file, without the presets that it names.
+    ///
+    /// # Errors
+    /// As [`Planet::load`].
+    pub fn load(path: impl AsRef<Path>) -> Result<System, LoadError> {
+        let path = path.as_ref();
+        System::from_text(&path.display().to_string(), &read_text(path)?)
+    }
+
+    /// Reads and checks a system from text; `file` names it in messages.
+    ///
+    /// # Errors
+    /// As [`Planet::from_text`].
+    pub fn from_text(file: &str, text: &str) -> Result<System, LoadError> {
+        let system = read_as::<System>(file, text, |_, text| {
+            explain::parse::<System, File>(text).map(|File { name, bodies, .. }| System { name, bodies })
+        })?;
+        let problems = system.problems();
+        if problems.is_empty() { Ok(system) } else { Err(all_placed(file, text, problems)) }
+    }
+
+    /// Whether a text looks like a system file rather than a preset.
+    pub fn is_system(text: &str) -> bool {
+        locate::find(text, "bodies").is_some()
+    }
+
+    /// The text of the system file, with comments. Stable: the text of a loaded text is the text.
+    pub fn to_text(&self) -> String {
+        text::write(self)
+    }
+
+    /// Saves atomically: the old file stays until the new one is complete. A system that could not be loaded again is
+    /// refused.
+    ///
+    /// # Errors
+    /// Why it was not saved.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
+        let path = path.as_ref();
+        let failed = |message: String| SaveError { path: path.to_owned(), message };
+        if let Some((place, message)) = self.problems().into_iter().next() {
+            return Err(failed(format!("the system is not valid and was not saved: {place}: {message}")));
+        }
+        write_atomically(path, self.to_text().as_bytes()).map_err(failed)
+    }
+
+    /// The preset of each body, None for stars and points. `file`: the system file, from whose folder the paths start.
+    /// Bodies that name one preset share one planet.
+    ///
+    /// # Errors
+    /// What is wrong with the first preset that cannot be loaded, told at the place of the system file that names it.
+    pub fn load_planets(&self, file: &Path) -> Result<Vec<Option<std::sync::Arc<Planet>>>, LoadError> {
+        let mut loaded: HashMap<PathBuf, std::sync::Arc<Planet>> = HashMap::new();
+        let mut planets = Vec::new();
+        for (number, body) in self.bodies.iter().enumerate() {
+            if body.preset.is_empty() {
+                planets.push(None);
+                continue;
+            }
+            let path = folder_of(file).join(&body.preset);
+            let planet = match loaded.get(&path) {
+                Some(planet) => planet.clone(),
+                None => match Planet::load(&path) {
+                    Ok(planet) => loaded.entry(path).or_insert(planet.into()).clone(),
+                    Err(LoadError::Read { source, .. }) => {
+                        let message = format!("{}: {source}; name a preset, from the folder of this file", path.display());
+                        let text = read_text(file).unwrap_or_default();
+                        let problems = vec![(path_of(number, "preset"), message)];
+                        return Err(all_placed(&file.display().to_string(), &text, problems));
+                    }
+                    Err(other) => return Err(other),
+                },
+            };
+            planets.push(Some(planet));
+        }
+        Ok(planets)
+    }
+
+    /// Whether the system can be saved and moved.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it: the path, what is wrong and what would be right.
+    pub fn check(&self) -> Result<(), Vec<(ParamPath, String)>> {
+        let problems = self.problems();
+        if problems.is_empty() { Ok(()) } else { Err(problems) }
+    }
+
+    fn problems(&self) -> Vec<(ParamPath, String)> {
+        let mut found = Vec::new();
+        let all = || ParamPath::default().join("bodies");
+        if self.bodies.len() > MAX_BODIES {
+            return vec![(all(), format!("{} bodies are too many; use at most {MAX_BODIES}", self.bodies.len()))];
+        }
+        if self.bodies.is_empty() {
+            return vec![(all(), "there are no bodies; write at least one".to_owned())];
+        }
+        self.look(&mut |path, param, value| {
+            if let Some(message) = value.get().problem(param) {
+                found.push((path.clone(), message));
+            }
+        });
+        for number in 0..self.bodies.len() {
+            self.problems_of(number, &mut found);
+        }
+        found
+    }
+
+    fn problems_of(&self, number: usize, found: &mut Vec<(ParamPath, String)>) {
+        let body = &self.bodies[number];
+        let mut add = |field: &'static str, message: String| found.push((path_of(number, field), message));
+        if body.name.is_empty() {
+            add("name", "a body needs a name".to_owned());
+        }
+        if self.find(&body.name).is_some_and(|first| first < number) {
+            add("name", format!("there is another body called `{}`; names must differ", body.name));
+        }
+        if body.light.is_some() && !body.preset.is_empty() {
+            add("preset", "a body that shines has no surface; remove the preset or the light".to_owned());
+        }
+        if body.is_point() && body.mass_earths > 0.0 {
+            add("mass_earths", "a point has no mass; name a preset, give it light or use 0".to_owned());
+        }
+        if body.light.is_some() && body.mass_earths <= 0.0 {
+            add("mass_earths", "a star needs a mass; the Sun has 332946".to_owned());
+        }
+        let parent = match body.parent.as_str() {
+            "" => None,
+            name => match self.find(name) {
+                Some(parent) if parent < number => Some(parent),
+                Some(_) => return add("parent", format!("`{name}` comes later in the list; a body comes after its parent")),
+                None => return add("parent", format!("there is no body `{name}`; {}", self.known_before(number))),
+            },
+        };
+        match (parent, &body.orbit) {
+            (None, Some(_)) => add("orbit", "the body at the root has no orbit; name a parent or use None".to_owned()),
+            (None, None) if number > 0 => {
+                add("parent", format!("only the first body is at the root; name a parent; {}", self.known_before(number)));
+            }
+            (Some(_), None) => add("orbit", "the orbit around the parent is missing; write `orbit: (...)`".to_owned()),
+            (Some(parent), Some(orbit)) => {
+                let mass = self.bodies[parent].mass_earths + body.mass_earths;
+                if orbit.period_hours <= 0.0 && (mass <= 0.0 || self.bodies[parent].is_point()) {
+                    let mut path = path_of(number, "orbit").segments().to_vec();
+                    path.push(Segment::Field("period_hours"));
+                    let message = format!("`{}` has no mass to tell the period; write one", body.parent);
+                    found.push((ParamPath::from(path), message));
+                }
+            }
+            (None, None) => {}
+        }
+    }
+
+    fn known_before(&self, number: usize) -> String {
+        let names: Vec<String> = self.bodies[..number].iter().map(|body| format!("`{}`", body.name)).collect();
+        if names.is_empty() { "the first body has none".to_owned() } else { format!("use {}", names.join(", ")) }
+    }
+}
+
+fn path_of(body: usize, field: &'static str) -> ParamPath {
+    ParamPath::from(vec![Segment::Field("bodies"), Segment::Index(body), Segment::Field(field)])
+}
