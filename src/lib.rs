@@ -34,6 +34,7 @@
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`sea`]: waves, and the height of the water at a time
 //! - [`clouds`]: where clouds are, at any time
+//! - [`giant`]: bands, jets and storms of gas giants
 //! - [`rings`]: rings along the radius: optical depth, light, shadow
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
@@ -52,6 +53,7 @@ pub use glam;
 
 pub mod atmosphere;
 pub mod clouds;
+pub mod giant;
 pub mod lod;
 pub mod planet;
 pub mod rings;

@@ -27,6 +27,7 @@ use super::viewport::Viewport;
 use super::views::bake::BakeWindow;
 use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
+use super::views::system::SystemWindow;
 use super::views::library::LibraryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
@@ -58,6 +59,7 @@ pub struct EditorApp {
     prompts: Prompts,
     finder: FinderWindow,
     history: HistoryWindow,
+    system: SystemWindow,
     place: PlaceWindow,
     text: TextWindow,
     bake: BakeWindow,
@@ -97,7 +99,7 @@ impl EditorApp {
             format!("{} ({:?}, {:?})", info.name, info.device_type, info.backend)
         });
         if let Some(path) = path {
-            opening::begin_with(&mut state, &path);
+            opening::begin_with(&mut state, &cc.egui_ctx, &path);
         }
         let ctx = cc.egui_ctx.clone();
         Self {
@@ -107,6 +109,7 @@ impl EditorApp {
             prompts: Prompts::default(),
             finder: FinderWindow::default(),
             history: HistoryWindow::default(),
+            system: SystemWindow::default(),
             place: PlaceWindow::default(),
             text: TextWindow::default(),
             bake: BakeWindow::default(),
@@ -134,7 +137,8 @@ impl EditorApp {
         self.state.thumbnails_folder = Some(folder.join("pictures"));
         let last = self.state.recent.paths().first().filter(|path| path.is_file()).cloned();
         if let Some(last) = last.filter(|_| self.state.document.path().is_none() && self.state.messages.is_empty()) {
-            opening::begin_with(&mut self.state, &last);
+            let ctx = self.state.viewport.ctx().clone();
+            opening::begin_with(&mut self.state, &ctx, &last);
         }
         match Recovery::open(folder) {
             Ok((recovery, orphans)) => (self.state.recovery, self.state.orphans) = (Some(recovery), orphans),
@@ -381,6 +385,7 @@ impl eframe::App for EditorApp {
         self.text.show(&ctx, &self.state, &mut self.commands);
         self.bake.show(&ctx, &self.state, &mut self.commands);
         self.library.show(&ctx, &self.state, &mut self.commands);
+        self.system.show(&ctx, &self.state, &mut self.commands);
         self.tour.show(&ctx, &self.state, &mut self.commands);
         self.place.show(&ctx, &self.state, &mut self.commands);
         self.finder.show(&ctx, &self.state, &mut self.commands);

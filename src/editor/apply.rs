@@ -1,8 +1,8 @@
 //! Carries out the actions that views ask for.
 
-use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, VariationAction, Window};
+use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, SystemAction, VariationAction, Window};
 use super::commands;
-use super::handlers::{answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, variations};
+use super::handlers::{answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, system, variations};
 use super::state::State;
 use super::state::questions::Goal;
 use eframe::egui;
@@ -31,6 +31,8 @@ pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -
 fn takes_typed_value(action: &Action) -> bool {
     match action {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
+        Action::System(SystemAction::SetTime(_)) => false,
+        Action::System(_) => true,
         Action::Library(_) | Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) | Action::Browse(_) => {
             true
         }
@@ -82,6 +84,8 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Bake(action) => baking::act(state, ctx, action),
         Action::Close(Window::Library) => state.shows.library = false,
         Action::Close(Window::Tour) => state.shows.tour = false,
+        Action::Close(Window::System) => state.shows.system = false,
+        Action::System(action) => system::act(state, ctx, action),
         Action::Library(action) => library::act(state, ctx, action),
         Action::Shoot(Shoot::Set(photo)) => state.photo = photo,
         Action::Shoot(Shoot::Ask(subject)) => shooting::ask(state, ctx, subject),

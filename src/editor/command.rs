@@ -42,6 +42,8 @@ pub enum Command {
     Bake,
     /// Show or hide the library.
     Library,
+    /// Show or hide the system.
+    System,
     /// Begin or leave the tour.
     Tour,
     TogglePerformance,
@@ -105,6 +107,8 @@ pub enum Action {
     Bake(BakeAction),
     /// Take something out of the library, or keep something in it.
     Library(LibraryAction),
+    /// Open a system, or go to a body of it.
+    System(SystemAction),
     /// Change a setting of the view.
     Set(Setting),
     /// Answer the question on screen.
@@ -140,6 +144,8 @@ pub enum Window {
     Bake,
     /// Planets and parts that the user keeps.
     Library,
+    /// The bodies of a system.
+    System,
     /// The steps for a first look around.
     Tour,
 }
@@ -249,6 +255,19 @@ pub enum LibraryAction {
     Keep(&'static str),
     /// Move an item out of the library.
     Remove(usize),
+}
+
+/// An action on systems.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SystemAction {
+    /// Open the shipped system of this index.
+    Open(usize),
+    /// Go to the body of this number: its planet becomes the document.
+    Visit(usize),
+    /// Draw the planet alone.
+    Leave,
+    /// Set the time, in seconds since time zero.
+    SetTime(f64),
 }
 
 /// An action on maps for other programs.

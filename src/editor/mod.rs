@@ -96,6 +96,9 @@ fn restarts(path: Option<PathBuf>) -> impl FnMut() -> Result<(), String> {
 /// # Errors
 /// What is wrong with the file, and what would be right.
 pub fn check_first(path: &Path) -> Result<(), String> {
+    if handlers::system::is_system(path) {
+        return state::system::OpenSystem::file(path.to_owned()).map(drop);
+    }
     handlers::opening::first_document(path).map(drop).map_err(|error| error.to_string())
 }
 

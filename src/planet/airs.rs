@@ -10,6 +10,7 @@ pub const STARTING_AIRS: &[Starting<Atmosphere>] = &[
     Starting::new("Mars", "Thin and dusty: butterscotch by day, a blue sunset", mars),
     Starting::new("Titan", "Deep orange haze high above the ground", titan),
     Starting::new("Venus", "Dense and yellow; the ground lies in an orange dusk", venus),
+    Starting::new("Hydrogen", "Deep and clear over the clouds of a gas giant", hydrogen),
     Starting::new("Alien green", "Green by day, a violet sunset", green),
 ];
 
@@ -60,6 +61,22 @@ fn venus() -> Atmosphere {
         absorber_height_km: 60.0,
         absorber_width_km: 15.0,
         ground_albedo: [0.25, 0.2, 0.13],
+        ..Atmosphere::default()
+    }
+}
+
+/// Hydrogen scatters little; a haze of ice and soot lies over the clouds.
+fn hydrogen() -> Atmosphere {
+    Atmosphere {
+        height_km: 420.0,
+        rayleigh_per_km: [0.0004, 0.0009, 0.0022],
+        rayleigh_scale_km: 45.0,
+        mie_scattering_per_km: [0.0016, 0.0015, 0.0012],
+        mie_absorption_per_km: [0.00005, 0.0001, 0.0003],
+        mie_scale_km: 40.0,
+        mie_anisotropy: 0.6,
+        absorber_per_km: [0.0; 3],
+        ground_albedo: [0.6, 0.5, 0.38],
         ..Atmosphere::default()
     }
 }

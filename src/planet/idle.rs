@@ -5,7 +5,7 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Layer, Planet, Rings, Shape, Steep, Structure, TableRows, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, Layer, Planet, Rings, Shape, Steep, Structure, TableRows, Water,
 };
 
 /// Why a parameter has no effect: a sentence without a full stop. None: it has one.
@@ -30,6 +30,7 @@ impl Planet {
             [Field("water"), Field(name)] => self.water.as_ref().and_then(|water| water_idle(water, name)),
             [Field("atmosphere"), Field(name)] => self.atmosphere.as_ref().and_then(|air| air_idle(air, name)),
             [Field("clouds"), Field(name)] => self.clouds.as_ref().and_then(|clouds| clouds_idle(clouds, name)),
+            [Field("giant"), Field(name)] => self.giant.as_ref().and_then(|giant| giant_idle(giant, name)),
             [Field("rings"), Field(name)] => self.rings.as_ref().and_then(|rings| rings_idle(rings, name)),
             _ => None,
         }
@@ -149,6 +150,14 @@ fn air_idle(air: &Atmosphere, name: &str) -> Idle {
         ),
         "absorber_height_km" | "absorber_width_km" => when(none(air.absorber_per_km), "Absorption is 0"),
         "aurora_lat_deg" => when(air.aurora == 0.0, "Aurora is 0"),
+        _ => None,
+    }
+}
+
+fn giant_idle(giant: &Giant, name: &str) -> Idle {
+    match name {
+        "spot_lat_deg" | "spot_color" => when(giant.spot_radii == 0.0, "Great spot is 0"),
+        "eddy_radii" => when(giant.turbulence == 0.0 && giant.filaments == 0.0, "Turbulence and Filaments are 0"),
         _ => None,
     }
 }

@@ -10,6 +10,7 @@
 //! - [`validate`]: ranges, references between names, the shape of the biome table
 //! - [`mod@file`]: loading and saving; `open` opens files, `text` writes a preset, `explain` parses one and explains
 //!   errors, `locate` finds lines and columns, `migrate` reads old versions; [`snippet`] reads and writes single parts
+//! - `giant`: gas giants, and giants to start from
 //! - `rings`: rings of a planet, and rings to start from
 //! - `root`: what a whole file holds: a planet or a system
 //! - [`structure`]: plates, weather and rivers of a preset
@@ -26,6 +27,7 @@ mod day;
 pub mod diff;
 pub(crate) mod explain;
 pub mod file;
+mod giant;
 mod idle;
 pub mod key;
 pub(crate) mod kinds;
@@ -61,6 +63,7 @@ pub mod watch;
 pub use airs::STARTING_AIRS;
 pub use biome::{Biome, Detail, Steep};
 pub use file::{LoadError, SaveError};
+pub use giant::{Giant, STARTING_GIANTS};
 pub use key::Key;
 pub use layers::{Blend, Layer};
 pub use masks::{HeightMask, LatitudeMask, LayerMask, Mask, SlopeMask};
@@ -139,6 +142,8 @@ params! {
         atmosphere: Option<Atmosphere> = None;
         /// The clouds, or None.
         clouds: Option<Clouds> = None;
+        /// The clouds of a gas giant in place of layers, structure and water, or None.
+        giant: Option<Giant> = None;
         /// Rings in the plane of the equator, or None.
         rings: Option<Rings> = None;
         /// The editor's own section, or None.

@@ -72,6 +72,7 @@ pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
         water,
         atmosphere: air.then(|| atmosphere(kind, &mut dice)),
         clouds,
+        giant: None,
         rings: None,
         editor: None,
     };

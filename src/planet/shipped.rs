@@ -28,6 +28,7 @@ pub const ALL: &[Shipped] = &[
     Shipped { file: "alder.ron", text: include_str!("../../planets/alder.ron") },
     Shipped { file: "skerry.ron", text: include_str!("../../planets/skerry.ron") },
     Shipped { file: "sabkha.ron", text: include_str!("../../planets/sabkha.ron") },
+    Shipped { file: "garland.ron", text: include_str!("../../planets/garland.ron") },
 ];
 
 /// The planet shown at the start: the first of [`ALL`].

@@ -17,6 +17,7 @@ pub fn of_part(planet: &Planet, part: &str) -> Option<String> {
         "water" => planet.water.as_ref().map(|value| text(part, value)),
         "atmosphere" => planet.atmosphere.as_ref().map(|value| text(part, value)),
         "clouds" => planet.clouds.as_ref().map(|value| text(part, value)),
+        "giant" => planet.giant.as_ref().map(|value| text(part, value)),
         "rings" => planet.rings.as_ref().map(|value| text(part, value)),
         _ => None,
     }
@@ -91,6 +92,7 @@ impl Planet {
             "water" => self.water.clone_from(&from.water),
             "atmosphere" => self.atmosphere.clone_from(&from.atmosphere),
             "clouds" => self.clouds.clone_from(&from.clouds),
+            "giant" => self.giant.clone_from(&from.giant),
             "rings" => self.rings.clone_from(&from.rings),
             _ => {}
         }

@@ -55,6 +55,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     }
     slope_distances(&planet.layers, &mut found);
     plates(planet, &mut found);
+    giant(planet, &mut found);
     biomes(&planet.biomes, &mut found);
     found.0
 }
@@ -156,6 +157,22 @@ fn plates(planet: &Planet, found: &mut Found) {
             let message = format!("another entry changes plate {} too; use one entry for each plate", plate.plate);
             found.add(item(&by_hand_path(), index, Some("plate")), message);
         }
+    }
+}
+
+/// A giant has no ground.
+fn giant(planet: &Planet, found: &mut Found) {
+    if planet.giant.is_none() {
+        return;
+    }
+    let grounds = [
+        ("layers", !planet.layers.is_empty()),
+        ("structure", planet.structure.is_some()),
+        ("water", planet.water.is_some()),
+    ];
+    for (part, _) in grounds.into_iter().filter(|(_, has)| *has) {
+        let message = format!("a gas giant has no ground; remove `{part}`, or `giant`");
+        found.add(ParamPath::default().join(part), message);
     }
 }
 

@@ -92,7 +92,7 @@ pub(crate) use tone::srgb_from_linear;
 /// The GPU crate of all signatures.
 pub use wgpu;
 pub use white_balance::white_balance;
-pub use worlds::{Around, Worlds, mean_albedo};
+pub use worlds::{Around, Neighbour, Worlds, mean_albedo};
 
 /// What one frame drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,6 +4,7 @@
 
 mod air;
 pub(crate) mod clouds;
+mod giant;
 mod ground;
 mod neighbours;
 mod rings;
@@ -117,6 +118,7 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, is_
     out.marked = u32::from(marked);
     ground::from_eye(&mut out, planet, eye_m);
     let moment = (scene.time_secs, scene.quality);
+    giant::at(&mut out, planet, scene.time_secs);
     water::from_eye(&mut out, &body.surface.terrain, planet, eye_m, moment);
     if !marked {
         clouds::from_eye(&mut out, planet, eye_m, scene, pixel_rad(scene, drawn));

@@ -2,12 +2,13 @@
 //!
 //! Scene space has the axes of the camera's own body, and its origin at the camera, as the scene of a lone planet.
 
-use super::scene::{BodyId, Point, Projection, Scene, Sun};
+use super::scene::{Body, BodyId, Point, Projection, Scene, Sun};
 use super::shared::MAX_SUNS;
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 use crate::system::light::{angle_at, reflected};
 use crate::system::{Ephemeris, Light, Pose, System};
+use crate::tiles::Surface;
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -112,7 +113,42 @@ pub struct Around<'a> {
     poses: Vec<Pose>,
 }
 
+/// Another body of a system in a scene.
+#[derive(Clone)]
+pub struct Neighbour {
+    /// Its number in the system.
+    pub number: usize,
+    /// Its id in the scene.
+    pub id: BodyId,
+    /// Its tiles.
+    pub surface: Arc<Surface>,
+    /// Its centre, metres from the camera, scene space.
+    pub position_m: DVec3,
+    /// Turns its frame into scene space.
+    pub scene_from_body: DQuat,
+}
+
+impl Neighbour {
+    /// The body, for a scene.
+    pub fn body(&self) -> Body<'_> {
+        let mut body = Body::new(self.id, &self.surface, self.position_m);
+        body.scene_from_body = self.scene_from_body;
+        body
+    }
+}
+
 impl Around<'_> {
+    /// The id of a body in the scene: the camera's own has that of a lone planet.
+    pub fn id(&self, body: usize) -> BodyId {
+        if body == self.body { BodyId::default() } else { BodyId(1 + body as u32) }
+    }
+
+    /// A body with its tiles.
+    pub fn neighbour(&self, body: usize, surface: Arc<Surface>) -> Neighbour {
+        let (position_m, scene_from_body) = self.place(body);
+        Neighbour { number: body, id: self.id(body), surface, position_m, scene_from_body }
+    }
+
     /// Centre of a body in scene space, metres from the camera, and the rotation from its frame to scene space.
     pub fn place(&self, body: usize) -> (DVec3, DQuat) {
         if body == self.body {
@@ -178,7 +214,7 @@ impl Around<'_> {
                 radius_rad,
                 distance_m: f64::INFINITY,
                 has_disc: false,
-                only: Some(BodyId(body as u32)),
+                only: Some(self.id(body)),
             }))
         });
         let (share, sun) = lights.max_by(|a, b| a.0.total_cmp(&b.0))?;

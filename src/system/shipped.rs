@@ -33,7 +33,10 @@ impl Shipped {
 }
 
 /// All shipped systems.
-pub const ALL: &[Shipped] = &[Shipped { file: "hearth.ron", text: include_str!("../../systems/hearth.ron") }];
+pub const ALL: &[Shipped] = &[
+    Shipped { file: "hearth.ron", text: include_str!("../../systems/hearth.ron") },
+    Shipped { file: "twins.ron", text: include_str!("../../systems/twins.ron") },
+];
 
 #[cfg(test)]
 mod tests {

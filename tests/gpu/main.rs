@@ -6,6 +6,7 @@
 //! - `biomes`, `colours`, `materials`: the colours of the ground
 //! - `clouds`: clouds over time, drafts of their maps
 //! - `lakes`: water of planets with a structure
+//! - `neighbours`: shadows and light between bodies, rings
 //! - `night`: aurora, lights of settlements
 //! - `history`: clouds carried over while the camera moves, and still pictures that converge
 //! - `edges`, `shimmer`, `lod_pictures`, `shadows`: pictures against finer pictures and ray casts
@@ -26,6 +27,7 @@ mod history;
 mod lakes;
 mod lod_pictures;
 mod materials;
+mod neighbours;
 mod night;
 mod photo;
 mod planets;

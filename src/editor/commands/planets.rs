@@ -22,6 +22,15 @@ pub(super) fn rows() -> Vec<Row> {
         .within(Menu::Planets, 0)
         .keys([ctrl(Key::E)]),
         Row::new(
+            Command::System,
+            "System",
+            "Show the stars, planets and moons around this planet, or choose a system to stand in.",
+            |s, _| s.shows.system ^= true,
+        )
+        .within(Menu::Planets, 0)
+        .keys([ctrl_shift(Key::Y)])
+        .chosen_when(|s| s.shows.system),
+        Row::new(
             Command::Compare,
             "Compare with a copy",
             "Keep a copy of this planet, and see it beside your further edits; or drop it.",

@@ -14,7 +14,7 @@ const MOST: usize = 300;
 /// The folder of what was removed.
 const REMOVED: &str = "removed";
 /// Parts that can be kept, with their names. Empty: a whole planet.
-pub const PARTS: [(&str, &str); 10] = [
+pub const PARTS: [(&str, &str); 11] = [
     ("", "planet"),
     ("layers", "terrain"),
     ("structure", "structure"),
@@ -23,6 +23,7 @@ pub const PARTS: [(&str, &str); 10] = [
     ("water", "water"),
     ("atmosphere", "atmosphere"),
     ("clouds", "clouds"),
+    ("giant", "gas giant"),
     ("rings", "rings"),
     ("star", "star"),
 ];

@@ -14,6 +14,7 @@
 //! - [`bookmarks`]: views kept in the preset
 //! - [`place`]: the flight to a location
 //! - [`device`]: the graphics device fails
+//! - [`system`]: systems, and the way from body to body
 //! - [`window`]: full screen and theme
 
 pub mod answers;
@@ -30,5 +31,6 @@ pub mod pictures;
 pub mod place;
 pub mod saving;
 pub mod shooting;
+pub mod system;
 pub mod variations;
 pub mod window;

@@ -1,6 +1,7 @@
 //! Opening: another document in the place of this one, after a question where unsaved work would be lost.
 
 use crate::editor::files::dialogs::DialogRequest;
+use crate::editor::handlers::system;
 use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable_stem, with_extension};
 use crate::editor::state::document::Document;
 use crate::editor::state::questions::{Asking, Goal};
@@ -76,13 +77,10 @@ pub fn reach(state: &mut State, ctx: &egui::Context, goal: Goal) {
             let folder = state.document.folder();
             state.questions.ask(ctx, Asking::Open, DialogRequest::Open { folder });
         }
-        Goal::OpenPath(path) => show(state, &path, read(&path)),
-        Goal::OpenShipped(index) => {
-            if let Some(preset) = shipped::ALL.get(index) {
-                let document = preset.load().map(|planet| Document::new(planet, None));
-                show(state, Path::new(preset.file), document);
-            }
-        }
+        Goal::OpenPath(path) if system::is_system(&path) => system::open_file(state, ctx, &path),
+        Goal::OpenPath(path) => open_path(state, &path),
+        Goal::OpenShipped(index) => open_shipped(state, index),
+        Goal::Visit(body) => system::visit(state, body),
         Goal::Quit => {
             state.questions.may_close = true;
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -90,8 +88,24 @@ pub fn reach(state: &mut State, ctx: &egui::Context, goal: Goal) {
     }
 }
 
-/// Starts with a file that need not exist yet.
-pub fn begin_with(state: &mut State, path: &Path) {
+/// Opens a preset.
+pub(super) fn open_path(state: &mut State, path: &Path) {
+    show(state, path, read(path));
+}
+
+/// Opens the shipped preset of an index.
+pub(super) fn open_shipped(state: &mut State, index: usize) {
+    if let Some(preset) = shipped::ALL.get(index) {
+        let document = preset.load().map(|planet| Document::new(planet, None));
+        show(state, Path::new(preset.file), document);
+    }
+}
+
+/// Starts with a preset or a system. A preset need not exist yet.
+pub fn begin_with(state: &mut State, ctx: &egui::Context, path: &Path) {
+    if system::is_system(path) {
+        return system::open_file(state, ctx, path);
+    }
     show(state, path, first_document(path));
 }
 

@@ -98,7 +98,7 @@ impl Panel {
 }
 
 /// The tabs, in the order shown.
-pub static PANELS: [Panel; 10] = [
+pub static PANELS: [Panel; 11] = [
     Panel::new("Planet", "", |ui, _, draft| parts::planet(ui, draft)),
     Panel::new("Terrain", "layers", |ui, state, draft| layers::show(ui, &mut state.layers, draft)).staying_from(320.0),
     Panel::new("Structure", "structure", |ui, state, draft| {
@@ -112,6 +112,7 @@ pub static PANELS: [Panel; 10] = [
     Panel::new("Water", "water", |ui, state, draft| parts::water(ui, &mut state.turned_off, draft)),
     Panel::new("Atmosphere", "atmosphere", |ui, state, draft| parts::atmosphere(ui, &mut state.turned_off, draft)),
     Panel::new("Clouds", "clouds", |ui, state, draft| parts::clouds(ui, &mut state.turned_off, draft)),
+    Panel::new("Gas giant", "giant", |ui, state, draft| parts::giant(ui, &mut state.turned_off, draft)),
     Panel::new("Rings", "rings", |ui, state, draft| parts::rings(ui, &mut state.turned_off, draft)),
     Panel::new("Star", "star", |ui, _, draft| parts::star(ui, draft)),
 ];

@@ -9,7 +9,7 @@ use crate::editor::widgets::row_view::RowView;
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting,
+    Atmosphere, Climate, Clouds, Giant, Layer, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_GIANTS, STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting,
     Structure, Water, star_color, star_kelvin,
 };
 use eframe::egui;
@@ -22,6 +22,9 @@ pub struct TurnedOff {
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
     rings: Option<Rings>,
+    giant: Option<Giant>,
+    /// The ground of a planet that became a giant.
+    ground: Option<(Vec<Layer>, Option<Structure>, Option<Water>)>,
 }
 
 /// The planet's own parameters: name, seed, radius.
@@ -159,6 +162,31 @@ pub fn clouds(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'
     draft.label = label.or(draft.label.take());
 }
 
+/// The clouds of a gas giant, if the planet is one. A giant has no ground: it is put aside, and comes back with it.
+pub fn giant(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
+    let was_giant = draft.planet.giant.is_some();
+    start_from(ui, draft, "gas giant", STARTING_GIANTS, |planet, giant| {
+        let seed = planet.giant.as_ref().map_or(giant.seed, |old| old.seed);
+        planet.giant = Some(Giant { seed, ..giant });
+    });
+    ui.add_space(4.0);
+    let label = optional(ui, "giant", &mut draft.planet.giant, &mut turned_off.giant, draft.shown);
+    draft.label = label.or(draft.label.take());
+    let planet = &mut *draft.planet;
+    match (was_giant, planet.giant.is_some()) {
+        (false, true) => {
+            turned_off.ground =
+                Some((std::mem::take(&mut planet.layers), planet.structure.take(), planet.water.take()));
+        }
+        (true, false) => {
+            if let Some((layers, structure, water)) = turned_off.ground.take() {
+                (planet.layers, planet.structure, planet.water) = (layers, structure, water);
+            }
+        }
+        _ => {}
+    }
+}
+
 /// The rings, if the planet has any.
 pub fn rings(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_>) {
     start_from(ui, draft, "rings", STARTING_RINGS, |planet, rings| {
@@ -207,6 +235,7 @@ pub(super) fn switch<T: Default + Clone>(
     let text = match field {
         "atmosphere" => "This planet has an atmosphere".to_owned(),
         "structure" => "This planet has a structure".to_owned(),
+        "giant" => "This planet is a gas giant".to_owned(),
         _ => format!("This planet has {field}"),
     };
     if ui.checkbox(&mut on, text).changed() {

@@ -92,6 +92,13 @@ const CLOUDS: &[Section] = &[
     open("Fog", &["fog", "fog_altitude_km", "fog_thickness_km", "fog_density"]),
 ];
 
+const GIANT: &[Section] = &[
+    open("Bands", &["bands", "variation", "contrast", "seed"]),
+    open("Colours", &["zone_color", "belt_color", "accent_color", "pole_color"]),
+    open("Flow", &["jet_m_s", "turbulence", "eddy_radii", "filaments"]),
+    open("Storms", &["storms", "spot_radii", "spot_lat_deg", "spot_color"]),
+];
+
 const RINGS: &[Section] = &[
     open("Extent", &["inner_radii", "width_radii"]),
     open("Density", &["optical_depth", "profile", "ringlets", "ringlet_share", "gaps", "seed"]),
@@ -112,6 +119,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
         [Field("water")] => WATER,
         [Field("atmosphere")] => ATMOSPHERE,
         [Field("clouds")] => CLOUDS,
+        [Field("giant")] => GIANT,
         [Field("rings")] => RINGS,
         _ => &[],
     }
@@ -120,7 +128,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{Atmosphere, Biome, Biomes, Climate, Clouds, Layer, Planet, Plates, Rings, Star, Water};
+    use crate::planet::{Atmosphere, Biome, Biomes, Climate, Clouds, Giant, Layer, Planet, Plates, Rings, Star, Water};
 
     #[test]
     fn every_field_of_a_section_exists_and_stands_in_one_section() {
@@ -136,6 +144,7 @@ mod tests {
             (WATER, names(Water::PARAMS)),
             (ATMOSPHERE, names(Atmosphere::PARAMS)),
             (CLOUDS, names(Clouds::PARAMS)),
+            (GIANT, names(Giant::PARAMS)),
             (RINGS, names(Rings::PARAMS)),
         ];
         for (sections, names) in parts {

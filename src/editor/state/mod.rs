@@ -13,6 +13,7 @@
 //! - [`shelf`]: what the library shows
 //! - [`shooting`]: photographs and films
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
+//! - [`system`]: the system in whose sky the planet is drawn
 //! - [`sheet`], [`thumbnails`]: planets with small pictures; the thread that draws them
 
 pub mod baking;
@@ -29,6 +30,7 @@ pub mod recovery;
 pub mod sheet;
 pub mod shelf;
 pub mod shooting;
+pub mod system;
 pub mod templates;
 pub mod thumbnails;
 pub mod variations;
@@ -55,6 +57,7 @@ use shooting::{PhotoSettings, Shooting};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
+use system::OpenSystem;
 use variations::Variations;
 
 /// A message about something that went wrong; shown until it is dismissed.
@@ -102,6 +105,8 @@ pub struct Shows {
     pub bake: bool,
     /// The library.
     pub library: bool,
+    /// The system.
+    pub system: bool,
     /// The tour.
     pub tour: bool,
 }
@@ -122,6 +127,7 @@ impl Shows {
         text: false,
         bake: false,
         library: false,
+        system: false,
         tour: false,
     };
 }
@@ -170,6 +176,8 @@ pub struct State {
     pub variations: Variations,
     /// The planets of [`templates::ALL`]; empty until they have been shown.
     pub templates: Sheet,
+    /// The system in whose sky the planet is drawn.
+    pub system: Option<OpenSystem>,
     /// What waits for the text of the clipboard.
     pub pasting: Option<Wanted>,
     /// The index of the bookmark whose name is asked for.
@@ -215,6 +223,7 @@ impl State {
             baking: None,
             variations: Variations::default(),
             templates: Sheet::default(),
+            system: None,
             pasting: None,
             renaming: None,
             orphans: Vec::new(),
@@ -292,6 +301,11 @@ impl State {
     /// Replaces the document; its undo steps are lost.
     pub fn replace_document(&mut self, document: Document) {
         self.document = document;
+        // Another planet is alone until a system is known in which it stands.
+        self.viewport.set_system(None);
+        if let Some(system) = &mut self.system {
+            system.here = None;
+        }
         self.forget_document();
     }
 

@@ -18,6 +18,8 @@ pub enum Goal {
     OpenPath(PathBuf),
     /// The shipped preset of this index.
     OpenShipped(usize),
+    /// The planet of this body of the open system.
+    Visit(usize),
     Quit,
 }
 

@@ -35,7 +35,7 @@ const fn entry(template: Template, name: &'static str, note: &'static str) -> En
 }
 
 /// All templates, in the order shown.
-pub const ALL: [Entry; 13] = [
+pub const ALL: [Entry; 14] = [
     entry(Template::Shipped("aurel.ron"), "Earth-like", "Plates, rains and rivers: deserts, forests, a snowy range"),
     entry(Template::Shipped("alder.ron"), "Old continents", "Wide worn lands with great rivers and rain forest"),
     entry(Template::Shipped("skerry.ron"), "Young islands", "Arcs of islands that plates push up"),
@@ -44,6 +44,7 @@ pub const ALL: [Entry; 13] = [
     entry(Template::Shipped("cinnabar.ron"), "Red desert", "Thin dusty air, dunes, a great rift, no sea"),
     entry(Template::Shipped("hoarfrost.ron"), "Ice world", "Old ice with crevasses, open water at the equator"),
     entry(Template::Shipped("pallor.ron"), "Moon", "Craters and plains of lava under a black sky"),
+    entry(Template::Shipped("garland.ron"), "Gas giant", "Bands, jets and storms, with rings"),
     entry(Template::Blank, "Blank sphere", "Nothing yet: no layers, no water, no air"),
     entry(Template::Random(Kind::Temperate), "Random: temperate", "Seas, continents and clouds by chance"),
     entry(Template::Random(Kind::Cold), "Random: cold", "Ice and cold ground by chance"),

@@ -131,6 +131,7 @@ impl Compare {
                 frozen: None,
                 settings: shared.settings,
                 marked: None,
+                sky: None,
                 drafts: shared.drafts,
                 is_busy,
                 now_secs: shared.now_secs,

@@ -8,6 +8,7 @@
 //!   upload
 //! - [`compare`]: another planet beside the one that is edited
 //! - [`layer_view`]: layers alone, and an overlay of what one does
+//! - `neighbours`: the other bodies of a system around the planet
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
 //!   dragged
@@ -23,6 +24,7 @@ pub mod frames;
 pub mod ground;
 pub mod input;
 pub mod layer_view;
+mod neighbours;
 mod outline;
 mod picture;
 mod plate_drag;
@@ -40,7 +42,7 @@ use crate::lod::opening::opening_place;
 use crate::lod::pose::Pose;
 use crate::lod::{Camera, View};
 use crate::planet::Planet;
-use crate::render::{FrameStats, LutRuns, Renderer};
+use crate::render::{FrameStats, LutRuns, Renderer, Worlds};
 use crate::sphere::LatLon;
 use crate::terrain::{MapStore, Revision};
 use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
@@ -54,6 +56,7 @@ use frames::FrameLog;
 use glam::DVec3;
 use ground::PlanetGround;
 use layer_view::LayerView;
+use neighbours::Neighbours;
 use picture::{Meters, Picture, Subject, quality_for};
 use pointer::{Probe, UnderPointer, in_view};
 use std::sync::Arc;
@@ -77,6 +80,8 @@ pub struct Viewport {
     /// The planet that this one is compared with.
     compare: Option<Compare>,
     maps: Option<Arc<MapStore>>,
+    /// The other bodies of the system that the planet is in.
+    neighbours: Option<Neighbours>,
     builder: Builder,
     /// The newest valid planet.
     newest: Option<Revision>,
@@ -91,6 +96,7 @@ pub struct Viewport {
     shown_camera: Option<Camera>,
     wants_focus: bool,
     moving: bool,
+    ctx: egui::Context,
     drag: input::Drag,
     pointer: Probe,
     clicks: Clicks,
@@ -119,6 +125,7 @@ impl Viewport {
             compare: None,
             builder: Builder::with_options(BuilderOptions::default().maps(maps.clone()), waker()),
             maps,
+            neighbours: None,
             newest: None,
             picture: Picture::new(render_state),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
@@ -128,6 +135,7 @@ impl Viewport {
             shown_camera: None,
             wants_focus: false,
             moving: false,
+            ctx: ctx.clone(),
             drag: input::Drag::None,
             pointer: Probe::new(waker()),
             clicks: Clicks::new(waker()),
@@ -155,6 +163,16 @@ impl Viewport {
     /// Keeps a planet in the place of the one that is kept, and gives that.
     pub fn swap_compared(&mut self, planet: Arc<Planet>) -> Option<Arc<Planet>> {
         self.compare.as_mut().map(|compare| compare.swap(planet))
+    }
+
+    /// The window's context.
+    pub fn ctx(&self) -> &egui::Context {
+        &self.ctx
+    }
+
+    /// Draws the planet as a body of a system, with the others around it; None draws it alone.
+    pub fn set_system(&mut self, system: Option<(Arc<Worlds>, usize)>) {
+        self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
     }
 
     /// A renderer on the same device, for pictures that are not on screen; none without a device.
@@ -409,7 +427,8 @@ impl Viewport {
         let revision = self.revision_over(&surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
         let (frozen, is_busy) = (self.frozen, self.is_busy());
-        let subject = Subject { surface, revision, view, frozen, settings, marked, drafts, is_busy, now_secs };
+        let sky = self.neighbours.as_mut().map(|neighbours| neighbours.sky(&view, settings.time_secs, &self.ctx));
+        let subject = Subject { surface, revision, view, frozen, settings, marked, sky, drafts, is_busy, now_secs };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });
     }

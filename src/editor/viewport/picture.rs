@@ -3,6 +3,7 @@
 use super::adaptation::{self, Adaptation};
 use super::clock::{EditClock, FrameMeter};
 use super::frames::FrameLog;
+use super::neighbours::Sky;
 use super::refinement::Refinement;
 use super::settings::ViewSettings;
 use super::swap::{Swap, UPLOAD_BUDGET_BYTES};
@@ -31,6 +32,8 @@ pub(super) struct Subject<'a> {
     pub(super) settings: &'a ViewSettings,
     /// Cells of the biome table whose ground lights up.
     pub(super) marked: Option<Arc<MarkedCells>>,
+    /// The other bodies of the planet's system.
+    pub(super) sky: Option<Sky>,
     /// Whether cloud maps may be coarse: a button of the pointer is down.
     pub(super) drafts: bool,
     /// Whether a finer surface is on its way.
@@ -205,6 +208,9 @@ impl Picture {
         let sun_dir_planet = revision.planet().star.place(key.time_secs).direction();
         let mut scene = Scene::of_revision(revision.clone(), &key.surface, key.view, sun_dir_planet);
         scene.time_secs = key.time_secs;
+        if let Some(sky) = &key.sky {
+            sky.light(&mut scene, key.view.camera.position_planet_m, key.time_secs);
+        }
         scene.debug_view = key.debug_view;
         scene.drafts = key.drafts;
         let is_sample = !changed && !adapting;
@@ -220,9 +226,9 @@ impl Picture {
             Some(drawn) if !resized && drawn.only_moved(&key) => Reuse::Moving,
             _ => Reuse::Begin,
         };
-        for body in &mut scene.bodies {
-            body.frozen = key.frozen;
-            body.marked.clone_from(&key.marked);
+        if let Some(own) = scene.bodies.first_mut() {
+            own.frozen = key.frozen;
+            own.marked.clone_from(&key.marked);
         }
         let drawn = renderer.render(target.view(), &scene);
         match drawn {
@@ -274,6 +280,7 @@ struct PictureKey {
     auto_exposure: bool,
     debug_view: DebugView,
     marked: Option<Arc<MarkedCells>>,
+    sky: Option<Sky>,
     drafts: bool,
 }
 
@@ -289,6 +296,7 @@ impl PictureKey {
             auto_exposure: subject.settings.auto_exposure,
             debug_view: subject.settings.debug_view,
             marked: subject.marked.clone(),
+            sky: subject.sky.clone(),
             drafts: subject.drafts,
         }
     }
@@ -303,8 +311,16 @@ impl PictureKey {
             && self.auto_exposure == other.auto_exposure
             && self.debug_view == other.debug_view
             && self.marked == other.marked
+            && self.same_sky(other)
             // What was drawn with drafts is drawn again without.
             && (!self.drafts || other.drafts)
+    }
+
+    fn same_sky(&self, other: &PictureKey) -> bool {
+        match (&self.sky, &other.sky) {
+            (Some(own), Some(other)) => own.same(other),
+            (own, other) => own.is_none() && other.is_none(),
+        }
     }
 
     /// Whether another picture is of the same planet, drawn in the same way: it differs by the camera, the time or the

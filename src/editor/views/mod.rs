@@ -7,6 +7,7 @@
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
 //! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`library`], [`variations`], [`templates`],
 //!   [`text`], [`place`], [`finder`]: windows
+//! - [`system`]: the bodies of a system, their orbits, the time
 //! - [`tour`]: steps for a first look around
 //! - [`shortcuts`]: keys and dropped files
 //! - [`look`]: colours and spacing
@@ -29,6 +30,7 @@ pub mod prompts;
 mod rename;
 pub mod shortcuts;
 pub mod status;
+pub mod system;
 pub mod templates;
 pub mod text;
 pub mod tour;

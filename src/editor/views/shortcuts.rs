@@ -1,6 +1,6 @@
 //! Keys and dropped files, as commands.
 
-use super::{bake, controls, history, library, performance, photo, place, templates, text, tour, variations};
+use super::{bake, controls, history, library, performance, photo, place, system, templates, text, tour, variations};
 use crate::editor::command::{Action, Command, Commands, PanelAction, Window};
 use crate::editor::commands;
 use crate::editor::panels::biomes;
@@ -59,6 +59,7 @@ fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Co
         (text::layer(), state.shows.text, Window::Text),
         (bake::layer(), state.shows.bake, Window::Bake),
         (library::layer(), state.shows.library, Window::Library),
+        (system::layer(), state.shows.system, Window::System),
         (tour::layer(), state.shows.tour, Window::Tour),
         (variations::layer(), state.shows.variations, Window::Variations),
     ];

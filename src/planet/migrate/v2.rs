@@ -23,7 +23,7 @@ frozen! {
         atmosphere: Option<Atmosphere> = None,
         clouds: Option<Clouds> = None,
         editor: Option<EditorNotes> = None,
-    } adding { precision: Precision::Classic, structure: None, settlements: 0.0, rings: None }
+    } adding { precision: Precision::Classic, structure: None, settlements: 0.0, giant: None, rings: None }
 }
 
 frozen! {

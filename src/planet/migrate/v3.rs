@@ -2,7 +2,7 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Layer, Planet, Precision, Rings, Star, Structure, VERSION, Version,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, Layer, Planet, Precision, Rings, Star, Structure, VERSION, Version,
     Water,
 };
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,8 @@ file! {
     water: Option<Water>,
     atmosphere: Option<Atmosphere>,
     clouds: Option<Clouds>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    giant: Option<Giant>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rings: Option<Rings>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,5 +1,6 @@
 //! Sizes and counts that belong to the CPU and the shaders alike.
 
+use crate::giant;
 use crate::rings;
 use crate::sea;
 use crate::terrain::border;
@@ -10,6 +11,10 @@ pub const MAX_SUNS: usize = 4;
 pub(crate) const MAX_OCCLUDERS: usize = 4;
 /// The most bodies of a scene that are points.
 pub const MAX_POINTS: usize = 16;
+/// Latitudes at which the bands of a giant are known.
+pub(crate) const BAND_ENTRIES: usize = giant::BAND_ENTRIES;
+/// The most storms of a giant.
+pub(crate) const MAX_STORMS: usize = giant::MAX_STORMS;
 /// Entries of the profile of rings.
 pub(crate) const RING_ENTRIES: usize = rings::PROFILE_ENTRIES;
 /// The most plane waves of the sea near the eye.

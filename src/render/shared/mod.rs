@@ -31,7 +31,8 @@ pub(crate) fn text() -> String {
     let size = |size: [u32; 2]| size.map(f64::from);
     let constants: &[(&str, &dyn Constant)] = &[
         ("MAX_SUNS", &(MAX_SUNS as u32)),
-        // Rings
+        // Giants and rings
+        ("BAND_ENTRIES", &(BAND_ENTRIES as u32)),
         ("RING_ENTRIES", &(RING_ENTRIES as u32)),
         ("RINGLET_GAIN", &rings::RINGLET_GAIN),
         ("RING_ORDERS", &rings::HIGHER_ORDERS),
@@ -121,6 +122,7 @@ pub(crate) fn text() -> String {
         Sun::declaration(),
         Occluder::declaration(),
         Point::declaration(),
+        Storm::declaration(),
         Octave::declaration(),
         Wave::declaration(),
         CloudLayer::declaration(),

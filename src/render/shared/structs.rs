@@ -1,7 +1,8 @@
 //! The structs of uniform buffers, declared once for Rust and WGSL.
 
 use super::constants::{
-    BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_SUNS, RING_ENTRIES, VARIATION_OCTAVES, WAVES,
+    BAND_ENTRIES, BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_STORMS, MAX_SUNS, RING_ENTRIES,
+    VARIATION_OCTAVES, WAVES,
 };
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
@@ -90,6 +91,19 @@ uniform_struct! {
 }
 
 uniform_struct! {
+    /// A storm of a gas giant.
+    Storm {
+        /// Unit vector from the centre of the planet to its middle.
+        center: Vec3,
+        /// Half of its width along the latitude, in radii.
+        size: f32,
+        color: Vec3,
+        /// Turn of its middle, radians.
+        spin: f32,
+    }
+}
+
+uniform_struct! {
     /// A body too small for a surface.
     Point {
         /// Unit vector from the eye to it.
@@ -166,6 +180,20 @@ uniform_struct! {
         /// Points of light behind everything: of the farthest body.
         point_count: u32,
         points: [Point; MAX_POINTS],
+        /// 1 for a gas giant.
+        giant_count: u32,
+        /// How far eddies fold the bands; their size in radii of the planet; contrast of the filaments.
+        giant_turbulence: f32,
+        giant_eddy_radii: f32,
+        giant_filaments: f32,
+        /// Colour of high white clouds.
+        giant_bright: Vec3,
+        giant_storm_count: u32,
+        giant_storms: [Storm; MAX_STORMS],
+        /// For each of two tracings: seconds since its middle, weight, seed of its eddies.
+        giant_tracings: [Vec4; 2],
+        /// Colour, and angular speed of the jets in radians per second, from the south pole to the north pole.
+        giant_bands: [Vec4; BAND_ENTRIES],
         /// 1 with rings.
         ring_count: u32,
         ring_inner_km: f32,

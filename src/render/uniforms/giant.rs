@@ -1,0 +1,34 @@
+//! Uniforms of gas giants.
+
+use super::{Body, rgb};
+use crate::giant::{Bands, eddy_seed};
+use crate::planet::Planet;
+use crate::render::shared::Storm;
+use glam::{DVec4, Vec4};
+
+/// Sets the bands and storms of a giant at a time.
+pub(super) fn at(out: &mut Body, planet: &Planet, time_secs: f64) {
+    let (Some(giant), Some(bands)) = (&planet.giant, Bands::new(planet)) else { return };
+    out.giant_count = 1;
+    out.giant_turbulence = giant.turbulence as f32;
+    out.giant_eddy_radii = giant.eddy_radii as f32;
+    out.giant_filaments = giant.filaments as f32;
+    out.giant_bright = rgb(giant.zone_color.map(|c| c + 0.3 * (1.0 - c)));
+    for (slot, entry) in out.giant_bands.iter_mut().zip(&bands.entries) {
+        *slot = DVec4::from_array(*entry).as_vec4();
+    }
+    let seed = eddy_seed(planet) % 65_536;
+    for (slot, (age_secs, weight, number)) in out.giant_tracings.iter_mut().zip(bands.tracings(time_secs)) {
+        *slot = Vec4::new(age_secs as f32, weight as f32, ((seed + number * 97) % 65_536) as f32, 0.0);
+    }
+    let storms = bands.storms(planet, time_secs);
+    out.giant_storm_count = storms.len() as u32;
+    for (slot, storm) in out.giant_storms.iter_mut().zip(storms) {
+        *slot = Storm {
+            center: storm.center.as_vec3(),
+            size: storm.size as f32,
+            color: rgb(storm.color),
+            spin: storm.spin as f32,
+        };
+    }
+}

@@ -1,0 +1,193 @@
+//! Light between bodies, against geometry: shadows of rings and of moons, rings themselves, reflected light.
+
+use crate::support::{Gpu, frame_of, gpu, surface_of, view_of};
+use glam::{DQuat, DVec3};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+use tellus::lod::{Camera, Quality, View};
+use tellus::planet::{Planet, Rings};
+use tellus::render::{Body, BodyId, Scene, Sun};
+use tellus::rings::Profile;
+use tellus::sphere::LatLon;
+use tellus::system::light::visible_share;
+use tellus::tiles::{Surface, build_now};
+
+const SIZE_PX: [u32; 2] = [192, 108];
+
+/// A smooth ball without air.
+fn ball(radius_km: f64) -> Planet {
+    Planet { radius_km, ..Planet::default() }
+}
+
+fn ringed() -> Planet {
+    Planet { rings: Some(Rings { gaps: 2, ..Rings::default() }), ..ball(6000.0) }
+}
+
+fn scene<'a>(surface: &'a Surface, planet: &Arc<Planet>, camera: Camera, sun_dir: DVec3) -> Scene<'a> {
+    frame_of(surface, planet, View { camera, size_px: SIZE_PX, quality: Quality::Medium }, sun_dir)
+}
+
+fn radiance(gpu: &mut Gpu, scene: &Scene<'_>) -> Vec<[f32; 3]> {
+    gpu.draw_only(scene, 1);
+    gpu.renderer.radiance().unwrap().1
+}
+
+/// Direction through the middle of each pixel, in the frame of the first body.
+fn rays(scene: &Scene<'_>) -> Vec<DVec3> {
+    let view = view_of(scene);
+    let [width, height] = SIZE_PX;
+    let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .map(|(x, y)| view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect()))
+        .collect()
+}
+
+/// Where a ray meets a ball around the origin.
+fn hit(eye: DVec3, dir: DVec3, radius_m: f64) -> Option<DVec3> {
+    let b = eye.dot(dir);
+    let root = b * b - eye.length_squared() + radius_m * radius_m;
+    (root > 0.0).then(|| eye + dir * (-b - root.sqrt()))
+}
+
+#[test]
+fn rings_shade_their_planet_by_their_optical_depth() {
+    let mut gpu = gpu();
+    let (planet, bare) = (Arc::new(ringed()), Arc::new(ball(6000.0)));
+    // In the plane of the rings they are not seen themselves.
+    let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() * 3.0, 0.0, -FRAC_PI_2, 0.6);
+    let sun_dir = DVec3::new(0.8, 0.2, 0.45).normalize();
+    let surface = surface_of(&bare, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+    let with = radiance(&mut gpu, &scene(&surface, &planet, camera, sun_dir));
+    let without_scene = scene(&surface, &bare, camera, sun_dir);
+    let without = radiance(&mut gpu, &without_scene);
+    let profile = Profile::new(&planet).unwrap();
+    let (mut count, mut shaded, mut sum) = (0, 0, 0.0);
+    for ((dir, with), without) in rays(&without_scene).iter().zip(&with).zip(&without) {
+        let Some(at) = hit(camera.position_planet_m, *dir, planet.radius_m()) else { continue };
+        // Where the sun is low, the light of the night sky counts.
+        if at.normalize().dot(sun_dir) < 0.2 || at.normalize().dot(camera.position_planet_m.normalize()) < 0.3 {
+            continue;
+        }
+        let path_m = -at.z / sun_dir.z;
+        let expected = if path_m > 0.0 {
+            let radius_m = (at + sun_dir * path_m).length();
+            // A pixel is wider than a ringlet.
+            profile.transmittance(radius_m, 2.0 * path_m * planet.star.radius_deg.to_radians(), sun_dir.z)
+        } else {
+            1.0
+        };
+        let share = f64::from(with[1] / without[1]);
+        (count, sum) = (count + 1, sum + (share - expected).abs());
+        shaded += usize::from(expected < 0.7);
+        assert!((share - expected).abs() < 0.12, "{share} of {expected} at {at}");
+    }
+    let mean = sum / f64::from(count);
+    assert!(count > 3000 && shaded > 300 && mean < 0.012, "{count} pixels, {shaded} in shadow, mean error {mean}");
+}
+
+#[test]
+fn rings_scatter_and_dim_as_the_reference_and_have_the_shadow_of_the_planet() {
+    let mut gpu = gpu();
+    let planet = Arc::new(Planet {
+        // Without fine structure, so that a pixel has one value.
+        rings: Some(Rings { ringlets: 0.0, gaps: 0, dust: 0.2, ..Rings::default() }),
+        ..ball(6000.0)
+    });
+    let profile = Profile::new(&planet).unwrap();
+    for (lat, sun_dir) in [(35.0, DVec3::new(0.7, -0.5, 0.4)), (-30.0, DVec3::new(0.7, -0.5, 0.4)), (20.0, DVec3::new(-0.9, 0.1, 0.3))] {
+        let sun_dir = sun_dir.normalize();
+        let camera = Camera::over(LatLon::from_degrees(lat, 0.0), planet.radius_m() * 6.0, 0.0, -FRAC_PI_2, 0.9);
+        let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+        let scene = scene(&surface, &planet, camera, sun_dir);
+        let drawn = radiance(&mut gpu, &scene);
+        let (mut count, mut dark) = (0, 0);
+        for (dir, drawn) in rays(&scene).iter().zip(&drawn) {
+            let eye = camera.position_planet_m;
+            let at = eye - *dir * (eye.z / dir.z);
+            let radii = at.length() / planet.radius_m();
+            // Away from edges and from the planet's disc.
+            if hit(eye, *dir, planet.radius_m() * 1.02).is_some() || !(1.72..1.95).contains(&radii) {
+                continue;
+            }
+            let along = at.dot(sun_dir);
+            let aside = (at - sun_dir * along).length() / planet.radius_m();
+            let in_shadow = along < 0.0 && aside < 0.97;
+            if along < 0.0 && (0.97..1.03).contains(&aside) {
+                continue;
+            }
+            let light = profile.radiance(
+                profile.at(at.length(), 1.0),
+                dir.z.abs(),
+                sun_dir.z,
+                eye.z * sun_dir.z > 0.0,
+                dir.dot(sun_dir),
+            );
+            for channel in 0..3 {
+                let expected = if in_shadow { 0.0 } else { light[channel] * PI * planet.star.color[channel] };
+                let found = f64::from(drawn[channel]);
+                assert!((found - expected).abs() < 0.03 * expected + 1e-4, "{found} instead of {expected} at {radii}");
+            }
+            count += 1;
+            dark += usize::from(in_shadow);
+        }
+        assert!(count > 300 && dark > 5, "{count} pixels of rings, {dark} in shadow");
+    }
+}
+
+#[test]
+fn a_moons_umbra_and_penumbra_have_the_size_of_geometry() {
+    let mut gpu = gpu();
+    let (planet, moon) = (Arc::new(ball(6371.0)), Arc::new(ball(1737.0)));
+    // The sun is over 0 degrees, the moon in front of it, near enough for an umbra 190 km in radius.
+    let moon_m = DVec3::new(3.4e8, 2.0e5, -1.5e5);
+    let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() + 4e6, 0.0, -FRAC_PI_2, 0.22);
+    let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+    let plain = scene(&surface, &planet, camera, DVec3::X);
+    let without = radiance(&mut gpu, &plain);
+    let mut eclipsed = plain.clone();
+    let moon_surface = build_now(&moon, &plain.view_of(moon_m - camera.position_planet_m, DQuat::IDENTITY)).unwrap();
+    eclipsed.bodies.push(Body::new(BodyId(7), &moon_surface, moon_m - camera.position_planet_m));
+    let with = radiance(&mut gpu, &eclipsed);
+    let sun_rad = planet.star.radius_deg.to_radians();
+    let share_at = |at: DVec3| {
+        let away = moon_m - at;
+        let apart = libm::atan2(away.cross(DVec3::X).length(), away.x);
+        visible_share(sun_rad, (1.737e6 / away.length()).asin(), apart)
+    };
+    let (mut umbra, mut found_umbra, mut sum, mut count) = (0.0, 0.0, 0.0, 0);
+    for ((dir, with), without) in rays(&plain).iter().zip(&with).zip(&without) {
+        let at = hit(camera.position_planet_m, *dir, planet.radius_m()).expect("the ground");
+        let (share, expected) = (f64::from(with[1] / without[1]), share_at(at));
+        sum += (share - expected).abs();
+        count += 1;
+        // The area where a twentieth of the light is left.
+        umbra += f64::from(u8::from(expected < 0.05));
+        found_umbra += f64::from(u8::from(share < 0.05));
+        assert!((share - expected).abs() < 0.02, "{share} of {expected} at {at}");
+    }
+    let mean = sum / f64::from(count);
+    // An area within 2 % is a width within 1 %.
+    let ratio: f64 = found_umbra / umbra;
+    println!("umbra of {umbra} pixels, ratio {ratio}, mean error {mean}");
+    assert!(umbra > 500.0 && (ratio.sqrt() - 1.0).abs() < 0.01 && mean < 0.003, "{umbra} {ratio} {mean}");
+}
+
+/// A star at a distance lights each body from its own side, and more brightly what is nearer.
+#[test]
+fn a_near_star_lights_each_body_from_where_it_is() {
+    let sun = Sun::new(&Planet::default().star, DVec3::X);
+    let mut gpu = gpu();
+    let planet = Arc::new(ball(1000.0));
+    let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), 4e6, 0.0, -FRAC_PI_2, 0.7);
+    let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+    let mut far = scene(&surface, &planet, camera, DVec3::X);
+    let at_infinity = radiance(&mut gpu, &far);
+    // As far behind the camera as the body is before it: a quarter of the light reaches the body.
+    far.suns = vec![sun];
+    far.suns[0].distance_m = 4e6;
+    let near = radiance(&mut gpu, &far);
+    let middle = (SIZE_PX[1] / 2 * SIZE_PX[0] + SIZE_PX[0] / 2) as usize;
+    let ratio = near[middle][1] / at_infinity[middle][1];
+    assert!((ratio - 0.25).abs() < 0.01, "{ratio}");
+}
