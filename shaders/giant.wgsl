@@ -50,11 +50,11 @@ fn before_eddies(start: vec3f, seed: u32, footprint: f32) -> vec3f {
     var per_radius = 1.0 / body.giant_eddy_radii;
     // Near the poles there are no jets to hold the eddies: they are small and round.
     let polar = smoothstep(0.82, 0.97, abs(start.z));
-    var reach = 0.42 * body.giant_turbulence * body.giant_eddy_radii * mix(1.0, 0.75, polar);
+    var reach = 0.3 * body.giant_turbulence * body.giant_eddy_radii * mix(1.0, 0.75, polar);
     for (var octave = 0u; octave < 5u; octave++) {
         let seen = 1.0 - smoothstep(0.2, 0.7, footprint * per_radius);
         // Large eddies are stretched along the jets.
-        let stretch = vec3f(1.0, 1.0, mix(select(1.5, 2.2, octave < 2u), 1.0, polar));
+        let stretch = vec3f(1.0, 1.0, mix(select(1.8, 3.2, octave < 2u), 1.0, polar));
         let flow = flow_noise(p * per_radius * stretch, seed + octave);
         let along = cross(p, flow.xyz * stretch);
         p = normalize(p + along * (reach * seen));
@@ -81,7 +81,7 @@ fn traced(dir: vec3f, age_secs: f32, seed: u32, footprint: f32) -> Deck {
     var place = dir;
     var tint = vec4f(0.0);
     var calm = 1.0;
-    // Storms turn what is around them; within, their own colour shows in spiral arms.
+    // Storms turn what is around them; within, their own colour shows in faint spirals.
     for (var i = 0u; i < body.giant_storm_count; i++) {
         let storm = body.giant_storms[i];
         let east = normalize(vec3f(-storm.center.y, storm.center.x, 1e-6));
@@ -94,12 +94,12 @@ fn traced(dir: vec3f, age_secs: f32, seed: u32, footprint: f32) -> Deck {
         let s = sin(angle);
         let turned = vec2f(c * d.x - s * d.y, s * d.x + c * d.y) - d;
         place = normalize(place + east * (turned.x * storm.size) + north * (turned.y * 0.55 * storm.size));
-        let core = 1.0 - smoothstep(0.55, 1.15, sqrt(r2));
-        let arms = 0.82 + 0.18 * sin(7.0 * sqrt(r2) - 2.0 * atan2(turned.y + d.y, turned.x + d.x + 1e-6));
+        let core = 1.0 - smoothstep(0.75, 1.1, sqrt(r2));
+        let arms = 0.95 + 0.05 * sin(9.0 * sqrt(r2) - atan2(turned.y + d.y, turned.x + d.x + 1e-6));
         tint = mix(tint, vec4f(storm.color * arms, 1.0), core);
         // A pale rim where air sinks around the oval.
         let rim = exp(-10.0 * (sqrt(r2) - 1.25) * (sqrt(r2) - 1.25));
-        tint = mix(tint, vec4f(mix(body.giant_bright, storm.color, 0.2), 1.0), 0.45 * rim);
+        tint = mix(tint, vec4f(mix(body.giant_bright, storm.color, 0.2), 1.0), 0.3 * rim);
         calm = min(calm, 1.0 - 0.7 * core);
     }
     let turn = -band_at(place.z).a * age_secs;
@@ -113,7 +113,7 @@ fn traced(dir: vec3f, age_secs: f32, seed: u32, footprint: f32) -> Deck {
     var per_radius = 2.4 / body.giant_eddy_radii;
     for (var octave = 0u; octave < 4u; octave++) {
         let seen = 1.0 - smoothstep(0.2, 0.7, footprint * per_radius);
-        let stretch = vec3f(0.22, 0.22, 1.0) * per_radius;
+        let stretch = vec3f(0.16, 0.16, 1.0) * per_radius;
         let noise = flow_noise(source * stretch, seed + 31u + octave);
         streak += amplitude * seen * noise.w;
         slope += noise.xyz * stretch * (amplitude * seen);
@@ -121,8 +121,8 @@ fn traced(dir: vec3f, age_secs: f32, seed: u32, footprint: f32) -> Deck {
         per_radius *= 2.3;
     }
     let filaments = body.giant_filaments * streak;
-    var albedo = band.rgb * (1.0 + 0.5 * filaments);
-    albedo = mix(albedo, body.giant_bright, 0.25 * max(filaments, 0.0));
+    var albedo = band.rgb * exp(0.55 * filaments);
+    albedo = mix(albedo, body.giant_bright, 0.15 * smoothstep(0.2, 0.7, filaments));
     albedo = mix(albedo, tint.rgb * (1.0 + 0.3 * filaments), tint.a);
     return Deck(clamp(albedo, vec3f(0.0), vec3f(1.0)), slope * body.giant_filaments);
 }

@@ -22,11 +22,16 @@ fn ring_at(radius_km: f32, footprint_km: f32) -> vec4f {
     let share = (radius_km - body.ring_inner_km) / width_km;
     let footprint = footprint_km / width_km;
     // Edges are as soft as the footprint.
-    let inside = saturate1(0.5 + min(share, 1.0 - share) / max(footprint, 1e-6));
+    let inside = saturate1(0.5 + min(share, 1.0 - share) / clamp(footprint, 1e-6, 0.05));
     if inside <= 0.0 { return vec4f(0.0); }
-    let place = clamp(share * f32(RING_ENTRIES) - 0.5, 0.0, f32(RING_ENTRIES) - 1.001);
-    let first = u32(place);
-    var ring = mix(body.ring_profile[first], body.ring_profile[first + 1u], place - f32(first));
+    // The mean of four places within the footprint: gaps are narrow.
+    var ring = vec4f(0.0);
+    for (var tap = 0u; tap < 4u; tap++) {
+        let at = share + footprint * ((f32(tap) + 0.5) / 4.0 - 0.5);
+        let place = clamp(at * f32(RING_ENTRIES) - 0.5, 0.0, f32(RING_ENTRIES) - 1.001);
+        let first = u32(place);
+        ring += 0.25 * mix(body.ring_profile[first], body.ring_profile[first + 1u], place - f32(first));
+    }
     var sum = 0.0;
     var amplitude = 0.62 * body.ringlets;
     var count = body.ringlet_count;

@@ -119,6 +119,7 @@ pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: 
     });
     let layers = terrain.planet().layers.iter().zip(layers_m);
     json!({
+        "has_ground": terrain.planet().giant.is_none(),
         "height_m": sample.height_m,
         "slope_deg": sample.slope_rad.to_degrees(),
         "normal": sample.normal_planet.to_array(),
@@ -157,6 +158,9 @@ fn heading_deg(dir: DVec3, tangent: DVec3) -> f64 {
 }
 
 fn as_text(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> String {
+    if terrain.planet().giant.is_some() {
+        return "ground       none: a gas giant; its clouds end at the reference sphere".to_owned();
+    }
     let [x, y, z] = sample.normal_planet.to_array();
     let mut lines = vec![
         format!("height       {:.3} m", sample.height_m),

@@ -103,7 +103,9 @@ fn told(system: &System, trial: &Trial, step_secs: f64) -> Vec<String> {
         let [a, b] = event.bodies.map(|body| &system.bodies[body].name);
         let when = event.time_secs / YEAR_SECS;
         lines.push(match event.kind {
-            EventKind::Encounter => format!("after {when:.3} years {a} comes into the Hill sphere of {b}, or it into its own"),
+            EventKind::Encounter => {
+                format!("after {when:.3} years {a} comes into the Hill sphere of {b}, or it into its own")
+            }
             EventKind::Escape => format!("after {when:.3} years {a} leaves {b}"),
             EventKind::Collision => format!("after {when:.3} years {a} and {b} collide"),
         });

@@ -27,10 +27,10 @@ use super::viewport::Viewport;
 use super::views::bake::BakeWindow;
 use super::views::finder::FinderWindow;
 use super::views::history::HistoryWindow;
-use super::views::system::SystemWindow;
 use super::views::library::LibraryWindow;
 use super::views::place::PlaceWindow;
 use super::views::shortcuts::{self, Keys};
+use super::views::system::SystemWindow;
 use super::views::text::TextWindow;
 use super::views::tour::TourCard;
 use super::views::{

@@ -1,8 +1,12 @@
 //! Carries out the actions that views ask for.
 
-use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, SystemAction, VariationAction, Window};
+use super::command::{
+    Action, Answer, Command, Commands, PanelAction, Setting, Shoot, SystemAction, VariationAction, Window,
+};
 use super::commands;
-use super::handlers::{answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, system, variations};
+use super::handlers::{
+    answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, system, variations,
+};
 use super::state::State;
 use super::state::questions::Goal;
 use eframe::egui;

@@ -69,14 +69,14 @@ fn venus() -> Atmosphere {
 fn hydrogen() -> Atmosphere {
     Atmosphere {
         height_km: 420.0,
-        rayleigh_per_km: [0.0004, 0.0009, 0.0022],
+        rayleigh_per_km: [0.0002, 0.00045, 0.001],
         rayleigh_scale_km: 45.0,
-        mie_scattering_per_km: [0.0016, 0.0015, 0.0012],
-        mie_absorption_per_km: [0.00005, 0.0001, 0.0003],
+        mie_scattering_per_km: [0.0012, 0.001, 0.0007],
+        mie_absorption_per_km: [0.0001, 0.0003, 0.0008],
         mie_scale_km: 40.0,
         mie_anisotropy: 0.6,
         absorber_per_km: [0.0; 3],
-        ground_albedo: [0.6, 0.5, 0.38],
+        ground_albedo: [0.55, 0.42, 0.27],
         ..Atmosphere::default()
     }
 }

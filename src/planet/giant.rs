@@ -11,15 +11,15 @@ params! {
         /// How much the widths and colours of the bands vary.
         variation: f64 = 0.6, "Variation", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// How much belts differ from zones.
-        contrast: f64 = 0.8, "Contrast", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        contrast: f64 = 0.9, "Contrast", Unit::None, linear(0.0, 1.0), Stage::Uniform;
         /// Colour of the zones, the bright bands (linear sRGB).
-        zone_color: [f64; 3] = [0.80, 0.70, 0.55], "Zones", Unit::None, Domain::Color, Stage::Uniform;
+        zone_color: [f64; 3] = [0.76, 0.62, 0.43], "Zones", Unit::None, Domain::Color, Stage::Uniform;
         /// Colour of the belts, the dark bands.
-        belt_color: [f64; 3] = [0.42, 0.24, 0.13], "Belts", Unit::None, Domain::Color, Stage::Uniform;
+        belt_color: [f64; 3] = [0.33, 0.155, 0.07], "Belts", Unit::None, Domain::Color, Stage::Uniform;
         /// Colour that some bands tend to.
-        accent_color: [f64; 3] = [0.62, 0.50, 0.42], "Accent", Unit::None, Domain::Color, Stage::Uniform;
+        accent_color: [f64; 3] = [0.55, 0.37, 0.24], "Accent", Unit::None, Domain::Color, Stage::Uniform;
         /// Colour of the poles.
-        pole_color: [f64; 3] = [0.33, 0.32, 0.31], "Poles", Unit::None, Domain::Color, Stage::Uniform;
+        pole_color: [f64; 3] = [0.26, 0.25, 0.25], "Poles", Unit::None, Domain::Color, Stage::Uniform;
         /// Speed of the jet on the equator; the others alternate and are slower.
         jet_m_s: f64 = 130.0, "Jets", Unit::MetresPerSecond, linear(0.0, 800.0), Stage::Uniform;
         /// How far eddies fold the bands.
@@ -35,7 +35,7 @@ params! {
         /// Latitude of the great spot.
         spot_lat_deg: f64 = -22.0, "Latitude of the spot", Unit::Degrees, linear(-70.0, 70.0), Stage::Uniform;
         /// Colour of the great spot.
-        spot_color: [f64; 3] = [0.62, 0.27, 0.13], "Colour of the spot", Unit::None, Domain::Color, Stage::Uniform;
+        spot_color: [f64; 3] = [0.52, 0.18, 0.07], "Colour of the spot", Unit::None, Domain::Color, Stage::Uniform;
         /// Seed of bands, eddies and storms.
         seed: u32 = 0, "Seed", Unit::None, Domain::Seed, Stage::Uniform;
     }
@@ -54,9 +54,9 @@ fn gold() -> Giant {
         bands: 20,
         variation: 0.45,
         contrast: 0.45,
-        zone_color: [0.78, 0.66, 0.44],
-        belt_color: [0.55, 0.41, 0.24],
-        accent_color: [0.70, 0.60, 0.45],
+        zone_color: [0.74, 0.58, 0.34],
+        belt_color: [0.44, 0.29, 0.14],
+        accent_color: [0.62, 0.48, 0.30],
         pole_color: [0.36, 0.37, 0.33],
         jet_m_s: 400.0,
         turbulence: 0.35,

@@ -5,7 +5,8 @@ use super::layers::Blend;
 use super::param::{ParamPath, Segment};
 use super::shapes::CellStyle;
 use super::{
-    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, Layer, Planet, Rings, Shape, Steep, Structure, TableRows, Water,
+    Atmosphere, Biome, Biomes, Climate, Clouds, Detail, Giant, Layer, Planet, Rings, Shape, Steep, Structure,
+    TableRows, Water,
 };
 
 /// Why a parameter has no effect: a sentence without a full stop. None: it has one.

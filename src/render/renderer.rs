@@ -437,8 +437,8 @@ fn plan(scene: &Scene<'_>, drawn: &Drawn, has_own_targets: bool) -> Plan {
         let aurora = body.planet().atmosphere.as_ref().is_some_and(|air| air.aurora > 0.0) && body.marked.is_none();
         let work = Work { shaded, sea, clouds, carries_clouds: false, aurora, smooth_edges: scene.post.smooth_edges };
         // The farthest body brings the stars, whether it has air or not.
-        let has_air = shaded
-            && (number == 0 || clouds || body.planet().atmosphere.is_some() || body.planet().rings.is_some());
+        let has_air =
+            shaded && (number == 0 || clouds || body.planet().atmosphere.is_some() || body.planet().rings.is_some());
         PlannedBody { id: body.id, index, work, has_air }
     };
     let bodies: Vec<PlannedBody> = order.into_iter().enumerate().map(planned).collect();

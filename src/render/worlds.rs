@@ -4,6 +4,7 @@
 
 use super::scene::{Body, BodyId, Point, Projection, Scene, Sun};
 use super::shared::MAX_SUNS;
+use crate::giant::Bands;
 use crate::planet::Planet;
 use crate::sphere::LatLon;
 use crate::system::light::{angle_at, reflected};
@@ -86,8 +87,7 @@ impl Worlds {
         let bodies = self.system.bodies.iter().enumerate();
         let shining = bodies.filter_map(|(number, body)| Some((number, body.light.as_ref()?)));
         let brightness = |number: usize, light: &Light| light.brightness_at((poses[number].position_m - at_m).length());
-        let mut stars: Vec<_> =
-            shining.map(|(number, light)| (brightness(number, light), number, light)).collect();
+        let mut stars: Vec<_> = shining.map(|(number, light)| (brightness(number, light), number, light)).collect();
         stars.sort_by(|a, b| b.0.total_cmp(&a.0));
         stars
     }
@@ -167,17 +167,18 @@ impl Around<'_> {
         let is_wide = |body: usize| {
             body == self.body || self.worlds.radius_m(body) / self.place(body).0.length() > SURFACE_PX * pixel_rad
         };
-        let mut bodies: Vec<usize> = (0..self.poses.len())
-            .filter(|body| self.worlds.planets[*body].is_some() && is_wide(*body))
-            .collect();
+        let mut bodies: Vec<usize> =
+            (0..self.poses.len()).filter(|body| self.worlds.planets[*body].is_some() && is_wide(*body)).collect();
         bodies.sort_by(|a, b| self.place(*a).0.length().total_cmp(&self.place(*b).0.length()));
         bodies
     }
 
-    /// Sets the lights and the points of a scene: stars, the light that neighbours reflect, and bodies without a
-    /// surface. `drawn`: the bodies with one.
+    /// Sets the lights and the points of a scene: stars, scaled so that the brightest one has brightness 1, the light
+    /// that neighbours reflect, and bodies without a surface. `drawn`: the bodies with one.
     pub fn light(&self, scene: &mut Scene<'_>, drawn: &[usize]) {
         let stars = self.worlds.stars(&self.poses, self.eye_m);
+        // An eye adapts to its star: far from it, a day is a day.
+        let adapted = 1.0 / stars.first().map_or(1.0, |star| star.0).max(f64::MIN_POSITIVE);
         scene.suns.clear();
         for (brightness, star, light) in stars.iter().take(MAX_SUNS - 1) {
             let (position_m, _) = self.place(*star);
@@ -185,14 +186,15 @@ impl Around<'_> {
             scene.suns.push(Sun {
                 dir_scene: position_m / distance_m,
                 color: light.color(),
-                brightness: *brightness,
+                brightness: *brightness * adapted,
                 radius_rad: (light.radius_m() / distance_m).min(1.0).asin(),
                 distance_m,
                 has_disc: true,
                 only: None,
             });
         }
-        scene.suns.extend(drawn.iter().filter_map(|body| self.brightest_neighbour(*body)));
+        let reflected = drawn.iter().filter_map(|body| self.brightest_neighbour(*body));
+        scene.suns.extend(reflected.map(|sun| Sun { brightness: sun.brightness * adapted, ..sun }));
         let others = (0..self.poses.len()).filter(|body| !drawn.contains(body));
         let mut points: Vec<(f64, Point)> = others.filter_map(|body| self.point(body)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -206,16 +208,20 @@ impl Around<'_> {
         let lights = neighbours.filter_map(|other| {
             let (share, color) = self.reflected(other, own)?;
             let dir_scene = self.scene_from_system * (self.poses[other].position_m - own).normalize();
-            let radius_rad = (self.worlds.radius_m(other) / (self.poses[other].position_m - own).length()).min(1.0).asin();
-            Some((share, Sun {
-                dir_scene,
-                color,
-                brightness: share,
-                radius_rad,
-                distance_m: f64::INFINITY,
-                has_disc: false,
-                only: Some(self.id(body)),
-            }))
+            let radius_rad =
+                (self.worlds.radius_m(other) / (self.poses[other].position_m - own).length()).min(1.0).asin();
+            Some((
+                share,
+                Sun {
+                    dir_scene,
+                    color,
+                    brightness: share,
+                    radius_rad,
+                    distance_m: f64::INFINITY,
+                    has_disc: false,
+                    only: Some(self.id(body)),
+                },
+            ))
         });
         let (share, sun) = lights.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let direct = self.worlds.stars(&self.poses, own).first().map_or(0.0, |star| star.0);
@@ -255,6 +261,10 @@ impl Around<'_> {
 
 /// Share of the light that a planet reflects, roughly: the mean of its biome table, its sea and its clouds.
 pub fn mean_albedo(planet: &Planet) -> [f64; 3] {
+    if let Some(bands) = Bands::new(planet) {
+        let count = bands.entries.len() as f64;
+        return std::array::from_fn(|i| bands.entries.iter().map(|entry| entry[i]).sum::<f64>() / count);
+    }
     let biomes = &planet.biomes;
     let color = |key: char| biomes.palette.iter().find(|biome| biome.key == key).map(|biome| biome.color);
     let cells: Vec<[f64; 3]> = biomes.table.rows().iter().flat_map(|row| row.chars()).filter_map(color).collect();

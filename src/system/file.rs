@@ -103,7 +103,8 @@ impl System {
                 None => match Planet::load(&path) {
                     Ok(planet) => loaded.entry(path).or_insert(planet.into()).clone(),
                     Err(LoadError::Read { source, .. }) => {
-                        let message = format!("{}: {source}; name a preset, from the folder of this file", path.display());
+                        let message =
+                            format!("{}: {source}; name a preset, from the folder of this file", path.display());
                         let text = read_text(file).unwrap_or_default();
                         let problems = vec![(path_of(number, "preset"), message)];
                         return Err(all_placed(&file.display().to_string(), &text, problems));
@@ -167,14 +168,19 @@ impl System {
             "" => None,
             name => match self.find(name) {
                 Some(parent) if parent < number => Some(parent),
-                Some(_) => return add("parent", format!("`{name}` comes later in the list; a body comes after its parent")),
+                Some(_) => {
+                    return add("parent", format!("`{name}` comes later in the list; a body comes after its parent"));
+                }
                 None => return add("parent", format!("there is no body `{name}`; {}", self.known_before(number))),
             },
         };
         match (parent, &body.orbit) {
             (None, Some(_)) => add("orbit", "the body at the root has no orbit; name a parent or use None".to_owned()),
             (None, None) if number > 0 => {
-                add("parent", format!("only the first body is at the root; name a parent; {}", self.known_before(number)));
+                add(
+                    "parent",
+                    format!("only the first body is at the root; name a parent; {}", self.known_before(number)),
+                );
             }
             (Some(_), None) => add("orbit", "the orbit around the parent is missing; write `orbit: (...)`".to_owned()),
             (Some(parent), Some(orbit)) => {

@@ -132,7 +132,11 @@ pub fn eccentric_anomaly(mean_rad: f64, eccentricity: f64) -> f64 {
     let mut anomaly = (mean + 0.85 * eccentricity).clamp(low, high);
     for _ in 0..60 {
         let off = anomaly - eccentricity * libm::sin(anomaly) - mean;
-        if off > 0.0 { high = anomaly } else { low = anomaly }
+        if off > 0.0 {
+            high = anomaly
+        } else {
+            low = anomaly
+        }
         let mut next = anomaly - off / (1.0 - eccentricity * libm::cos(anomaly));
         if !(low..=high).contains(&next) {
             next = 0.5 * (low + high);
@@ -212,7 +216,14 @@ mod tests {
     #[test]
     fn angles_without_meaning_are_zero_and_the_position_stays() {
         for (inclination_deg, eccentricity) in [(0.0, 0.0), (0.0, 0.3), (180.0, 0.3), (30.0, 0.0)] {
-            let orbit = Orbit { inclination_deg, eccentricity, node_deg: 40.0, periapsis_deg: 75.0, anomaly_deg: 20.0, ..Orbit::default() };
+            let orbit = Orbit {
+                inclination_deg,
+                eccentricity,
+                node_deg: 40.0,
+                periapsis_deg: 75.0,
+                anomaly_deg: 20.0,
+                ..Orbit::default()
+            };
             let ellipse = Ellipse::new(&orbit, 1.327e20);
             let (position_m, velocity) = ellipse.state(0.0);
             let again = Ellipse::from_state(position_m, velocity, 1.327e20).unwrap().elements();

@@ -8,7 +8,8 @@ use glam::DVec3;
 /// `albedo`: share of the light that it reflects. `radius_m`, `distance_m`: of the body that reflects. `phase_rad`:
 /// angle at it between the star and the place that it lights, 0 when full.
 pub fn reflected(albedo: f64, radius_m: f64, distance_m: f64, phase_rad: f64) -> f64 {
-    let lambert = (libm::sin(phase_rad) + (std::f64::consts::PI - phase_rad) * libm::cos(phase_rad)) / std::f64::consts::PI;
+    let lambert =
+        (libm::sin(phase_rad) + (std::f64::consts::PI - phase_rad) * libm::cos(phase_rad)) / std::f64::consts::PI;
     2.0 / 3.0 * albedo * (radius_m / distance_m).powi(2) * lambert.max(0.0)
 }
 
@@ -31,7 +32,8 @@ pub fn visible_share(star_radius_rad: f64, body_radius_rad: f64, apart_rad: f64)
     if apart <= star - body {
         return 1.0 - (body / star).powi(2);
     }
-    let cosine = |own: f64, other: f64| ((apart * apart + own * own - other * other) / (2.0 * apart * own)).clamp(-1.0, 1.0);
+    let cosine =
+        |own: f64, other: f64| ((apart * apart + own * own - other * other) / (2.0 * apart * own)).clamp(-1.0, 1.0);
     let segment = |own: f64, other: f64| {
         let half = libm::acos(cosine(own, other));
         own * own * (half - libm::sin(half) * libm::cos(half))

@@ -61,12 +61,7 @@ pub fn warnings(system: &System, radii_m: &[f64]) -> Vec<Warning> {
         let mut warn = |message: String| found.push(Warning { bodies: [number, parent], message });
         let (radius_m, parent_radius_m) = (radii_m[number], radii_m[parent]);
         if nearest_m < radius_m + parent_radius_m {
-            warn(format!(
-                "{} comes within {} of {}, which is inside it",
-                body.name,
-                distance_text(nearest_m),
-                of.name
-            ));
+            warn(format!("{} comes within {} of {}, which is inside it", body.name, distance_text(nearest_m), of.name));
             continue;
         }
         if radius_m > 0.0 && parent_radius_m > 0.0 && of.mass_earths > 0.0 && body.mass_earths > 0.0 {

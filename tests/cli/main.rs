@@ -6,6 +6,7 @@
 //! - `mesh`: meshes against `tellus sample`
 //! - `house`: the length of files and comments
 //! - `hostile`: broken and oversized files
+//! - `system`: systems of planets
 //! - `readme`: the README's examples, presets and pictures
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
@@ -18,6 +19,7 @@ mod house;
 mod mesh;
 mod readme;
 mod rivers;
+mod system;
 
 /// A planet without a structure: there are no maps to solve.
 const LAYERED: &str = "tests/fixtures/layered.ron";

@@ -10,6 +10,7 @@
 //! - `bake`: maps for other programs
 //! - `layers`: several layers at once, layers alone
 //! - `library`: planets and parts that the user keeps
+//! - `system`: systems of planets
 //! - `tour`: steps for a first look around
 //! - `docks`: tabs that are moved
 //! - `clipboard`: layers and parts as text
@@ -42,6 +43,7 @@ mod painter;
 mod photo;
 mod place;
 mod plates;
+mod system;
 mod text;
 mod tour;
 mod variations;

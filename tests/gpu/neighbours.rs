@@ -95,7 +95,9 @@ fn rings_scatter_and_dim_as_the_reference_and_have_the_shadow_of_the_planet() {
         ..ball(6000.0)
     });
     let profile = Profile::new(&planet).unwrap();
-    for (lat, sun_dir) in [(35.0, DVec3::new(0.7, -0.5, 0.4)), (-30.0, DVec3::new(0.7, -0.5, 0.4)), (20.0, DVec3::new(-0.9, 0.1, 0.3))] {
+    for (lat, sun_dir) in
+        [(35.0, DVec3::new(0.7, -0.5, 0.4)), (-30.0, DVec3::new(0.7, -0.5, 0.4)), (20.0, DVec3::new(-0.9, 0.1, 0.3))]
+    {
         let sun_dir = sun_dir.normalize();
         let camera = Camera::over(LatLon::from_degrees(lat, 0.0), planet.radius_m() * 6.0, 0.0, -FRAC_PI_2, 0.9);
         let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });

@@ -1,8 +1,8 @@
 //! Opening: another document in the place of this one, after a question where unsaved work would be lost.
 
 use crate::editor::files::dialogs::DialogRequest;
-use crate::editor::handlers::system;
 use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable_stem, with_extension};
+use crate::editor::handlers::system;
 use crate::editor::state::document::Document;
 use crate::editor::state::questions::{Asking, Goal};
 use crate::editor::state::templates::Template;

@@ -9,8 +9,8 @@ use crate::editor::widgets::row_view::RowView;
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Giant, Layer, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_GIANTS, STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting,
-    Structure, Water, star_color, star_kelvin,
+    Atmosphere, Climate, Clouds, Giant, Layer, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_GIANTS,
+    STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting, Structure, Water, star_color, star_kelvin,
 };
 use eframe::egui;
 

@@ -54,7 +54,9 @@ impl SystemWindow {
                     });
                 }
                 None => {
-                    ui.weak("A system has stars, planets and moons. Each planet is a preset; the others stand in its sky.");
+                    ui.weak(
+                        "A system has stars, planets and moons. Each planet is a preset; the others stand in its sky.",
+                    );
                 }
             }
         });
@@ -143,7 +145,8 @@ impl SystemWindow {
             .map(|orbit| orbit.semi_major_m * (1.0 + orbit.eccentricity))
             .fold(0.0, f64::max);
         // A body without moons is shown on its own orbit.
-        let widest_m = if widest_m > 0.0 { widest_m } else { orbits.map(|orbit| orbit.semi_major_m).fold(1.0, f64::max) };
+        let widest_m =
+            if widest_m > 0.0 { widest_m } else { orbits.map(|orbit| orbit.semi_major_m).fold(1.0, f64::max) };
         let per_m = 0.5 * f64::from(rect.height().min(rect.width())) / (widest_m * ROOM) * self.zoom;
         let at = |position_m: DVec3| {
             let away = (position_m - poses[center].position_m) * per_m;
@@ -186,7 +189,13 @@ impl SystemWindow {
             };
             painter.circle_filled(place, if is_star { 5.0 } else { 3.0 }, color);
             let font = egui::TextStyle::Small.resolve(ui.style());
-            painter.text(place + Vec2::new(6.0, -6.0), egui::Align2::LEFT_BOTTOM, &body.name, font, Color32::from_gray(200));
+            painter.text(
+                place + Vec2::new(6.0, -6.0),
+                egui::Align2::LEFT_BOTTOM,
+                &body.name,
+                font,
+                Color32::from_gray(200),
+            );
             if let Some(pointer) = response.interact_pointer_pos() {
                 let away = pointer.distance(place);
                 if away < 12.0 && nearest.is_none_or(|(best, _)| away < best) {
@@ -201,7 +210,9 @@ impl SystemWindow {
                 (self.center, self.zoom) = (Some(number), 1.0);
             }
         }
-        response.on_hover_text("From the north. The wheel zooms, a click puts a body in the middle, a double click goes there");
+        response.on_hover_text(
+            "From the north. The wheel zooms, a click puts a body in the middle, a double click goes there",
+        );
     }
 }
 
@@ -219,7 +230,9 @@ fn choices(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
                 }
             }
         });
-        if state.system.is_some() && ui.button("Leave").on_hover_text("Draw the planet alone, under its own star").clicked() {
+        if state.system.is_some()
+            && ui.button("Leave").on_hover_text("Draw the planet alone, under its own star").clicked()
+        {
             commands.push(Action::System(SystemAction::Leave));
         }
     });

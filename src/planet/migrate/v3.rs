@@ -2,8 +2,8 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, Layer, Planet, Precision, Rings, Star, Structure, VERSION, Version,
-    Water,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, Layer, Planet, Precision, Rings, Star, Structure, VERSION,
+    Version, Water,
 };
 use serde::{Deserialize, Serialize};
 

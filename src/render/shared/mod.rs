@@ -7,8 +7,8 @@
 mod constants;
 mod structs;
 
-pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use constants::*;
+pub use constants::{MAX_POINTS, MAX_SUNS};
 pub(crate) use structs::*;
 
 use super::biome_table::{ROCK, RULES};
@@ -19,8 +19,8 @@ use super::wgsl::{Constant, constant};
 use super::{horizon_pool, material_noise, noise_tile};
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
-use crate::rings;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
+use crate::rings;
 use crate::sphere::cube::C_SQUARED;
 use crate::terrain::border::{self, OCTAVE_TURN};
 use std::mem::offset_of;

@@ -1,8 +1,8 @@
 //! The structs of uniform buffers, declared once for Rust and WGSL.
 
 use super::constants::{
-    BAND_ENTRIES, BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_STORMS, MAX_SUNS, RING_ENTRIES,
-    VARIATION_OCTAVES, WAVES,
+    BAND_ENTRIES, BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_STORMS, MAX_SUNS,
+    RING_ENTRIES, VARIATION_OCTAVES, WAVES,
 };
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
