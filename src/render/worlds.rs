@@ -280,3 +280,89 @@ pub fn mean_albedo(planet: &Planet) -> [f64; 3] {
     }
     albedo
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lod::Quality;
+    use crate::system::shipped;
+
+    fn worlds(file: &str) -> Worlds {
+        let shipped = shipped::ALL.iter().find(|shipped| shipped.file == file).unwrap();
+        let system = shipped.load().unwrap();
+        let planets = shipped.planets(&system);
+        Worlds::new(system, planets)
+    }
+
+    fn scene() -> Scene<'static> {
+        Scene::new(DQuat::IDENTITY, Projection::symmetric(0.8, 1.5), [1200, 800], Quality::Low)
+    }
+
+    #[test]
+    fn the_camera_stands_exactly_where_it_stands_on_its_own_body_however_far_out() {
+        let mut worlds = worlds("hearth.ron");
+        let moon = worlds.system.find("Pallor").unwrap();
+        let planet = worlds.system.find("Aurel").unwrap();
+        // 40 astronomical units.
+        worlds.system.bodies[planet].orbit.as_mut().unwrap().semi_major_km = 5.98e9;
+        worlds.ephemeris = Ephemeris::new(&worlds.system);
+        let eye_m = DVec3::new(1.740_000_123e6, 0.25, -3.0);
+        let step_m = DVec3::new(0.001, 0.0, 0.0);
+        let [here, there] = [eye_m, eye_m + step_m].map(|eye_m| worlds.around(moon, eye_m, 1e6));
+        assert_eq!(here.place(moon), (-eye_m, DQuat::IDENTITY));
+        // A neighbour moves by the step of the camera, not by the grain of the system's frame.
+        let moved_m = here.place(planet).0 - there.place(planet).0;
+        assert!((moved_m - step_m).length() < 1e-6, "{moved_m}");
+        // What the frame of the system gives agrees to its grain.
+        let poses = worlds.ephemeris.at(1e6);
+        let apart_m = poses[planet].position_m.distance(poses[moon].position_m);
+        assert!((here.place(planet).0 + eye_m).length() - apart_m < 0.01);
+    }
+
+    #[test]
+    fn bodies_have_surfaces_or_are_points_of_the_brightness_of_their_phase() {
+        let worlds = worlds("hearth.ron");
+        let aurel = worlds.system.find("Aurel").unwrap();
+        let around = worlds.around(aurel, DVec3::X * 7e6, 0.0);
+        let mut scene = scene();
+        let drawn = around.with_surface(&scene.projection, scene.size_px);
+        let names: Vec<&str> = drawn.iter().map(|body| worlds.system.bodies[*body].name.as_str()).collect();
+        assert_eq!(names, ["Aurel", "Pallor"]);
+        around.light(&mut scene, &drawn);
+        // The star, and what planet and moon send each other.
+        let discs: Vec<bool> = scene.suns.iter().map(|sun| sun.has_disc).collect();
+        assert_eq!(discs, [true, false, false]);
+        assert!((scene.suns[0].brightness - 1.0).abs() < 1e-12);
+        assert!((scene.suns[0].radius_rad.to_degrees() - 0.271).abs() < 0.002);
+        let [by_moon, by_planet] = [&scene.suns[1], &scene.suns[2]].map(|sun| sun.brightness);
+        assert!((1e-7..1e-5).contains(&by_moon) && (1e-6..3e-4).contains(&by_planet), "{by_moon} {by_planet}");
+        // Inner and outer planets and the giant; its moons are too faint.
+        assert!((3..=6).contains(&scene.points.len()), "{:?}", scene.points);
+        let [brightest, faintest] = [0, scene.points.len() - 1].map(|at| scene.points[at].light[0]);
+        assert!(brightest > 2.0 && brightest > 2.0 * faintest, "{brightest} {faintest}");
+    }
+
+    #[test]
+    fn two_suns_stand_where_their_stars_are() {
+        let worlds = worlds("twins.ron");
+        let planet = worlds.system.find("Sabkha").unwrap();
+        let around = worlds.around(planet, DVec3::Z * 6.5e6, 5e5);
+        let mut scene = scene();
+        let drawn = around.with_surface(&scene.projection, scene.size_px);
+        around.light(&mut scene, &drawn);
+        let suns: Vec<&Sun> = scene.suns.iter().filter(|sun| sun.has_disc).collect();
+        assert_eq!(suns.len(), 2);
+        assert!(suns[1].brightness < 0.2 && suns[1].color[2] < suns[0].color[2], "the younger is dim and orange");
+        let apart_deg = suns[0].dir_scene.angle_between(suns[1].dir_scene).to_degrees();
+        assert!((0.0..7.0).contains(&apart_deg), "{apart_deg}");
+        // At the body itself, a sun is where the ephemeris has it.
+        let at_body = suns[0].at(around.place(planet).0);
+        let poses = worlds.ephemeris.at(5e5);
+        let star = worlds.system.find("Elder").unwrap();
+        let towards = (poses[star].position_m - poses[planet].position_m).normalize();
+        let in_scene = poses[planet].system_from_body.inverse() * towards;
+        assert!(at_body.dir_scene.angle_between(in_scene) < 1e-9);
+        let lit = worlds.lit_planet(planet, 5e5).unwrap();
+        assert!(lit.star.place(0.0).direction().angle_between(in_scene) < 1e-6);
+    }
+}
