@@ -34,16 +34,8 @@ pub enum Menu {
 
 impl Menu {
     /// All menus, in the order of the bar.
-    pub const ALL: [Menu; 8] = [
-        Menu::File,
-        Menu::Edit,
-        Menu::View,
-        Menu::Camera,
-        Menu::Sculpt,
-        Menu::Bookmarks,
-        Menu::Planets,
-        Menu::Help,
-    ];
+    pub const ALL: [Menu; 8] =
+        [Menu::File, Menu::Edit, Menu::View, Menu::Camera, Menu::Sculpt, Menu::Bookmarks, Menu::Planets, Menu::Help];
 
     /// The name in the bar.
     pub fn label(self) -> &'static str {

@@ -100,11 +100,12 @@ impl Planet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{LayerMask, Mask, shipped};
+    use crate::planet::{EditPoint, EditPoints, GroundEdit, LayerMask, Mask, shipped};
 
     #[test]
     fn every_part_goes_through_text() {
-        let from = shipped::default_planet();
+        let mut from = shipped::default_planet();
+        from.edits.push(GroundEdit { points: EditPoints(vec![EditPoint::default()]), ..GroundEdit::default() });
         for part in Planet::PARTS.iter().map(|part| part.name).filter(|name| *name != "editor") {
             let text = of_part(&from, part).unwrap();
             let read = read("clipboard", &text).unwrap_or_else(|error| panic!("{part}: {error}\n{text}"));

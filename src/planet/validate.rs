@@ -6,7 +6,10 @@ use super::edits::{self, MAX_EDIT_POINTS, MAX_EDITS};
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::structure::MAX_PLATES;
-use super::{EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
+use super::{
+    EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet,
+    Steep, Table, layers, parts,
+};
 use std::collections::HashSet;
 
 /// A planet that cannot be evaluated: a valid preset never describes it.
@@ -197,8 +200,7 @@ fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
             (point.longitude_deg, 180.0, "longitude", "°"),
             (point.height_m, MOST_POINT_M, "height", " m"),
         ] {
-            // NaN is not within.
-            if !(value.abs() <= most) {
+            if value.is_nan() || value.abs() > most {
                 let message = format!("the {what} {value} is out of range; use {} to {most}{unit}", -most);
                 found.add(item(&list(), number, None), message);
                 return;

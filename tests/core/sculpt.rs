@@ -100,7 +100,10 @@ fn each_tool_has_the_height_of_its_formula_in_the_middle_at_the_rim_and_at_the_e
         }
     };
     let line = [middle, second];
-    near(&heights(Tool::Raise(Raise { amount_m: 700.0 }), &line, 0.8, &[0.0, 0.2, 0.6, 1.0]), &[700.0, 700.0, 350.0, 0.0]);
+    near(
+        &heights(Tool::Raise(Raise { amount_m: 700.0 }), &line, 0.8, &[0.0, 0.2, 0.6, 1.0]),
+        &[700.0, 700.0, 350.0, 0.0],
+    );
     let flatten = Tool::Flatten(Flatten { height_m: 300.0, strength: 0.5 });
     near(&heights(flatten, &line, 0.5, &[0.0, 0.5, 1.0, 1.2]), &[150.0, 150.0, 0.0, 0.0]);
     let crater = Crater { depth_m: 1000.0, rim_m: 300.0, floor: 0.5, peak_m: 200.0 };
@@ -191,7 +194,8 @@ fn every_query_and_instruction_set_has_the_same_bits_and_normals_follow_the_heig
             (height_m(step) - height_m(-step)) / (2.0 * step * (1e6 + height_m(0.0)))
         };
         let by_difference = DVec3::new(-slope(east), -slope(north), 1.0).normalize();
-        let normal = DVec3::new(sample.normal_planet.dot(east), sample.normal_planet.dot(north), sample.normal_planet.dot(*dir));
+        let normal =
+            DVec3::new(sample.normal_planet.dot(east), sample.normal_planet.dot(north), sample.normal_planet.dot(*dir));
         off += usize::from(normal.distance(by_difference) > 0.01);
     }
     assert!(changed > 1000, "{changed}");
@@ -209,7 +213,10 @@ fn bounds_hold_everywhere_and_are_narrow_away_from_edits() {
             let (near_lo, near_hi) = edited.height_bounds_near_m(dir, angle);
             for other in [dir, beside(&EditPoint::under(dir), 77.0, 999.0 * angle)] {
                 let height_m = edited.height_m(other);
-                assert!((near_lo..=near_hi).contains(&height_m) && (lo..=hi).contains(&height_m), "{near_lo} {height_m} {near_hi}");
+                assert!(
+                    (near_lo..=near_hi).contains(&height_m) && (lo..=hi).contains(&height_m),
+                    "{near_lo} {height_m} {near_hi}"
+                );
             }
             narrower += usize::from(edited.height_bounds_near_m(dir, angle) == plain.height_bounds_near_m(dir, angle));
         }
@@ -218,7 +225,8 @@ fn bounds_hold_everywhere_and_are_narrow_away_from_edits() {
 }
 
 fn view(lat_deg: f64, lon_deg: f64, altitude_m: f64) -> View {
-    let camera = Camera::over(LatLon::from_degrees(lat_deg, lon_deg), 1e6 + altitude_m, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
+    let camera =
+        Camera::over(LatLon::from_degrees(lat_deg, lon_deg), 1e6 + altitude_m, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
     View { camera, size_px: [320, 200], quality: Quality::Low }
 }
 
@@ -296,10 +304,7 @@ fn edits_are_read_written_and_checked() {
     };
     for (edit, told) in [
         ("()", "f.ron:1:22: edits[0].points: an edit needs a point; use `[(latitude, longitude)]`, or remove the edit"),
-        (
-            "(points: [(91, 0)])",
-            "f.ron:1:31: edits[0].points[0]: the latitude 91 is out of range; use -90 to 90°",
-        ),
+        ("(points: [(91, 0)])", "f.ron:1:31: edits[0].points[0]: the latitude 91 is out of range; use -90 to 90°"),
         (
             "(points: [(0, 0), (0, 170)])",
             "f.ron:1:39: edits[0].points[1]: this point is more than 120° from the one before it; add points between them",
@@ -322,7 +327,11 @@ fn strokes(count: usize) -> Vec<GroundEdit> {
             let mut points = vec![EditPoint::under(dir)];
             let heading_deg = dice.roll() * 360.0;
             for step in 1..10 {
-                points.push(EditPoint::under(beside(&points[0], heading_deg + f64::from(step) * 3.0, f64::from(step) * 4.0)));
+                points.push(EditPoint::under(beside(
+                    &points[0],
+                    heading_deg + f64::from(step) * 3.0,
+                    f64::from(step) * 4.0,
+                )));
             }
             edit(Tool::Raise(Raise { amount_m: 100.0 }), 8.0, &points)
         })
@@ -338,10 +347,15 @@ fn ten_thousand_strokes_cost_what_the_few_in_view_cost() {
     let text = many.to_text();
     println!("file {:.2} MB, text in {:?}", text.len() as f64 / 1e6, time(|| drop(many.to_text())));
     println!("read in {:?}", time(|| drop(Planet::from_text("f", &text))));
-    println!("check {:?}, clone {:?}, equal {:?}", time(|| drop(many.check())), time(|| drop(many.clone())), time(|| {
-        let copy: GroundEdits = many.edits.iter().cloned().collect();
-        assert!(copy == many.edits);
-    }));
+    println!(
+        "check {:?}, clone {:?}, equal {:?}",
+        time(|| drop(many.check())),
+        time(|| drop(many.clone())),
+        time(|| {
+            let copy: GroundEdits = many.edits.iter().cloned().collect();
+            assert!(copy == many.edits);
+        })
+    );
     for planet in [&none, &many] {
         let arc = Arc::new(planet.clone());
         let times: Vec<_> = (0..9).map(|_| time(|| drop(build_now(&arc, &view)))).collect();
@@ -358,7 +372,8 @@ fn ten_thousand_strokes_cost_what_the_few_in_view_cost() {
             many.edits.push(edit(Tool::Raise(Raise { amount_m: 50.0 }), 8.0, &points));
         }
         let last = many.edits.len() - 1;
-        *many.edits.get_mut(last).unwrap() = GroundEdit { name, ..edit(Tool::Raise(Raise { amount_m: 50.0 }), 8.0, &points) };
+        *many.edits.get_mut(last).unwrap() =
+            GroundEdit { name, ..edit(Tool::Raise(Raise { amount_m: 50.0 }), 8.0, &points) };
         let arc = Arc::new(many.clone());
         times.push(time(|| {
             builder.request(&arc, &view);

@@ -21,12 +21,8 @@ fn open() -> app::Editor {
 }
 
 fn stroke(harness: &mut app::Editor, from: egui::Pos2, to: egui::Pos2, modifiers: egui::Modifiers) {
-    let button = |pos, pressed| egui::Event::PointerButton {
-        pos,
-        button: egui::PointerButton::Primary,
-        pressed,
-        modifiers,
-    };
+    let button =
+        |pos, pressed| egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers };
     harness.event(egui::Event::ModifiersChanged(modifiers));
     harness.hover_at(from);
     harness.run_steps(2);

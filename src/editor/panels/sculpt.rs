@@ -166,7 +166,8 @@ fn list(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
         let chosen = state.selected;
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             buttons(ui, state, draft, chosen);
-            let edit = egui::TextEdit::singleline(&mut state.find).hint_text("Find").desired_width(ui.available_width());
+            let edit =
+                egui::TextEdit::singleline(&mut state.find).hint_text("Find").desired_width(ui.available_width());
             ui.add(edit).accessible_name("Find edits");
         });
     });
@@ -211,11 +212,8 @@ fn row(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, index:
         }
         let text = egui::RichText::new(&name);
         let text = if enabled { text } else { text.weak() };
-        let atoms = (
-            egui::Atom::from(text).atom_shrink(true),
-            egui::Atom::grow(),
-            egui::RichText::new(details).weak().small(),
-        );
+        let atoms =
+            (egui::Atom::from(text).atom_shrink(true), egui::Atom::grow(), egui::RichText::new(details).weak().small());
         let button = egui::Button::selectable(state.selected == Some(index), atoms).truncate();
         let response = ui.add(button.min_size(egui::vec2(ui.available_width(), ROW)));
         let response = response.on_hover_text("Click to select; double-click to fly there");
@@ -243,7 +241,8 @@ fn buttons(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, ch
         }
     });
     for (icon, verb, down) in [(Icon::Down, "Move edit down", true), (Icon::Up, "Move edit up", false)] {
-        let to = chosen.and_then(|index| if down { Some(index + 1).filter(|to| *to < count) } else { index.checked_sub(1) });
+        let to =
+            chosen.and_then(|index| if down { Some(index + 1).filter(|to| *to < count) } else { index.checked_sub(1) });
         ui.add_enabled_ui(to.is_some(), |ui| {
             if icon_button(ui, icon, verb, "Edits act from first to last").clicked()
                 && let (Some(from), Some(to)) = (chosen, to)

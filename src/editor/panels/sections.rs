@@ -29,10 +29,8 @@ const LAYER: &[Section] = &[
     folded("Structure", &["under", "folding"]),
 ];
 
-const EDIT: &[Section] = &[
-    open("Tool", &["tool"]),
-    open("Extent", &["radius_km", "softness", "raggedness", "seed", "limit"]),
-];
+const EDIT: &[Section] =
+    &[open("Tool", &["tool"]), open("Extent", &["radius_km", "softness", "raggedness", "seed", "limit"])];
 
 const STAR: &[Section] = &[
     open("Light", &["color", "brightness", "radius_deg"]),

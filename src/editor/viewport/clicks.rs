@@ -1,8 +1,8 @@
 //! Clicks on the planet that are for the open tab.
 
 use super::layer_view::LayerOverlay;
-use super::sculpt::SculptLink;
 use super::pointer::{Probe, UnderPointer, in_view};
+use super::sculpt::SculptLink;
 use crate::editor::painter::is_chord;
 use crate::lod::View;
 use crate::render::MarkedCells;

@@ -29,7 +29,10 @@ impl Ground<'_> {
     fn places_m(&self, dirs: &[DVec3]) -> Vec<DVec3> {
         let (radius_m, sea_m) = (self.terrain.planet().radius_m(), self.terrain.planet().sea_level_m());
         let heights_m = self.terrain.heights_m(dirs);
-        dirs.iter().zip(heights_m).map(|(dir, height_m)| *dir * (radius_m + height_m.max(sea_m.unwrap_or(f64::MIN)))).collect()
+        dirs.iter()
+            .zip(heights_m)
+            .map(|(dir, height_m)| *dir * (radius_m + height_m.max(sea_m.unwrap_or(f64::MIN))))
+            .collect()
     }
 
     /// Whether a place is on the side of the planet that the eye sees.

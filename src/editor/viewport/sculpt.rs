@@ -260,7 +260,14 @@ impl Hand {
     }
 
     /// Draws the ring of the brush, and the points of the selected edit.
-    pub(super) fn paint(&self, painter: &egui::Painter, link: &SculptLink, scene: &Scene<'_>, view: &View, planet: &Planet) {
+    pub(super) fn paint(
+        &self,
+        painter: &egui::Painter,
+        link: &SculptLink,
+        scene: &Scene<'_>,
+        view: &View,
+        planet: &Planet,
+    ) {
         let ground = ring::Ground { terrain: &scene.surface.terrain, view, rect: scene.rect };
         if let Some(edit) = link.selected.and_then(|index| planet.edits.get(index)) {
             ring::paint_edit(painter, &ground, edit);

@@ -108,7 +108,10 @@ pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
         let (from, to) = (tangent(i) * length(i), tangent(i + 1) * length(i));
         let at = |u: f64| {
             let (u2, u3) = (u * u, u * u * u);
-            let curve = p * (2.0 * u3 - 3.0 * u2 + 1.0) + from * (u3 - 2.0 * u2 + u) + q * (3.0 * u2 - 2.0 * u3) + to * (u3 - u2);
+            let curve = p * (2.0 * u3 - 3.0 * u2 + 1.0)
+                + from * (u3 - 2.0 * u2 + u)
+                + q * (3.0 * u2 - 2.0 * u3)
+                + to * (u3 - u2);
             curve.normalize()
         };
         let bend = at(0.5).distance((p + q).normalize());

@@ -95,7 +95,9 @@ impl CompiledTool {
                 Self::Volcano { height_m, steepness, caldera, caldera_m }
             }
             Tool::Mesa(Mesa { height_m, talus }) => Self::Mesa { height_m, talus },
-            Tool::Island(Island { height_m, foot_m }) => Self::Island { top_m: sea_m + height_m, foot_m: sea_m - foot_m },
+            Tool::Island(Island { height_m, foot_m }) => {
+                Self::Island { top_m: sea_m + height_m, foot_m: sea_m - foot_m }
+            }
             Tool::Ridge(Ridge { height_m }) => Self::Ridge { height_m, softness: edit.softness },
             Tool::Canyon(Canyon { depth_m, floor }) => Self::Canyon { depth_m, floor, softness: edit.softness },
             Tool::Road(Road { strength }) => Self::Road { strength },
