@@ -293,6 +293,9 @@ impl EditorApp {
             }
             overlay::show(ui, state.viewport.rect(), state, commands);
         });
+        if let Some(index) = state.viewport.take_touched_edit() {
+            self.panels.sculpt.select(index);
+        }
         if let Some((click, under)) = state.viewport.take_click() {
             let mut planet = (**state.document.planet()).clone();
             let label = self.panels.clicked(&mut planet, click, &under);

@@ -68,6 +68,11 @@ pub enum Command {
     GoTo(usize),
     ImportTable,
     ExportTable,
+    /// Take the tool of this index in hand to sculpt.
+    TakeTool(usize),
+    PutDownTool,
+    LargerTool,
+    SmallerTool,
 }
 
 /// A command, or an action that carries a value.
@@ -166,6 +171,21 @@ pub enum PanelAction {
     ClearFilter,
     /// Put every tab back into the side panel.
     ResetLayout,
+    /// Open the sculpt tab, and change what it has in hand.
+    Sculpt(SculptAction),
+}
+
+/// A change of the tool in hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SculptAction {
+    /// Take the tool of this index.
+    Take(usize),
+    /// Put the tool down, or take it again.
+    PutDown,
+    /// Make the brush larger.
+    Larger,
+    /// Make the brush smaller.
+    Smaller,
 }
 
 /// A setting of the view, and its new value. Settings are no part of the document.

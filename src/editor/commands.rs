@@ -1,11 +1,12 @@
 //! The table of commands: for each its name, tooltip, menu, shortcuts, condition and handler.
 //!
 //! Menus, shortcuts and the list of keys are made from [`COMMANDS`]. A new command is a variant of [`Command`] and a
-//! row here, in `files`: files and what is written to them, or in `planets`: planets to choose from and to compare
-//! with.
+//! row here, in `files`: files and what is written to them, in `planets`: planets to choose from and to compare with,
+//! or in `sculpt`: tools that change the ground.
 
 mod files;
 mod planets;
+mod sculpt;
 
 use super::command::{Command, PanelAction};
 use super::handlers::{biome_table, bookmarks, window};
@@ -25,6 +26,7 @@ pub enum Menu {
     Edit,
     View,
     Camera,
+    Sculpt,
     Bookmarks,
     Planets,
     Help,
@@ -32,8 +34,8 @@ pub enum Menu {
 
 impl Menu {
     /// All menus, in the order of the bar.
-    pub const ALL: [Menu; 7] =
-        [Menu::File, Menu::Edit, Menu::View, Menu::Camera, Menu::Bookmarks, Menu::Planets, Menu::Help];
+    pub const ALL: [Menu; 8] =
+        [Menu::File, Menu::Edit, Menu::View, Menu::Camera, Menu::Sculpt, Menu::Bookmarks, Menu::Planets, Menu::Help];
 
     /// The name in the bar.
     pub fn label(self) -> &'static str {
@@ -42,6 +44,7 @@ impl Menu {
             Menu::Edit => "Edit",
             Menu::View => "View",
             Menu::Camera => "Camera",
+            Menu::Sculpt => "Sculpt",
             Menu::Bookmarks => "Bookmarks",
             Menu::Planets => "Planets",
             Menu::Help => "Help",
@@ -166,6 +169,7 @@ pub static COMMANDS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     rows.extend(planets::rows());
     rows.extend(Mode::ALL.map(camera_mode));
     rows.extend(camera());
+    rows.extend(sculpt::rows());
     rows.extend(bookmarks_and_table());
     rows.extend(GO_TO.iter().enumerate().map(|(index, (label, key))| {
         Row::new(Command::GoTo(index), label, "Fly to this bookmark.", move |state, _| bookmarks::go_to(state, index))

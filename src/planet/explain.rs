@@ -5,7 +5,7 @@
 
 use super::param::{Domain, Form, Param};
 use super::root::Root;
-use super::{Mask, Problem, Shape, locate};
+use super::{Mask, Problem, Shape, Tool, locate};
 use ron::error::{Error, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -208,7 +208,7 @@ fn in_words(param: &Param, names: &[&str]) -> String {
         Domain::Curve { .. } => format!("a list of points: `[(-1, 0), (1, 2)]`, {}", param.range_text()),
         Domain::File { .. } => "a path in double quotes: `\"maps/heights.png\"`".to_owned(),
         // A kind carries its own parameters: `Fbm(...)`.
-        Domain::Choice if [Shape::KIND.name, Mask::KIND.name].contains(&param.name) => {
+        Domain::Choice if [Shape::KIND.name, Mask::KIND.name, Tool::KIND.name].contains(&param.name) => {
             format!("one of {}", list(names, "(...)"))
         }
         Domain::Choice => format!("one of {}", list(names, "")),

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longest preset that is read, in bytes. A preset with every list at its limit is far shorter.
-pub const MAX_FILE_BYTES: u64 = 1 << 20;
+/// Longest preset that is read, in bytes: about that of one with every list at its limit and strokes of a usual length.
+pub const MAX_FILE_BYTES: u64 = 16 << 20;
 
 /// How names of unfinished files begin and end.
 const UNFINISHED: &str = ".tellus-";

@@ -14,6 +14,7 @@
 //! - `rings`: rings of a planet, and rings to start from
 //! - `root`: what a whole file holds: a planet or a system
 //! - [`structure`]: plates, weather and rivers of a preset
+//! - [`edits`]: changes of the ground at a place, made by hand
 //! - [`picture`], `pictures`: pictures that a preset refers to; reading those of a planet
 //! - [`watch`]: a preset that changes on disk while a game runs
 //! - [`shipped`]: the presets that come with the program
@@ -25,6 +26,7 @@ mod airs;
 pub mod biome;
 mod day;
 pub mod diff;
+pub mod edits;
 pub(crate) mod explain;
 pub mod file;
 mod giant;
@@ -62,6 +64,7 @@ pub mod watch;
 
 pub use airs::STARTING_AIRS;
 pub use biome::{Biome, Detail, Steep};
+pub use edits::{EditPoint, EditPoints, GroundEdit, GroundEdits, Limit, Tool};
 pub use file::{LoadError, SaveError};
 pub use giant::{Giant, STARTING_GIANTS};
 pub use key::Key;
@@ -130,6 +133,8 @@ params! {
         star: Star = Star::default();
         /// Terrain, applied from first to last.
         layers: Vec<Layer> = Vec::new();
+        /// Changes of the ground made by hand, applied from first to last after all layers.
+        edits: GroundEdits = GroundEdits::default();
         /// Temperature and moisture over the globe.
         climate: Climate = Climate::default();
         /// The biome table, its palette and the surface rules.

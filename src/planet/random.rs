@@ -15,7 +15,7 @@ mod structure;
 
 use super::locks::Locks;
 use super::param::{ParamPath, Stage};
-use super::{Atmosphere, Biomes, Climate, Clouds, Layer, Mask, Planet, Precision, Star, Water, validate};
+use super::{Atmosphere, Biomes, Climate, Clouds, GroundEdits, Layer, Mask, Planet, Precision, Star, Water, validate};
 use dice::{Dice, three_digits};
 
 /// A random planet. Always valid; the same seed gives the same planet.
@@ -66,6 +66,7 @@ pub fn random_of(kind: Option<Kind>, seed: u64) -> Planet {
         height_curve: Vec::new(),
         star: Star { latitude_deg: dice.rounded(-24.0, 24.0), color: star_color(&mut dice), ..Star::default() },
         layers,
+        edits: GroundEdits::default(),
         biomes: grounds::biomes(kind, &climate, &mut dice),
         climate,
         structure,
@@ -97,7 +98,9 @@ pub fn vary_some(planet: &Planet, seed: u64, strength: f64, moves: &dyn Fn(&Para
     varied.each(&mut |path, param, mut value| {
         // Drawn in any case: a lock changes nothing but what it is on.
         let moved = dice.moved(param, &value.get(), strength);
-        let stays = param.stages.contains(Stage::Label) || !moves(path) || locks.hold(path);
+        // What was made by hand stays where it is.
+        let by_hand = path.part() == "edits";
+        let stays = by_hand || param.stages.contains(Stage::Label) || !moves(path) || locks.hold(path);
         if let Some(new) = moved.filter(|_| !stays) {
             value.set(&new);
         }

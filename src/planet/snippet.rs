@@ -11,6 +11,7 @@ pub fn of_part(planet: &Planet, part: &str) -> Option<String> {
         "" => Some(planet.to_text()),
         "star" => Some(text(part, &planet.star)),
         "layers" => Some(of_layers(&planet.layers)),
+        "edits" => Some(text(part, &planet.edits)),
         "climate" => Some(text(part, &planet.climate)),
         "biomes" => Some(text(part, &planet.biomes)),
         "structure" => planet.structure.as_ref().map(|value| text(part, value)),
@@ -86,6 +87,7 @@ impl Planet {
             "" => *self = Planet { editor: self.editor.take(), ..from.clone() },
             "star" => self.star.clone_from(&from.star),
             "layers" => self.layers.clone_from(&from.layers),
+            "edits" => self.edits.clone_from(&from.edits),
             "climate" => self.climate.clone_from(&from.climate),
             "biomes" => self.biomes.clone_from(&from.biomes),
             "structure" => self.structure.clone_from(&from.structure),
@@ -102,11 +104,12 @@ impl Planet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planet::{LayerMask, Mask, shipped};
+    use crate::planet::{EditPoint, EditPoints, GroundEdit, LayerMask, Mask, shipped};
 
     #[test]
     fn every_part_goes_through_text() {
-        let from = shipped::default_planet();
+        let mut from = shipped::default_planet();
+        from.edits.push(GroundEdit { points: EditPoints(vec![EditPoint::default()]), ..GroundEdit::default() });
         for part in Planet::PARTS.iter().map(|part| part.name).filter(|name| *name != "editor") {
             let text = of_part(&from, part).unwrap();
             let read = read("clipboard", &text).unwrap_or_else(|error| panic!("{part}: {error}\n{text}"));

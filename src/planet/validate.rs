@@ -2,10 +2,14 @@
 //!
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
+use super::edits::{self, MAX_EDIT_POINTS, MAX_EDITS};
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
-use super::param::{ParamPath, Segment};
+use super::param::{ParamPath, Params as _, Segment};
 use super::structure::MAX_PLATES;
-use super::{Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet, Steep, Table, layers, parts};
+use super::{
+    EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet,
+    Steep, Table, layers, parts,
+};
 use std::collections::HashSet;
 
 /// A planet that cannot be evaluated: a valid preset never describes it.
@@ -44,7 +48,9 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     if !found.0.is_empty() {
         return found.0;
     }
-    planet.each_value(&mut |path, param, value| {
+    // Edits may be thousands: each is checked once.
+    let bare = Planet { edits: GroundEdits::default(), ..planet.clone() };
+    bare.each_value(&mut |path, param, value| {
         if let Some(message) = value.get().problem(param) {
             found.0.push((path.clone(), message));
         }
@@ -56,6 +62,18 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
     slope_distances(&planet.layers, &mut found);
     plates(planet, &mut found);
     giant(planet, &mut found);
+    for (index, shared) in planet.edits.shared().iter().enumerate().filter(|(_, shared)| !shared.is_valid()) {
+        let before = found.0.len();
+        shared.edit.each_value(&mut edits::edit_path(index), &mut |path, param, value| {
+            if let Some(message) = value.get().problem(param) {
+                found.0.push((path.clone(), message));
+            }
+        });
+        points(index, &shared.edit, &mut found);
+        if found.0.len() == before {
+            shared.note_valid();
+        }
+    }
     biomes(&planet.biomes, &mut found);
     found.0
 }
@@ -86,6 +104,7 @@ fn limits(planet: &Planet, found: &mut Found) {
         }
     };
     limit(ParamPath::default().join("layers"), "layers", planet.layers.len(), MAX_LAYERS);
+    limit(ParamPath::default().join("edits"), "edits", planet.edits.len(), MAX_EDITS);
     limit(biomes_path("palette"), "biomes", planet.biomes.palette.len(), MAX_BIOMES);
     let bookmarks = planet.editor.as_ref().map_or(0, |editor| editor.bookmarks.len());
     let path = ParamPath::from(vec![Segment::Field("editor"), Segment::Field("bookmarks")]);
@@ -95,6 +114,11 @@ fn limits(planet: &Planet, found: &mut Found) {
     limit(path, "locks", locks, MAX_LOCKS);
     let by_hand = planet.structure.as_ref().map_or(0, |structure| structure.plates.by_hand.len());
     limit(by_hand_path(), "plates", by_hand, MAX_PLATES as usize);
+    for (index, edit) in planet.edits.iter().enumerate().take(MAX_EDITS) {
+        if edit.points.0.len() > MAX_EDIT_POINTS {
+            limit(edits::edit_path(index).join("points"), "points", edit.points.0.len(), MAX_EDIT_POINTS);
+        }
+    }
     for (index, layer) in planet.layers.iter().enumerate().take(MAX_LAYERS) {
         limit(layers::layer_path(index).join("masks"), "masks", layer.masks.len(), MAX_MASKS);
     }
@@ -167,12 +191,54 @@ fn giant(planet: &Planet, found: &mut Found) {
     }
     let grounds = [
         ("layers", !planet.layers.is_empty()),
+        ("edits", !planet.edits.is_empty()),
         ("structure", planet.structure.is_some()),
         ("water", planet.water.is_some()),
     ];
     for (part, _) in grounds.into_iter().filter(|(_, has)| *has) {
         let message = format!("a gas giant has no ground; remove `{part}`, or `giant`");
         found.add(ParamPath::default().join(part), message);
+    }
+}
+
+/// Greatest height of a point of an edit, either way.
+const MOST_POINT_M: f64 = 100_000.0;
+/// Least cosine of the angle between neighbouring points of a line: 120 degrees.
+const LEAST_COSINE: f64 = -0.5;
+
+fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
+    let list = || edits::edit_path(index).join("points");
+    let points = &edit.points.0;
+    if points.is_empty() {
+        found.add(list(), "an edit needs a point; use `[(latitude, longitude)]`, or remove the edit");
+    }
+    for (number, point) in points.iter().enumerate() {
+        for (value, most, what, unit) in [
+            (point.latitude_deg, 90.0, "latitude", "°"),
+            (point.longitude_deg, 180.0, "longitude", "°"),
+            (point.height_m, MOST_POINT_M, "height", " m"),
+        ] {
+            if value.is_nan() || value.abs() > most {
+                let message = format!("the {what} {value} is out of range; use {} to {most}{unit}", -most);
+                found.add(item(&list(), number, None), message);
+                return;
+            }
+        }
+    }
+    if edit.tool.is_stamp() {
+        return;
+    }
+    let is_far = |[a, b]: [&EditPoint; 2]| a.direction().dot(b.direction()) < LEAST_COSINE;
+    let turned_deg = |a: f64, b: f64| (a - b).abs();
+    let far = |pair: &[EditPoint]| {
+        let (a, b) = (&pair[0], &pair[1]);
+        // Most are near, and need no sine to tell.
+        let deg = turned_deg(a.latitude_deg, b.latitude_deg) + turned_deg(a.longitude_deg, b.longitude_deg);
+        deg > 100.0 && is_far([a, b])
+    };
+    if let Some(number) = points.windows(2).position(far) {
+        let message = "this point is more than 120° from the one before it; add points between them";
+        found.add(item(&list(), number + 1, None), message);
     }
 }
 

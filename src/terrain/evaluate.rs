@@ -1,6 +1,6 @@
 //! The pipeline that makes a height, for one point, a batch or a tile alike:
 //!
-//! layer fields -> layers joined -> climate -> biome relief
+//! layer fields -> layers joined -> ground edits -> climate -> biome relief
 //!
 //! [`Inputs`] tells where the noise comes from. Tiles keep fields from one edit to the next. Queries evaluate a field
 //! when the pipeline asks for it, and only where the masks of its layer are not 0: most points need few layers.
@@ -67,6 +67,9 @@ impl Terrain {
     ) {
         let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad };
         batch.join(inputs, &mut scratch.layers, heights, each);
+        if let Some(edits) = &self.edits {
+            edits.apply(&points.dirs, spacings_rad, heights, self.stack.limits_m());
+        }
         if let Some(relief) = &self.relief {
             relief.add(heights, spacings_rad, points, inputs, &mut scratch.shares);
         }

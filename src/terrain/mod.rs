@@ -8,6 +8,7 @@
 //! - `height`: layers joined by amplitude, curves, blends and masks
 //! - `climate`: temperature and moisture
 //! - `relief`: biome relief
+//! - `edits`: ground edits: strokes, stamps and splines
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
 //! - `query`, `raycast`: the queries of [`Terrain`]; `water`: water, wind and rain at points
@@ -31,6 +32,7 @@ mod chunk;
 pub(crate) mod climate;
 pub(crate) mod coarse;
 mod contours;
+mod edits;
 mod effects;
 pub(crate) mod evaluate;
 pub(crate) mod field;
@@ -50,7 +52,8 @@ mod scalar;
 mod water;
 pub(crate) mod wet;
 
-use crate::planet::{InvalidPlanet, Planet};
+use crate::planet::{InvalidPlanet, Key, Planet};
+use crate::sphere::NodeId;
 pub use crate::world::MapStore;
 use crate::world::weather::Weather;
 use crate::world::{Inputs, KeepGoing, MapWork, World};
@@ -65,6 +68,7 @@ use crate::simd::Simd;
 use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
+use edits::Edits;
 use glam::DVec3;
 use height::LayerStack;
 use landform::{Landform, Maps};
@@ -89,6 +93,8 @@ pub struct Terrain {
     /// The layers under the structure.
     under: Option<Arc<LayerStack>>,
     pub(crate) climate: CompiledClimate,
+    /// Ground edits, if any is on.
+    edits: Option<Arc<Edits>>,
     /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
     keys: Keys,
@@ -153,7 +159,7 @@ impl Terrain {
     /// As [`Terrain::try_new`].
     pub(crate) fn try_draft(planet: Arc<Planet>, world: &World) -> Result<Self, InvalidPlanet> {
         planet.check()?;
-        let Compiled { stack, under, climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
+        let Compiled { stack, under, edits, climate, relief, map_inputs, content, keys } = Compiled::new(&planet);
         let (under, world) = (under.map(Arc::new), world.serving(&map_inputs));
         let simd = Simd::detect();
         let (rules, biomes, height_bounds_m) = (Rules::new(&planet), CompiledBiomes::new(&planet), (0.0, 0.0));
@@ -162,6 +168,7 @@ impl Terrain {
             simd,
             stack,
             under,
+            edits,
             climate,
             relief,
             keys,
@@ -186,7 +193,7 @@ impl Terrain {
             Arc::make_mut(under).set_maps(&Maps { plates, weather: None });
         }
         self.climate.world = world;
-        self.height_bounds_m = self.with_relief(self.stack.bounds_m());
+        self.height_bounds_m = self.with_relief(self.with_edits(self.stack.bounds_m(), None));
         self
     }
 
@@ -268,7 +275,20 @@ impl Terrain {
         LayerGround { inputs: &self.map_inputs, stack, under, simd: self.simd, fields }
     }
 
-    /// Content keys of the tiles that the terrain makes, with the world maps that serve.
+    /// Content keys of the tile of a node. Edits count where they touch it.
+    pub(crate) fn tile_keys_at(&self, id: NodeId) -> TileKeys {
+        self.with_edits_near(self.tile_keys(), id)
+    }
+
+    /// The same from the keys that all tiles have before edits.
+    pub(crate) fn with_edits_near(&self, keys: TileKeys, id: NodeId) -> TileKeys {
+        match self.edits.as_ref().and_then(|edits| edits.key_near(id)) {
+            Some(edits) => TileKeys { heights: Key::of(&(keys.heights, edits)), ..keys },
+            None => keys,
+        }
+    }
+
+    /// Content keys of the tiles that the terrain makes, with the world maps that serve, before edits.
     pub(crate) fn tile_keys(&self) -> TileKeys {
         self.content.keys(self.climate.map_keys(), self.world().plates.key())
     }
@@ -297,9 +317,17 @@ impl Terrain {
     /// The same within an angle of a direction: narrower, or equal. NaN counts as any angle.
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let angle_rad = if angle_rad.is_nan() { PI } else { angle_rad.abs().min(PI) };
-        let ((lo, hi), (lowest, highest)) =
-            (self.with_relief(self.stack.bounds_near_m(unit(dir_planet), angle_rad)), self.height_bounds_m);
+        let dir = unit(dir_planet);
+        let bounds_m = self.with_edits(self.stack.bounds_near_m(dir, angle_rad), Some((dir, angle_rad)));
+        let ((lo, hi), (lowest, highest)) = (self.with_relief(bounds_m), self.height_bounds_m);
         (lo.max(lowest), hi.min(highest))
+    }
+
+    /// Bounds of the height that the layers make, widened by edits near a place or anywhere.
+    fn with_edits(&self, bounds_m: (f64, f64), near: Option<(DVec3, f64)>) -> (f64, f64) {
+        let Some(edits) = &self.edits else { return bounds_m };
+        let ((lo, hi), (lowest, highest)) = (edits.bounds_m(bounds_m, near), self.stack.limits_m());
+        (lo.clamp(lowest, highest), hi.clamp(lowest, highest))
     }
 
     /// Bounds of the height that the layers make, widened by biome relief.

@@ -6,11 +6,12 @@
 //! no key. Textures of the renderer have keys of the parameters that declare their stage.
 
 use super::climate::{CompiledClimate, MapKeys, SeaLevelClimate, final_map_keys};
+use super::edits::Edits;
 use super::height::LayerStack;
 use super::landform::Reads;
 use super::relief::Relief;
 use crate::planet::param::{ParamPath, Stage, Stages, Value};
-use crate::planet::{InvalidPlanet, Key, Planet, Structure};
+use crate::planet::{GroundEdits, InvalidPlanet, Key, Planet, Structure};
 use crate::world::carved::Carved;
 use crate::world::plates::Plates;
 use crate::world::weather::Weather;
@@ -144,6 +145,8 @@ pub(super) struct Compiled {
     pub(super) stack: LayerStack,
     /// The layers under the structure.
     pub(super) under: Option<LayerStack>,
+    /// Ground edits.
+    pub(super) edits: Option<Arc<Edits>>,
     pub(super) climate: CompiledClimate,
     pub(super) relief: Option<Relief>,
     pub(super) map_inputs: Inputs,
@@ -182,11 +185,16 @@ impl Compiled {
             relief: relief.as_ref().map(Key::of),
             climate: Key::of(&(climate_noise, SeaLevelClimate::new(planet))),
         };
+        let edits = Edits::new(planet);
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
+        let heights = match &edits {
+            Some(edits) => Key::of(&(tiles.heights, edits.key())),
+            None => tiles.heights,
+        };
         let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
-            heights: tiles.heights,
+            heights,
             climate_noise,
             climate: tiles.climate,
             materials,
@@ -194,7 +202,7 @@ impl Compiled {
             optical_depth,
             air_tables,
         };
-        Self { stack, under, climate, relief, map_inputs, content, keys }
+        Self { stack, under, edits, climate, relief, map_inputs, content, keys }
     }
 }
 
@@ -219,7 +227,9 @@ fn structure_inputs(planet: &Planet) -> Option<Arc<StructureInputs>> {
 fn texture_keys(planet: &Planet) -> [Key; 4] {
     const STAGES: [Stage; 4] = [Stage::Material, Stage::CloudMap, Stage::OpticalDepth, Stage::AirTables];
     let mut read: [Vec<(ParamPath, Value)>; 4] = Default::default();
-    planet.each_value(&mut |path, param, value| {
+    // Edits change heights alone, and may be thousands.
+    let bare = Planet { edits: GroundEdits::default(), ..planet.clone() };
+    bare.each_value(&mut |path, param, value| {
         for (stage, read) in STAGES.iter().zip(&mut read) {
             if param.stages.contains(*stage) {
                 read.push((path.clone(), value.get()));

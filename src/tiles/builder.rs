@@ -422,7 +422,7 @@ impl Worker {
     /// Makes a terrain the current one. Tiles whose content keys stay the same stay valid.
     fn serve(&mut self, terrain: Terrain) -> Arc<Terrain> {
         let terrain = Arc::new(terrain);
-        self.cache.set_keys(terrain.tile_keys());
+        self.cache.serve(&terrain);
         self.cache.set_aside(self.cell_fields.bytes());
         self.terrain = Some(terrain.clone());
         terrain

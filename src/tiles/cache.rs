@@ -31,6 +31,8 @@ struct Entry {
     horizon: Option<Arc<HorizonTile>>,
     /// Content keys of the tile and its parts.
     keys: TileKeys,
+    /// The terrain, by its number, that these keys were found to be those of, or not.
+    checked: (u64, bool),
     /// The request that last asked for it.
     used: u64,
 }
@@ -55,8 +57,10 @@ impl Entry {
 #[derive(Default)]
 struct State {
     entries: HashMap<NodeId, Entry>,
-    /// Content keys of valid tiles.
+    /// The terrain whose tiles are valid, its content keys before edits, and its number.
+    terrain: Option<Arc<Terrain>>,
     keys: TileKeys,
+    number: u64,
     /// Resident size of all entries.
     bytes: usize,
     /// Number of the current request.
@@ -84,10 +88,13 @@ impl Cache {
     /// The valid tile of a node.
     pub(crate) fn tile(&self, id: NodeId) -> Option<Arc<Tile>> {
         let mut state = self.lock();
-        let (request, keys) = (state.request, state.keys);
-        let entry = state.entries.get_mut(&id).filter(|entry| entry.keys == keys)?;
-        let tile = entry.tile.clone()?;
-        entry.used = request;
+        let State { entries, terrain, keys, number, request, .. } = &mut *state;
+        let (terrain, entry) = (terrain.as_ref()?, entries.get_mut(&id)?);
+        if entry.checked.0 != *number {
+            entry.checked = (*number, entry.keys == terrain.with_edits_near(*keys, id));
+        }
+        let tile = entry.tile.clone().filter(|_| entry.checked.1)?;
+        entry.used = *request;
         Some(tile)
     }
 
@@ -160,7 +167,8 @@ impl Cache {
         if let Some((tile, parts)) = made {
             entry.tile = Some(Arc::new(tile));
             entry.parts = parts.map(Arc::new);
-            entry.keys = terrain.tile_keys();
+            entry.keys = terrain.tile_keys_at(id);
+            entry.checked = (0, false);
             work.tiles += 1;
         }
         let bytes_after = entry.bytes();
@@ -171,9 +179,11 @@ impl Cache {
         done
     }
 
-    /// From now on, only tiles with these content keys are valid.
-    pub(crate) fn set_keys(&self, keys: TileKeys) {
-        self.lock().keys = keys;
+    /// From now on, only tiles with the content keys of this terrain are valid.
+    pub(crate) fn serve(&self, terrain: &Arc<Terrain>) {
+        let mut state = self.lock();
+        (state.keys, state.terrain) = (terrain.tile_keys(), Some(terrain.clone()));
+        state.number += 1;
     }
 
     /// Begins a new request: entries that it does not ask for may be dropped.

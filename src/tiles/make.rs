@@ -109,7 +109,7 @@ pub(crate) fn make_tile(
         _ => Arc::new(terrain.climate.climates_of_maps(&points.dirs).collect()),
     };
 
-    let same_heights = before.keys.heights == terrain.tile_keys().heights;
+    let same_heights = before.keys.heights == terrain.tile_keys_at(id).heights;
     if let Some(tile) = before.tile.filter(|_| same_heights) {
         let climate_of = VertexClimate { noise: &climate, from_maps: &from_maps };
         let tile = work.run(Stage::Climate, || with_climate(tile, simd, terrain.planet(), &points.dirs, &climate_of));

@@ -111,7 +111,7 @@ pub fn build_over(terrain: &Arc<Terrain>, view: &View) -> Surface {
 
 fn built(terrain: &Arc<Terrain>, view: &View, stats: BuildStats) -> Surface {
     let cache = cache::Cache::new(DEFAULT_BUDGET_BYTES);
-    cache.set_keys(terrain.tile_keys());
+    cache.serve(terrain);
     refine::refine(terrain, view, &cache, &mut None, Instant::now(), stats, &|| true)
 }
 

@@ -7,6 +7,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
+//! - `sculpt`: ground edits
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
@@ -24,6 +25,7 @@ mod preset;
 mod rebuild;
 mod relief;
 mod saving;
+mod sculpt;
 mod sphere;
 mod structure;
 mod terrain;

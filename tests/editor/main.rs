@@ -4,7 +4,7 @@
 //! - `crash`: what is left after a crash, and what is told of it
 //! - `disk`: other programs and windows on the open file; new files; no file dialogs
 //! - `input`: typed numbers, keys, menus, windows
-//! - `painter`: the painter of the biome table; `plates`: plates of the structure
+//! - `painter`: the painter of the biome table; `plates`: plates of the structure; `sculpt`: ground edits
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
 //! - `bake`: maps for other programs
@@ -27,6 +27,8 @@ mod app;
 mod bake;
 mod clipboard;
 mod crash;
+#[path = "../support/dice.rs"]
+mod dice;
 mod disk;
 mod docks;
 mod files;
@@ -43,6 +45,7 @@ mod painter;
 mod photo;
 mod place;
 mod plates;
+mod sculpt;
 mod system;
 mod text;
 mod tour;

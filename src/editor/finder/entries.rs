@@ -157,6 +157,11 @@ fn place_of(planet: &Planet, path: &ParamPath) -> Option<String> {
                 place.push(format!("Mask {}", mask + 1));
             }
         }
+        // Of thousands of edits, each has one entry.
+        [Segment::Field("edits"), Segment::Index(index), Segment::Field("name")] => {
+            place.push(planet.edits.get(*index)?.name.clone());
+        }
+        [Segment::Field("edits"), ..] => return None,
         [Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index), ..] => {
             place.push(planet.biomes.palette.get(*index)?.name.clone());
         }

@@ -7,7 +7,7 @@ const TABS: usize = PANELS.len();
 /// The tab that is open at the start: the terrain.
 pub const FIRST_TAB: usize = 1;
 /// The version of the stored layout. Another one is not read.
-const VERSION: &str = "2";
+const VERSION: &str = "3";
 
 /// A place for tabs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -165,12 +165,12 @@ mod tests {
         for text in [
             "",
             "hidden",
-            "2",
-            "2 rrrrrrrrr",
-            "2 rrrrrrrrr 1 1 9",
-            "2 rrrrrrrrx 1 1 1",
-            "1 rrrrrrrrr 1 1 1",
-            "2 rr 1 1 1",
+            "3",
+            "3 rrrrrrrrrr",
+            "3 rrrrrrrrrr 1 1 10",
+            "3 rrrrrrrrrx 1 1 1",
+            "2 rrrrrrrrrr 1 1 1",
+            "3 rr 1 1 1",
         ] {
             assert_eq!(Layout::from_text(text), None, "{text}");
         }

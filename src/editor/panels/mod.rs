@@ -7,6 +7,7 @@
 //! - [`finding`]: filters, and the parameter that was searched for
 //! - [`sections`]: which parameters stand under which heading
 //! - [`parts`]: planet, star, climate, and the optional parts; [`structure`]: plates, weather, rivers
+//! - [`sculpt`]: tools, and the list of ground edits
 //! - [`layers`], [`masks`], [`layer_edit`]: the terrain layers, and edits of their list
 //! - [`biomes`], [`biome_table`], [`biome_canvas`], [`biome_palette`], [`biome_edit`]: the biome table: the tab, the
 //!   table under the pointer, its picture, the palette, edits of both
@@ -23,6 +24,7 @@ pub mod layers;
 pub mod layout;
 pub mod masks;
 pub mod parts;
+pub mod sculpt;
 pub mod sections;
 pub mod structure;
 
@@ -48,6 +50,8 @@ pub struct Panel {
     pub paints: bool,
     /// Whether the tab changes plates.
     plates: bool,
+    /// Whether the tab sculpts.
+    sculpts: bool,
     /// Height in points from which the top of the tab stays and only the rest of it scrolls; None: all scrolls.
     stays_from: Option<f32>,
     show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
@@ -59,7 +63,7 @@ impl Panel {
         part: &'static str,
         show: fn(&mut egui::Ui, &mut PanelState, &mut Draft<'_>),
     ) -> Self {
-        Self { label, part, paints: false, plates: false, stays_from: None, show }
+        Self { label, part, paints: false, plates: false, sculpts: false, stays_from: None, show }
     }
 
     /// Index of the tab with the parameter at `path`; None if no tab shows it.
@@ -92,15 +96,20 @@ impl Panel {
         Self { stays_from: Some(height), ..self }
     }
 
+    const fn sculpting(self) -> Self {
+        Self { sculpts: true, ..self }
+    }
+
     const fn of_plates(self) -> Self {
         Self { plates: true, ..self }
     }
 }
 
 /// The tabs, in the order shown.
-pub static PANELS: [Panel; 11] = [
+pub static PANELS: [Panel; 12] = [
     Panel::new("Planet", "", |ui, _, draft| parts::planet(ui, draft)),
     Panel::new("Terrain", "layers", |ui, state, draft| layers::show(ui, &mut state.layers, draft)).staying_from(320.0),
+    Panel::new("Sculpt", "edits", |ui, state, draft| sculpt::show(ui, &mut state.sculpt, draft)).sculpting(),
     Panel::new("Structure", "structure", |ui, state, draft| {
         structure::show(ui, &mut state.structure, &mut state.turned_off, draft);
     })
@@ -160,6 +169,8 @@ pub struct PanelState {
     /// The biomes tab.
     pub biomes: biomes::BiomesState,
     structure: structure::StructureState,
+    /// The sculpt tab.
+    pub sculpt: sculpt::SculptState,
     turned_off: parts::TurnedOff,
 }
 
@@ -197,7 +208,13 @@ impl PanelState {
             true => self.layers.link(),
             false => (Vec::new(), None),
         };
-        TabLink { solo, overlay, ..link }
+        // A tool in hand takes all clicks.
+        let sculpts = self.layout.visible().any(|tab| PANELS[tab].sculpts);
+        let sculpt = if sculpts { self.sculpt.link() } else { Default::default() };
+        match sculpt.brush {
+            Some(_) => TabLink { solo, overlay, sculpt, ..TabLink::default() },
+            None => TabLink { solo, overlay, sculpt, ..link },
+        }
     }
 
     /// A click on the planet. Gives the name of the edit.
@@ -263,6 +280,12 @@ impl PanelState {
             PanelAction::TypeFilter => self.finding.take_focus(),
             PanelAction::ClearFilter => self.finding.clear(self.layout.active()),
             PanelAction::ResetLayout => self.layout = Layout::default(),
+            PanelAction::Sculpt(action) => {
+                if let Some(tab) = PANELS.iter().position(|panel| panel.sculpts) {
+                    self.layout.open(tab);
+                }
+                self.sculpt.act(planet, action);
+            }
         }
     }
 
@@ -273,6 +296,7 @@ impl PanelState {
         self.finding.reveal(tab, path.clone(), name);
         match path.segments() {
             [Segment::Field("layers"), Segment::Index(index), ..] => self.layers.select(*index),
+            [Segment::Field("edits"), Segment::Index(index), ..] => self.sculpt.select(*index),
             [Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(index), ..] => {
                 self.biomes.palette.selected = *index;
             }

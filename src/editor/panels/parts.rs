@@ -9,7 +9,7 @@ use crate::editor::widgets::row_view::RowView;
 use crate::editor::widgets::typed::{Allowed, plain_field};
 use crate::planet::param::{ParamPath, Params, Segment, Unit};
 use crate::planet::{
-    Atmosphere, Climate, Clouds, Giant, Layer, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_GIANTS,
+    Atmosphere, Climate, Clouds, Giant, GroundEdits, Layer, Planet, Rings, STAR_KELVIN, STARTING_AIRS, STARTING_GIANTS,
     STARTING_RINGS, STARTING_SEAS, STARTING_SKIES, Star, Starting, Structure, Water, star_color, star_kelvin,
 };
 use eframe::egui;
@@ -24,7 +24,16 @@ pub struct TurnedOff {
     rings: Option<Rings>,
     giant: Option<Giant>,
     /// The ground of a planet that became a giant.
-    ground: Option<(Vec<Layer>, Option<Structure>, Option<Water>)>,
+    ground: Option<Ground>,
+}
+
+/// What a giant has none of.
+#[derive(Default)]
+struct Ground {
+    layers: Vec<Layer>,
+    edits: GroundEdits,
+    structure: Option<Structure>,
+    water: Option<Water>,
 }
 
 /// The planet's own parameters: name, seed, radius.
@@ -175,12 +184,17 @@ pub fn giant(ui: &mut egui::Ui, turned_off: &mut TurnedOff, draft: &mut Draft<'_
     let planet = &mut *draft.planet;
     match (was_giant, planet.giant.is_some()) {
         (false, true) => {
-            turned_off.ground =
-                Some((std::mem::take(&mut planet.layers), planet.structure.take(), planet.water.take()));
+            turned_off.ground = Some(Ground {
+                layers: std::mem::take(&mut planet.layers),
+                edits: std::mem::take(&mut planet.edits),
+                structure: planet.structure.take(),
+                water: planet.water.take(),
+            });
         }
         (true, false) => {
-            if let Some((layers, structure, water)) = turned_off.ground.take() {
-                (planet.layers, planet.structure, planet.water) = (layers, structure, water);
+            if let Some(ground) = turned_off.ground.take() {
+                (planet.layers, planet.edits) = (ground.layers, ground.edits);
+                (planet.structure, planet.water) = (ground.structure, ground.water);
             }
         }
         _ => {}

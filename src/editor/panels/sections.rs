@@ -29,6 +29,9 @@ const LAYER: &[Section] = &[
     folded("Structure", &["under", "folding"]),
 ];
 
+const EDIT: &[Section] =
+    &[open("Tool", &["tool"]), open("Extent", &["radius_km", "softness", "raggedness", "seed", "limit"])];
+
 const STAR: &[Section] = &[
     open("Light", &["color", "brightness", "radius_deg"]),
     open("Place and day", &["latitude_deg", "longitude_deg", "day_hours", "tilt_deg"]),
@@ -111,6 +114,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
     match path.segments() {
         [] => PLANET,
         [Field("layers"), Index(_)] => LAYER,
+        [Field("edits"), Index(_)] | [Field("brush")] => EDIT,
         [Field("star")] => STAR,
         [Field("climate")] => CLIMATE,
         [Field("biomes")] => BIOMES,

@@ -45,6 +45,7 @@ pub fn owner(planet: &Planet, path: &ParamPath) -> Option<String> {
         [Segment::Field("biomes"), Segment::Field("palette"), Segment::Index(i), ..] => {
             planet.biomes.palette.get(*i).map(|biome| biome.name.clone())
         }
+        [Segment::Field("edits"), Segment::Index(i), ..] => planet.edits.get(*i).map(|edit| edit.name.clone()),
         [Segment::Field(part), _, ..] => Some((*part).to_owned()),
         _ => None,
     }

@@ -2,6 +2,7 @@
 
 use super::layer_view::LayerOverlay;
 use super::pointer::{Probe, UnderPointer, in_view};
+use super::sculpt::SculptLink;
 use crate::editor::painter::is_chord;
 use crate::lod::View;
 use crate::render::MarkedCells;
@@ -33,6 +34,8 @@ pub struct TabLink {
     pub plates: bool,
     /// Indices of the layers that are seen alone; empty for all.
     pub solo: Vec<usize>,
+    /// The tool in hand, and the edit whose points are shown.
+    pub sculpt: SculptLink,
     /// What is shown of a layer.
     pub overlay: Option<LayerOverlay>,
 }

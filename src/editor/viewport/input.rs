@@ -35,6 +35,8 @@ pub struct Edited<'a> {
     pub planet: &'a mut Planet,
     /// Seconds since time zero.
     pub time_secs: f64,
+    /// Whether the first button of the pointer is taken by a tool.
+    pub held: bool,
     /// The terrain on screen, if a drag with Ctrl moves its plates.
     pub plates: Option<&'a Terrain>,
 }
@@ -48,7 +50,7 @@ pub fn handle(
     ground: &dyn Ground,
     edited: Edited<'_>,
 ) -> Moved {
-    let Edited { planet, time_secs, plates } = edited;
+    let Edited { planet, time_secs, held: is_held, plates } = edited;
     let rect = response.rect;
     let aspect = f64::from(rect.width() / rect.height());
     let to_view = |pos: egui::Pos2| in_view(rect, pos);
@@ -65,6 +67,8 @@ pub fn handle(
         });
         *drag = if response.drag_started_by(egui::PointerButton::Secondary) {
             Drag::View
+        } else if is_held && response.drag_started_by(egui::PointerButton::Primary) {
+            Drag::None
         } else if response.drag_started_by(egui::PointerButton::Middle) || shift {
             Drag::Sun
         } else {
@@ -108,6 +112,7 @@ pub fn handle(
     }
 
     if response.double_clicked()
+        && !is_held
         && !ui.input(|i| is_chord(i.modifiers))
         && let Some(pos) = response.interact_pointer_pos()
     {

@@ -12,6 +12,7 @@
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
 //!   dragged
+//! - [`sculpt`]: strokes, stamps and lines on the planet; `ring`: the ring of the brush
 //! - [`adaptation`]: exposure that adapts gradually; [`refinement`]: still pictures that get finer
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, its parts, the time of each frame
 
@@ -30,6 +31,8 @@ mod picture;
 mod plate_drag;
 pub mod pointer;
 pub mod refinement;
+mod ring;
+pub mod sculpt;
 pub mod settings;
 pub mod swap;
 pub mod target;
@@ -59,6 +62,7 @@ use layer_view::LayerView;
 use neighbours::Neighbours;
 use picture::{Meters, Picture, Subject, quality_for};
 use pointer::{Probe, UnderPointer, in_view};
+use sculpt::{Hand, Scene};
 use std::sync::Arc;
 
 /// Longest step of the planet's time in a frame, in seconds of the clock: a slow frame must not make it jump.
@@ -100,6 +104,7 @@ pub struct Viewport {
     drag: input::Drag,
     pointer: Probe,
     clicks: Clicks,
+    hand: Hand,
 }
 
 impl Viewport {
@@ -139,6 +144,7 @@ impl Viewport {
             drag: input::Drag::None,
             pointer: Probe::new(waker()),
             clicks: Clicks::new(waker()),
+            hand: Hand::default(),
         }
     }
 
@@ -231,6 +237,11 @@ impl Viewport {
         self.clicks.take()
     }
 
+    /// Index of the ground edit that was made or moved on the planet since the last call.
+    pub fn take_touched_edit(&mut self) -> Option<usize> {
+        self.hand.take_touched()
+    }
+
     /// Figures of the newest picture.
     pub fn stats(&self) -> FrameStats {
         self.picture.stats()
@@ -315,8 +326,8 @@ impl Viewport {
         self.picture.error().map(str::to_owned).or_else(|| self.builder.error())
     }
 
-    /// Shows the picture in all of the room there is. `valid` is the planet that is drawn. A drag of the sun or of a
-    /// plate changes `draft`, and gives the name of that edit.
+    /// Shows the picture in all of the room there is. `valid` is the planet that is drawn. A drag of the sun, of a
+    /// plate or of a tool changes `draft`, and gives the name of that edit.
     pub fn show(&mut self, ui: &mut egui::Ui, valid: &Arc<Planet>, draft: &mut Planet) -> Option<&'static str> {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
         if std::mem::take(&mut self.wants_focus) {
@@ -335,8 +346,12 @@ impl Viewport {
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
         self.follow_ground(&ground);
+        let link = self.tab.sculpt.clone();
+        let scene = surface.as_ref().map(|surface| Scene { surface, camera: self.cameras.camera(&ground), rect });
+        let held = scene.map(|scene| self.hand.handle(ui, &response, &link, &scene, draft)).unwrap_or_default();
         let edited = input::Edited {
             planet: draft,
+            held: held.taken,
             time_secs: self.settings.time_secs,
             plates: terrain.filter(|_| self.tab.plates),
         };
@@ -372,6 +387,10 @@ impl Viewport {
         if let Some(surface) = &surface {
             self.layer_view.paint(ui, rect, self.tab.overlay, (&view, surface));
         }
+        if let Some(surface) = &surface {
+            let scene = Scene { surface, camera: view.camera, rect };
+            self.hand.paint(&ui.painter_at(rect), &link, &scene, &view, valid);
+        }
         if let Some(compare) = &mut self.compare {
             let (settings, radius_m) = (&self.settings, self.ground_radius_m);
             let shared = Shared { settings, view, radius_m, drafts: pressed, touched, now_secs };
@@ -380,7 +399,7 @@ impl Viewport {
         if let Some(frozen) = &self.frozen {
             outline::paint(&ui.painter_at(rect), rect, frozen, &view, self.ground_radius_m);
         }
-        moved.edit
+        held.edit.or(moved.edit)
     }
 
     /// Keeps the cameras above the ground, and at the same distance in radii when the planet's radius has changed.

@@ -32,7 +32,7 @@ fn reach_m(eye: DVec3, dir: DVec3, radius_m: f64) -> f64 {
 }
 
 /// The part of a line in front of the eye, as points of the picture from -1 to 1.
-fn project(view: &View, from: DVec3, to: DVec3) -> Option<[(f64, f64); 2]> {
+pub(super) fn project(view: &View, from: DVec3, to: DVec3) -> Option<[(f64, f64); 2]> {
     let camera = &view.camera;
     let in_view = |point: DVec3| camera.planet_from_view.inverse() * (point - camera.position_planet_m);
     let (mut a, mut b) = (in_view(from), in_view(to));
@@ -51,7 +51,7 @@ fn project(view: &View, from: DVec3, to: DVec3) -> Option<[(f64, f64); 2]> {
     Some([a, b].map(|p| (p.x / (-p.z * tan * view.aspect()), p.y / (-p.z * tan))))
 }
 
-fn in_rect(rect: Rect, (x, y): (f64, f64)) -> Pos2 {
+pub(super) fn in_rect(rect: Rect, (x, y): (f64, f64)) -> Pos2 {
     // Far outside the picture, f32 would lose the direction of the line.
     let (x, y) = (x.clamp(-1e4, 1e4) as f32, y.clamp(-1e4, 1e4) as f32);
     pos2(rect.center().x + x * 0.5 * rect.width(), rect.center().y - y * 0.5 * rect.height())

@@ -6,7 +6,7 @@ use crate::editor::state::State;
 use eframe::egui;
 
 /// Held keys and the mouse, which are no commands.
-const GROUPS: [(&str, &[(&str, &str)]); 6] = [
+const GROUPS: [(&str, &[(&str, &str)]); 7] = [
     (
         "Mouse",
         &[
@@ -44,6 +44,15 @@ const GROUPS: [(&str, &[(&str, &str)]); 6] = [
             ("Shift", "Straight lines, outlines of rectangles; fill everywhere; join brush strokes"),
             ("Ctrl and click on the planet", "Paint the climate there"),
             ("Escape", "End the selection"),
+        ],
+    ),
+    (
+        "Sculpting, with a tool of the Sculpt tab",
+        &[
+            ("Drag", "Sculpt; with Shift lower"),
+            ("Click", "Place a stamp, or the next point of a line"),
+            ("Enter", "End the line"),
+            ("Alt and drag", "Move the camera"),
         ],
     ),
     (

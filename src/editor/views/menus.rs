@@ -35,7 +35,7 @@ pub fn show(ui: &mut egui::Ui, state: &State, commands: &mut Commands) {
                     Menu::Bookmarks => bookmarks(ui, state, commands),
                     Menu::Planets => planets(ui, commands),
                     Menu::File => recent(ui, state, commands),
-                    Menu::Edit | Menu::Camera | Menu::Help => {}
+                    Menu::Edit | Menu::Camera | Menu::Sculpt | Menu::Help => {}
                 }
             });
         }

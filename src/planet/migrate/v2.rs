@@ -5,7 +5,7 @@
 
 use super::frozen::{Migrate, frozen, frozen_choice, frozen_kinds};
 use super::v3;
-use crate::planet::{self, Precision, Version};
+use crate::planet::{self, GroundEdits, Precision, Version};
 
 frozen! {
     /// The whole file. Its heights keep the arithmetic that they were made with.
@@ -23,7 +23,9 @@ frozen! {
         atmosphere: Option<Atmosphere> = None,
         clouds: Option<Clouds> = None,
         editor: Option<EditorNotes> = None,
-    } adding { precision: Precision::Classic, structure: None, settlements: 0.0, giant: None, rings: None }
+    } adding {
+        edits: GroundEdits::default(), precision: Precision::Classic, structure: None, settlements: 0.0, giant: None, rings: None
+    }
 }
 
 frozen! {

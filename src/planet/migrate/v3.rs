@@ -2,7 +2,8 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, Layer, Planet, Precision, Rings, Star, Structure, VERSION,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, GroundEdits, Layer, Planet, Precision, Rings, Star, Structure,
+    VERSION,
     Version, Water,
 };
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,8 @@ file! {
     height_curve: Curve,
     star: Star,
     layers: Vec<Layer>,
+    #[serde(skip_serializing_if = "GroundEdits::is_empty")]
+    edits: GroundEdits,
     climate: Climate,
     biomes: Biomes,
     structure: Option<Structure>,

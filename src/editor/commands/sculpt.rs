@@ -1,0 +1,46 @@
+//! Commands that take a tool in hand to sculpt the planet, and change its size.
+
+use super::{Menu, Row, plain};
+use crate::editor::command::{Command, PanelAction, SculptAction};
+use crate::planet::Tool;
+use eframe::egui::Key;
+
+/// Names of the commands that take a tool in hand, in the order of [`Tool::all`].
+const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
+    ("Sculpt: raise or lower", "Raise the ground with drags; with Shift lower it."),
+    ("Sculpt: flatten", "Bring the ground to one height."),
+    ("Sculpt: roughen", "Add hills and hollows."),
+    ("Sculpt: terrace", "Cut level steps."),
+    ("Sculpt: crater", "Place craters and impact basins."),
+    ("Sculpt: volcano", "Place volcanoes: cones, shields, calderas."),
+    ("Sculpt: mesa", "Place table mountains."),
+    ("Sculpt: island", "Let land rise out of the sea."),
+    ("Sculpt: ridge", "Draw a crest, point after point."),
+    ("Sculpt: canyon", "Draw a valley with steep walls, point after point."),
+    ("Sculpt: road", "Draw a level bed, point after point."),
+];
+
+pub(super) fn rows() -> Vec<Row> {
+    let asks = |command, label, tooltip, action| {
+        Row::new(command, label, tooltip, move |state, _| state.ask_panel(PanelAction::Sculpt(action)))
+    };
+    let tools = TOOLS.iter().enumerate().map(|(tool, (label, tooltip))| {
+        asks(Command::TakeTool(tool), label, tooltip, SculptAction::Take(tool)).within(Menu::Sculpt, 0)
+    });
+    let mut rows: Vec<Row> = tools.collect();
+    for (command, label, tooltip, key, action) in [
+        (
+            Command::PutDownTool,
+            "Take or put down tool",
+            "Sculpt with drags on the planet, or move the camera with them.",
+            Key::B,
+            SculptAction::PutDown,
+        ),
+        (Command::LargerTool, "Larger brush", "Make the brush larger.", Key::CloseBracket, SculptAction::Larger),
+        (Command::SmallerTool, "Smaller brush", "Make the brush smaller.", Key::OpenBracket, SculptAction::Smaller),
+    ] {
+        let row = asks(command, label, tooltip, action).within(Menu::Sculpt, 1);
+        rows.push(row.keys([plain(key)]).yielding_to_text());
+    }
+    rows
+}

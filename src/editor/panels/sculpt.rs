@@ -1,0 +1,312 @@
+//! The sculpt tab: the tool in hand, the list of ground edits, and the parameters of the selected one.
+
+use super::{Draft, rest};
+use crate::editor::command::{Action, SculptAction};
+use crate::editor::finder::place::Place;
+use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
+use crate::editor::widgets::icon::{Icon, icon_button};
+use crate::editor::widgets::number::length_text;
+use crate::editor::widgets::params_grid::{Grid, params_grid};
+use crate::planet::edits::{Flatten, GroundEdit, MAX_EDITS, edit_path};
+use crate::planet::param::{Choice, ParamPath};
+use crate::planet::{Planet, Tool};
+use crate::sphere::LatLon;
+use eframe::egui::{self, AtomExt};
+use std::sync::Arc;
+
+/// Share of the tab's height that the list takes at most.
+const LIST_SHARE: f32 = 0.3;
+/// Height of a row of the list, in points.
+const ROW: f32 = 20.0;
+/// The change of the radius by one key.
+const STEP: f64 = 1.25;
+/// Share of the planet's radius that a brush has at first, and the most it has, in kilometres.
+const FIRST_SHARE: f64 = 0.01;
+const FIRST_KM: f64 = 50.0;
+/// Parameters of an edit that have rows of their own.
+const OWN_ROWS: [&str; 3] = ["name", "enabled", "points"];
+/// Parameters of an edit that a brush does not have.
+const NOT_OF_BRUSH: [&str; 4] = ["name", "enabled", "points", "seed"];
+
+/// The tool in hand and the selection.
+#[derive(Default)]
+pub struct SculptState {
+    /// The brush of each tool that was in hand.
+    brushes: Vec<(usize, GroundEdit)>,
+    /// Index of the tool.
+    tool: usize,
+    /// Whether the tool is in hand: then drags on the planet sculpt.
+    in_hand: bool,
+    /// Index of the edit whose parameters are shown.
+    pub selected: Option<usize>,
+    /// Words that edits in the list must have.
+    find: String,
+    scroll_to: Option<usize>,
+}
+
+impl SculptState {
+    /// What the tab has in hand.
+    pub fn link(&self) -> SculptLink {
+        let brush = self.brushes.iter().find(|(tool, _)| *tool == self.tool).map(|(_, brush)| brush);
+        SculptLink { brush: brush.filter(|_| self.in_hand).cloned().map(Arc::new), selected: self.selected }
+    }
+
+    /// Selects an edit.
+    pub fn select(&mut self, index: usize) {
+        (self.selected, self.scroll_to) = (Some(index), Some(index));
+    }
+
+    /// Carries out what a command asks for.
+    pub fn act(&mut self, planet: &Planet, action: SculptAction) {
+        match action {
+            SculptAction::Take(tool) => (self.tool, self.in_hand) = (tool, true),
+            SculptAction::PutDown => self.in_hand ^= true,
+            SculptAction::Larger => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km * STEP),
+            SculptAction::Smaller => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km / STEP),
+        }
+        self.brush(planet);
+    }
+
+    /// The brush of the tool; a new one fits the planet.
+    fn brush(&mut self, planet: &Planet) -> &mut GroundEdit {
+        let at = self.brushes.iter().position(|(tool, _)| *tool == self.tool).unwrap_or_else(|| {
+            let radius_km = tidy_km((planet.radius_km * FIRST_SHARE).min(FIRST_KM));
+            let tool = Tool::of_kind(self.tool).unwrap_or_default();
+            self.brushes.push((self.tool, GroundEdit { tool, radius_km, ..GroundEdit::default() }));
+            self.brushes.len() - 1
+        });
+        &mut self.brushes[at].1
+    }
+}
+
+/// Shows the tab.
+pub fn show(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
+    state.selected = state.selected.filter(|index| *index < draft.planet.edits.len());
+    if !draft.shown.filter.is_active() {
+        tools(ui, state, draft);
+        ui.separator();
+    }
+    rest(ui, draft, "sculpt", |ui, draft| {
+        if !draft.shown.filter.is_active() {
+            brush(ui, state, draft);
+            ui.separator();
+            list(ui, state, draft);
+        }
+        selected(ui, state, draft);
+    });
+}
+
+/// The tools, to take one in hand.
+fn tools(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
+        for (tool, (label, doc)) in Tool::LABELS.iter().zip(Tool::DOCS).enumerate() {
+            let is_held = state.in_hand && state.tool == tool;
+            let button = ui.selectable_label(is_held, *label).on_hover_text(*doc);
+            if button.accessible_name(format!("Tool {label}")).clicked() {
+                (state.tool, state.in_hand) = (tool, !is_held);
+                state.brush(draft.planet);
+            }
+        }
+    });
+    let told = match (state.in_hand, Tool::of_kind(state.tool)) {
+        (false, _) => "Choose a tool to sculpt. Without one, drags move the camera; points of the selected edit move.",
+        (true, Some(tool)) if tool.is_stamp() => {
+            "Click to place it; drag to draw its size. Alt and drag moves the camera; [ and ] change the size."
+        }
+        (true, Some(Tool::Ridge(_) | Tool::Canyon(_) | Tool::Road(_))) => {
+            "Click point after point, and Enter; or drag. Alt and drag moves the camera; [ and ] change the size."
+        }
+        (true, Some(Tool::Raise(_))) => {
+            "Drag to raise, with Shift to lower. Alt and drag moves the camera; [ and ] change the size."
+        }
+        _ => "Drag over the ground. Alt and drag moves the camera; [ and ] change the size.",
+    };
+    ui.weak(told);
+}
+
+/// The parameters of the brush.
+fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
+    if !state.in_hand {
+        return;
+    }
+    let sea_m = draft.planet.sea_level_m();
+    let tool = state.tool;
+    let brush = state.brush(draft.planet);
+    let owner = "brush";
+    // A path that no planet has: what is said of parameters of the planet is not said of these.
+    let base = ParamPath::default().join("brush");
+    let grid = Grid { base, owner, skip: &NOT_OF_BRUSH, shown: draft.shown, biomes: &[] };
+    let default_tool = Tool::of_kind(tool).unwrap_or_default();
+    let mut default = GroundEdit { tool: default_tool, radius_km: brush.radius_km, ..GroundEdit::default() };
+    let before = brush.tool.index();
+    params_grid(ui, &grid, brush, &mut default);
+    if let (Tool::Flatten(Flatten { height_m, .. }), Some(sea_m)) = (&mut brush.tool, sea_m) {
+        let told = "Flatten to the level of the sea";
+        if ui.button("Sea level").on_hover_text(told).accessible_name("Height of brush: sea level").clicked() {
+            *height_m = sea_m;
+        }
+    }
+    // The grid also offers the choice of the tool.
+    let after = brush.tool.index();
+    if after != before {
+        let changed = brush.clone();
+        state.brushes.retain(|(tool, _)| *tool != after && *tool != before);
+        state.brushes.push((after, changed));
+        state.tool = after;
+    }
+}
+
+/// The edits, in the order in which they act.
+fn list(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
+    let count = draft.planet.edits.len();
+    ui.horizontal(|ui| {
+        ui.strong("Edits");
+        ui.weak(format!("{count}"));
+        let chosen = state.selected;
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            buttons(ui, state, draft, chosen);
+            let edit =
+                egui::TextEdit::singleline(&mut state.find).hint_text("Find").desired_width(ui.available_width());
+            ui.add(edit).accessible_name("Find edits");
+        });
+    });
+    if count == 0 {
+        ui.weak("There are none yet.");
+        return;
+    }
+    let words: Vec<String> = state.find.split_whitespace().map(str::to_lowercase).collect();
+    let fits = |edit: &GroundEdit| {
+        let text = format!("{} {}", edit.name, tool_label(edit)).to_lowercase();
+        words.iter().all(|word| text.contains(word.as_str()))
+    };
+    let shown: Vec<usize> = match words.is_empty() {
+        true => (0..draft.planet.edits.len()).collect(),
+        false => draft.planet.edits.iter().enumerate().filter(|(_, edit)| fits(edit)).map(|(index, _)| index).collect(),
+    };
+    let height = (LIST_SHARE * ui.ctx().content_rect().height()).max(4.0 * ROW);
+    let mut area = egui::ScrollArea::vertical().id_salt("list of edits").max_height(height).auto_shrink([false, true]);
+    if let Some(row) = state.scroll_to.take().and_then(|index| shown.iter().position(|other| *other == index)) {
+        let step = ROW + ui.spacing().item_spacing.y;
+        area = area.vertical_scroll_offset((row as f32 * step - 0.5 * height).max(0.0));
+    }
+    area.show_rows(ui, ROW, shown.len(), |ui, rows| {
+        ui.set_max_width(ui.available_width() - 10.0);
+        for index in shown.get(rows).unwrap_or_default() {
+            row(ui, state, draft, *index);
+        }
+    });
+}
+
+fn row(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, index: usize) {
+    let Some(edit) = draft.planet.edits.get(index) else { return };
+    let (name, mut enabled, label) = (edit.name.clone(), edit.enabled, tool_label(edit));
+    let details = format!("{label} · {}", length_text(edit.radius_km * 1000.0));
+    ui.horizontal(|ui| {
+        let check = ui.add(egui::Checkbox::without_text(&mut enabled)).on_hover_text("Whether it changes the ground");
+        if check.accessible_name(format!("Enabled of {name}")).changed()
+            && let Some(edit) = draft.planet.edits.get_mut(index)
+        {
+            edit.enabled = enabled;
+            draft.name_edit(format!("{} {name}", if enabled { "Show" } else { "Hide" }));
+        }
+        let text = egui::RichText::new(&name);
+        let text = if enabled { text } else { text.weak() };
+        let atoms =
+            (egui::Atom::from(text).atom_shrink(true), egui::Atom::grow(), egui::RichText::new(details).weak().small());
+        let button = egui::Button::selectable(state.selected == Some(index), atoms).truncate();
+        let response = ui.add(button.min_size(egui::vec2(ui.available_width(), ROW)));
+        let response = response.on_hover_text("Click to select; double-click to fly there");
+        if response.clicked() {
+            state.selected = Some(index);
+        }
+        if response.double_clicked() {
+            go_to(draft, index);
+        }
+        response.accessible_name(format!("Edit {name}"));
+    });
+}
+
+/// What can be done with the selected edit.
+fn buttons(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, chosen: Option<usize>) {
+    let count = draft.planet.edits.len();
+    let name = chosen.and_then(|index| draft.planet.edits.get(index)).map(|edit| edit.name.clone()).unwrap_or_default();
+    ui.add_enabled_ui(chosen.is_some(), |ui| {
+        if icon_button(ui, Icon::Remove, "Remove edit", "Remove the selected edit").clicked()
+            && let Some(index) = chosen
+        {
+            draft.planet.edits.remove(index);
+            state.selected = (count > 1).then(|| index.min(count - 2));
+            draft.name_edit(format!("Remove {name}"));
+        }
+    });
+    for (icon, verb, down) in [(Icon::Down, "Move edit down", true), (Icon::Up, "Move edit up", false)] {
+        let to =
+            chosen.and_then(|index| if down { Some(index + 1).filter(|to| *to < count) } else { index.checked_sub(1) });
+        ui.add_enabled_ui(to.is_some(), |ui| {
+            if icon_button(ui, icon, verb, "Edits act from first to last").clicked()
+                && let (Some(from), Some(to)) = (chosen, to)
+            {
+                draft.planet.edits.shift(from, to);
+                state.select(to);
+                draft.name_edit(format!("Move {name}"));
+            }
+        });
+    }
+    ui.add_enabled_ui(chosen.is_some() && count < MAX_EDITS, |ui| {
+        if icon_button(ui, Icon::Duplicate, "Duplicate edit", "Add a copy behind the selected edit").clicked()
+            && let Some(index) = chosen
+            && let Some(copy) = draft.planet.edits.get(index).cloned()
+        {
+            draft.planet.edits.insert(index + 1, copy);
+            state.select(index + 1);
+            draft.name_edit(format!("Duplicate {name}"));
+        }
+    });
+    ui.add_enabled_ui(chosen.is_some(), |ui| {
+        if ui.button("Go to").on_hover_text("Fly to the selected edit").accessible_name("Go to edit").clicked()
+            && let Some(index) = chosen
+        {
+            go_to(draft, index);
+        }
+    });
+}
+
+/// Flies to an edit, as high as it is wide.
+fn go_to(draft: &mut Draft<'_>, index: usize) {
+    let Some(edit) = draft.planet.edits.get(index) else { return };
+    let middle: glam::DVec3 = edit.points.0.iter().map(|point| point.direction()).sum();
+    let middle = middle.try_normalize().unwrap_or(glam::DVec3::Z);
+    let spread_rad = edit.points.0.iter().map(|point| point.direction().angle_between(middle)).fold(0.0, f64::max);
+    let size_m = spread_rad * draft.planet.radius_m() + edit.radius_km * 1000.0;
+    let (lat_deg, lon_deg) = LatLon::from_direction(middle).to_degrees();
+    draft.commands.push(Action::GoToPlace(Place { lat_deg, lon_deg, altitude_m: Some(3.0 * size_m) }));
+}
+
+/// The parameters of the selected edit.
+fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
+    let Some(index) = state.selected else { return };
+    let Some(before) = draft.planet.edits.get(index) else { return };
+    let (mut edit, name) = (before.clone(), before.name.clone());
+    if !draft.shown.filter.is_active() {
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            let label = ui.label("Name");
+            let field = egui::TextEdit::singleline(&mut edit.name).char_limit(48).desired_width(ui.available_width());
+            ui.add(field).labelled_by(label.id).accessible_name("Name of edit");
+        });
+    }
+    let renamed = edit.name != name;
+    let tool = Tool::of_kind(edit.tool.index()).unwrap_or_default();
+    let mut default = GroundEdit { tool, ..GroundEdit::default() };
+    let grid = Grid { base: edit_path(index), owner: &name, skip: &OWN_ROWS, shown: draft.shown, biomes: &[] };
+    params_grid(ui, &grid, &mut edit, &mut default);
+    if let Some(now) = draft.planet.edits.get_mut(index).filter(|now| **now != edit) {
+        *now = edit;
+        draft.name_edit(if renamed { "Rename edit".to_owned() } else { format!("Change {name}") });
+    }
+}
+
+fn tool_label(edit: &GroundEdit) -> &'static str {
+    Tool::LABELS.get(edit.tool.index()).copied().unwrap_or_default()
+}

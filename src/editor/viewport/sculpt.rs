@@ -1,0 +1,318 @@
+//! Sculpting on the planet: strokes, stamps, lines by clicks, and points that are moved.
+//!
+//! A gesture changes the newest edit of the planet in every frame, so that its picture follows the hand; the frames of
+//! a gesture are one undo step. Rays are cast at the ground as it was when the gesture began: a brush that raises the
+//! ground would else climb its own hill.
+
+use super::pointer::in_view;
+use super::ring;
+use crate::editor::widgets::random_seed;
+use crate::lod::{Camera, View};
+use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDIT_POINTS, MAX_EDITS, Raise};
+use crate::planet::param::Choice;
+use crate::planet::{Planet, Tool};
+use crate::tiles::Surface;
+use eframe::egui;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Distance between the points of a stroke, in radii.
+const SPACING: f64 = 0.3;
+/// Distance within which the pointer takes hold of a point, in points of the window.
+const HOLD: f32 = 9.0;
+/// Name of the undo step of a point that is moved.
+const MOVE_STEP: &str = "Move point of edit";
+/// Name of the undo step of a point that is added to a line.
+const POINT_STEP: &str = "Add point to edit";
+
+/// What the sculpt tab has in hand.
+#[derive(Clone, Debug, Default)]
+pub struct SculptLink {
+    /// The edit that a drag or a click makes; None: drags move the camera.
+    pub brush: Option<Arc<GroundEdit>>,
+    /// Index of the edit whose points are shown and can be moved.
+    pub selected: Option<usize>,
+}
+
+/// What is under way.
+#[derive(Default)]
+enum Gesture {
+    #[default]
+    None,
+    /// A stroke or a line; the points before `fixed` stay, the last follows the pointer.
+    Stroke { index: usize, fixed: usize, on: Arc<Surface> },
+    /// A stamp, whose radius follows the pointer.
+    Stamp { index: usize, middle: DVec3, on: Arc<Surface> },
+    /// A point of an edit.
+    Point { edit: usize, point: usize, on: Arc<Surface> },
+}
+
+/// What is on screen.
+pub(super) struct Scene<'a> {
+    pub(super) surface: &'a Arc<Surface>,
+    pub(super) camera: Camera,
+    pub(super) rect: egui::Rect,
+}
+
+impl Scene<'_> {
+    /// The ground or the sea under a point of the window.
+    fn ground(&self, on: &Surface, pos: egui::Pos2) -> Option<DVec3> {
+        let (x, y) = in_view(self.rect, pos);
+        let ray = self.camera.ray_dir_planet(x, y, f64::from(self.rect.width() / self.rect.height()));
+        let away_m = on.terrain.raycast(self.camera.position_planet_m, ray)?;
+        Some((self.camera.position_planet_m + ray * away_m).normalize())
+    }
+}
+
+/// What the hand did in a frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Held {
+    /// Whether the first button of the pointer is the hand's.
+    pub(super) taken: bool,
+    /// The name of the edit, if the planet was changed.
+    pub(super) edit: Option<&'static str>,
+}
+
+/// The hand of the sculptor.
+#[derive(Default)]
+pub(super) struct Hand {
+    gesture: Gesture,
+    /// The edit that grows by a point with each click.
+    line: Option<usize>,
+    /// Where the ring of the brush is.
+    ring: Option<DVec3>,
+    /// The edit that was made or changed last, once.
+    touched: Option<usize>,
+}
+
+impl Hand {
+    /// The edit that was made or changed since the last call.
+    pub(super) fn take_touched(&mut self) -> Option<usize> {
+        self.touched.take()
+    }
+
+    /// Takes drags and clicks of this frame.
+    pub(super) fn handle(
+        &mut self,
+        ui: &egui::Ui,
+        response: &egui::Response,
+        link: &SculptLink,
+        scene: &Scene<'_>,
+        planet: &mut Planet,
+    ) -> Held {
+        let (modifiers, origin) = ui.input(|i| (i.modifiers, i.pointer.press_origin()));
+        // With Alt, drags move the camera as without a brush.
+        let brush = link.brush.as_deref().filter(|_| !modifiers.alt);
+        self.follow_line(ui, link, planet);
+        let pos = response.interact_pointer_pos().or(response.hover_pos());
+        self.ring = pos.filter(|_| brush.is_some()).and_then(|pos| scene.ground(self.ground_on(scene), pos));
+        let over_point = pos.and_then(|pos| point_under(link, scene, planet, pos));
+        if response.hovered() && (brush.is_some() || over_point.is_some()) {
+            let icon = if over_point.is_some() { egui::CursorIcon::Grab } else { egui::CursorIcon::Crosshair };
+            ui.ctx().set_cursor_icon(icon);
+        }
+        let mut edit = None;
+        if response.drag_started_by(egui::PointerButton::Primary)
+            && let Some(origin) = origin
+        {
+            edit = match (point_under(link, scene, planet, origin), brush) {
+                (Some((edit, point)), _) => {
+                    self.gesture = Gesture::Point { edit, point, on: scene.surface.clone() };
+                    None
+                }
+                (None, Some(brush)) => self.begin(brush, modifiers.shift, scene, origin, planet),
+                (None, None) => None,
+            };
+        }
+        if response.dragged_by(egui::PointerButton::Primary)
+            && let Some(pos) = response.interact_pointer_pos()
+        {
+            edit = self.drag(scene, pos, planet).or(edit);
+        }
+        if response.drag_stopped() {
+            self.gesture = Gesture::None;
+        }
+        if response.double_clicked() {
+            self.line = None;
+        } else if response.clicked()
+            && let (Some(brush), Some(pos)) = (brush, response.interact_pointer_pos())
+        {
+            edit = self.click(brush, modifiers.shift, scene, pos, planet);
+        }
+        let taken = brush.is_some() || over_point.is_some() || !matches!(self.gesture, Gesture::None);
+        Held { taken, edit }
+    }
+
+    /// The ground that rays are cast at.
+    fn ground_on<'a>(&'a self, scene: &Scene<'a>) -> &'a Surface {
+        match &self.gesture {
+            Gesture::Stroke { on, .. } | Gesture::Stamp { on, .. } | Gesture::Point { on, .. } => on,
+            Gesture::None => scene.surface,
+        }
+    }
+
+    /// Enter and Escape end a line; so do another tool and an undo.
+    fn follow_line(&mut self, ui: &egui::Ui, link: &SculptLink, planet: &Planet) {
+        let ends = ui.input(|i| i.key_pressed(egui::Key::Enter) || i.key_pressed(egui::Key::Escape));
+        let fits = |index: &usize| {
+            let tools = (planet.edits.get(*index), link.brush.as_ref());
+            matches!(tools, (Some(edit), Some(brush)) if edit.tool.index() == brush.tool.index())
+        };
+        self.line = self.line.filter(fits).filter(|_| !ends);
+    }
+
+    /// Begins a stroke or a stamp.
+    fn begin(
+        &mut self,
+        brush: &GroundEdit,
+        inverse: bool,
+        scene: &Scene<'_>,
+        origin: egui::Pos2,
+        planet: &mut Planet,
+    ) -> Option<&'static str> {
+        let middle = scene.ground(scene.surface, origin)?;
+        let index = self.place(brush, inverse, point_at(scene.surface, brush, middle), planet)?;
+        let on = scene.surface.clone();
+        self.gesture = match brush.tool.is_stamp() {
+            true => Gesture::Stamp { index, middle, on },
+            false => Gesture::Stroke { index, fixed: 1, on },
+        };
+        self.line = None;
+        label(brush)
+    }
+
+    /// Adds an edit with one point. Gives its index.
+    fn place(&mut self, brush: &GroundEdit, inverse: bool, point: EditPoint, planet: &mut Planet) -> Option<usize> {
+        let index = planet.edits.len();
+        if index >= MAX_EDITS {
+            return None;
+        }
+        let mut edit = GroundEdit { seed: random_seed() as u32, ..brush.clone() };
+        edit.name = format!("{} {}", label(brush).unwrap_or("Edit"), index + 1);
+        edit.points.0 = vec![point];
+        if let Tool::Raise(Raise { amount_m }) = &mut edit.tool
+            && inverse
+        {
+            *amount_m = -*amount_m;
+        }
+        planet.edits.push(edit);
+        self.touched = Some(index);
+        Some(index)
+    }
+
+    /// Follows the pointer.
+    fn drag(&mut self, scene: &Scene<'_>, pos: egui::Pos2, planet: &mut Planet) -> Option<&'static str> {
+        let to = scene.ground(self.ground_on(scene), pos)?;
+        let radius_m = planet.radius_m();
+        match &mut self.gesture {
+            Gesture::None => None,
+            Gesture::Stroke { index, fixed, on } => {
+                let edit = planet.edits.get_mut(*index)?;
+                let last = edit.points.0.get(fixed.checked_sub(1)?)?.direction();
+                edit.points.0.truncate(*fixed);
+                let point = point_at(on, edit, to);
+                let away_m = to.distance(last) * radius_m;
+                if point != *edit.points.0.last()? && *fixed < MAX_EDIT_POINTS {
+                    edit.points.0.push(point);
+                    *fixed += usize::from(away_m >= SPACING * edit.radius_km * 1000.0);
+                }
+                label(edit)
+            }
+            Gesture::Stamp { index, middle, .. } => {
+                let edit = planet.edits.get_mut(*index)?;
+                let radius_km = 2.0 * (0.5 * to.distance(*middle)).min(1.0).asin() * radius_m / 1000.0;
+                edit.radius_km = tidy_km(radius_km);
+                label(edit)
+            }
+            Gesture::Point { edit, point, on } => {
+                self.touched = Some(*edit);
+                let edit = planet.edits.get_mut(*edit)?;
+                let moved = point_at(on, edit, to);
+                *edit.points.0.get_mut(*point)? = moved;
+                Some(MOVE_STEP)
+            }
+        }
+    }
+
+    /// A dab, a stamp, or the next point of a line.
+    fn click(
+        &mut self,
+        brush: &GroundEdit,
+        inverse: bool,
+        scene: &Scene<'_>,
+        pos: egui::Pos2,
+        planet: &mut Planet,
+    ) -> Option<&'static str> {
+        let point = point_at(scene.surface, brush, scene.ground(scene.surface, pos)?);
+        if let Some(index) = self.line {
+            let edit = planet.edits.get_mut(index)?;
+            if edit.points.0.len() < MAX_EDIT_POINTS {
+                edit.points.0.push(point);
+            }
+            self.touched = Some(index);
+            return Some(POINT_STEP);
+        }
+        let index = self.place(brush, inverse, point, planet)?;
+        if matches!(brush.tool, Tool::Ridge(_) | Tool::Canyon(_) | Tool::Road(_)) {
+            self.line = Some(index);
+        }
+        label(brush)
+    }
+
+    /// Draws the ring of the brush, and the points of the selected edit.
+    pub(super) fn paint(
+        &self,
+        painter: &egui::Painter,
+        link: &SculptLink,
+        scene: &Scene<'_>,
+        view: &View,
+        planet: &Planet,
+    ) {
+        let ground = ring::Ground { terrain: &scene.surface.terrain, view, rect: scene.rect };
+        if let Some(edit) = link.selected.and_then(|index| planet.edits.get(index)) {
+            ring::paint_edit(painter, &ground, edit);
+        }
+        if let (Some(middle), Some(brush)) = (self.ring, &link.brush) {
+            let held = match &self.gesture {
+                Gesture::Stamp { index, middle, .. } => {
+                    planet.edits.get(*index).map(|edit| (*middle, edit.radius_km, edit.softness))
+                }
+                _ => None,
+            };
+            let (middle, radius_km, softness) = held.unwrap_or((middle, brush.radius_km, brush.softness));
+            ring::paint_brush(painter, &ground, middle, radius_km * 1000.0, softness);
+        }
+    }
+}
+
+/// The name of the undo step of an edit with this tool.
+fn label(edit: &GroundEdit) -> Option<&'static str> {
+    Tool::LABELS.get(edit.tool.index()).copied()
+}
+
+/// The point of an edit at a direction. A road begins at the height of the ground.
+fn point_at(on: &Surface, edit: &GroundEdit, dir: DVec3) -> EditPoint {
+    let point = EditPoint::under(dir);
+    let is_road = matches!(edit.tool, Tool::Road(_));
+    let height_m = if is_road { (on.terrain.height_m(dir) * 10.0).round() / 10.0 } else { 0.0 };
+    EditPoint { height_m, ..point }
+}
+
+/// A radius of three digits, within the limits of an edit.
+pub fn tidy_km(radius_km: f64) -> f64 {
+    let radius_km = radius_km.clamp(0.001, 5000.0);
+    let unit = 10_f64.powf(radius_km.log10().floor() - 2.0);
+    ((radius_km / unit).round() * unit * 1e6).round() / 1e6
+}
+
+/// The edit and the point of it that the pointer can take hold of.
+fn point_under(link: &SculptLink, scene: &Scene<'_>, planet: &Planet, pos: egui::Pos2) -> Option<(usize, usize)> {
+    let index = link.selected?;
+    let edit = planet.edits.get(index)?;
+    let view = View { camera: scene.camera, ..scene.surface.view };
+    let ground = ring::Ground { terrain: &scene.surface.terrain, view: &view, rect: scene.rect };
+    let at = |point: &EditPoint| ground.on_screen(point.direction()).map(|place| place.distance(pos));
+    let near = edit.points.0.iter().enumerate().filter_map(|(number, point)| Some((number, at(point)?)));
+    let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, away)| *away <= HOLD)?;
+    Some((index, nearest.0))
+}

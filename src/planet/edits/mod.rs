@@ -1,0 +1,68 @@
+//! Ground edits: changes of the ground at a place, made by hand. `terrain::edits` evaluates them.
+//!
+//! - [`GroundEdit`]: one edit: a tool, where it acts, how wide and how soft
+//! - `tools`: the tools and their parameters
+//! - `points`: the points of an edit on the globe
+//! - `list`: the list of edits, cheap to copy
+//!
+//! Strokes, stamps and splines have one form: a tool along points. A stamp acts around each point alone.
+
+mod list;
+mod points;
+mod tools;
+
+pub use list::GroundEdits;
+pub(crate) use list::Shared;
+pub use points::{EditPoint, EditPoints};
+pub use tools::{Canyon, Crater, Flatten, Island, Mesa, Raise, Ridge, Road, Roughen, Terrace, Tool, Volcano};
+
+use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, linear, log, params};
+
+/// Most edits a planet may have.
+pub const MAX_EDITS: usize = 20_000;
+/// Most points of one edit.
+pub const MAX_EDIT_POINTS: usize = 1000;
+
+params! {
+    /// A change of the ground at a place: a stroke, a stamp or a spline. Edits act in order, after all layers and the
+    /// height curve and before biome relief.
+    pub struct GroundEdit {
+        /// Name of the edit.
+        name: String = "Edit".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
+        /// Whether the edit changes the ground.
+        enabled: bool = true, "Enabled", Unit::None, Domain::Flag, Stage::Height;
+        /// Which ground it changes: all, or only land or sea floor. At the sea level it begins gently.
+        limit: Limit = Limit::Everywhere, "Acts on", Unit::None, Domain::Choice, Stage::Height;
+        /// Distance from its line, or from the middle of a stamp, to where it ends; for a crater, to the rim.
+        radius_km: f64 = 50.0, "Radius", Unit::Kilometres, log(0.001, 5000.0), Stage::Height;
+        /// Share of the radius over which it fades: 0 is a cliff, 1 fades from the middle on.
+        softness: f64 = 0.8, "Softness", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// How ragged its outline is: 0 is smooth.
+        raggedness: f64 = 0.0, "Raggedness", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// Seed of its outline and roughness.
+        seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Height;
+    } with {
+        /// Tool: what it does to the ground.
+        tool: Tool = Tool::default();
+        /// Points that it goes through or stands at: (latitude, longitude), or (latitude, longitude, height in metres)
+        /// for a road.
+        points: EditPoints = EditPoints::default();
+    }
+}
+
+choice! {
+    /// The ground that an edit changes.
+    pub enum Limit {
+        /// All ground.
+        Everywhere = "All ground",
+        /// Ground above the sea.
+        AboveSea = "Land only",
+        /// Ground below the sea.
+        BelowSea = "Sea floor only",
+    }
+}
+
+/// The path of an edit.
+pub fn edit_path(index: usize) -> ParamPath {
+    ParamPath::from(vec![Segment::Field("edits"), Segment::Index(index)])
+}

@@ -1,0 +1,153 @@
+//! The tools of ground edits and their parameters. Formulas are in `terrain::edits::tool`: `t` is the distance from the
+//! line or the middle in radii, `w` falls from 1 to 0 over the softness.
+
+use crate::planet::kinds::kinds;
+use crate::planet::param::{Stage, Unit, linear, log, params};
+
+kinds! {
+    /// What an edit does to the ground.
+    pub enum Tool: "tool", "Tool", Stage::Height;
+    /// Raises the ground, or lowers it.
+    Raise(Raise) = "Raise or lower",
+    /// Brings the ground to one height.
+    Flatten(Flatten) = "Flatten",
+    /// Adds hills and hollows.
+    Roughen(Roughen) = "Roughen",
+    /// Cuts level steps.
+    Terrace(Terrace) = "Terrace",
+    /// A bowl with a rim and ejecta around it; with a wide floor, an impact basin.
+    Crater(Crater) = "Crater",
+    /// A cone or a shield with a caldera.
+    Volcano(Volcano) = "Volcano",
+    /// A table mountain with cliffs over talus.
+    Mesa(Mesa) = "Mesa",
+    /// Land that rises out of the sea.
+    Island(Island) = "Island",
+    /// A crest along a line.
+    Ridge(Ridge) = "Ridge",
+    /// A valley with steep walls along a line.
+    Canyon(Canyon) = "Canyon",
+    /// A bed along a line, at the heights of its points.
+    Road(Road) = "Road",
+}
+
+impl Tool {
+    /// Whether the tool acts around each of its points alone, and not along the line through them.
+    pub fn is_stamp(&self) -> bool {
+        matches!(self, Tool::Crater(_) | Tool::Volcano(_) | Tool::Mesa(_) | Tool::Island(_))
+    }
+}
+
+params! {
+    /// `h + amount_m * w`
+    pub struct Raise {
+        /// Height by which the ground is raised; negative lowers it.
+        amount_m: f64 = 500.0, "Amount", Unit::Metres, linear(-20_000.0, 20_000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + (height_m - h) * strength * w`
+    pub struct Flatten {
+        /// Height to which the ground is brought, above the reference sphere.
+        height_m: f64 = 0.0, "Height", Unit::Metres, linear(-20_000.0, 20_000.0), Stage::Height;
+        /// Share of the way to that height.
+        strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + amplitude_m * noise * w`
+    pub struct Roughen {
+        /// Height of the hills.
+        amplitude_m: f64 = 200.0, "Amplitude", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+        /// Size of the largest hills.
+        wavelength_km: f64 = 10.0, "Wavelength", Unit::Kilometres, log(0.001, 1000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + (steps(h) - h) * strength * w`
+    pub struct Terrace {
+        /// Height of a step.
+        step_m: f64 = 200.0, "Step", Unit::Metres, log(0.1, 5000.0), Stage::Height;
+        /// How steep the risers are: 0 is a gentle wave, 1 a cliff.
+        sharpness: f64 = 0.7, "Sharpness", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// Share of the way to the steps.
+        strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// In the middle `h - depth_m + peak_m`, at the rim `h + rim_m`; ejecta end two radii out.
+    pub struct Crater {
+        /// Depth of the floor below the ground around it.
+        depth_m: f64 = 1500.0, "Depth", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+        /// Height of the rim.
+        rim_m: f64 = 400.0, "Rim", Unit::Metres, log(0.0, 10_000.0), Stage::Height;
+        /// Share of the radius that is level floor: small craters are bowls, basins have wide floors.
+        floor: f64 = 0.3, "Floor", Unit::None, linear(0.0, 0.9), Stage::Height;
+        /// Height of the peak in the middle above the floor.
+        peak_m: f64 = 0.0, "Central peak", Unit::Metres, log(0.0, 10_000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// With `f` the profile of the cone, in the middle `h + height_m * f(caldera) - caldera_m`.
+    pub struct Volcano {
+        /// Height of the cone without its caldera.
+        height_m: f64 = 3000.0, "Height", Unit::Metres, log(0.0, 30_000.0), Stage::Height;
+        /// Shape of the flanks: 0 is a shield, 1 a cone that steepens to the top.
+        steepness: f64 = 0.7, "Steepness", Unit::None, linear(0.0, 1.0), Stage::Height;
+        /// Radius of the caldera as a share of the radius.
+        caldera: f64 = 0.12, "Caldera", Unit::None, linear(0.0, 0.6), Stage::Height;
+        /// Depth of the caldera below its edge.
+        caldera_m: f64 = 400.0, "Caldera depth", Unit::Metres, log(0.0, 10_000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + height_m` on the top; cliffs and talus over the softness.
+    pub struct Mesa {
+        /// Height of the top above the ground below it.
+        height_m: f64 = 600.0, "Height", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+        /// Share of the height that is talus below the cliffs.
+        talus: f64 = 0.4, "Talus", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// In the middle the height above the sea, or the ground as it was where that is higher.
+    pub struct Island {
+        /// Height of the middle above the sea.
+        height_m: f64 = 800.0, "Height", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+        /// Depth of its foot below the sea.
+        foot_m: f64 = 800.0, "Foot", Unit::Metres, log(1.0, 10_000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + height_m` on the crest.
+    pub struct Ridge {
+        /// Height of the crest.
+        height_m: f64 = 1500.0, "Height", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h - depth_m` on the floor.
+    pub struct Canyon {
+        /// Depth of the floor.
+        depth_m: f64 = 1200.0, "Depth", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+        /// Share of the radius that is level floor.
+        floor: f64 = 0.2, "Floor", Unit::None, linear(0.0, 0.9), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + (height along the line - h) * strength * w`; across the bed, heights of near parts of the line are averaged.
+    pub struct Road {
+        /// Share of the way to the heights of the line.
+        strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}

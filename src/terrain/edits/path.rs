@@ -1,0 +1,129 @@
+//! The line through the points of an edit: a smooth curve (cubic Hermite with the tangents of Catmull and Rom 1974),
+//! cut into arcs of great circles. Distances are to the nearest arc.
+
+use crate::planet::EditPoint;
+use glam::DVec3;
+
+/// Most arcs from one point to the next.
+const MOST_ARCS: f64 = 16.0;
+/// How far an arc may lie from the curve, as a share of the radius of the edit.
+const TOLERANCE: f64 = 0.01;
+
+/// An arc of a great circle from `a` to `b`, or a single place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arc {
+    pub(super) a: DVec3,
+    pub(super) b: DVec3,
+    /// The normal of its plane; zero for a single place.
+    normal: DVec3,
+    /// The directions of the arc at its ends.
+    tangents: [DVec3; 2],
+    /// Heights of a road at its ends.
+    pub(super) heights_m: [f64; 2],
+}
+
+/// The place of an arc that is nearest to a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    pub(super) dir: DVec3,
+    /// From 0 at the beginning of the arc to 1 at its end.
+    pub(super) along: f64,
+    /// Whether it lies between the ends.
+    pub(super) inside: bool,
+}
+
+impl Arc {
+    fn new(a: DVec3, b: DVec3, heights_m: [f64; 2]) -> Self {
+        // The difference is exact to rounding, so that the normal of a short arc is, too.
+        let normal = a.cross(b - a);
+        let length = normal.length();
+        let normal = if length > 0.0 { normal / length } else { DVec3::ZERO };
+        Self { a, b, normal, tangents: [normal.cross(a), normal.cross(b)], heights_m }
+    }
+
+    /// Squared chord to the nearest place, and whether that lies between the ends.
+    #[inline]
+    pub(super) fn chord2(&self, dir: DVec3) -> (f64, bool) {
+        let from_a = dir - self.a;
+        if from_a.dot(self.tangents[0]) > 0.0 && (dir - self.b).dot(self.tangents[1]) < 0.0 {
+            // The sine of the angle to the plane, and its chord without cancellation.
+            let off = from_a.dot(self.normal);
+            let off2 = off * off;
+            return (2.0 * off2 / (1.0 + (1.0 - off2).max(0.0).sqrt()), true);
+        }
+        (from_a.length_squared().min(dir.distance_squared(self.b)), false)
+    }
+
+    /// The nearest place to a unit direction.
+    pub(super) fn foot(&self, dir: DVec3) -> Foot {
+        let (_, inside) = self.chord2(dir);
+        if inside {
+            let foot = (dir - self.normal * (dir - self.a).dot(self.normal)).normalize();
+            let along = ((foot - self.a).length() / (self.b - self.a).length()).min(1.0);
+            return Foot { dir: foot, along, inside };
+        }
+        let is_a = (dir - self.a).length_squared() <= dir.distance_squared(self.b);
+        let (foot, along) = if is_a { (self.a, 0.0) } else { (self.b, 1.0) };
+        Foot { dir: foot, along, inside }
+    }
+
+    /// The direction along the arc at its foot.
+    pub(super) fn tangent(&self, foot: DVec3) -> DVec3 {
+        self.normal.cross(foot)
+    }
+
+    /// Its length as an angle.
+    pub(super) fn length_rad(&self) -> f64 {
+        angle_of((self.b - self.a).length_squared())
+    }
+}
+
+/// The angle of a chord by its squared length.
+pub(super) fn angle_of(chord2: f64) -> f64 {
+    2.0 * libm::asin((0.5 * chord2.sqrt()).min(1.0))
+}
+
+/// The places of a stamp.
+pub(super) fn places(points: &[EditPoint]) -> Vec<Arc> {
+    points.iter().map(|point| (point.direction(), point.height_m)).map(|(at, h)| Arc::new(at, at, [h, h])).collect()
+}
+
+/// The arcs of the curve through points, for an edit of this radius.
+pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
+    let mut places: Vec<(DVec3, f64)> = points.iter().map(|point| (point.direction(), point.height_m)).collect();
+    places.dedup_by(|a, b| a.0 == b.0);
+    if let [(at, height_m)] = places[..] {
+        return vec![Arc::new(at, at, [height_m; 2])];
+    }
+    let length = |i: usize| places[i].0.distance(places[i + 1].0);
+    // The direction of the curve at a point, per length of chord.
+    let tangent = |i: usize| {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(places.len() - 1));
+        let span: f64 = (before..after).map(length).sum();
+        (places[after].0 - places[before].0) / span
+    };
+    let mut arcs = Vec::new();
+    for i in 0..places.len().saturating_sub(1) {
+        let ((p, from_m), (q, to_m)) = (places[i], places[i + 1]);
+        let (from, to) = (tangent(i) * length(i), tangent(i + 1) * length(i));
+        let at = |u: f64| {
+            let (u2, u3) = (u * u, u * u * u);
+            let curve = p * (2.0 * u3 - 3.0 * u2 + 1.0)
+                + from * (u3 - 2.0 * u2 + u)
+                + q * (3.0 * u2 - 2.0 * u3)
+                + to * (u3 - u2);
+            curve.normalize()
+        };
+        let bend = at(0.5).distance((p + q).normalize());
+        let count = (bend / (TOLERANCE * radius_rad)).sqrt().ceil().clamp(1.0, MOST_ARCS) as u32;
+        let mut last = p;
+        for k in 1..=count {
+            let share = |k: u32| f64::from(k) / f64::from(count);
+            let next = if k == count { q } else { at(share(k)) };
+            let height_m = |u: f64| from_m + (to_m - from_m) * u;
+            arcs.push(Arc::new(last, next, [height_m(share(k - 1)), height_m(share(k))]));
+            last = next;
+        }
+    }
+    arcs
+}

@@ -1,0 +1,238 @@
+//! What each tool does to a height. `t` is the distance from the line or the middle in radii; formulas give 0 at the
+//! reach of the tool and beyond.
+
+use super::index::Hash;
+use super::outline;
+use crate::planet::edits::{Canyon, Crater, Flatten, Island, Mesa, Raise, Ridge, Road, Roughen, Terrace, Volcano};
+use crate::planet::{GroundEdit, Tool};
+
+/// Radii to which the ejecta of a crater reach.
+const EJECTA: f64 = 2.0;
+/// Share of a mesa's flank that is cliff.
+const CLIFF: f64 = 0.25;
+/// Radius of a central peak, in radii of the crater.
+const PEAK: f64 = 0.3;
+/// Where the shore of an island begins to blend into the sea floor.
+const SHORE: f64 = 0.75;
+/// Share of an island's height over which its foot blends into the sea floor.
+const FOOT: f64 = 0.05;
+
+/// A point under an edit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct At {
+    pub(super) ground_m: f64,
+    pub(super) t: f64,
+    /// Share of the radius without fade.
+    pub(super) core: f64,
+    /// Noise of rough ground.
+    pub(super) noise: f64,
+    /// Height of the line of a road.
+    pub(super) line_m: f64,
+}
+
+/// The change of a height, with its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Change {
+    pub(super) change_m: f64,
+    pub(super) by_ground: f64,
+    pub(super) by_t: f64,
+    pub(super) by_noise: f64,
+    pub(super) by_line: f64,
+}
+
+/// A tool, compiled.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum CompiledTool {
+    Raise { amount_m: f64 },
+    Flatten { height_m: f64, strength: f64 },
+    Roughen { amplitude_m: f64 },
+    Terrace { step_m: f64, riser: f64, strength: f64 },
+    Crater { depth_m: f64, rim_m: f64, floor: f64, peak_m: f64 },
+    Volcano { height_m: f64, steepness: f64, caldera: f64, caldera_m: f64 },
+    Mesa { height_m: f64, talus: f64 },
+    Island { top_m: f64, foot_m: f64 },
+    Ridge { height_m: f64, softness: f64 },
+    Canyon { depth_m: f64, floor: f64, softness: f64 },
+    Road { strength: f64 },
+}
+
+/// A rise from 0 to 1 with two smooth derivatives (Perlin 2002), and its derivative.
+pub(super) fn rise(u: f64) -> (f64, f64) {
+    let u = u.clamp(0.0, 1.0);
+    (u * u * u * (u * (u * 6.0 - 15.0) + 10.0), 30.0 * u * u * (u - 1.0) * (u - 1.0))
+}
+
+/// From 1 within the core to 0 at the radius, and its derivative by `t`.
+pub(super) fn falloff(t: f64, core: f64) -> (f64, f64) {
+    let width = 1.0 - core;
+    let (risen, by_u) = rise((t - core) / width);
+    (1.0 - risen, -by_u / width)
+}
+
+/// A mix of a dome and a cone, 1 at 0 and 0 at 1, and its derivative.
+fn cone(t: f64, steepness: f64) -> (f64, f64) {
+    let (dome, dome_by_t) = dome(t);
+    let left = (1.0 - t).max(0.0);
+    (dome + (left * left - dome) * steepness, dome_by_t + (-2.0 * left - dome_by_t) * steepness)
+}
+
+fn dome(t: f64) -> (f64, f64) {
+    let left = (1.0 - t * t).max(0.0);
+    (left * left, -4.0 * t * left)
+}
+
+impl CompiledTool {
+    pub(super) fn new(edit: &GroundEdit, sea_m: f64) -> Self {
+        match edit.tool {
+            Tool::Raise(Raise { amount_m }) => Self::Raise { amount_m },
+            Tool::Flatten(Flatten { height_m, strength }) => Self::Flatten { height_m, strength },
+            Tool::Roughen(Roughen { amplitude_m, .. }) => Self::Roughen { amplitude_m },
+            Tool::Terrace(Terrace { step_m, sharpness, strength }) => {
+                Self::Terrace { step_m, riser: 1.0 - 0.9 * sharpness, strength }
+            }
+            Tool::Crater(Crater { depth_m, rim_m, floor, peak_m }) => Self::Crater { depth_m, rim_m, floor, peak_m },
+            Tool::Volcano(Volcano { height_m, steepness, caldera, caldera_m }) => {
+                Self::Volcano { height_m, steepness, caldera, caldera_m }
+            }
+            Tool::Mesa(Mesa { height_m, talus }) => Self::Mesa { height_m, talus },
+            Tool::Island(Island { height_m, foot_m }) => {
+                Self::Island { top_m: sea_m + height_m, foot_m: sea_m - foot_m }
+            }
+            Tool::Ridge(Ridge { height_m }) => Self::Ridge { height_m, softness: edit.softness },
+            Tool::Canyon(Canyon { depth_m, floor }) => Self::Canyon { depth_m, floor, softness: edit.softness },
+            Tool::Road(Road { strength }) => Self::Road { strength },
+        }
+    }
+
+    /// Radii to which it reaches.
+    pub(super) fn reach(&self) -> f64 {
+        if let Self::Crater { .. } = self { EJECTA } else { 1.0 }
+    }
+
+    pub(super) fn hash(&self, hash: &mut Hash) {
+        let (kind, numbers) = match *self {
+            Self::Raise { amount_m } => (0, [amount_m, 0.0, 0.0, 0.0]),
+            Self::Flatten { height_m, strength } => (1, [height_m, strength, 0.0, 0.0]),
+            Self::Roughen { amplitude_m } => (2, [amplitude_m, 0.0, 0.0, 0.0]),
+            Self::Terrace { step_m, riser, strength } => (3, [step_m, riser, strength, 0.0]),
+            Self::Crater { depth_m, rim_m, floor, peak_m } => (4, [depth_m, rim_m, floor, peak_m]),
+            Self::Volcano { height_m, steepness, caldera, caldera_m } => (5, [height_m, steepness, caldera, caldera_m]),
+            Self::Mesa { height_m, talus } => (6, [height_m, talus, 0.0, 0.0]),
+            Self::Island { top_m, foot_m } => (7, [top_m, foot_m, 0.0, 0.0]),
+            Self::Ridge { height_m, softness } => (8, [height_m, softness, 0.0, 0.0]),
+            Self::Canyon { depth_m, floor, softness } => (9, [depth_m, floor, softness, 0.0]),
+            Self::Road { strength } => (10, [strength, 0.0, 0.0, 0.0]),
+        };
+        hash.add(kind);
+        numbers.into_iter().for_each(|number| hash.add_f64(number));
+    }
+
+    /// The change of the height at a point within reach.
+    pub(super) fn change(&self, at: &At) -> Change {
+        let t = at.t;
+        let (weight, weight_by_t) = falloff(t, at.core);
+        let added = |(height_m, by_t): (f64, f64)| Change { change_m: height_m, by_t, ..Change::default() };
+        // A share of the way to a height.
+        let towards = |height_m: f64, strength: f64| Change {
+            change_m: (height_m - at.ground_m) * (strength * weight),
+            by_ground: -strength * weight,
+            by_t: (height_m - at.ground_m) * strength * weight_by_t,
+            ..Change::default()
+        };
+        match *self {
+            Self::Raise { amount_m } => added((amount_m * weight, amount_m * weight_by_t)),
+            Self::Flatten { height_m, strength } => towards(height_m, strength),
+            Self::Roughen { amplitude_m } => Change {
+                change_m: amplitude_m * at.noise * weight,
+                by_t: amplitude_m * at.noise * weight_by_t,
+                by_noise: amplitude_m * weight,
+                ..Change::default()
+            },
+            Self::Terrace { step_m, riser, strength } => {
+                let place = at.ground_m / step_m;
+                let whole = place.floor();
+                let (risen, by_u) = rise((place - whole - 0.5) / riser + 0.5);
+                let change = towards((whole + risen) * step_m, strength);
+                Change { by_ground: strength * weight * (by_u / riser - 1.0), ..change }
+            }
+            Self::Crater { depth_m, rim_m, floor, peak_m } => {
+                if t >= 1.0 {
+                    let left = (EJECTA - t).max(0.0);
+                    return added((rim_m * left * left * left, -3.0 * rim_m * left * left));
+                }
+                let v = ((t - floor) / (1.0 - floor)).max(0.0);
+                let (peak, peak_by_u) = rise(t / PEAK);
+                added((
+                    (depth_m + rim_m) * v * v - depth_m + peak_m * (1.0 - peak),
+                    2.0 * (depth_m + rim_m) * v / (1.0 - floor) - peak_m * peak_by_u / PEAK,
+                ))
+            }
+            Self::Volcano { height_m, steepness, caldera, caldera_m } => {
+                if t >= caldera {
+                    let (cone, by_t) = cone(t, steepness);
+                    return added((height_m * cone, height_m * by_t));
+                }
+                let (edge, _) = cone(caldera, steepness);
+                let (dome, by_u) = dome(t / caldera);
+                added((height_m * edge - caldera_m * dome, -caldera_m * by_u / caldera))
+            }
+            Self::Mesa { height_m, talus } => {
+                let width = 1.0 - at.core;
+                let v = ((t - at.core) / width).max(0.0);
+                let ((fallen, by_u), left) = (rise(v / CLIFF), (1.0 - v).max(0.0));
+                let slope = -(1.0 - talus) * by_u / CLIFF - if v > 0.0 { 2.0 * talus * left } else { 0.0 };
+                added((height_m * ((1.0 - talus) * (1.0 - fallen) + talus * left * left), height_m * slope / width))
+            }
+            Self::Island { top_m, foot_m } => {
+                let (dome, dome_by_t) = dome(t);
+                let size_m = top_m - foot_m;
+                let over_m = foot_m + size_m * dome - at.ground_m;
+                let soft_m = FOOT * size_m;
+                // The greater of the two grounds, with a rounded corner.
+                let (rise_m, by_over) = if over_m >= soft_m {
+                    (over_m, 1.0)
+                } else if over_m > -soft_m {
+                    let sum_m = over_m + soft_m;
+                    (sum_m * sum_m / (4.0 * soft_m), sum_m / (2.0 * soft_m))
+                } else {
+                    (0.0, 0.0)
+                };
+                let (share, share_by_t) = falloff(t, SHORE);
+                Change {
+                    change_m: rise_m * share,
+                    by_ground: -by_over * share,
+                    by_t: by_over * size_m * dome_by_t * share + rise_m * share_by_t,
+                    ..Change::default()
+                }
+            }
+            Self::Ridge { height_m, softness } => {
+                let (crest, by_t) = cone(t, 1.0 - softness);
+                added((height_m * crest, height_m * by_t))
+            }
+            Self::Canyon { depth_m, floor, softness } => {
+                let v = ((t - floor) / (1.0 - floor)).max(0.0);
+                let (risen, by_u) = rise(v);
+                let wall = softness * risen + (1.0 - softness) * v * v;
+                let by_v = softness * by_u + (1.0 - softness) * 2.0 * v;
+                added((depth_m * (wall - 1.0), depth_m * by_v / (1.0 - floor)))
+            }
+            Self::Road { strength } => Change { by_line: strength * weight, ..towards(at.line_m, strength) },
+        }
+    }
+
+    /// Lowest and greatest height of ground that was between these heights. `line_m`: heights of a road.
+    pub(super) fn range_m(&self, (lo, hi): (f64, f64), line_m: (f64, f64)) -> (f64, f64) {
+        match *self {
+            Self::Raise { amount_m } => (lo + amount_m.min(0.0), hi + amount_m.max(0.0)),
+            Self::Flatten { height_m, .. } => (lo.min(height_m), hi.max(height_m)),
+            Self::Roughen { amplitude_m } => (lo - amplitude_m * outline::MOST, hi + amplitude_m * outline::MOST),
+            Self::Terrace { step_m, .. } => (lo - step_m, hi + step_m),
+            Self::Crater { depth_m, rim_m, peak_m, .. } => (lo - depth_m, hi + rim_m + peak_m),
+            Self::Volcano { height_m, caldera_m, .. } => (lo - caldera_m, hi + height_m),
+            Self::Mesa { height_m, .. } | Self::Ridge { height_m, .. } => (lo, hi + height_m),
+            Self::Island { top_m, foot_m } => (lo, hi.max(top_m) + FOOT * (top_m - foot_m)),
+            Self::Canyon { depth_m, .. } => (lo - depth_m, hi),
+            Self::Road { .. } => (lo.min(line_m.0), hi.max(line_m.1)),
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Sculpting: each tool on the planet, the list of edits, undo and redo.
+
+use super::app::{self, canvas, click, planet, undo_label, undo_len};
+use super::slide;
+use eframe::egui;
+use egui_kittest::kittest::Queryable;
+use tellus::editor::command::Command;
+use tellus::planet::edits::{Raise, Tool};
+use tellus::planet::param::Choice;
+use tellus::planet::{GroundEdits, Planet, Water};
+
+fn small() -> Planet {
+    Planet { radius_km: 1000.0, water: Some(Water { level_m: -100.0, ..Water::default() }), ..Planet::default() }
+}
+
+fn open() -> app::Editor {
+    let mut harness = app::open_planet_with_picture([1024.0, 640.0], small());
+    app::wait_for_picture(&mut harness);
+    click(&mut harness, "Sculpt");
+    harness
+}
+
+fn stroke(harness: &mut app::Editor, from: egui::Pos2, to: egui::Pos2, modifiers: egui::Modifiers) {
+    let button =
+        |pos, pressed| egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers };
+    harness.event(egui::Event::ModifiersChanged(modifiers));
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.event(button(from, true));
+    harness.run_steps(2);
+    for share in [0.25, 0.5, 0.75, 1.0] {
+        harness.event(egui::Event::PointerMoved(from + (to - from) * share));
+        harness.run_steps(2);
+    }
+    harness.event(button(to, false));
+    harness.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    harness.run_steps(3);
+}
+
+#[test]
+fn every_tool_makes_an_edit_with_a_drag_and_each_is_one_step_that_is_undone_and_redone() {
+    let mut harness = open();
+    let middle = canvas(&harness).center();
+    let eye = harness.state().viewport().eye(&planet(&harness)).1;
+    for (number, label) in Tool::LABELS.iter().enumerate() {
+        app::send(&mut harness, Command::TakeTool(number));
+        let from = middle + egui::vec2(-60.0 + 8.0 * number as f32, -50.0);
+        stroke(&mut harness, from, from + egui::vec2(40.0, 60.0), egui::Modifiers::NONE);
+        let edits = planet(&harness).edits;
+        assert_eq!((edits.len(), undo_len(&harness), undo_label(&harness).as_str()), (number + 1, number + 1, *label));
+        let edit = edits.get(number).unwrap();
+        assert_eq!(edit.tool.index(), number);
+        let count = edit.points.0.len();
+        assert!(if edit.tool.is_stamp() { count == 1 && edit.radius_km > 50.0 } else { count > 2 }, "{label} {count}");
+    }
+    assert_eq!(harness.state().viewport().eye(&planet(&harness)).1, eye, "the planet does not turn");
+    let all = planet(&harness).edits;
+    for left in (0..all.len()).rev() {
+        app::send(&mut harness, Command::Undo);
+        assert_eq!(planet(&harness).edits.len(), left);
+    }
+    for _ in 0..all.len() {
+        app::send(&mut harness, Command::Redo);
+    }
+    assert!(planet(&harness).edits == all);
+
+    // With Shift the ground is lowered, with Alt the planet turns.
+    app::send(&mut harness, Command::TakeTool(0));
+    stroke(&mut harness, middle, middle + egui::vec2(30.0, 0.0), egui::Modifiers::SHIFT);
+    let lowered = planet(&harness).edits.get(all.len()).unwrap().clone();
+    assert!(matches!(lowered.tool, Tool::Raise(Raise { amount_m }) if amount_m < 0.0), "{lowered:?}");
+    let before = undo_len(&harness);
+    stroke(&mut harness, middle, middle + egui::vec2(30.0, 0.0), egui::Modifiers::ALT);
+    assert_eq!(undo_len(&harness), before);
+    assert_ne!(harness.state().viewport().eye(&planet(&harness)).1, eye);
+}
+
+#[test]
+fn a_line_grows_click_by_click_until_enter_and_its_points_are_moved_by_hand() {
+    let mut harness = open();
+    let middle = canvas(&harness).center();
+    let tap = |harness: &mut app::Editor, at: egui::Pos2| {
+        harness.hover_at(at);
+        harness.run_steps(2);
+        harness.drag_at(at);
+        harness.run_steps(1);
+        harness.drop_at(at);
+        // Far enough apart that two clicks are no double click.
+        harness.run_steps(40);
+    };
+    click(&mut harness, "Tool Ridge");
+    for (x, y) in [(-80.0, 0.0), (0.0, -60.0), (80.0, 10.0)] {
+        tap(&mut harness, middle + egui::vec2(x, y));
+    }
+    let edits = planet(&harness).edits;
+    assert_eq!((edits.len(), edits.get(0).unwrap().points.0.len(), undo_len(&harness)), (1, 3, 3));
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+    tap(&mut harness, middle + egui::vec2(0.0, 90.0));
+    assert_eq!(planet(&harness).edits.len(), 2, "after Enter a click begins another line");
+
+    // Without a tool, points of the selected edit are moved.
+    app::send(&mut harness, Command::PutDownTool);
+    let before = planet(&harness).edits.get(1).unwrap().points.clone();
+    stroke(&mut harness, middle + egui::vec2(0.0, 90.0), middle + egui::vec2(40.0, 60.0), egui::Modifiers::NONE);
+    assert_eq!(undo_label(&harness), "Move point of edit");
+    assert_ne!(planet(&harness).edits.get(1).unwrap().points, before);
+}
+
+#[test]
+fn edits_are_listed_found_hidden_changed_moved_and_removed() {
+    let mut harness = open();
+    let middle = canvas(&harness).center();
+    for tool in ["Tool Crater", "Tool Volcano"] {
+        click(&mut harness, tool);
+        stroke(&mut harness, middle, middle + egui::vec2(60.0, 0.0), egui::Modifiers::NONE);
+    }
+    app::send(&mut harness, Command::PutDownTool);
+    assert!(harness.query_by_label("Edit Crater 1").is_some());
+    click(&mut harness, "Edit Crater 1");
+    click(&mut harness, "Enabled of Crater 1");
+    assert_eq!(undo_label(&harness), "Hide Crater 1");
+    assert!(!planet(&harness).edits.get(0).unwrap().enabled);
+    app::scroll_to(&mut harness, "Softness of Crater 1");
+    slide(&mut harness, "Softness of Crater 1", 0.5);
+    assert_eq!(undo_label(&harness), "Change Crater 1");
+    click(&mut harness, "Move edit down");
+    let names = |edits: &GroundEdits| edits.iter().map(|edit| edit.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&planet(&harness).edits), ["Volcano 2", "Crater 1"]);
+    click(&mut harness, "Duplicate edit");
+    assert_eq!(planet(&harness).edits.len(), 3);
+    click(&mut harness, "Remove edit");
+    click(&mut harness, "Remove edit");
+    assert_eq!(names(&planet(&harness).edits), ["Volcano 2"]);
+    harness.get_by_label("Find edits").click();
+    harness.run_steps(2);
+    app::type_text(&mut harness, "crat");
+    assert!(harness.query_by_label("Edit Volcano 2").is_none());
+}
+
+/// Random edits through the document: undo to the start and redo to the end give the same planets.
+#[test]
+fn two_thousand_random_changes_are_undone_and_redone_to_the_bit() {
+    use tellus::editor::state::document::Document;
+    use tellus::planet::edits::{EditPoint, GroundEdit};
+    let mut dice = super::dice::Dice(5);
+    let mut document = Document::new(small(), None);
+    let mut states = vec![document.planet().clone()];
+    for number in 0..2000 {
+        let mut planet = (**document.planet()).clone();
+        let count = planet.edits.len();
+        let at = (dice.roll() * count as f64) as usize;
+        match (dice.roll() * 5.0) as u32 {
+            0 if count > 0 => drop(planet.edits.remove(at)),
+            1 if count > 1 => planet.edits.shift(at, count - 1 - at),
+            2 if count > 0 => planet.edits.get_mut(at).unwrap().radius_km = 1.0 + dice.roll() * 100.0,
+            _ => {
+                let tool = Tool::of_kind((dice.roll() * 11.0) as usize).unwrap();
+                let mut edit = GroundEdit { tool, ..GroundEdit::default() };
+                edit.points.0 = vec![EditPoint { latitude_deg: dice.roll() * 80.0, ..EditPoint::default() }];
+                planet.edits.push(edit);
+            }
+        }
+        document.edit(planet, Some(format!("Change {number}")));
+        document.settle();
+        if document.planet() != &states[states.len() - 1] {
+            states.push(document.planet().clone());
+        }
+    }
+    // The steps beyond the limit of the history are gone.
+    let (last, steps) = (states.len() - 1, document.history().undo_len());
+    assert!(last > 1500 && steps == 500.min(last), "{last} {steps}");
+    for back in 1..=steps {
+        document.undo();
+        assert!(*document.planet() == states[last - back], "{back} steps back");
+    }
+    for forth in (0..steps).rev() {
+        document.redo();
+        assert!(*document.planet() == states[last - forth], "{forth} steps left");
+    }
+    assert_eq!(document.planet().to_text(), states[last].to_text());
+}
