@@ -8,8 +8,8 @@
 @group(2) @binding(2) var cloud_light: texture_2d<f32>;
 @group(2) @binding(3) var cloud_distance: texture_2d<f32>;
 
-// Radiance of the corona over that of the disc, at a distance from its centre in radii (Baumbach, Strahlung, Ergiebigkeit
-// und Elektronendichte der Sonnenkorona, 1937). It shows when another body covers the disc.
+// Radiance of the corona over that of the disc, at a distance from its centre in radii (Baumbach, Strahlung,
+// Ergiebigkeit und Elektronendichte der Sonnenkorona, 1937). It shows when another body covers the disc.
 fn corona(radii: f32) -> f32 {
     let x = 1.0 / radii;
     return 1e-6 * (2.565 * pow(x, 17.0) + 1.425 * pow(x, 7.0) + 0.0532 * pow(x, 2.5));

@@ -125,8 +125,8 @@ fn edges(giant: &Giant, seed: u32) -> Vec<f64> {
     edges
 }
 
-/// Share of the fastest jet at a latitude: one jet on each edge of a band, eastward and westward in turn, and one on the
-/// equator.
+/// Share of the fastest jet at a latitude: one jet on each edge of a band, eastward and westward in turn, and one on
+/// the equator.
 fn jet(edges: &[f64], lat: f64) -> f64 {
     let width = PI / (edges.len() - 1) as f64;
     let mut speed = libm::exp(-(lat / 0.16).powi(2));
