@@ -9,12 +9,12 @@ use super::patch::Patch;
 use super::square::Square;
 use super::surface::Surface;
 use super::textures::Textures;
-use super::{MeshWater, Piece, glb};
+use super::{MeshWater, Piece, glb, has_final_maps};
 use crate::bake::progress::Progress;
 use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
 use crate::planet::file::write_atomically;
-use crate::planet::{Key, VERSION};
+use crate::planet::{Key, Planet, VERSION};
 use crate::sphere::{LatLon, NodeId, Tangent};
 use crate::terrain::Terrain;
 use glam::DVec3;
@@ -22,7 +22,6 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::io;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Finest level.
 const MAX_LEVEL: u8 = 16;
@@ -42,10 +41,8 @@ const BETWEEN: f64 = 1.002;
 const SKIRT: f64 = 1.0;
 
 /// A tileset that is to be written.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tileset {
-    /// The planet, with its final world maps.
-    pub terrain: Arc<Terrain>,
     /// The finest level; level 0 is a face of the cube sphere.
     pub levels: u8,
     /// Where levels beyond [`Tileset::WHOLE`] are; None for everywhere.
@@ -65,9 +62,8 @@ impl Tileset {
     pub const WHOLE: u8 = 2;
 
     /// A tileset of the whole globe with colours at its vertices.
-    pub fn new(terrain: Arc<Terrain>, levels: u8) -> Self {
+    pub fn new(levels: u8) -> Self {
         Self {
-            terrain,
             levels,
             region: None,
             cells: 64,
@@ -85,16 +81,18 @@ impl Tileset {
     ///
     /// # Errors
     /// What is wrong with what was asked for, before anything is written; or with a file. No file is left half-written.
-    pub fn run(&self, folder: &Path, go_on: &(dyn Fn(f64) -> bool + Sync)) -> Result<Outcome, BakeError> {
+    pub fn run(
+        &self,
+        terrain: &Terrain,
+        folder: &Path,
+        go_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Outcome, BakeError> {
         profiling::scope!("bake a tileset");
-        self.check().map_err(BakeError::Asked)?;
-        let nodes = self.nodes();
-        if nodes.len() > MAX_TILES {
-            let message = format!("these are more than {MAX_TILES} tiles; use fewer levels, or a region");
-            return Err(BakeError::Asked(message));
-        }
+        let planet = terrain.planet();
+        has_final_maps(terrain).and_then(|()| self.check(planet)).map_err(BakeError::Asked)?;
+        let nodes = self.nodes(planet);
         make_folder(folder)?;
-        self.claim(folder)?;
+        self.claim(planet, folder)?;
         let missing: Vec<NodeId> = nodes.iter().copied().filter(|node| !folder.join(uri(*node)).is_file()).collect();
         for level in 0..=self.levels {
             make_folder(&folder.join(level.to_string()))?;
@@ -103,23 +101,23 @@ impl Tileset {
         let side = u64::from(self.cells) + 1;
         let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
         missing.par_iter().with_max_len(1).try_for_each(|node| {
-            if progress.is_stopped() { Ok(()) } else { self.write(*node, &folder.join(uri(*node)), &progress) }
+            if progress.is_stopped() { Ok(()) } else { self.write(terrain, *node, &folder.join(uri(*node)), &progress) }
         })?;
         if progress.is_stopped() {
             return Ok(Outcome::Stopped);
         }
         let path = folder.join("tileset.json");
-        let text = format!("{:#}\n", self.tileset());
+        let text = format!("{:#}\n", self.tileset(terrain));
         write_atomically(&path, text.as_bytes()).map_err(|error| BakeError::file(&path, error))?;
         let tiles = nodes.into_iter().map(|node| folder.join(uri(node)));
         Ok(Outcome::Done([path].into_iter().chain(tiles).collect()))
     }
 
-    fn check(&self) -> Result<(), String> {
-        let planet = self.terrain.planet();
-        if !self.terrain.has_final_maps() {
-            return Err("the world maps of the terrain are not final; load it with Terrain::load".to_owned());
-        }
+    /// Whether such a tileset of a planet can be written.
+    ///
+    /// # Errors
+    /// What is wrong with what is asked for, and what would be right.
+    pub fn check(&self, planet: &Planet) -> Result<(), String> {
         if self.levels > MAX_LEVEL {
             return Err(format!("level {} is out of range; use 0 to {MAX_LEVEL}", self.levels));
         }
@@ -135,13 +133,33 @@ impl Tileset {
         if self.water == MeshWater::Apart {
             return Err("tiles have no mesh of the water; use surface or none".to_owned());
         }
-        self.region.as_ref().map_or(Ok(()), |region| region.check(planet))
+        self.region.as_ref().map_or(Ok(()), |region| region.check(planet))?;
+        match self.tiles(planet) {
+            None => Err(format!("these are more than {MAX_TILES} tiles; use fewer levels, or a region")),
+            Some(_) => Ok(()),
+        }
+    }
+
+    /// How many tiles there are; None if that is more than can be written.
+    pub fn tiles(&self, planet: &Planet) -> Option<usize> {
+        Some(self.nodes(planet).len()).filter(|count| *count <= MAX_TILES)
+    }
+
+    /// Mean distance between neighbouring vertices of the finest level, on the reference sphere.
+    pub fn finest_m(&self, planet: &Planet) -> f64 {
+        self.spacing_m(planet, self.levels)
+    }
+
+    /// Whether it takes milliseconds a vertex; see [`Detail`].
+    pub fn is_slow(&self, planet: &Planet) -> bool {
+        // The coarse levels of every tileset are.
+        planet.structure.is_some() && self.detail == Detail::All
     }
 
     /// Notes which bake the folder belongs to.
-    fn claim(&self, folder: &Path) -> Result<(), BakeError> {
+    fn claim(&self, planet: &Planet, folder: &Path) -> Result<(), BakeError> {
         let program = (env!("CARGO_PKG_VERSION"), VERSION);
-        let planet = Key::of_planet(self.terrain.planet());
+        let planet = Key::of_planet(planet);
         let water = self.water.name();
         let key = Key::of(&(program, planet, self.cells, self.texture_px, water, self.detail));
         let (path, wanted) = (folder.join("tiles.key"), format!("{:032x}\n", key.bits()));
@@ -157,36 +175,42 @@ impl Tileset {
     }
 
     /// All nodes, the coarsest first.
-    pub(super) fn nodes(&self) -> Vec<NodeId> {
+    pub(super) fn nodes(&self, planet: &Planet) -> Vec<NodeId> {
         let (mut nodes, mut level) = (Vec::new(), NodeId::roots().to_vec());
         while !level.is_empty() && nodes.len() <= MAX_TILES {
-            let next = level.iter().filter(|node| self.is_divided(**node)).flat_map(|node| node.children()).collect();
+            let next = level.iter().filter(|node| self.is_divided(planet, **node)).flat_map(|node| node.children()).collect();
             nodes.append(&mut level);
             level = next;
         }
         nodes
     }
 
-    fn is_divided(&self, node: NodeId) -> bool {
+    fn is_divided(&self, planet: &Planet, node: NodeId) -> bool {
         if node.level >= self.levels {
             return false;
         }
         let Some(region) = self.region.filter(|_| node.level >= Self::WHOLE) else { return true };
         let center = LatLon::from_degrees(region.lat_deg, region.lon_deg).direction();
-        let half_diagonal_rad = region.side_km / self.terrain.planet().radius_km / std::f64::consts::SQRT_2;
+        let half_diagonal_rad = region.side_km / planet.radius_km / std::f64::consts::SQRT_2;
         center.angle_between(node.direction(0.5, 0.5)) < half_diagonal_rad + radius_rad(node)
     }
 
-    fn spacing_m(&self, node: NodeId) -> f64 {
-        let radius_m = self.terrain.planet().radius_m();
-        std::f64::consts::FRAC_PI_2 * radius_m / f64::from(self.cells) / f64::from(1_u32 << node.level)
+    fn spacing_m(&self, planet: &Planet, level: u8) -> f64 {
+        std::f64::consts::FRAC_PI_2 * planet.radius_m() / f64::from(self.cells) / f64::from(1_u32 << level)
     }
 
-    fn write(&self, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
-        let radius_m = self.terrain.planet().radius_m();
+    fn write(
+        &self,
+        terrain: &Terrain,
+        node: NodeId,
+        path: &Path,
+        progress: &Progress<'_>,
+    ) -> Result<(), BakeError> {
+        let planet = terrain.planet();
+        let (radius_m, spacing_m) = (planet.radius_m(), self.spacing_m(planet, node.level));
         let origin_planet_m = node.direction(0.5, 0.5) * radius_m;
         let square = Square::of_node(node, radius_m, origin_planet_m);
-        let surface = Surface { terrain: &self.terrain, water: self.water, detail: self.detail };
+        let surface = Surface { terrain, water: self.water, detail: self.detail };
         let patch = Patch::new(&square, self.cells, &surface, progress);
         if progress.is_stopped() {
             return Ok(());
@@ -196,21 +220,21 @@ impl Tileset {
         if progress.is_stopped() {
             return Ok(());
         }
-        let levels = vec![Geometry::new(&patch, 1, self.spacing_m(node) * SKIRT, 1.0)];
+        let levels = vec![Geometry::new(&patch, 1, spacing_m * SKIRT, 1.0)];
         let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
-        let about = json!({ "spacing_m": self.spacing_m(node) });
-        glb::write(self.terrain.planet(), &about, path, &[piece], square.turned(origin_planet_m))
+        let about = json!({ "spacing_m": spacing_m });
+        glb::write(planet, &about, path, &[piece], square.turned(origin_planet_m))
     }
 
     /// The list of tiles.
-    fn tileset(&self) -> Value {
-        let planet = self.terrain.planet();
-        let (_, highest_m) = self.terrain.height_bounds_m();
+    fn tileset(&self, terrain: &Terrain) -> Value {
+        let planet = terrain.planet();
+        let (_, highest_m) = terrain.height_bounds_m();
         let top_m = planet.radius_m() + highest_m.max(planet.sea_level_m().unwrap_or(0.0)).max(0.0);
         let mut about = of_planet(planet);
         about["water"] = json!(self.water.name());
         about["detail"] = json!(self.detail.name());
-        let children: Vec<Value> = NodeId::roots().into_iter().map(|root| self.tile(root)).collect();
+        let children: Vec<Value> = NodeId::roots().into_iter().map(|root| self.tile(terrain, root)).collect();
         json!({
             "asset": {
                 "version": "1.1",
@@ -228,26 +252,27 @@ impl Tileset {
         })
     }
 
-    fn tile(&self, node: NodeId) -> Value {
-        let is_divided = self.is_divided(node);
+    fn tile(&self, terrain: &Terrain, node: NodeId) -> Value {
+        let planet = terrain.planet();
+        let is_divided = self.is_divided(planet, node);
         let mut tile = json!({
-            "boundingVolume": { "box": self.bounding_box(node) },
-            "geometricError": if is_divided { self.spacing_m(node) * ERROR } else { 0.0 },
+            "boundingVolume": { "box": self.bounding_box(terrain, node) },
+            "geometricError": if is_divided { self.spacing_m(planet, node.level) * ERROR } else { 0.0 },
             "content": { "uri": uri(node) },
         });
         if is_divided {
-            tile["children"] = node.children().into_iter().map(|child| self.tile(child)).collect();
+            tile["children"] = node.children().into_iter().map(|child| self.tile(terrain, child)).collect();
         }
         tile
     }
 
     /// A box around a tile with its skirt, in the planet frame, metres: its centre, and half of each side as a vector.
-    fn bounding_box(&self, node: NodeId) -> [f64; 12] {
-        let planet = self.terrain.planet();
+    fn bounding_box(&self, terrain: &Terrain, node: NodeId) -> [f64; 12] {
+        let planet = terrain.planet();
         let around = Tangent::new(node.direction(0.5, 0.5));
-        let (lowest_m, highest_m) = self.terrain.height_bounds_near_m(around.up_planet, radius_rad(node));
+        let (lowest_m, highest_m) = terrain.height_bounds_near_m(around.up_planet, radius_rad(node));
         let highest_m = planet.sea_level_m().map_or(highest_m, |sea_m| highest_m.max(sea_m));
-        let low_m = planet.radius_m() + lowest_m - self.spacing_m(node) * SKIRT;
+        let low_m = planet.radius_m() + lowest_m - self.spacing_m(planet, node.level) * SKIRT;
         let high_m = planet.radius_m() + highest_m;
         // The extremes lie on the border, and the top in the middle.
         let mut least = DVec3::new(0.0, 0.0, high_m);
