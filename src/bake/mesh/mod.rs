@@ -103,13 +103,21 @@ pub enum MeshWater {
 }
 
 impl MeshFormat {
+    /// Both.
+    pub const ALL: [MeshFormat; 2] = [MeshFormat::Glb, MeshFormat::Obj];
+
+    /// The ending of its files' names.
+    pub fn extension(self) -> &'static str {
+        match self {
+            MeshFormat::Glb => "glb",
+            MeshFormat::Obj => "obj",
+        }
+    }
+
     /// The format that the ending of a path names.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "glb" => Some(MeshFormat::Glb),
-            "obj" => Some(MeshFormat::Obj),
-            _ => None,
-        }
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|format| format.extension() == ending)
     }
 }
 

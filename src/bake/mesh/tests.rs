@@ -272,7 +272,8 @@ fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
         tiles.push(tile);
     }
     assert_eq!(tiles.len(), 6 * 21);
-    let by_uri: HashMap<String, _> = tileset.nodes(terrain.planet()).into_iter().map(|node| (tileset::uri(node), node)).collect();
+    let by_uri: HashMap<String, _> =
+        tileset.nodes(terrain.planet()).into_iter().map(|node| (tileset::uri(node), node)).collect();
     let numbers =
         |array: &Value| -> Vec<f64> { array.as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect() };
     for tile in &tiles {

@@ -63,14 +63,7 @@ impl Tileset {
 
     /// A tileset of the whole globe with colours at its vertices.
     pub fn new(levels: u8) -> Self {
-        Self {
-            levels,
-            region: None,
-            cells: 64,
-            texture_px: None,
-            water: MeshWater::Surface,
-            detail: Detail::All,
-        }
+        Self { levels, region: None, cells: 64, texture_px: None, water: MeshWater::Surface, detail: Detail::All }
     }
 
     /// Writes `tileset.json` and the tiles `LEVEL/FACE_X_Y.glb` to a folder, which is made if there is none. Tiles that
@@ -142,7 +135,12 @@ impl Tileset {
 
     /// How many tiles there are; None if that is more than can be written.
     pub fn tiles(&self, planet: &Planet) -> Option<usize> {
-        Some(self.nodes(planet).len()).filter(|count| *count <= MAX_TILES)
+        let of_level = |level: u8| NodeId::roots().len() << (2 * u32::from(level));
+        let count = match self.region {
+            None => (0..=self.levels.min(MAX_LEVEL)).map(of_level).sum(),
+            Some(_) => self.nodes(planet).len(),
+        };
+        Some(count).filter(|count| *count <= MAX_TILES)
     }
 
     /// Mean distance between neighbouring vertices of the finest level, on the reference sphere.
@@ -178,7 +176,8 @@ impl Tileset {
     pub(super) fn nodes(&self, planet: &Planet) -> Vec<NodeId> {
         let (mut nodes, mut level) = (Vec::new(), NodeId::roots().to_vec());
         while !level.is_empty() && nodes.len() <= MAX_TILES {
-            let next = level.iter().filter(|node| self.is_divided(planet, **node)).flat_map(|node| node.children()).collect();
+            let next =
+                level.iter().filter(|node| self.is_divided(planet, **node)).flat_map(|node| node.children()).collect();
             nodes.append(&mut level);
             level = next;
         }
@@ -199,13 +198,7 @@ impl Tileset {
         std::f64::consts::FRAC_PI_2 * planet.radius_m() / f64::from(self.cells) / f64::from(1_u32 << level)
     }
 
-    fn write(
-        &self,
-        terrain: &Terrain,
-        node: NodeId,
-        path: &Path,
-        progress: &Progress<'_>,
-    ) -> Result<(), BakeError> {
+    fn write(&self, terrain: &Terrain, node: NodeId, path: &Path, progress: &Progress<'_>) -> Result<(), BakeError> {
         let planet = terrain.planet();
         let (radius_m, spacing_m) = (planet.radius_m(), self.spacing_m(planet, node.level));
         let origin_planet_m = node.direction(0.5, 0.5) * radius_m;
