@@ -42,10 +42,12 @@ use textures::Textures;
 
 pub use tileset::Tileset;
 
-/// Most vertices of a mesh, all squares together; they take some 200 bytes each.
+/// Most vertices of a mesh, all squares together; they take some 100 bytes each.
 const MAX_VERTICES: u64 = 1 << 23;
 /// Most texels of the textures of one kind, all squares together.
 const MAX_TEXELS: u64 = 1 << 27;
+/// Samples of a texel.
+const SAMPLES: u64 = (textures::FINER * textures::FINER) as u64;
 /// Most levels of detail.
 const MAX_LEVELS: u32 = 8;
 
@@ -223,7 +225,7 @@ impl MeshBake {
         Target::checked(path).map_err(|error| BakeError::file(path, error))?;
         let squares = Square::all(&self.area, planet.radius_m());
         let side = u64::from(self.cells) + 1;
-        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px));
+        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let progress = Progress::new(squares.len() as u64 * (side * side + texels), go_on);
         let surface = Surface { terrain, water: self.water, detail: self.detail };
         let mut pieces = Vec::with_capacity(squares.len());
@@ -239,7 +241,9 @@ impl MeshBake {
             }
             let strides = (0..self.levels).map(|level| 1_usize << level);
             let water = strides.clone().filter_map(|stride| Geometry::water(&patch, stride, self.scale)).collect();
-            let levels = strides.map(|stride| Geometry::new(&patch, stride, self.skirt_m, self.scale)).collect();
+            let levels = strides
+                .map(|stride| Geometry::new(&patch, stride, self.skirt_m, self.scale, textures.is_some()))
+                .collect();
             pieces.push(Piece { name: square.name(), levels, water, textures });
         }
         match self.format {
@@ -332,6 +336,7 @@ fn side_m(area: &Area, radius_m: f64) -> f64 {
 
 /// A file beside another, with another ending of its name.
 fn beside(path: &Path, ending: &str) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    // Many readers of OBJ end a name at a space.
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(char::is_whitespace, "_");
     path.with_file_name(format!("{stem}{ending}"))
 }

@@ -98,7 +98,7 @@ fn object(
     for uv in &geometry.uvs {
         writeln!(out, "vt {} {}", uv.x, 1.0 - uv.y)?;
     }
-    for triangle in &geometry.triangles {
+    for triangle in geometry.triangles() {
         let [a, b, c] = triangle.map(|index| index as usize + *first);
         writeln!(out, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}")?;
     }

@@ -65,14 +65,15 @@ fn vertices_lie_where_the_evaluator_puts_them() {
                         _ => sample.height_m,
                     };
                     assert!((vertex.position_m.distance(patch.center_m) - 40_000.0 - height_m).abs() < 1e-6);
-                    let apart = vertex.water_radius_m.map(|radius_m| radius_m - 40_000.0);
+                    let apart = vertex.water_radius_m().map(|radius_m| radius_m - 40_000.0);
                     match level_m.filter(|_| water == MeshWater::Apart) {
                         Some(level_m) => assert!(apart.is_some_and(|apart| (apart - level_m).abs() < 1e-6)),
                         None => assert_eq!(apart, None),
                     }
                     assert!((vertex.normal.length() - 1.0).abs() < 1e-5);
-                    assert!((vertex.tangent.length() - 1.0).abs() < 1e-5);
-                    assert!(vertex.normal.dot(vertex.tangent).abs() < 1e-5);
+                    let tangent = patch.tangent(row, column).as_vec3();
+                    assert!((tangent.length() - 1.0).abs() < 1e-5);
+                    assert!(vertex.normal.dot(tangent).abs() < 1e-5);
                 }
             }
             assert!(wet > 10, "{area:?}: {wet}");
@@ -87,8 +88,8 @@ fn a_globe_has_no_gap_and_no_triangle_that_faces_inwards() {
         // Each edge of the surface, between positions as they are in the file, is run through once in each direction.
         let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
         for (_, patch) in patches(&mesh) {
-            let geometry = Geometry::new(&patch, stride, 0.0, 1.0);
-            for triangle in &geometry.triangles {
+            let geometry = Geometry::new(&patch, stride, 0.0, 1.0, false);
+            for triangle in geometry.triangles() {
                 let [a, b, c] = triangle.map(|index| geometry.positions[index as usize]);
                 assert!((b - a).cross(c - a).dot(a + b + c) > 0.0);
                 for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -147,15 +148,17 @@ fn skirts_hang_from_the_border_and_face_outwards() {
     let mesh = MeshBake { skirt_m: 100.0, ..mesh(REGION, 8) };
     let (_, patch) = patch(&mesh);
     for stride in [1, 2] {
-        let bare = Geometry::new(&patch, stride, 0.0, 1.0);
-        let skirted = Geometry::new(&patch, stride, 100.0, 1.0);
+        let bare = Geometry::new(&patch, stride, 0.0, 1.0, false);
+        let skirted = Geometry::new(&patch, stride, 100.0, 1.0, true);
         let border = 4 * 8 / stride;
         assert_eq!(skirted.positions.len(), bare.positions.len() + border);
-        assert_eq!(skirted.triangles.len(), bare.triangles.len() + 2 * border);
+        assert_eq!(skirted.triangle_count(), bare.triangle_count() + 2 * border);
         let center = patch.center_m.as_vec3();
-        let above: HashSet<_> = skirted.triangles[bare.triangles.len()..].iter().flatten().collect();
+        let skirt: Vec<_> = skirted.triangles().skip(bare.triangle_count()).collect();
+        assert_eq!((skirted.tangents.len(), bare.colors.len()), (skirted.positions.len(), bare.positions.len()));
+        let above: HashSet<_> = skirt.iter().flatten().collect();
         assert_eq!(above.len(), 2 * border);
-        for triangle in &skirted.triangles[bare.triangles.len()..] {
+        for triangle in &skirt {
             let [a, b, c] = triangle.map(|index| skirted.positions[index as usize]);
             let middle = (a + b + c) / 3.0;
             let out = Vec3::new(middle.x, 0.0, middle.z);
@@ -177,7 +180,7 @@ fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
     let (_, patch) = patch(&mesh);
     let above = |vertex: &patch::Vertex| {
         let up = (vertex.position_m - patch.center_m).normalize();
-        vertex.water_radius_m.map(|radius_m| patch.center_m + up * radius_m)
+        vertex.water_radius_m().map(|radius_m| patch.center_m + up * radius_m)
     };
     let wet: Vec<_> = patch.vertices.iter().filter_map(above).collect();
     let water = Geometry::water(&patch, 1, 1.0).unwrap();
@@ -276,10 +279,25 @@ fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
         tileset.nodes(terrain.planet()).into_iter().map(|node| (tileset::uri(node), node)).collect();
     let numbers =
         |array: &Value| -> Vec<f64> { array.as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect() };
+    let mut measured_m: f64 = 0.0;
     for tile in &tiles {
         let uri = tile["content"]["uri"].as_str().unwrap();
         let node = by_uri[uri];
         assert_eq!(tile["geometricError"] == 0.0, tile["children"].is_null());
+        let error_m = tile["geometricError"].as_f64().unwrap();
+        for child in tile["children"].as_array().into_iter().flatten() {
+            assert!(error_m > child["geometricError"].as_f64().unwrap());
+            let child = by_uri[child["content"]["uri"].as_str().unwrap()];
+            let (own, finer) = (positions_m(&terrain, node, 4), positions_m(&terrain, child, 4));
+            let [right, up] = [child.x % 2, child.y % 2].map(|half| half as usize * 2);
+            // Between two vertices of the tile lies one of the child.
+            for (row, column) in (0..3).flat_map(|row| (0..2).map(move |column| (row, column))) {
+                let [from, to] = [column, column + 1].map(|at| own[(row + up) * 5 + at + right]);
+                let away_m = finer[row * 2 * 5 + column * 2 + 1].distance(0.5 * (from + to));
+                assert!(away_m <= error_m + 1e-6, "{uri}: {away_m} {error_m}");
+                measured_m = measured_m.max(away_m / error_m);
+            }
+        }
         let bytes = std::fs::read(folder.path().join(uri)).unwrap();
         let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
         let glb: Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
@@ -304,6 +322,18 @@ fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
             }
         }
     }
+    assert!(measured_m > 0.7, "no tile comes near its error: {measured_m}");
+}
+
+/// The vertices of a tile, row by row from the south.
+fn positions_m(terrain: &Terrain, node: NodeId, cells: u32) -> Vec<DVec3> {
+    let share = |i: u32| NodeId::side_share(i, cells);
+    let dirs = (0..=cells).flat_map(|row| (0..=cells).map(move |column| node.direction(share(column), share(row))));
+    dirs.map(|dir| {
+        let sample = terrain.sample(dir);
+        dir * (40_000.0 + sample.water_level_m.unwrap_or(sample.height_m))
+    })
+    .collect()
 }
 
 #[test]
@@ -329,14 +359,20 @@ fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
     assert_eq!(tiles(1).run(&terrain, folder.path(), &some).unwrap(), Outcome::Stopped);
     assert!(!folder.path().join("tileset.json").exists());
     let kept = folder.path().join("0/pos_x_0_0.glb");
-    std::fs::write(&kept, "kept").unwrap();
+    tiles(1).run(&terrain, folder.path(), &|_| true).unwrap();
+    let marked = [std::fs::read(&kept).unwrap(), b"kept".to_vec()].concat();
+    std::fs::write(&kept, &marked).unwrap();
+    let broken = folder.path().join("0/neg_x_0_0.glb");
+    std::fs::write(&broken, "no tile").unwrap();
     assert!(matches!(tiles(1).run(&terrain, folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
-    assert_eq!(std::fs::read(&kept).unwrap(), b"kept");
+    assert_eq!(std::fs::read(&kept).unwrap(), marked);
+    assert!(std::fs::read(&broken).unwrap().starts_with(b"glTF"));
     assert!(folder.path().join("1/neg_z_1_1.glb").is_file());
-    let other = Tileset { cells: 5, ..tiles(1) }.run(&terrain, folder.path(), &|_| true).unwrap_err().to_string();
+    let other = Tileset { cells: 6, ..tiles(1) }.run(&terrain, folder.path(), &|_| true).unwrap_err().to_string();
     assert!(other.contains("holds tiles of another bake"), "{other}");
     for (tileset, words) in [
         (Tileset { cells: 0, ..tiles(1) }, "0 cells"),
+        (Tileset { cells: 7, ..tiles(1) }, "use even numbers"),
         (Tileset { texture_px: Some(1), ..tiles(1) }, "use 2 to 1024"),
         (Tileset { water: MeshWater::Apart, ..tiles(1) }, "no mesh of the water"),
         (tiles(17), "use 0 to 16"),

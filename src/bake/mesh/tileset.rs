@@ -1,6 +1,7 @@
 //! 3D Tiles 1.1 (OGC 22-025r4): the globe as a tree of GLB files, one for each square of the quadtree, and the tileset
 //! that lists them. Four squares replace the one that they divide. Neighbours of one level share their borders to the
-//! bit; skirts hide the gaps between levels.
+//! bit; skirts hide the gaps between levels. The geometric error of a tile is measured: how far the vertices of the
+//! tiles that replace it lie from it.
 //!
 //! Each file is written as a whole, so that an interrupted bake goes on with the files that are missing.
 
@@ -9,7 +10,7 @@ use super::patch::Patch;
 use super::square::Square;
 use super::surface::Surface;
 use super::textures::Textures;
-use super::{MeshWater, Piece, glb, has_final_maps};
+use super::{MeshWater, Piece, SAMPLES, glb, has_final_maps};
 use crate::bake::progress::Progress;
 use crate::bake::sidecar::of_planet;
 use crate::bake::{BakeError, Detail, Outcome, Region, make_folder};
@@ -19,8 +20,11 @@ use crate::sphere::{LatLon, NodeId, Tangent};
 use crate::terrain::Terrain;
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use std::io;
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 /// Finest level.
@@ -31,9 +35,8 @@ const MAX_TILES: usize = 200_000;
 const MAX_TEXTURE: u32 = 1024;
 /// Most cells along a side of a tile.
 const MAX_CELLS: u32 = 256;
-/// Geometric error of a tile as a share of the distance between its vertices: ground of constant slope 1 in 2 deviates
-/// by this from the straight line between two of them.
-const ERROR: f64 = 0.25;
+/// What boxes are enlarged by for numbers that were rounded.
+const ROUNDING_M: f64 = 1.0;
 /// Points along a side of a tile from which its box is found, and what the box is enlarged by for the border between.
 const BORDER: u32 = 16;
 const BETWEEN: f64 = 1.002;
@@ -86,11 +89,12 @@ impl Tileset {
         let nodes = self.nodes(planet);
         make_folder(folder)?;
         self.claim(planet, folder)?;
-        let missing: Vec<NodeId> = nodes.iter().copied().filter(|node| !folder.join(uri(*node)).is_file()).collect();
+        let is_there = |node: &NodeId| Measures::read(&folder.join(uri(*node))).is_some();
+        let missing: Vec<NodeId> = nodes.par_iter().copied().filter(|node| !is_there(node)).collect();
         for level in 0..=self.levels {
             make_folder(&folder.join(level.to_string()))?;
         }
-        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px));
+        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let side = u64::from(self.cells) + 1;
         let progress = Progress::new(missing.len() as u64 * (side * side + texels), go_on);
         missing.par_iter().with_max_len(1).try_for_each(|node| {
@@ -100,7 +104,13 @@ impl Tileset {
             return Ok(Outcome::Stopped);
         }
         let path = folder.join("tileset.json");
-        let text = format!("{:#}\n", self.tileset(terrain));
+        let measured = nodes.par_iter().map(|node| {
+            let path = folder.join(uri(*node));
+            let measures = Measures::read(&path);
+            measures.map(|measures| (*node, measures)).ok_or_else(|| BakeError::file(&path, "is no tile any more"))
+        });
+        let measures: HashMap<NodeId, Measures> = measured.collect::<Result<_, _>>()?;
+        let text = format!("{:#}\n", self.tileset(planet, &measures));
         write_atomically(&path, text.as_bytes()).map_err(|error| BakeError::file(&path, error))?;
         let tiles = nodes.into_iter().map(|node| folder.join(uri(node)));
         Ok(Outcome::Done([path].into_iter().chain(tiles).collect()))
@@ -114,8 +124,8 @@ impl Tileset {
         if self.levels > MAX_LEVEL {
             return Err(format!("level {} is out of range; use 0 to {MAX_LEVEL}", self.levels));
         }
-        if !(1..=MAX_CELLS).contains(&self.cells) {
-            return Err(format!("{} cells are out of range; use 1 to {MAX_CELLS}", self.cells));
+        if !(2..=MAX_CELLS).contains(&self.cells) || !self.cells.is_multiple_of(2) {
+            return Err(format!("{} cells are out of range; use even numbers from 2 to {MAX_CELLS}", self.cells));
         }
         match self.texture_px {
             Some(px) if !(2..=MAX_TEXTURE).contains(&px) => {
@@ -213,21 +223,21 @@ impl Tileset {
         if progress.is_stopped() {
             return Ok(());
         }
-        let levels = vec![Geometry::new(&patch, 1, spacing_m * SKIRT, 1.0)];
+        let levels = vec![Geometry::new(&patch, 1, spacing_m * SKIRT, 1.0, textures.is_some())];
         let piece = Piece { name: square.name(), levels, water: Vec::new(), textures };
-        let about = json!({ "spacing_m": spacing_m });
+        let mut about = json!({ "spacing_m": spacing_m });
+        about["measures"] = json!(Measures::of(&patch, radius_m));
         glb::write(planet, &about, path, &[piece], square.turned(origin_planet_m))
     }
 
     /// The list of tiles.
-    fn tileset(&self, terrain: &Terrain) -> Value {
-        let planet = terrain.planet();
-        let (_, highest_m) = terrain.height_bounds_m();
-        let top_m = planet.radius_m() + highest_m.max(planet.sea_level_m().unwrap_or(0.0)).max(0.0);
+    fn tileset(&self, planet: &Planet, measures: &HashMap<NodeId, Measures>) -> Value {
         let mut about = of_planet(planet);
         about["water"] = json!(self.water.name());
         about["detail"] = json!(self.detail.name());
-        let children: Vec<Value> = NodeId::roots().into_iter().map(|root| self.tile(terrain, root)).collect();
+        let roots = NodeId::roots().map(|root| self.tile(planet, root, measures));
+        let top_m = planet.radius_m() + roots.iter().map(|(_, whole)| whole.highest_m).fold(0.0, f64::max);
+        let children: Vec<Value> = roots.into_iter().map(|(tile, _)| tile).collect();
         json!({
             "asset": {
                 "version": "1.1",
@@ -245,28 +255,37 @@ impl Tileset {
         })
     }
 
-    fn tile(&self, terrain: &Terrain, node: NodeId) -> Value {
-        let planet = terrain.planet();
-        let is_divided = self.is_divided(planet, node);
-        let mut tile = json!({
-            "boundingVolume": { "box": self.bounding_box(terrain, node) },
-            "geometricError": if is_divided { self.spacing_m(planet, node.level) * ERROR } else { 0.0 },
-            "content": { "uri": uri(node) },
-        });
-        if is_divided {
-            tile["children"] = node.children().into_iter().map(|child| self.tile(terrain, child)).collect();
+    /// A tile with those that it is divided into, and what holds for all of them: the extremes, and the error of the
+    /// tile.
+    fn tile(&self, planet: &Planet, node: NodeId, measures: &HashMap<NodeId, Measures>) -> (Value, Measures) {
+        let mut whole = Measures { coarser_m: 0.0, ..measures.get(&node).copied().unwrap_or_default() };
+        let mut tile = json!({ "content": { "uri": uri(node) } });
+        if self.is_divided(planet, node) {
+            let children = node.children().map(|child| {
+                let (tile, part) = self.tile(planet, child, measures);
+                // The tile is the mesh of every second vertex of its children.
+                let coarser_m = measures.get(&child).map_or(0.0, |measures| measures.coarser_m);
+                whole = Measures {
+                    lowest_m: whole.lowest_m.min(part.lowest_m),
+                    highest_m: whole.highest_m.max(part.highest_m),
+                    coarser_m: whole.coarser_m.max(coarser_m + part.coarser_m),
+                };
+                tile
+            });
+            tile["children"] = json!(children);
         }
-        tile
+        tile["geometricError"] = json!(whole.coarser_m);
+        tile["boundingVolume"] = json!({ "box": self.bounding_box(planet, node, &whole) });
+        (tile, whole)
     }
 
-    /// A box around a tile with its skirt, in the planet frame, metres: its centre, and half of each side as a vector.
-    fn bounding_box(&self, terrain: &Terrain, node: NodeId) -> [f64; 12] {
-        let planet = terrain.planet();
+    /// A box around a tile with its skirt and all that it is divided into, in the planet frame, metres: its centre, and
+    /// half of each side as a vector.
+    fn bounding_box(&self, planet: &Planet, node: NodeId, whole: &Measures) -> [f64; 12] {
         let around = Tangent::new(node.direction(0.5, 0.5));
-        let (lowest_m, highest_m) = terrain.height_bounds_near_m(around.up_planet, radius_rad(node));
-        let highest_m = planet.sea_level_m().map_or(highest_m, |sea_m| highest_m.max(sea_m));
-        let low_m = planet.radius_m() + lowest_m - self.spacing_m(planet, node.level) * SKIRT;
-        let high_m = planet.radius_m() + highest_m;
+        // Numbers of tiles are floats of 32 bits.
+        let low_m = planet.radius_m() + whole.lowest_m - self.spacing_m(planet, node.level) * SKIRT - ROUNDING_M;
+        let high_m = planet.radius_m() + whole.highest_m + ROUNDING_M;
         // The extremes lie on the border, and the top in the middle.
         let mut least = DVec3::new(0.0, 0.0, high_m);
         let mut most = least;
@@ -288,6 +307,51 @@ impl Tileset {
             numbers.copy_from_slice(&vector.to_array());
         }
         numbers
+    }
+}
+
+/// What a tile tells of itself, in the file: a bake that goes on needs it of tiles that are there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Measures {
+    /// Extremes of its vertices over the reference sphere, lakes and seas included.
+    lowest_m: f64,
+    highest_m: f64,
+    /// Greatest distance of a vertex from the mesh of every second one.
+    coarser_m: f64,
+}
+
+impl Measures {
+    fn of(patch: &Patch, radius_m: f64) -> Self {
+        let mut measures = Self { lowest_m: f64::INFINITY, highest_m: f64::NEG_INFINITY, coarser_m: 0.0 };
+        for (i, vertex) in patch.vertices.iter().enumerate() {
+            let height_m = vertex.position_m.distance(patch.center_m) - radius_m;
+            measures.lowest_m = measures.lowest_m.min(height_m);
+            measures.highest_m = measures.highest_m.max(height_m);
+            let (row, column) = (i / patch.side, i % patch.side);
+            // The diagonal of a cell runs from its lower left to its upper right corner.
+            let (before, after) = match (row % 2, column % 2) {
+                (0, 0) => continue,
+                (0, _) => ((row, column - 1), (row, column + 1)),
+                (_, 0) => ((row - 1, column), (row + 1, column)),
+                _ => ((row + 1, column - 1), (row - 1, column + 1)),
+            };
+            let at = |(row, column): (usize, usize)| patch.at(row, column).position_m;
+            let away_m = vertex.position_m.distance(0.5 * (at(before) + at(after)));
+            measures.coarser_m = measures.coarser_m.max(away_m);
+        }
+        measures
+    }
+
+    /// The measures in a file; None if it is no tile.
+    fn read(path: &Path) -> Option<Self> {
+        let mut file = File::open(path).ok()?;
+        let mut head = [0; 20];
+        file.read_exact(&mut head).ok()?;
+        let length = head.starts_with(b"glTF").then(|| u32::from_le_bytes([head[12], head[13], head[14], head[15]]))?;
+        let mut json = Vec::new();
+        file.take(length.into()).read_to_end(&mut json).ok()?;
+        let document: Value = serde_json::from_slice(&json).ok()?;
+        serde_json::from_value(document.get("nodes")?.get(0)?.get("extras")?.get("measures")?.clone()).ok()
     }
 }
 

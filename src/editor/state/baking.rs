@@ -33,7 +33,8 @@ impl BakePreview {
         self.under_way.is_some()
     }
 
-    /// Asks for the picture of these settings, which are [as shown](BakeSettings::as_shown), if it is not the newest. One is made at a time.
+    /// Asks for the picture of these settings, which are [as shown](BakeSettings::as_shown), if it is not the newest.
+    /// One is made at a time.
     pub fn ask(
         &mut self,
         settings: &BakeSettings,

@@ -242,7 +242,8 @@ impl Viewport {
         })
     }
 
-    /// The place in the middle of the picture and its distance from the eye; where that is sky, the place under the eye.
+    /// The place in the middle of the picture and its distance from the eye; where that is sky, the place under the
+    /// eye.
     pub fn looked_at(&self, planet: &Planet) -> (LatLon, f64) {
         self.with_ground(planet, |cameras, ground| {
             let pose = cameras.pose(ground);

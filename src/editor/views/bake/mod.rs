@@ -43,7 +43,7 @@ impl BakeWindow {
         }
         let mut open = true;
         let window = egui::Window::new("Bake").id(id()).open(&mut open).default_pos([12.0, 40.0]);
-        let most = (ctx.content_rect().height() - 90.0).max(200.0);
+        let most = (ctx.content_rect().height() - 110.0).max(200.0);
         window.resizable([true, false]).default_width(350.0).show(ctx, |ui| {
             let (mut settings, planet) = (state.bake.clone(), state.document.valid_planet());
             ui.horizontal(|ui| {
