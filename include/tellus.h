@@ -1,4 +1,4 @@
-/* Tellus: planets from one small file. Made from src/capi/mod.rs; docs/embedding.md tells more. */
+/* Tellus: planets from one small file. Made from src/capi; docs/embedding.md tells more. */
 
 #ifndef TELLUS_H
 #define TELLUS_H
@@ -13,6 +13,11 @@
  * Most vertices along the side of a tile.
  */
 #define TELLUS_MAX_TILE_SIDE 4097
+
+/**
+ * Most cells along a side of a chunk.
+ */
+#define TELLUS_MAX_CHUNK_CELLS 1024
 
 /**
  * A planet, ready for queries. Any number of threads may ask at once.
@@ -52,6 +57,50 @@ typedef struct TellusSample {
    */
   uint32_t biome;
 } TellusSample;
+
+/**
+ * How much of the sky clouds cover, each 0 to 1.
+ */
+typedef struct TellusClouds {
+  /**
+   * Low clouds.
+   */
+  double low;
+  /**
+   * Middle clouds.
+   */
+  double middle;
+  /**
+   * The veil of high clouds.
+   */
+  double veil;
+  /**
+   * Fog: a share of the ground.
+   */
+  double fog;
+} TellusClouds;
+
+/**
+ * Where a capsule that moves touches the ground.
+ */
+typedef struct TellusContact {
+  /**
+   * Share of the motion until it touches, 0 to 1.
+   */
+  double share;
+  /**
+   * Distance between the surfaces there; negative: how far the capsule must move along the normal to be free.
+   */
+  double gap_m;
+  /**
+   * The point of the ground in the planet frame, metres from the centre.
+   */
+  double point_m[3];
+  /**
+   * Unit vector from the ground to the capsule.
+   */
+  double normal[3];
+} TellusContact;
 
 #ifdef __cplusplus
 extern "C" {
@@ -215,6 +264,73 @@ bool tellus_tile(const struct TellusPlanet *planet,
  */
 bool tellus_tile_indices(uint32_t side,
                          uint32_t *indices);
+
+/**
+ * Clouds over `count` directions of 3 numbers each at a time in seconds; 0 on a planet without clouds. False, and
+ * nothing written, if that failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `directions` is NULL or holds 3 `count` numbers, and `clouds` is NULL
+ * or holds `count`.
+ */
+bool tellus_clouds(const struct TellusPlanet *planet,
+                   const double *directions,
+                   size_t count,
+                   double time_s,
+                   struct TellusClouds *clouds);
+
+/**
+ * Heights of the water's surface over the reference sphere in metres under `count` directions of 3 numbers each at a
+ * time in seconds: of the sea with its waves, of lakes and rivers their level; NaN on land. Directions should lie
+ * within some kilometres of each other: all have the waves around the first. False, and nothing written, if that
+ * failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `directions` is NULL or holds 3 `count` numbers, and `heights_m` is
+ * NULL or holds `count`.
+ */
+bool tellus_water(const struct TellusPlanet *planet,
+                  const double *directions,
+                  size_t count,
+                  double time_s,
+                  double *heights_m);
+
+/**
+ * A square of ground for a physics engine, in a local frame: metres along east, north and up of a place, from the
+ * ground there. `column` counts to the east, `row` to the north; the place is the south west corner of 0, 0.
+ * Neighbours share the vertices of their border to the bit.
+ *
+ * `positions_m` and `normals` have 3 (`cells` + 1)^2 numbers, row by row from the south west; `normals` may be NULL.
+ * The triangles are those of `tellus_tile_indices` with a side of `cells` + 1. False, and nothing written, if that
+ * failed.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `direction` is NULL or holds 3 numbers, and `positions_m` and
+ * `normals` are NULL or hold 3 (`cells` + 1)^2.
+ */
+bool tellus_chunk(const struct TellusPlanet *planet,
+                  const double *direction,
+                  double side_m,
+                  uint32_t cells,
+                  int32_t column,
+                  int32_t row,
+                  float *positions_m,
+                  float *normals);
+
+/**
+ * How far a capsule moves until it touches the ground: all points within `radius_m` of the line between two ends (3
+ * numbers each, planet frame, metres from the centre; a ball has both in one place). `motion_m` has 3 numbers. 1 and
+ * `contact` written if it touches, 0 if it does not, -1 if that failed. The sea does not count.
+ *
+ * # Safety
+ * `planet` is NULL or a planet of this library; `ends_m` is NULL or holds 6 numbers, `motion_m` is NULL or holds 3,
+ * and `contact` is NULL or holds one.
+ */
+int32_t tellus_sweep(const struct TellusPlanet *planet,
+                     const double *ends_m,
+                     double radius_m,
+                     const double *motion_m,
+                     struct TellusContact *contact);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -38,7 +38,8 @@
 //! - [`rings`]: rings along the radius: optical depth, light, shadow
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
-//! - `bake` (feature `bake`): maps of a planet in files
+//! - `noise_tile`: the noise of patterns on the ground and of clouds, as the renderer samples it
+//! - `bake` (feature `bake`): maps and meshes of a planet in files
 //! - `capi` (feature `capi`): the C interface
 //! - `render` (feature `render`): draws a planet with wgpu into any texture view of the caller's device
 //! - `film` (feature `render`): photographs and films in files
@@ -55,6 +56,8 @@ pub mod atmosphere;
 pub mod clouds;
 pub mod giant;
 pub mod lod;
+#[cfg(any(feature = "bake", feature = "render"))]
+mod noise_tile;
 pub mod planet;
 pub mod rings;
 pub mod sea;

@@ -27,6 +27,29 @@ namespace Tellus
         public uint Biome;
     }
 
+    /// How much of the sky clouds cover, each 0 to 1. The layout is that of TellusClouds in tellus.h.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Clouds
+    {
+        public double Low, Middle, Veil;
+        /// A share of the ground.
+        public double Fog;
+    }
+
+    /// Where a capsule that moves touches the ground. The layout is that of TellusContact in tellus.h.
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Contact
+    {
+        /// Share of the motion until it touches, 0 to 1.
+        public double Share;
+        /// Distance between the surfaces there; negative: how far the capsule must move along the normal to be free.
+        public double GapM;
+        /// The point of the ground, metres from the centre.
+        public double PointX, PointY, PointZ;
+        /// Unit vector from the ground to the capsule.
+        public double NormalX, NormalY, NormalZ;
+    }
+
     /// A call failed; the message says why.
     public sealed class TellusException : Exception
     {
@@ -125,6 +148,49 @@ namespace Tellus
         }
 
         public const uint MaxTileSide = 4097;
+        public const uint MaxChunkCells = 1024;
+
+        /// Clouds over directions of three numbers each at a time.
+        public Clouds[] CloudsAt(double[] directions, double timeS)
+        {
+            var clouds = new Clouds[Count(directions)];
+            Check(Native.tellus_clouds(this, directions, (UIntPtr)clouds.Length, timeS, clouds));
+            return clouds;
+        }
+
+        /// Heights of the water's surface at a time under directions that lie near each other; NaN on land.
+        public double[] WaterAt(double[] directions, double timeS)
+        {
+            var heightsM = new double[Count(directions)];
+            Check(Native.tellus_water(this, directions, (UIntPtr)heightsM.Length, timeS, heightsM));
+            return heightsM;
+        }
+
+        /// A square of ground in metres along east, north and up of a place; see tellus_chunk in tellus.h.
+        public void Chunk(double[] direction, double sideM, uint cells, int column, int row,
+            out float[] positionsM, out float[] normals, out uint[] indices)
+        {
+            if (direction.Length != 3)
+                throw new ArgumentException("a direction has three numbers");
+            if (cells < 1 || cells > MaxChunkCells)
+                throw new ArgumentOutOfRangeException(nameof(cells), cells, "use 1 to " + MaxChunkCells);
+            positionsM = new float[3 * (cells + 1) * (cells + 1)];
+            normals = new float[3 * (cells + 1) * (cells + 1)];
+            indices = new uint[6 * cells * cells];
+            Check(Native.tellus_chunk(this, direction, sideM, cells, column, row, positionsM, normals));
+            Check(Native.tellus_tile_indices(cells + 1, indices));
+        }
+
+        /// How far a capsule between two ends (six numbers) moves until it touches the ground; null if it does not.
+        public Contact? Sweep(double[] endsM, double radiusM, double[] motionM)
+        {
+            if (endsM.Length != 6 || motionM.Length != 3)
+                throw new ArgumentException("ends have six numbers, a motion three");
+            var contact = new Contact[1];
+            int touches = Native.tellus_sweep(this, endsM, radiusM, motionM, contact);
+            Check(touches >= 0);
+            return touches == 1 ? contact[0] : (Contact?)null;
+        }
 
         private static int Count(double[] directions)
         {
@@ -207,5 +273,24 @@ namespace Tellus
         [DllImport(Library)]
         [return: MarshalAs(UnmanagedType.I1)]
         internal static extern bool tellus_tile_indices(uint side, [Out] uint[] indices);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_clouds(
+            Planet planet, double[] directions, UIntPtr count, double timeS, [Out] Clouds[] clouds);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_water(
+            Planet planet, double[] directions, UIntPtr count, double timeS, [Out] double[] heightsM);
+
+        [DllImport(Library)]
+        [return: MarshalAs(UnmanagedType.I1)]
+        internal static extern bool tellus_chunk(Planet planet, double[] direction, double sideM, uint cells,
+            int column, int row, [Out] float[] positionsM, [Out] float[] normals);
+
+        [DllImport(Library)]
+        internal static extern int tellus_sweep(
+            Planet planet, double[] endsM, double radiusM, double[] motionM, [Out] Contact[] contact);
     }
 }

@@ -39,6 +39,10 @@ pub enum Map {
     Albedo,
     /// Roughness of the biome, 0 to 1.
     Roughness,
+    /// Ambient occlusion: how much of the sky over the ground the ground around leaves open, 0 to 1.
+    AmbientOcclusion,
+    /// Lights of settlements at night, linear sRGB; sunlit white ground has 1.
+    NightLights,
     /// Depth of sea, lake or river over the ground; 0 on land; metres.
     WaterDepth,
     /// Water that flows by in the nearest river, if one is near; else 0; m³/s.
@@ -72,11 +76,14 @@ pub(super) struct Site<'a> {
     pub(super) dir: DVec3,
     pub(super) sample: &'a Sample,
     pub(super) clouds: CloudCover,
+    /// The share of the sky that is open.
+    pub(super) open: f64,
+    pub(super) lights: [f64; 3],
 }
 
 impl Map {
     /// All of them.
-    pub const ALL: [Map; 18] = [
+    pub const ALL: [Map; 20] = [
         Map::Height,
         Map::Normal,
         Map::NormalPlanet,
@@ -88,6 +95,8 @@ impl Map {
         Map::Biome,
         Map::Albedo,
         Map::Roughness,
+        Map::AmbientOcclusion,
+        Map::NightLights,
         Map::WaterDepth,
         Map::Discharge,
         Map::Flow,
@@ -111,6 +120,8 @@ impl Map {
             Map::Biome => "biome",
             Map::Albedo => "albedo",
             Map::Roughness => "roughness",
+            Map::AmbientOcclusion => "ambient_occlusion",
+            Map::NightLights => "night_lights",
             Map::WaterDepth => "water_depth",
             Map::Discharge => "discharge",
             Map::Flow => "flow",
@@ -140,6 +151,8 @@ impl Map {
             Map::Biome => "Biome numbers",
             Map::Albedo => "Albedo",
             Map::Roughness => "Roughness",
+            Map::AmbientOcclusion => "Ambient occlusion",
+            Map::NightLights => "Night lights",
             Map::WaterDepth => "Water depth",
             Map::Discharge => "Discharge",
             Map::Flow => "Flow",
@@ -164,6 +177,8 @@ impl Map {
             Map::Biome => "Index into the palette, which the JSON lists",
             Map::Albedo => "Mean colour of the biome through the water over it",
             Map::Roughness => "Of the biome, 0 to 1",
+            Map::AmbientOcclusion => "Share of the sky that the ground around leaves open; 1 is all",
+            Map::NightLights => "Towns, as they are drawn from afar",
             Map::WaterDepth => "Metres of sea, lake or river over the ground",
             Map::Discharge => "m³/s of the nearest river, if one is near",
             Map::Flow => "Direction of the nearest river along east, north and up",
@@ -186,14 +201,19 @@ impl Map {
 
     /// Numbers at each pixel: 1, or 3 of a vector or colour.
     pub fn channels(self) -> usize {
-        if matches!(self, Map::Normal | Map::NormalPlanet | Map::Albedo | Map::Flow) { MOST_CHANNELS } else { 1 }
+        let has_many = matches!(self, Map::Normal | Map::NormalPlanet | Map::Albedo | Map::NightLights | Map::Flow);
+        if has_many { MOST_CHANNELS } else { 1 }
     }
 
     pub(super) fn range(self) -> Range {
         match self {
-            Map::Height | Map::Temperature | Map::Precipitation | Map::Rain | Map::WaterDepth | Map::Discharge => {
-                Range::Found
-            }
+            Map::Height
+            | Map::Temperature
+            | Map::Precipitation
+            | Map::Rain
+            | Map::NightLights
+            | Map::WaterDepth
+            | Map::Discharge => Range::Found,
             Map::Normal | Map::NormalPlanet | Map::Flow => Range::Fixed(-1.0, 1.0),
             Map::Slope => Range::Fixed(0.0, 90.0),
             Map::Biome => Range::Numbers,
@@ -210,7 +230,8 @@ impl Map {
     pub(super) fn wanted(self) -> Option<Wanted> {
         let height = Wanted::HEIGHT;
         match self {
-            Map::Height => Some(height),
+            Map::Height | Map::AmbientOcclusion => Some(height),
+            Map::NightLights => Some(height.and_climate().and_water()),
             Map::Normal | Map::NormalPlanet | Map::Slope => Some(height.and_normal()),
             Map::Temperature | Map::Precipitation | Map::Moisture => Some(height.and_climate()),
             Map::Biome | Map::Roughness => Some(height.and_biome()),
@@ -226,6 +247,8 @@ impl Map {
             Map::WaterDepth if planet.water.is_none() && planet.structure.is_none() => {
                 Some("neither a sea nor a structure, so it has no water")
             }
+            Map::NightLights if planet.settlements <= 0.0 => Some("no settlements"),
+            Map::NightLights if planet.water.is_none() => Some("no sea, by which settlements lie"),
             Map::Discharge | Map::Flow if planet.structure.is_none() => Some("no structure, so it has no rivers"),
             _ if self.is_of_clouds() && planet.clouds.is_none() => Some("no clouds"),
             _ => None,
@@ -234,7 +257,7 @@ impl Map {
 
     /// Its values at a point, one for each channel.
     pub(super) fn values(self, site: &Site<'_>) -> [f32; MOST_CHANNELS] {
-        let Site { planet, dir, sample, clouds } = site;
+        let Site { planet, dir, sample, clouds, open, lights } = site;
         let local = |vector: DVec3| {
             let (east, north) = east_north(*dir);
             [vector.dot(east), vector.dot(north), vector.dot(*dir)]
@@ -252,6 +275,8 @@ impl Map {
             Map::Biome => [sample.biome as f64, 0.0, 0.0],
             Map::Albedo => biome().map_or([0.0; 3], |biome| through_water(planet, sample, mean_color(biome))),
             Map::Roughness => [biome().map_or(1.0, |biome| biome.roughness), 0.0, 0.0],
+            Map::AmbientOcclusion => [*open, 0.0, 0.0],
+            Map::NightLights => *lights,
             Map::WaterDepth => [depth_m(sample), 0.0, 0.0],
             Map::Discharge => [sample.river.map_or(0.0, |river| river.discharge_m3_s), 0.0, 0.0],
             Map::Flow => sample.river.map_or([0.0; 3], |river| local(river.flow_planet)),

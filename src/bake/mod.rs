@@ -10,6 +10,7 @@
 //! range of 16 bits is known before the first pixel is written. Every way gives the same bytes.
 //!
 //! - `maps`: what can be baked; `projection`: where pixels lie; `format`: kinds of file, and steps of their numbers
+//! - `occlusion`: ambient occlusion; `lights`: lights of settlements
 //! - `strips`: computes and keeps strips; `rows`: reads a map from them
 //! - `png`, `openexr`, `geotiff`, `ktx2`, `raw`: encoders; `sidecar`: the JSON beside a map
 //! - `mesh`: meshes with textures
@@ -19,8 +20,10 @@ mod error;
 mod format;
 mod geotiff;
 mod ktx2;
+mod lights;
 mod maps;
 pub mod mesh;
+mod occlusion;
 mod openexr;
 mod png;
 mod preview;
@@ -39,7 +42,6 @@ pub use maps::Map;
 pub use preview::Preview;
 pub use projection::{Projection, Region};
 
-use crate::clouds::CloudField;
 use crate::planet::file::{Target, write_atomically_with};
 use crate::planet::{Key, VERSION};
 use crate::terrain::{Scratch, Terrain};
@@ -187,12 +189,7 @@ impl Bake {
             missing.into_iter().partition(|strip| self.shard.is_none_or(|shard| shard.has(strip.number)));
         let encoding = if self.shard.is_some() { 0 } else { u64::from(strips.count()) * self.maps.len() as u64 };
         let progress = Progress::new(mine.len() as u64 * STRIP_WORK + encoding, go_on);
-        let evaluator = Evaluator {
-            terrain: &self.terrain,
-            clouds: planet.clouds.as_ref().map(|_| CloudField::new(&self.terrain)),
-            time_secs: self.time_secs,
-            spacing_rad: self.spacing_rad(&strips.grid),
-        };
+        let evaluator = Evaluator::new(self, &strips.grid);
         mine.par_iter().with_max_len(1).try_for_each_init(Scratch::default, |scratch, strip| {
             if progress.is_stopped() {
                 return Ok(());

@@ -5,7 +5,6 @@ use super::maps::{Range, mean_color};
 use super::projection::Grid;
 use super::strips::{Evaluator, Strips};
 use super::{Bake, Detail, Format, Map};
-use crate::clouds::CloudField;
 use crate::planet::Key;
 use crate::terrain::Scratch;
 use rayon::prelude::*;
@@ -34,14 +33,8 @@ impl Bake {
         let across = (width / pictures as u32).max(1);
         let small = Bake { maps: vec![map], size: across, detail: Detail::Pixel, ..self.clone() };
         let grid = Grid::new(&small.projection, across, planet.radius_km);
-        let spacing_rad = small.spacing_rad(&grid);
-        let strips = Strips::new(grid, small.maps, Key::of(&()), PathBuf::new());
-        let evaluator = Evaluator {
-            terrain: &self.terrain,
-            clouds: planet.clouds.as_ref().filter(|_| map.is_of_clouds()).map(|_| CloudField::new(&self.terrain)),
-            time_secs: self.time_secs,
-            spacing_rad,
-        };
+        let evaluator = Evaluator::new(&small, &grid);
+        let strips = Strips::new(grid, vec![map], Key::of(&()), PathBuf::new());
         let parts: Option<Vec<Vec<f32>>> = (0..strips.count())
             .into_par_iter()
             .map(|number| {

@@ -54,6 +54,15 @@ impl Region {
 }
 
 impl Projection {
+    /// Angle between two pixels beside each other, where they are farthest apart.
+    pub(super) fn spacing_rad(&self, size: u32, radius_km: f64) -> f64 {
+        match self {
+            Projection::Equirect => TAU / f64::from(size),
+            Projection::Cube => 2.0 / f64::from(size),
+            Projection::Region(region) => region.side_km / radius_km / f64::from(size),
+        }
+    }
+
     /// Its name in the JSON beside a map.
     pub fn name(&self) -> &'static str {
         match self {
@@ -68,6 +77,7 @@ impl Projection {
 pub(super) struct Grid {
     pub(super) width: u32,
     pub(super) height: u32,
+    spacing_rad: f64,
     kind: Kind,
 }
 
@@ -78,8 +88,8 @@ enum Kind {
         columns: Vec<(f64, f64)>,
     },
     Cube,
-    /// The plane of a region, and the angle at the planet's centre between two pixels beside the middle.
-    Region(Tangent, f64),
+    /// The plane of a region.
+    Region(Tangent),
 }
 
 impl Grid {
@@ -98,20 +108,15 @@ impl Grid {
             }
             Projection::Cube => Kind::Cube,
             Projection::Region(region) => {
-                let tangent = Tangent::at(LatLon::from_degrees(region.lat_deg, region.lon_deg));
-                Kind::Region(tangent, region.side_km / radius_km / side)
+                Kind::Region(Tangent::at(LatLon::from_degrees(region.lat_deg, region.lon_deg)))
             }
         };
-        Self { width: size, height, kind }
+        Self { width: size, height, spacing_rad: projection.spacing_rad(size, radius_km), kind }
     }
 
     /// Angle between two pixels beside each other, where they are farthest apart.
     pub(super) fn spacing_rad(&self) -> f64 {
-        match &self.kind {
-            Kind::Equirect { .. } => TAU / f64::from(self.width),
-            Kind::Cube => 2.0 / f64::from(self.width),
-            Kind::Region(_, pixel_rad) => *pixel_rad,
-        }
+        self.spacing_rad
     }
 
     /// How many pictures there are.
@@ -135,10 +140,10 @@ impl Grid {
                 let side = self.width as usize;
                 texture_direction(picture, side, f64::from(x) + 0.5, f64::from(y) + 0.5)
             }
-            Kind::Region(tangent, pixel_rad) => {
+            Kind::Region(tangent) => {
                 let middle = f64::from(self.width) / 2.0;
                 let (right, up) = (f64::from(x) + 0.5 - middle, middle - f64::from(y) - 0.5);
-                tangent.direction(right * pixel_rad, up * pixel_rad)
+                tangent.direction(right * self.spacing_rad, up * self.spacing_rad)
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::Bake;
 use super::format::Shape;
 use super::maps::{Map, Range, mean_color};
+use super::occlusion::DISTANCES;
 use super::projection::Projection;
 use crate::planet::{Key, Planet, VERSION};
 use serde_json::{Value, json};
@@ -61,6 +62,10 @@ pub(super) fn about(bake: &Bake, map: Map, file: &str, faces: &[&str], shape: &S
     if map.is_of_clouds() {
         about["time_s"] = json!(bake.time_secs);
     }
+    if map == Map::AmbientOcclusion {
+        let pixel_m = bake.projection.spacing_rad(bake.size, planet.radius_km) * planet.radius_m();
+        about["distances_m"] = DISTANCES.iter().map(|distance| json!(distance * pixel_m)).collect();
+    }
     if map == Map::Biome {
         let biome = |(id, biome): (usize, &crate::planet::Biome)| json!({ "id": id, "key": biome.key, "name": biome.name, "color": mean_color(biome) });
         about["palette"] = planet.biomes.palette.iter().enumerate().map(biome).collect();
@@ -73,7 +78,7 @@ fn channels(map: Map) -> Value {
     match map {
         Map::Normal | Map::Flow => json!(["east", "north", "up"]),
         Map::NormalPlanet => json!(["x", "y", "z"]),
-        Map::Albedo => json!(["red", "green", "blue"]),
+        Map::Albedo | Map::NightLights => json!(["red", "green", "blue"]),
         other => json!([other.name()]),
     }
 }

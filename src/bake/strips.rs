@@ -7,8 +7,11 @@
 //! Format, little-endian: `MAGIC`, the key of the bake (16 bytes), the number of the strip (4 bytes); for each map its
 //! least and greatest value; for each map its values row by row, channels together. All values are floats of 32 bits.
 
+use super::Bake;
 use super::error::BakeError;
+use super::lights::Lights;
 use super::maps::{MOST_CHANNELS, Map, Site};
+use super::occlusion::open_shares;
 use super::projection::Grid;
 use crate::clouds::{CloudCover, CloudField};
 use crate::planet::Key;
@@ -50,11 +53,22 @@ pub(super) struct Strip {
 
 /// What strips are computed from.
 pub(super) struct Evaluator<'a> {
-    pub(super) terrain: &'a Terrain,
-    pub(super) clouds: Option<CloudField>,
-    pub(super) time_secs: f64,
+    terrain: &'a Terrain,
+    clouds: Option<CloudField>,
+    time_secs: f64,
     /// Valleys and rivers that points so far apart would not show are left out.
-    pub(super) spacing_rad: f64,
+    spacing_rad: f64,
+    /// The angle between pixels.
+    pixel_rad: f64,
+    lights: Option<Lights>,
+}
+
+/// What maps show besides the ground, for each point; empty if none of them does.
+#[derive(Default)]
+struct Extras {
+    clouds: Vec<CloudCover>,
+    open: Vec<f64>,
+    lights: Vec<[f64; 3]>,
 }
 
 impl Strips {
@@ -156,11 +170,13 @@ impl Strips {
             for row in strip.rows.clone() {
                 dirs.extend(columns.clone().map(|x| self.grid.direction(strip.picture, x as u32, row)));
             }
-            let clouds = evaluator.find(&self.maps, &dirs, &mut samples, scratch);
+            let extras = evaluator.find(&self.maps, &dirs, &mut samples, scratch);
             let planet = evaluator.terrain.planet();
             for (i, (&dir, sample)) in dirs.iter().zip(&samples).enumerate() {
-                let clouds = clouds.get(i).copied().unwrap_or_default();
-                let site = Site { planet, dir, sample, clouds };
+                let clouds = extras.clouds.get(i).copied().unwrap_or_default();
+                let (open, lights) = (extras.open.get(i).copied(), extras.lights.get(i).copied());
+                let (open, lights) = (open.unwrap_or(1.0), lights.unwrap_or_default());
+                let site = Site { planet, dir, sample, clouds, open, lights };
                 let pixel = i / columns.len() * width + columns.start + i % columns.len();
                 for (map, plane) in self.maps.iter().zip(&mut planes) {
                     let (channels, values): (_, [f32; MOST_CHANNELS]) = (map.channels(), map.values(&site));
@@ -172,9 +188,23 @@ impl Strips {
     }
 }
 
-impl Evaluator<'_> {
-    /// Fills in what maps ask of the terrain, and gives the clouds if any asks for them.
-    fn find(&self, maps: &[Map], dirs: &[DVec3], samples: &mut Vec<Sample>, scratch: &mut Scratch) -> Vec<CloudCover> {
+impl<'a> Evaluator<'a> {
+    /// All that the maps of a bake on a grid show.
+    pub(super) fn new(bake: &'a Bake, grid: &Grid) -> Self {
+        let (planet, pixel_rad) = (bake.terrain.planet(), grid.spacing_rad());
+        let shows_clouds = bake.maps.iter().any(|map| map.is_of_clouds());
+        Self {
+            terrain: &bake.terrain,
+            clouds: planet.clouds.as_ref().filter(|_| shows_clouds).map(|_| CloudField::new(&bake.terrain)),
+            time_secs: bake.time_secs,
+            spacing_rad: bake.spacing_rad(grid),
+            pixel_rad,
+            lights: bake.maps.contains(&Map::NightLights).then(|| Lights::new(planet, pixel_rad)).flatten(),
+        }
+    }
+
+    /// Fills in what maps ask of the terrain, and gives what they ask besides.
+    fn find(&self, maps: &[Map], dirs: &[DVec3], samples: &mut Vec<Sample>, scratch: &mut Scratch) -> Extras {
         samples.clear();
         samples.resize(dirs.len(), Sample::default());
         let both = |a: Wanted, b: Wanted| Wanted {
@@ -186,8 +216,23 @@ impl Evaluator<'_> {
         if let Some(wanted) = maps.iter().filter_map(|map| map.wanted()).reduce(both) {
             self.terrain.samples_spaced_into(dirs, self.spacing_rad, wanted, samples, scratch);
         }
-        let clouds = self.clouds.as_ref().filter(|_| maps.iter().any(|map| map.is_of_clouds()));
-        clouds.map_or_else(Vec::new, |field| field.covers(dirs, self.time_secs))
+        let mut extras = Extras::default();
+        if let Some(field) = &self.clouds {
+            extras.clouds = field.covers(dirs, self.time_secs);
+        }
+        if maps.contains(&Map::AmbientOcclusion) {
+            let heights_m = samples.iter().map(|sample| sample.height_m);
+            let spacings_rad = (self.pixel_rad, self.spacing_rad);
+            extras.open = open_shares(self.terrain, (dirs, heights_m), spacings_rad, scratch);
+        }
+        if let Some(lights) = &self.lights {
+            // The slope that pixels show, not that of every stone.
+            let slopes = self.terrain.slopes_at(dirs, &[self.spacing_rad, self.pixel_rad]).slopes;
+            let slopes = slopes.last().map_or(&[][..], Vec::as_slice);
+            let sites = dirs.iter().zip(&*samples).zip(slopes);
+            extras.lights = sites.map(|((&dir, sample), slope)| lights.at(dir, sample, slope.length())).collect();
+        }
+        extras
     }
 }
 

@@ -1,15 +1,17 @@
 //! The C interface: a planet for engines that do not speak Rust (Unity, Unreal, Godot, Python).
 //!
-//! - this file: the functions, of which `include/tellus.h` is made
+//! - this file and `moving`: the functions, of which `include/tellus.h` is made
 //! - `answers`: errors and the caller's buffers
 //!
 //! A shared library is built with `cargo rustc --lib --no-default-features --features capi --crate-type cdylib`.
 //! `docs/embedding.md` shows its use.
 
 mod answers;
+pub mod moving;
 #[cfg(test)]
 mod tests;
 
+use crate::clouds::CloudField;
 use crate::planet::{Key, Planet};
 use crate::sphere::{Face, LatLon, NodeId};
 use crate::terrain::{MapStore, Scratch, Terrain, Wanted};
@@ -17,11 +19,13 @@ use answers::{answer, input, last_error, optional_text, output, text};
 use glam::DVec3;
 use std::cell::RefCell;
 use std::ffi::{CString, c_char};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A planet, ready for queries. Any number of threads may ask at once.
 pub struct TellusPlanet {
     terrain: Terrain,
+    /// Made when clouds are asked for.
+    clouds: OnceLock<CloudField>,
     name: CString,
     hash: CString,
     biomes: Vec<CString>,
@@ -378,7 +382,7 @@ fn ready(planet: Planet, cache_folder: Option<&str>) -> Result<*mut TellusPlanet
     let store = cache_folder.map(|folder| Arc::new(MapStore::new(folder, CACHE_BYTES)));
     let terrain = Terrain::load(planet.into(), store, &|_| true).map_err(|error| error.to_string())?;
     let terrain = terrain.ok_or("loading stopped")?;
-    Ok(Box::into_raw(Box::new(TellusPlanet { terrain, name, hash, biomes })))
+    Ok(Box::into_raw(Box::new(TellusPlanet { terrain, clouds: OnceLock::new(), name, hash, biomes })))
 }
 
 /// # Safety

@@ -135,3 +135,115 @@ fn what_cannot_be_done_is_told_and_leaves_the_buffers_alone() {
     let failed = answer(3, || -> Result<i32, String> { panic!("as asked") });
     assert!(failed == 3 && error().contains("please report"));
 }
+
+fn from_file(file: &str) -> (Held, Terrain) {
+    let preset = shipped::ALL.iter().find(|preset| preset.file == file).unwrap();
+    (Held(load(preset.text)), Terrain::try_new(preset.load().unwrap().into()).unwrap())
+}
+
+#[test]
+fn clouds_and_water_at_a_time_are_those_of_the_library() {
+    let (planet, terrain) = from_file("maren.ron");
+    let dirs: Vec<DVec3> = crate::sphere::spread(40).collect();
+    let numbers: Vec<f64> = dirs.iter().flat_map(DVec3::to_array).collect();
+    let mut clouds = vec![moving::TellusClouds { low: -1.0, middle: -1.0, veil: -1.0, fog: -1.0 }; dirs.len()];
+    // SAFETY: the buffers are as long as they are said to be.
+    assert!(unsafe { moving::tellus_clouds(planet.0, numbers.as_ptr(), dirs.len(), 5000.0, clouds.as_mut_ptr()) });
+    let field = CloudField::new(&terrain);
+    for (dir, clouds) in dirs.iter().zip(&clouds) {
+        let found = field.cover(*dir, 5000.0);
+        assert_eq!(
+            (clouds.low, clouds.middle, clouds.veil, clouds.fog),
+            (found.low, found.middle, found.veil, found.fog)
+        );
+    }
+    let sea_m = terrain.planet().sea_level_m().unwrap();
+    let (mut at_sea, mut moved) = (0, 0);
+    for dir in &dirs {
+        let mut heights_m = [[0.0; 2]; 2];
+        for (time_s, heights_m) in [100.0, 103.0].into_iter().zip(&mut heights_m) {
+            let twice = [dir.to_array(), (*dir * 2.0).to_array()];
+            // SAFETY: both buffers hold what two directions take.
+            assert!(unsafe {
+                moving::tellus_water(planet.0, twice.as_ptr().cast(), 2, time_s, heights_m.as_mut_ptr())
+            });
+        }
+        let [[first_m, same_m], [later_m, _]] = heights_m;
+        let is_sea = terrain.height_m(*dir) < sea_m;
+        assert_eq!(first_m.is_nan(), !is_sea);
+        if is_sea {
+            assert!((first_m - same_m).abs() < 1e-6 && (first_m - sea_m).abs() < 60.0, "{first_m}");
+            at_sea += 1;
+            moved += i32::from(first_m != later_m);
+        }
+    }
+    assert!(at_sea > 10 && moved * 2 > at_sea, "{moved} of {at_sea}");
+    // SAFETY: the function refuses before it reads.
+    assert!(!unsafe { moving::tellus_water(planet.0, numbers.as_ptr(), 1, f64::NAN, [0.0].as_mut_ptr()) });
+    assert!(error().contains("time_s"));
+}
+
+#[test]
+fn chunks_and_sweeps_are_those_of_the_library() {
+    let (planet, terrain) = from_file("pallor.ron");
+    let dir = LatLon::from_degrees(12.0, 34.0).direction();
+    let mut positions_m = vec![[0.0_f32; 3]; 81];
+    // SAFETY: the buffer holds 9 by 9 vertices.
+    assert!(unsafe {
+        let at = dir.to_array();
+        let positions_m = positions_m.as_mut_ptr().cast();
+        moving::tellus_chunk(planet.0, at.as_ptr(), 100.0, 8, -2, 3, positions_m, std::ptr::null_mut())
+    });
+    let grid = crate::terrain::ChunkGrid::on_ground(&terrain, dir, 100.0, 8);
+    let chunk = grid.chunk(&terrain, [-2, 3], &mut Scratch::default());
+    assert!(chunk.positions_m.iter().zip(&positions_m).all(|(wanted, found)| wanted.to_array() == *found));
+    let start_m = dir * (terrain.planet().radius_m() + terrain.height_m(dir) + 500.0);
+    let ends_m = [start_m.to_array(), start_m.to_array()];
+    let motion_m = (dir * -1000.0).to_array();
+    let mut contact = moving::TellusContact { share: -1.0, gap_m: 0.0, point_m: [0.0; 3], normal: [0.0; 3] };
+    let mut sweep = |radius_m: f64, motion_m: [f64; 3]| {
+        // SAFETY: the buffers hold 6, 3 and one.
+        unsafe { moving::tellus_sweep(planet.0, ends_m.as_ptr().cast(), radius_m, motion_m.as_ptr(), &raw mut contact) }
+    };
+    assert_eq!(sweep(0.0, motion_m), -1);
+    assert_eq!(sweep(2.0, motion_m.map(|along| -along)), 0);
+    assert_eq!(sweep(2.0, motion_m), 1);
+    let wanted = terrain.sweep(&crate::terrain::Capsule::sphere(start_m, 2.0), dir * -1000.0).unwrap();
+    assert_eq!((contact.share, contact.point_m), (wanted.share, wanted.contact.point_planet_m.to_array()));
+}
+
+/// A planet on the threads of a test: the library promises that any number may ask.
+struct Shared(*mut TellusPlanet);
+
+// SAFETY: the planet is not freed before the threads have ended, and its functions may be called from any thread.
+unsafe impl Sync for Shared {}
+
+#[test]
+fn many_threads_ask_at_once_and_get_the_same_answers() {
+    let (planet, terrain) = from_file("maren.ron");
+    let shared = &Shared(planet.0);
+    let dirs: Vec<DVec3> = crate::sphere::spread(64).collect();
+    let wanted_m = terrain.heights_m(&dirs);
+    std::thread::scope(|scope| {
+        for thread in 0..16_usize {
+            let (dirs, wanted_m) = (&dirs, &wanted_m);
+            scope.spawn(move || {
+                for round in 0..8 {
+                    let (mut height_m, mut clouds) = ([f64::NAN], [[f64::NAN; 4]]);
+                    let i = (thread * 7 + round * 13) % dirs.len();
+                    let at = dirs[i].to_array();
+                    // SAFETY: the buffers hold what one direction takes.
+                    unsafe {
+                        assert!(tellus_heights(shared.0, at.as_ptr(), 1, height_m.as_mut_ptr()));
+                        assert!(moving::tellus_clouds(shared.0, at.as_ptr(), 1, 0.0, clouds.as_mut_ptr().cast()));
+                        // Errors belong to the thread that made them.
+                        assert!(tellus_biome_name(shared.0, 1000 + thread as u32).is_null());
+                    }
+                    assert!(error().contains(&format!("no biome {};", 1000 + thread)), "{}", error());
+                    assert_eq!(height_m[0], wanted_m[i]);
+                    assert!(clouds[0].iter().all(|cover| (0.0..=1.0).contains(cover)));
+                }
+            });
+        }
+    });
+}

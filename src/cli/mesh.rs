@@ -8,9 +8,6 @@ use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Cells along a side, unless a spacing is given.
-const DEFAULT_CELLS: u32 = 256;
-
 /// Write a planet or a region as a mesh: glTF 2.0 (GLB) or OBJ
 #[derive(clap::Args)]
 #[command(
@@ -64,10 +61,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let planet = Arc::new(load(&args.file)?);
     let area = args.region.region().map_or(Area::Globe, Area::Region);
-    let cells = match args.spacing {
-        Some(spacing_m) => MeshBake::cells_for(&area, planet.radius_m(), spacing_m, args.lods),
-        None => DEFAULT_CELLS,
-    };
+    let cells = MeshBake::cells_for(&area, planet.radius_m(), args.spacing, args.lods);
     let mesh = MeshBake {
         texture_px: args.texture,
         water: args.water,
@@ -75,11 +69,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         skirt_m: args.skirt,
         scale: args.scale,
         detail: args.detail.detail,
-        ..MeshBake::new(Arc::new(maps::terrain(planet)?), area, cells, format)
+        ..MeshBake::new(area, cells, format)
     };
-    if mesh.is_slow() {
+    mesh.check(&planet)?;
+    if mesh.is_slow(&planet) {
         tell_slow();
     }
-    mesh.run(&args.output, &told()).map_err(|error| error.to_string())?;
+    mesh.run(&maps::terrain(planet)?, &args.output, &told()).map_err(|error| error.to_string())?;
     Ok(())
 }

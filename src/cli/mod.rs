@@ -1,9 +1,8 @@
 //! The command line: one file for each subcommand.
 //!
 //! - `args`: parsers of sizes, angles and locations; `area`: arguments that bakes share
-//! - `render`, `film`, `check`, `sample`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`, `system`, `new`,
-//!   `bench`:
-//!   the subcommands
+//! - `render`, `film`, `check`, `sample`, `nearest`, `bake`, `mesh`, `tiles`, `rivers`, `coasts`, `maps`, `sky`,
+//!   `system`, `new`, `bench`: the subcommands
 //! - `geojson`: features and lines for `rivers` and `coasts`
 //! - `points`: many points for `sample`
 //! - `headless`: a GPU without a window
@@ -23,6 +22,7 @@ mod geojson;
 mod headless;
 mod maps;
 mod mesh;
+mod nearest;
 mod new;
 mod points;
 mod render;
@@ -60,6 +60,7 @@ enum Command {
     Film(Box<film::Args>),
     Check(check::Args),
     Sample(sample::Args),
+    Nearest(Box<nearest::Args>),
     Bake(Box<bake::Args>),
     Mesh(Box<mesh::Args>),
     Tiles(tiles::Args),
@@ -112,6 +113,7 @@ pub fn run() -> ExitCode {
         Some(Command::Film(args)) => film::run(&args),
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Sample(args)) => sample::run(&args),
+        Some(Command::Nearest(args)) => nearest::run(&args),
         Some(Command::Bake(args)) => bake::run(&args),
         Some(Command::Mesh(args)) => mesh::run(&args),
         Some(Command::Tiles(args)) => tiles::run(&args),

@@ -102,6 +102,11 @@ fn biome_name<'a>(terrain: &'a Terrain, sample: &Sample) -> &'a str {
     terrain.planet().biomes.palette.get(sample.biome).map_or("", |biome| biome.name.as_str())
 }
 
+/// All that is known of a point at a time.
+pub(super) fn everything(terrain: &Terrain, dir: DVec3, time_secs: f64) -> Value {
+    as_json(terrain, dir, &terrain.sample(dir), &terrain.layers_m(dir), &Moment::new(terrain, time_secs))
+}
+
 /// All that is known of a point.
 pub(super) fn as_json(terrain: &Terrain, dir: DVec3, sample: &Sample, layers_m: &[f64], moment: &Moment) -> Value {
     let clouds = moment.cover(dir);
@@ -152,7 +157,7 @@ fn to_east_and_north(dir: DVec3, tangent: DVec3) -> [f64; 2] {
 }
 
 /// The heading of a tangent: 0 north, 90 east.
-fn heading_deg(dir: DVec3, tangent: DVec3) -> f64 {
+pub(super) fn heading_deg(dir: DVec3, tangent: DVec3) -> f64 {
     let [east, north] = to_east_and_north(dir, tangent);
     east.atan2(north).to_degrees().rem_euclid(360.0)
 }

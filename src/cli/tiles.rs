@@ -3,7 +3,6 @@
 use super::area::{DetailArgs, RegionArgs, tell_slow};
 use super::bake::told;
 use super::{Failure, load, maps};
-use crate::bake::Detail;
 use crate::bake::mesh::{MeshWater, Tileset};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -42,17 +41,18 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
-    if planet.structure.is_some() && args.detail.detail == Detail::All {
-        tell_slow();
-    }
     let tileset = Tileset {
         region: args.region.region(),
         cells: args.cells,
         texture_px: args.texture,
         water: MeshWater::named(&args.water).unwrap_or_default(),
         detail: args.detail.detail,
-        ..Tileset::new(Arc::new(maps::terrain(planet)?), args.levels)
+        ..Tileset::new(args.levels)
     };
-    tileset.run(&args.output, &told()).map_err(|error| error.to_string())?;
+    tileset.check(&planet)?;
+    if tileset.is_slow(&planet) {
+        tell_slow();
+    }
+    tileset.run(&maps::terrain(planet)?, &args.output, &told()).map_err(|error| error.to_string())?;
     Ok(())
 }

@@ -15,7 +15,7 @@ use super::panels::PanelState;
 use super::panels::docks::Bench;
 use super::panels::layout::Layout;
 use super::state::State;
-use super::state::baking::BakeSettings;
+use super::state::bake_settings::BakeSettings;
 use super::state::device::DeviceWatch;
 use super::state::document::Document;
 use super::state::pictures::Pictures;

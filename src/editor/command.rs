@@ -4,7 +4,7 @@
 //! and its handler; [`apply`](super::apply) carries out the actions.
 
 use super::finder::place::Place;
-use super::state::baking::BakeSettings;
+use super::state::bake_settings::BakeSettings;
 use super::state::shooting::{PhotoSettings, Subject};
 use super::state::templates::Template;
 use super::state::variations::Wish;
@@ -38,7 +38,7 @@ pub enum Command {
     TogglePanel,
     /// Put every tab back into the side panel.
     ResetLayout,
-    /// Show or hide the window that bakes maps.
+    /// Show or hide the window that bakes maps and meshes.
     Bake,
     /// Show or hide the library.
     Library,
@@ -108,7 +108,7 @@ pub enum Action {
     Bookmark(BookmarkAction),
     /// Take a picture.
     Shoot(Shoot),
-    /// Bake maps for other programs.
+    /// Bake maps and meshes for other programs.
     Bake(BakeAction),
     /// Take something out of the library, or keep something in it.
     Library(LibraryAction),
@@ -290,12 +290,12 @@ pub enum SystemAction {
     SetTime(f64),
 }
 
-/// An action on maps for other programs.
+/// An action on maps and meshes for other programs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BakeAction {
     /// Change what is to be baked.
     Set(Box<BakeSettings>),
-    /// Ask for a folder.
+    /// Ask for a folder or a file.
     Ask,
     /// Stop the bake that is under way.
     Cancel,

@@ -11,7 +11,7 @@
 //! - `edits`: ground edits: strokes, stamps and splines
 //! - `evaluate`: the pipeline that makes a height from all of these, for queries and tiles
 //! - `biome`, `border`: the biome of a point; border jitter
-//! - `query`, `raycast`: the queries of [`Terrain`]; `water`: water, wind and rain at points
+//! - `query`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `water`: water, wind and rain at points
 //! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
 //! - `effects`: what one layer does at points
@@ -31,6 +31,7 @@ mod by_hand;
 mod chunk;
 pub(crate) mod climate;
 pub(crate) mod coarse;
+mod contact;
 mod contours;
 mod edits;
 mod effects;
@@ -41,6 +42,7 @@ mod jet;
 pub(crate) mod kept;
 pub(crate) mod landform;
 pub(crate) mod lane;
+mod nearest;
 mod network;
 pub(crate) mod noise;
 pub(crate) mod points;
@@ -60,6 +62,7 @@ use crate::world::{Inputs, KeepGoing, MapWork, World};
 #[cfg(feature = "render")]
 use crate::world::{MapPicture, MapView};
 pub use chunk::{Chunk, ChunkGrid};
+pub use contact::{Capsule, Contact, Sweep};
 pub use contours::Contour;
 pub use effects::LayerEffect;
 pub use height::curve_at;
@@ -72,6 +75,7 @@ use edits::Edits;
 use glam::DVec3;
 use height::LayerStack;
 use landform::{Landform, Maps};
+pub use nearest::{Place, Search};
 pub use network::{Basin, Course, CoursePoint, Lake, Mouth, Rivers};
 use points::unit;
 pub use query::{Sample, Scratch, Wanted};

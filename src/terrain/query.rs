@@ -166,7 +166,7 @@ impl Terrain {
     }
 
     /// As [`Terrain::heights_into`], without valleys of a structure that points `spacing_rad` apart would not show.
-    pub(super) fn heights_spaced_into(
+    pub(crate) fn heights_spaced_into(
         &self,
         dirs_planet: &[DVec3],
         spacing_rad: f64,

@@ -412,3 +412,28 @@ fn a_folder_that_cannot_be_written_is_said() {
     assert!(status == 1 && told.contains("cannot make the folder"), "{told}");
     assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
 }
+
+#[test]
+fn ambient_occlusion_is_of_the_pixel_alone_and_tells_its_distances() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Regions about one place, whose pixels are a kilometre wide.
+    let read = |side: &str| {
+        let region = ["--as", "region", "--lat", "16.3", "--lon", "-32.4", "--km", side, "--size", side];
+        bake(folder, &[&["--what", "ambient_occlusion", "--format", "exr"][..], &region].concat());
+        decode::exr(&fs::read(folder.join("ambient_occlusion.exr")).unwrap())
+    };
+    let (wide, narrow) = (read("33"), read("3"));
+    assert!(wide.numbers.iter().all(|open| (0.0..=1.0).contains(open)));
+    let least = wide.numbers.iter().copied().fold(1.0, f64::min);
+    assert!(least < 0.999, "nothing is hidden anywhere: {least}");
+    // What lies beyond the border of a region counts.
+    assert_eq!(narrow.at(1, 1), wide.at(16, 16));
+    let about = about(folder, "ambient_occlusion");
+    let distances: Vec<f64> = about["distances_m"].as_array().unwrap().iter().map(|m| m.as_f64().unwrap()).collect();
+    for (found, wanted) in distances.iter().zip([1e3, 2e3, 4e3, 8e3, 16e3, 32e3]) {
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{distances:?}");
+    }
+    let (code, error) = run(&["bake", LAYERED, "-o", folder.to_str().unwrap(), "--what", "night_lights"]);
+    assert!(code == 1 && error.contains("night_lights: Layered has no settlements; leave it out"), "{error}");
+}

@@ -246,3 +246,31 @@ fn coasts_are_closed_lines_at_the_sea_level() {
     let (status, _, err) = run(&["coasts", LAYERED, "-o", out, "--spacing", "1"], "");
     assert!(status == 1 && err.contains("use 610.812 m or more"), "{err}");
 }
+
+#[test]
+fn the_nearest_place_has_what_was_asked_for() {
+    let at = ["--lat", "10", "--lon", "20", "--json"];
+    let nearest = |more: &[&str]| run(&[&["nearest", LAYERED][..], &at, more].concat(), "");
+    for what in ["land", "sea"] {
+        let (code, out, err) = nearest(&["--what", what, "--within", "4000"]);
+        assert_eq!((code, err.as_str()), (0, ""));
+        let place: Value = serde_json::from_str(&out).unwrap();
+        let number = |key: &str| place[key].as_f64().unwrap_or_else(|| panic!("{key}: {place}"));
+        let sea_m = place["water_level_m"].as_f64();
+        assert_eq!(sea_m.is_some_and(|level_m| level_m > number("height_m")), what == "sea", "{place}");
+        assert!(number("distance_m") <= 4e6);
+        // What `tellus sample` answers there.
+        let (lat, lon) = (number("lat").to_string(), number("lon").to_string());
+        let (_, out, _) = run(&["sample", LAYERED, "--lat", &lat, "--lon", &lon, "--json"], "");
+        let sample: Value = serde_json::from_str(&out).unwrap();
+        assert!((sample["height_m"].as_f64().unwrap() - number("height_m")).abs() < 0.1);
+    }
+    let (code, out, err) = nearest(&["--above", "50000"]);
+    assert_eq!((code, out.as_str()), (1, ""));
+    assert!(err.contains("no such place within 1000 km"), "{err}");
+    let (code, _, err) = nearest(&["--biome", "Cheese"]);
+    assert!(code == 1 && err.contains("has no biome Cheese; it has "), "{err}");
+    let (code, _, err) = nearest(&["--what", "land", "--spacing", "1"]);
+    assert!(code == 1 && err.contains("million points"), "{err}");
+    assert_eq!(nearest(&[]).0, 2);
+}

@@ -3,8 +3,7 @@
 use cbindgen::{Builder, Config, Language, Style};
 use std::path::Path;
 
-const HEADER: &str =
-    "/* Tellus: planets from one small file. Made from src/capi/mod.rs; docs/embedding.md tells more. */";
+const HEADER: &str = "/* Tellus: planets from one small file. Made from src/capi; docs/embedding.md tells more. */";
 
 #[test]
 fn the_c_header_is_that_of_the_functions() {

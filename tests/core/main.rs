@@ -21,6 +21,7 @@ mod joining;
 mod landforms;
 mod lod;
 mod nonsense;
+mod physics;
 mod preset;
 mod rebuild;
 mod relief;

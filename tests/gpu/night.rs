@@ -2,9 +2,11 @@
 
 use crate::support::{camera, earth, frame_of, gpu, surface_of};
 use std::sync::Arc;
-use tellus::lod::{Quality, View};
+use tellus::bake::{Bake, Format, Map, Projection, Region};
+use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Atmosphere, Planet};
 use tellus::sphere::LatLon;
+use tellus::terrain::Terrain;
 
 /// Radiance of a view of 96 by 54 pixels, the star over the equator at a longitude.
 fn radiance(planet: &Arc<Planet>, place: [f64; 5], sun_lon: f64) -> Vec<[f32; 3]> {
@@ -63,4 +65,48 @@ fn settlements_shine_on_land_at_night() {
     assert!((lit / dark - 1.0).abs() < 1e-3, "at sea: {lit} over {dark}");
     let (dark, lit) = (seen(0.0, -20.0, 20.0), seen(1.0, -20.0, 20.0));
     assert!((lit / dark - 1.0).abs() < 1e-3, "by day: {lit} over {dark}");
+}
+
+#[test]
+fn baked_lights_are_those_that_are_drawn() {
+    let with = |settlements: f64| {
+        let mut planet = Planet { settlements, clouds: None, atmosphere: None, layers: Vec::new(), ..earth() };
+        planet.water.as_mut().unwrap().level_m = -20.0;
+        (planet.climate.moisture, planet.climate.temperature_variation_c) = (0.6, 0.0);
+        Arc::new(planet)
+    };
+    let above = [30.0, 20.0, 300e3, 0.0, -90.0];
+    let (dark, lit) = (radiance(&with(0.0), above, 200.0), radiance(&with(1.0), above, 200.0));
+    // The square in the middle of the picture, as high as the picture.
+    let side_km = 2.0 * 300.0 * (0.5 * Camera::DEFAULT_FOV_Y_RAD).tan();
+    let region = Projection::Region(Region { lat_deg: 30.0, lon_deg: 20.0, side_km });
+    let terrain = Arc::new(Terrain::try_new(with(1.0)).unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let bake = Bake::new(terrain, vec![Map::NightLights], region, 54, Format::Png16);
+    bake.run(folder.path(), &|_| true).unwrap();
+    let about = std::fs::read_to_string(folder.path().join("night_lights.json")).unwrap();
+    let about: serde_json::Value = serde_json::from_str(&about).unwrap();
+    let (min, max) = (about["min"].as_f64().unwrap(), about["max"].as_f64().unwrap());
+    let baked = image::open(folder.path().join("night_lights.png")).unwrap().into_rgb16();
+    // Means of blocks of 9 by 9 pixels: the projections of picture and map differ by less.
+    let block = |value: &dyn Fn(u32, u32) -> f64, i: u32| {
+        let (left, top) = (i % 6 * 9, i / 6 * 9);
+        (0..81).map(|k| value(left + k % 9, top + k / 9)).sum::<f64>() / 81.0
+    };
+    let drawn = |x: u32, y: u32| {
+        let pixel = (y * 96 + x + 21) as usize;
+        f64::from(lit[pixel][0] - dark[pixel][0])
+    };
+    let found = |x: u32, y: u32| min + f64::from(baked.get_pixel(x, y).0[0]) / 65_535.0 * (max - min);
+    let pairs: Vec<(f64, f64)> = (0..36).map(|i| (block(&drawn, i), block(&found, i))).collect();
+    let (mean_drawn, mean_found) =
+        pairs.iter().fold((0.0, 0.0), |(a, b), (drawn, found)| (a + drawn / 36.0, b + found / 36.0));
+    assert!((mean_found / mean_drawn - 1.0).abs() < 0.15, "{mean_found} baked, {mean_drawn} drawn");
+    let (mut both, mut of_drawn, mut of_found) = (0.0, 0.0, 0.0);
+    for (drawn, found) in pairs {
+        let (a, b) = (drawn - mean_drawn, found - mean_found);
+        (both, of_drawn, of_found) = (both + a * b, of_drawn + a * a, of_found + b * b);
+    }
+    let alike = both / (of_drawn * of_found).sqrt();
+    assert!(alike > 0.9, "the pattern is another one: {alike}");
 }

@@ -58,7 +58,7 @@ enum Part<'a> {
     Tangents(&'a [Vec3]),
     /// Colours as whole numbers of 16 bits, opaque.
     Colors(&'a [Vec3]),
-    Triangles(&'a [[u32; 3]]),
+    Triangles(&'a Geometry),
     File(&'a [u8]),
 }
 
@@ -70,7 +70,7 @@ impl Part<'_> {
             Part::Places(places) => places.len() * 8,
             Part::Tangents(tangents) => tangents.len() * 16,
             Part::Colors(colors) => colors.len() * 8,
-            Part::Triangles(triangles) => triangles.len() * 12,
+            Part::Triangles(geometry) => geometry.triangle_count() * 12,
             Part::File(file) => file.len(),
         }
     }
@@ -85,8 +85,8 @@ impl Part<'_> {
                 let numbers = color.extend(1.0).to_array().map(|value| (value * 65_535.0).round() as u16);
                 numbers.iter().try_for_each(|number| out.write_all(&number.to_le_bytes()))
             }),
-            Part::Triangles(triangles) => {
-                triangles.iter().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))
+            Part::Triangles(geometry) => {
+                geometry.triangles().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))
             }
             Part::File(file) => out.write_all(file),
         }
@@ -176,8 +176,8 @@ impl<'a> Document<'a> {
         let [min, max] = geometry.bounds().map(|corner| corner.to_array());
         self.accessors[positions]["min"] = json!(min);
         self.accessors[positions]["max"] = json!(max);
-        let triangles = Part::Triangles(&geometry.triangles);
-        let count = geometry.triangles.len() * 3;
+        let triangles = Part::Triangles(geometry);
+        let count = geometry.triangle_count() * 3;
         let indices = self.accessor(triangles, count, "SCALAR", UNSIGNED_INT, ELEMENT_ARRAY_BUFFER);
         json!({ "attributes": attributes, "indices": indices, "material": material })
     }

@@ -27,6 +27,7 @@ mod tileset;
 use super::progress::Progress;
 use super::sidecar::of_planet;
 use super::{BakeError, Detail, Outcome, Region};
+use crate::planet::Planet;
 use crate::planet::file::Target;
 use crate::terrain::Terrain;
 use geometry::Geometry;
@@ -36,24 +37,23 @@ use serde_json::{Value, json};
 use square::Square;
 use std::f64::consts::FRAC_PI_2;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use surface::Surface;
 use textures::Textures;
 
 pub use tileset::Tileset;
 
-/// Most vertices of a mesh, all squares together; they take some 200 bytes each.
+/// Most vertices of a mesh, all squares together; they take some 100 bytes each.
 const MAX_VERTICES: u64 = 1 << 23;
 /// Most texels of the textures of one kind, all squares together.
 const MAX_TEXELS: u64 = 1 << 27;
+/// Samples of a texel.
+const SAMPLES: u64 = (textures::FINER * textures::FINER) as u64;
 /// Most levels of detail.
 const MAX_LEVELS: u32 = 8;
 
 /// A mesh that is to be written to a file.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MeshBake {
-    /// The planet, with its final world maps.
-    pub terrain: Arc<Terrain>,
     /// The part of the planet.
     pub area: Area,
     /// Cells along each side of a square of the finest level.
@@ -105,13 +105,21 @@ pub enum MeshWater {
 }
 
 impl MeshFormat {
+    /// Both.
+    pub const ALL: [MeshFormat; 2] = [MeshFormat::Glb, MeshFormat::Obj];
+
+    /// The ending of its files' names.
+    pub fn extension(self) -> &'static str {
+        match self {
+            MeshFormat::Glb => "glb",
+            MeshFormat::Obj => "obj",
+        }
+    }
+
     /// The format that the ending of a path names.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "glb" => Some(MeshFormat::Glb),
-            "obj" => Some(MeshFormat::Obj),
-            _ => None,
-        }
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        Self::ALL.into_iter().find(|format| format.extension() == ending)
     }
 }
 
@@ -150,10 +158,12 @@ fn level_name(name: &str, level: usize, levels: usize) -> String {
 }
 
 impl MeshBake {
+    /// Cells along each side of a square, unless a spacing is wanted.
+    pub const CELLS: u32 = 256;
+
     /// A mesh with colours at its vertices.
-    pub fn new(terrain: Arc<Terrain>, area: Area, cells: u32, format: MeshFormat) -> Self {
+    pub fn new(area: Area, cells: u32, format: MeshFormat) -> Self {
         Self {
-            terrain,
             area,
             cells,
             format,
@@ -167,40 +177,57 @@ impl MeshBake {
     }
 
     /// The least number of cells along a side for a distance between vertices of at most `spacing_m` on the reference
-    /// sphere, that can be halved for each level of detail but the first.
-    pub fn cells_for(area: &Area, radius_m: f64, spacing_m: f64, levels: u32) -> u32 {
+    /// sphere, that can be halved for each level of detail but the first. Without a distance, [`Self::CELLS`].
+    pub fn cells_for(area: &Area, radius_m: f64, spacing_m: Option<f64>, levels: u32) -> u32 {
         let multiple = 1_u32 << levels.clamp(1, MAX_LEVELS).saturating_sub(1);
+        let Some(spacing_m) = spacing_m else { return Self::CELLS.next_multiple_of(multiple) };
         let cells = (side_m(area, radius_m) / spacing_m).ceil().clamp(1.0, f64::from(u32::MAX / 2)) as u32;
         cells.div_ceil(multiple) * multiple
     }
 
     /// Mean distance between neighbouring vertices of the finest level along the middle of a square, on the reference
     /// sphere.
-    pub fn spacing_m(&self) -> f64 {
-        side_m(&self.area, self.terrain.planet().radius_m()) / f64::from(self.cells)
+    pub fn spacing_m(&self, radius_m: f64) -> f64 {
+        side_m(&self.area, radius_m) / f64::from(self.cells)
+    }
+
+    /// Vertices of the finest level, all squares together.
+    pub fn vertices(&self) -> u64 {
+        self.squares() * (u64::from(self.cells) + 1).pow(2)
+    }
+
+    fn squares(&self) -> u64 {
+        if self.area == Area::Globe { 6 } else { 1 }
     }
 
     /// Whether it takes milliseconds a vertex; see [`Detail`].
-    pub fn is_slow(&self) -> bool {
-        self.terrain.planet().structure.is_some() && self.detail == Detail::All && self.spacing_m() > super::SLOW_M
+    pub fn is_slow(&self, planet: &Planet) -> bool {
+        planet.structure.is_some() && self.detail == Detail::All && self.spacing_m(planet.radius_m()) > super::SLOW_M
     }
 
-    /// Writes the mesh. A file that is there is replaced when the new one is complete.
+    /// Writes the mesh of a planet whose world maps are final. A file that is there is replaced when the new one is
+    /// complete.
     ///
     /// `go_on` is asked again and again, from several threads, with the share of the work that is done (0 to 1). If it
     /// answers no, the bake stops, and nothing is written.
     ///
     /// # Errors
     /// What is wrong with what was asked for; or with a file. No file is left half-written.
-    pub fn run(&self, path: &Path, go_on: &(dyn Fn(f64) -> bool + Sync)) -> Result<Outcome, BakeError> {
+    pub fn run(
+        &self,
+        terrain: &Terrain,
+        path: &Path,
+        go_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Outcome, BakeError> {
         profiling::scope!("bake a mesh");
-        self.check().map_err(BakeError::Asked)?;
+        let planet = terrain.planet();
+        has_final_maps(terrain).and_then(|()| self.check(planet)).map_err(BakeError::Asked)?;
         Target::checked(path).map_err(|error| BakeError::file(path, error))?;
-        let squares = Square::all(&self.area, self.terrain.planet().radius_m());
+        let squares = Square::all(&self.area, planet.radius_m());
         let side = u64::from(self.cells) + 1;
-        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px));
+        let texels = self.texture_px.map_or(0, |px| u64::from(px) * u64::from(px) * SAMPLES);
         let progress = Progress::new(squares.len() as u64 * (side * side + texels), go_on);
-        let surface = Surface { terrain: &self.terrain, water: self.water, detail: self.detail };
+        let surface = Surface { terrain, water: self.water, detail: self.detail };
         let mut pieces = Vec::with_capacity(squares.len());
         for square in &squares {
             let patch = Patch::new(square, self.cells, &surface, &progress);
@@ -214,24 +241,25 @@ impl MeshBake {
             }
             let strides = (0..self.levels).map(|level| 1_usize << level);
             let water = strides.clone().filter_map(|stride| Geometry::water(&patch, stride, self.scale)).collect();
-            let levels = strides.map(|stride| Geometry::new(&patch, stride, self.skirt_m, self.scale)).collect();
+            let levels = strides
+                .map(|stride| Geometry::new(&patch, stride, self.skirt_m, self.scale, textures.is_some()))
+                .collect();
             pieces.push(Piece { name: square.name(), levels, water, textures });
         }
         match self.format {
             MeshFormat::Glb => {
-                glb::write(self.terrain.planet(), &self.about(), path, &pieces, DVec3::ZERO)?;
+                glb::write(planet, &self.about(planet), path, &pieces, DVec3::ZERO)?;
                 Ok(Outcome::Done(vec![path.to_owned()]))
             }
-            MeshFormat::Obj => obj::write(self, path, &pieces).map(Outcome::Done),
+            MeshFormat::Obj => obj::write(self, planet, path, &pieces).map(Outcome::Done),
         }
     }
 
-    /// What is wrong with what is asked for.
-    fn check(&self) -> Result<(), String> {
-        let planet = self.terrain.planet();
-        if !self.terrain.has_final_maps() {
-            return Err("the world maps of the terrain are not final; load it with Terrain::load".to_owned());
-        }
+    /// Whether such a mesh of a planet can be written.
+    ///
+    /// # Errors
+    /// What is wrong with what is asked for, and what would be right.
+    pub fn check(&self, planet: &Planet) -> Result<(), String> {
         if let Area::Region(region) = &self.area {
             region.check(planet)?;
         }
@@ -245,13 +273,13 @@ impl MeshBake {
                 self.cells, self.levels
             ));
         }
-        let squares = if self.area == Area::Globe { 6 } else { 1 };
+        let squares = self.squares();
         let most = ((MAX_VERTICES / squares) as f64).sqrt() as u32 - 1;
         if self.cells > most {
             let least_m = side_m(&self.area, planet.radius_m()) / f64::from(most);
             return Err(format!(
                 "a spacing of {:.3} m makes more than {} million vertices; use {least_m:.3} m or more, or a smaller region",
-                self.spacing_m(),
+                self.spacing_m(planet.radius_m()),
                 MAX_VERTICES >> 20
             ));
         }
@@ -275,11 +303,10 @@ impl MeshBake {
     }
 
     /// What a program may want to know of the mesh.
-    fn about(&self) -> Value {
-        let planet = self.terrain.planet();
+    fn about(&self, planet: &Planet) -> Value {
         let mut about = of_planet(planet);
         about["units_per_m"] = json!(self.scale);
-        about["spacing_m"] = json!(self.spacing_m());
+        about["spacing_m"] = json!(self.spacing_m(planet.radius_m()));
         about["water"] = json!(self.water.name());
         about["detail"] = json!(self.detail.name());
         if let Area::Region(region) = self.area {
@@ -289,6 +316,14 @@ impl MeshBake {
         }
         about
     }
+}
+
+/// Draft maps would be baked without a sign of it.
+fn has_final_maps(terrain: &Terrain) -> Result<(), String> {
+    if terrain.has_final_maps() {
+        return Ok(());
+    }
+    Err("the world maps of the terrain are not final; load it with Terrain::load".to_owned())
 }
 
 /// Length of a side of a square through its middle, on the reference sphere.
@@ -301,6 +336,7 @@ fn side_m(area: &Area, radius_m: f64) -> f64 {
 
 /// A file beside another, with another ending of its name.
 fn beside(path: &Path, ending: &str) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    // Many readers of OBJ end a name at a space.
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().replace(char::is_whitespace, "_");
     path.with_file_name(format!("{stem}{ending}"))
 }

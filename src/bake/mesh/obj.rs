@@ -7,15 +7,21 @@ use super::{MeshBake, Piece, beside, level_name};
 use crate::bake::BakeError;
 use crate::bake::format::srgb_from_linear;
 use crate::bake::sidecar::MADE_BY;
-use crate::planet::Water;
 use crate::planet::file::{write_atomically, write_atomically_with};
+use crate::planet::{Planet, Water};
+use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes the file and those beside it. The OBJ comes last: what it names is there.
-pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece]) -> Result<Vec<PathBuf>, BakeError> {
+pub(super) fn write(
+    mesh: &MeshBake,
+    planet: &Planet,
+    path: &Path,
+    pieces: &[Piece],
+) -> Result<Vec<PathBuf>, BakeError> {
     let mut files = Vec::new();
     let mut write = |path: PathBuf, bytes: &[u8]| -> Result<String, BakeError> {
         write_atomically(&path, bytes).map_err(|error| BakeError::file(&path, error))?;
@@ -36,21 +42,19 @@ pub(super) fn write(mesh: &MeshBake, path: &Path, pieces: &[Piece]) -> Result<Ve
         }
     }
     if pieces.iter().any(|piece| !piece.water.is_empty()) {
-        materials.push_str(&water_material(mesh.terrain.planet().water.as_ref()));
+        materials.push_str(&water_material(planet.water.as_ref()));
     }
     let library = write(beside(path, ".mtl"), materials.as_bytes())?;
-    let encode = &mut |file: &mut File| encode(mesh, pieces, &library, BufWriter::new(file));
+    let encode = &mut |file: &mut File| encode(&mesh.about(planet), pieces, &library, BufWriter::new(file));
     write_atomically_with(path, None, encode).map_err(|error| BakeError::file(path, error))?;
     files.insert(0, path.to_owned());
     Ok(files)
 }
 
-fn encode(mesh: &MeshBake, pieces: &[Piece], library: &str, mut out: impl Write) -> io::Result<()> {
+fn encode(about: &Value, pieces: &[Piece], library: &str, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "# {MADE_BY}")?;
-    if let Some(about) = mesh.about().as_object() {
-        for (key, value) in about {
-            writeln!(out, "# {key}: {value}")?;
-        }
+    for (key, value) in about.as_object().into_iter().flatten() {
+        writeln!(out, "# {key}: {value}")?;
     }
     writeln!(out, "mtllib {library}")?;
     let mut first = 1;
@@ -94,7 +98,7 @@ fn object(
     for uv in &geometry.uvs {
         writeln!(out, "vt {} {}", uv.x, 1.0 - uv.y)?;
     }
-    for triangle in &geometry.triangles {
+    for triangle in geometry.triangles() {
         let [a, b, c] = triangle.map(|index| index as usize + *first);
         writeln!(out, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}")?;
     }

@@ -18,12 +18,11 @@ pub(super) struct Patch {
 pub(super) struct Vertex {
     pub(super) position_m: DVec3,
     pub(super) normal: Vec3,
-    /// Unit vector along the surface to where `u` grows.
-    pub(super) tangent: Vec3,
     /// Linear sRGB.
     pub(super) color: Vec3,
-    /// Distance of the water over the vertex from the planet's centre, where that is a mesh of its own; metres.
-    pub(super) water_radius_m: Option<f64>,
+    /// Distance of the water over the vertex from the planet's centre, where that is a mesh of its own, metres; else
+    /// NaN.
+    water_radius_m: f64,
 }
 
 impl Patch {
@@ -36,11 +35,7 @@ impl Patch {
         for first in (0..side).step_by(BAND) {
             let rows = first..(first + BAND).min(side);
             let points = surface.band(rows, side, &direction, square.spacing_rad(cells), progress);
-            for row in points.chunks_exact(side) {
-                let dir = |i: usize| row[i.min(side - 1)].dir_planet;
-                let along = |i: usize| dir(i + 1) - dir(i.saturating_sub(1));
-                vertices.extend(row.iter().enumerate().map(|(i, point)| vertex(square, point, along(i))));
-            }
+            vertices.extend(points.iter().map(|point| vertex(square, point)));
         }
         Self { side, vertices, center_m: square.center_m() }
     }
@@ -48,6 +43,17 @@ impl Patch {
     /// The vertex of a row and a column.
     pub(super) fn at(&self, row: usize, column: usize) -> &Vertex {
         &self.vertices[row * self.side + column]
+    }
+
+    /// Unit vector along the surface to where `u` grows.
+    pub(super) fn tangent(&self, row: usize, column: usize) -> DVec3 {
+        let last = self.side - 1;
+        let (before, after) = (self.at(row, column.saturating_sub(1)), self.at(row, (column + 1).min(last)));
+        let vertex = self.at(row, column);
+        let (up, normal) = ((vertex.position_m - self.center_m).normalize(), vertex.normal.as_dvec3());
+        let along = after.position_m - before.position_m;
+        // The vector of the tangent plane whose horizontal part is that of `along`.
+        (along - up * (normal.dot(along) / normal.dot(up))).normalize()
     }
 
     /// Normal and tangent between vertices, as a renderer interpolates them over a triangle. Not of unit length.
@@ -69,22 +75,24 @@ impl Patch {
         for ((below, beside), weight) in corners.into_iter().zip(weights) {
             let vertex = self.at(row + below, column + beside);
             sums.0 += vertex.normal.as_dvec3() * weight;
-            sums.1 += vertex.tangent.as_dvec3() * weight;
+            sums.1 += self.tangent(row + below, column + beside) * weight;
         }
         sums
     }
 }
 
-/// `along`: a chord to where `u` grows, in the planet frame.
-fn vertex(square: &Square, point: &Point, along: DVec3) -> Vertex {
-    let (dir, normal) = (point.dir_planet, point.normal_planet);
-    // The vector of the tangent plane whose horizontal part is `along`.
-    let tangent = along - dir * (normal.dot(along) / normal.dot(dir));
+impl Vertex {
+    /// Distance of the water over the vertex from the planet's centre, metres.
+    pub(super) fn water_radius_m(&self) -> Option<f64> {
+        Some(self.water_radius_m).filter(|radius_m| !radius_m.is_nan())
+    }
+}
+
+fn vertex(square: &Square, point: &Point) -> Vertex {
     Vertex {
-        position_m: square.position_m(dir, point.height_m),
-        normal: square.turned(normal).as_vec3(),
-        tangent: square.turned(tangent.normalize()).as_vec3(),
+        position_m: square.position_m(point.dir_planet, point.height_m),
+        normal: square.turned(point.normal_planet).as_vec3(),
         color: DVec3::from_array(point.color).as_vec3(),
-        water_radius_m: point.water_level_m.map(|level_m| square.radius_m + level_m),
+        water_radius_m: point.water_level_m.map_or(f64::NAN, |level_m| square.radius_m + level_m),
     }
 }

@@ -17,19 +17,23 @@ const PLANET: &str = r#"(
 
 const REGION: Area = Area::Region(Region { lat_deg: 20.0, lon_deg: -40.0, side_km: 8.0 });
 
-fn mesh(area: Area, cells: u32) -> MeshBake {
-    let planet = Planet::from_text("islet.ron", PLANET).unwrap();
-    MeshBake::new(Arc::new(Terrain::try_new(planet.into()).unwrap()), area, cells, MeshFormat::Glb)
+fn terrain() -> Terrain {
+    Terrain::try_new(Planet::from_text("islet.ron", PLANET).unwrap().into()).unwrap()
 }
 
-fn surface(mesh: &MeshBake) -> Surface<'_> {
-    Surface { terrain: &mesh.terrain, water: mesh.water, detail: mesh.detail }
+fn mesh(area: Area, cells: u32) -> MeshBake {
+    MeshBake::new(area, cells, MeshFormat::Glb)
+}
+
+fn surface<'a>(mesh: &MeshBake, terrain: &'a Terrain) -> Surface<'a> {
+    Surface { terrain, water: mesh.water, detail: mesh.detail }
 }
 
 fn patches(mesh: &MeshBake) -> Vec<(Square, Patch)> {
-    let surface = surface(mesh);
+    let terrain = terrain();
+    let surface = surface(mesh, &terrain);
     let progress = Progress::new(1, &|_| true);
-    let squares = Square::all(&mesh.area, mesh.terrain.planet().radius_m());
+    let squares = Square::all(&mesh.area, terrain.planet().radius_m());
     let patch = |square| {
         let patch = Patch::new(&square, mesh.cells, &surface, &progress);
         (square, patch)
@@ -43,6 +47,7 @@ fn patch(mesh: &MeshBake) -> (Square, Patch) {
 
 #[test]
 fn vertices_lie_where_the_evaluator_puts_them() {
+    let terrain = terrain();
     for area in [Area::Globe, REGION] {
         for water in MeshWater::ALL {
             let mesh = MeshBake { water, ..mesh(area, 12) };
@@ -52,7 +57,7 @@ fn vertices_lie_where_the_evaluator_puts_them() {
                     let (row, column) = (i / patch.side, i % patch.side);
                     let dir =
                         square.direction(NodeId::side_share(column as u32, 12), NodeId::side_share(row as u32, 12));
-                    let sample = mesh.terrain.sample(dir);
+                    let sample = terrain.sample(dir);
                     let level_m = sample.water_level_m.filter(|level_m| *level_m > sample.height_m);
                     wet += usize::from(level_m.is_some());
                     let height_m = match water {
@@ -60,14 +65,15 @@ fn vertices_lie_where_the_evaluator_puts_them() {
                         _ => sample.height_m,
                     };
                     assert!((vertex.position_m.distance(patch.center_m) - 40_000.0 - height_m).abs() < 1e-6);
-                    let apart = vertex.water_radius_m.map(|radius_m| radius_m - 40_000.0);
+                    let apart = vertex.water_radius_m().map(|radius_m| radius_m - 40_000.0);
                     match level_m.filter(|_| water == MeshWater::Apart) {
                         Some(level_m) => assert!(apart.is_some_and(|apart| (apart - level_m).abs() < 1e-6)),
                         None => assert_eq!(apart, None),
                     }
                     assert!((vertex.normal.length() - 1.0).abs() < 1e-5);
-                    assert!((vertex.tangent.length() - 1.0).abs() < 1e-5);
-                    assert!(vertex.normal.dot(vertex.tangent).abs() < 1e-5);
+                    let tangent = patch.tangent(row, column).as_vec3();
+                    assert!((tangent.length() - 1.0).abs() < 1e-5);
+                    assert!(vertex.normal.dot(tangent).abs() < 1e-5);
                 }
             }
             assert!(wet > 10, "{area:?}: {wet}");
@@ -82,8 +88,8 @@ fn a_globe_has_no_gap_and_no_triangle_that_faces_inwards() {
         // Each edge of the surface, between positions as they are in the file, is run through once in each direction.
         let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
         for (_, patch) in patches(&mesh) {
-            let geometry = Geometry::new(&patch, stride, 0.0, 1.0);
-            for triangle in &geometry.triangles {
+            let geometry = Geometry::new(&patch, stride, 0.0, 1.0, false);
+            for triangle in geometry.triangles() {
                 let [a, b, c] = triangle.map(|index| geometry.positions[index as usize]);
                 assert!((b - a).cross(c - a).dot(a + b + c) > 0.0);
                 for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -142,15 +148,17 @@ fn skirts_hang_from_the_border_and_face_outwards() {
     let mesh = MeshBake { skirt_m: 100.0, ..mesh(REGION, 8) };
     let (_, patch) = patch(&mesh);
     for stride in [1, 2] {
-        let bare = Geometry::new(&patch, stride, 0.0, 1.0);
-        let skirted = Geometry::new(&patch, stride, 100.0, 1.0);
+        let bare = Geometry::new(&patch, stride, 0.0, 1.0, false);
+        let skirted = Geometry::new(&patch, stride, 100.0, 1.0, true);
         let border = 4 * 8 / stride;
         assert_eq!(skirted.positions.len(), bare.positions.len() + border);
-        assert_eq!(skirted.triangles.len(), bare.triangles.len() + 2 * border);
+        assert_eq!(skirted.triangle_count(), bare.triangle_count() + 2 * border);
         let center = patch.center_m.as_vec3();
-        let above: HashSet<_> = skirted.triangles[bare.triangles.len()..].iter().flatten().collect();
+        let skirt: Vec<_> = skirted.triangles().skip(bare.triangle_count()).collect();
+        assert_eq!((skirted.tangents.len(), bare.colors.len()), (skirted.positions.len(), bare.positions.len()));
+        let above: HashSet<_> = skirt.iter().flatten().collect();
         assert_eq!(above.len(), 2 * border);
-        for triangle in &skirted.triangles[bare.triangles.len()..] {
+        for triangle in &skirt {
             let [a, b, c] = triangle.map(|index| skirted.positions[index as usize]);
             let middle = (a + b + c) / 3.0;
             let out = Vec3::new(middle.x, 0.0, middle.z);
@@ -172,7 +180,7 @@ fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
     let (_, patch) = patch(&mesh);
     let above = |vertex: &patch::Vertex| {
         let up = (vertex.position_m - patch.center_m).normalize();
-        vertex.water_radius_m.map(|radius_m| patch.center_m + up * radius_m)
+        vertex.water_radius_m().map(|radius_m| patch.center_m + up * radius_m)
     };
     let wet: Vec<_> = patch.vertices.iter().filter_map(above).collect();
     let water = Geometry::water(&patch, 1, 1.0).unwrap();
@@ -193,7 +201,8 @@ fn water_apart_covers_what_is_wet_and_nothing_far_from_it() {
 fn textures_of_normals_turn_the_meshs_normals_into_the_grounds() {
     let mesh = MeshBake { water: MeshWater::None, ..mesh(REGION, 8) };
     let (square, patch) = patch(&mesh);
-    let surface = surface(&mesh);
+    let terrain = terrain();
+    let surface = surface(&mesh, &terrain);
     let textures = Textures::new(&square, 64, &patch, &surface, &Progress::new(1, &|_| true)).unwrap();
     let pixels = |file: &[u8]| {
         let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
@@ -211,7 +220,7 @@ fn textures_of_normals_turn_the_meshs_normals_into_the_grounds() {
         let (normal, tangent) = patch.between(u, v);
         let (normal, tangent) = (normal.normalize(), tangent.normalize());
         let found = tangent * stored.x + normal.cross(tangent) * stored.y + normal * stored.z;
-        let wanted = square.turned(mesh.terrain.sample(square.direction(u, v)).normal_planet);
+        let wanted = square.turned(terrain.sample(square.direction(u, v)).normal_planet);
         // Texels of 125 m show all of a planet whose finest wave is 1500 m long.
         assert!(found.normalize().dot(wanted) > 0.9995, "{i}: {found} {wanted}");
         differing += usize::from(normal.dot(wanted) < 0.999);
@@ -224,7 +233,7 @@ fn textures_of_normals_turn_the_meshs_normals_into_the_grounds() {
 fn what_cannot_be_made_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mesh.glb");
-    let whole = mesh(REGION, 8);
+    let (terrain, whole) = (terrain(), mesh(REGION, 8));
     let far = Area::Region(Region { lat_deg: 0.0, lon_deg: 0.0, side_km: 1e6 });
     for (mesh, words) in [
         (MeshBake { cells: 5000, ..whole.clone() }, "more than 8 million vertices"),
@@ -236,28 +245,27 @@ fn what_cannot_be_made_is_refused() {
         (MeshBake { skirt_m: -1.0, ..whole.clone() }, "skirt of -1 m"),
         (MeshBake { scale: 0.0, ..whole.clone() }, "scale of 0"),
     ] {
-        let error = mesh.run(&path, &|_| true).unwrap_err().to_string();
+        let error = mesh.run(&terrain, &path, &|_| true).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     }
-    let bare = Planet { water: None, ..Planet::clone(whole.terrain.planet()) };
-    let terrain = Arc::new(Terrain::try_new(bare.into()).unwrap());
-    let error = MeshBake { terrain, water: MeshWater::Apart, ..whole.clone() }.run(&path, &|_| true).unwrap_err();
-    assert!(error.to_string().contains("neither a sea nor a structure"), "{error}");
+    let bare = Planet { water: None, ..Planet::clone(terrain.planet()) };
+    let error = MeshBake { water: MeshWater::Apart, ..whole.clone() }.check(&bare).unwrap_err();
+    assert!(error.contains("neither a sea nor a structure"), "{error}");
     // Nothing is left of a mesh that was stopped.
-    assert_eq!(whole.run(&path, &|_| false).unwrap(), Outcome::Stopped);
+    assert_eq!(whole.run(&terrain, &path, &|_| false).unwrap(), Outcome::Stopped);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 fn tiles(levels: u8) -> Tileset {
-    Tileset { cells: 4, ..Tileset::new(mesh(Area::Globe, 1).terrain, levels) }
+    Tileset { cells: 4, ..Tileset::new(levels) }
 }
 
 #[test]
 fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
-    let tileset = tiles(2);
+    let (tileset, terrain) = (tiles(2), terrain());
     let folder = tempfile::tempdir().unwrap();
     assert!(
-        matches!(tileset.run(folder.path(), &|_| true).unwrap(), Outcome::Done(files) if files.len() == 1 + 6 * 21)
+        matches!(tileset.run(&terrain, folder.path(), &|_| true).unwrap(), Outcome::Done(files) if files.len() == 1 + 6 * 21)
     );
     let json: Value = serde_json::from_slice(&std::fs::read(folder.path().join("tileset.json")).unwrap()).unwrap();
     let mut tiles = Vec::new();
@@ -267,13 +275,29 @@ fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
         tiles.push(tile);
     }
     assert_eq!(tiles.len(), 6 * 21);
-    let by_uri: HashMap<String, _> = tileset.nodes().into_iter().map(|node| (tileset::uri(node), node)).collect();
+    let by_uri: HashMap<String, _> =
+        tileset.nodes(terrain.planet()).into_iter().map(|node| (tileset::uri(node), node)).collect();
     let numbers =
         |array: &Value| -> Vec<f64> { array.as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect() };
+    let mut measured_m: f64 = 0.0;
     for tile in &tiles {
         let uri = tile["content"]["uri"].as_str().unwrap();
         let node = by_uri[uri];
         assert_eq!(tile["geometricError"] == 0.0, tile["children"].is_null());
+        let error_m = tile["geometricError"].as_f64().unwrap();
+        for child in tile["children"].as_array().into_iter().flatten() {
+            assert!(error_m > child["geometricError"].as_f64().unwrap());
+            let child = by_uri[child["content"]["uri"].as_str().unwrap()];
+            let (own, finer) = (positions_m(&terrain, node, 4), positions_m(&terrain, child, 4));
+            let [right, up] = [child.x % 2, child.y % 2].map(|half| half as usize * 2);
+            // Between two vertices of the tile lies one of the child.
+            for (row, column) in (0..3).flat_map(|row| (0..2).map(move |column| (row, column))) {
+                let [from, to] = [column, column + 1].map(|at| own[(row + up) * 5 + at + right]);
+                let away_m = finer[row * 2 * 5 + column * 2 + 1].distance(0.5 * (from + to));
+                assert!(away_m <= error_m + 1e-6, "{uri}: {away_m} {error_m}");
+                measured_m = measured_m.max(away_m / error_m);
+            }
+        }
         let bytes = std::fs::read(folder.path().join(uri)).unwrap();
         let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
         let glb: Value = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
@@ -292,18 +316,32 @@ fn tiles_of_a_level_meet_and_lie_within_their_boxes() {
             if i < 25 {
                 // Directions of neighbours agree to the bit.
                 let dir = node.direction((i % 5) as f64 / 4.0, 1.0 - (i / 5) as f64 / 4.0);
-                let sample = tileset.terrain.sample(dir);
+                let sample = terrain.sample(dir);
                 let wanted_m = dir * (40_000.0 + sample.water_level_m.unwrap_or(sample.height_m));
                 assert!(planet_m.distance(wanted_m) < 0.01, "{uri}: {planet_m}, not {wanted_m}");
             }
         }
     }
+    assert!(measured_m > 0.7, "no tile comes near its error: {measured_m}");
+}
+
+/// The vertices of a tile, row by row from the south.
+fn positions_m(terrain: &Terrain, node: NodeId, cells: u32) -> Vec<DVec3> {
+    let share = |i: u32| NodeId::side_share(i, cells);
+    let dirs = (0..=cells).flat_map(|row| (0..=cells).map(move |column| node.direction(share(column), share(row))));
+    dirs.map(|dir| {
+        let sample = terrain.sample(dir);
+        dir * (40_000.0 + sample.water_level_m.unwrap_or(sample.height_m))
+    })
+    .collect()
 }
 
 #[test]
 fn a_region_divides_only_what_is_near_and_always_into_four() {
+    let terrain = terrain();
+    let planet = terrain.planet();
     let region = Some(Region { lat_deg: 20.0, lon_deg: -40.0, side_km: 4.0 });
-    let (whole, part) = (tiles(5).nodes(), Tileset { region, ..tiles(5) }.nodes());
+    let (whole, part) = (tiles(5).nodes(planet), Tileset { region, ..tiles(5) }.nodes(planet));
     assert_eq!(whole.len(), 6 * 1365);
     assert!(part.len() > 126 && part.len() < 400, "{}", part.len());
     let center = LatLon::from_degrees(20.0, -40.0).direction();
@@ -315,26 +353,32 @@ fn a_region_divides_only_what_is_near_and_always_into_four() {
 
 #[test]
 fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
-    let folder = tempfile::tempdir().unwrap();
+    let (folder, terrain) = (tempfile::tempdir().unwrap(), terrain());
     let asked = std::sync::atomic::AtomicU32::new(0);
     let some = |_| asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 10;
-    assert_eq!(tiles(1).run(folder.path(), &some).unwrap(), Outcome::Stopped);
+    assert_eq!(tiles(1).run(&terrain, folder.path(), &some).unwrap(), Outcome::Stopped);
     assert!(!folder.path().join("tileset.json").exists());
     let kept = folder.path().join("0/pos_x_0_0.glb");
-    std::fs::write(&kept, "kept").unwrap();
-    assert!(matches!(tiles(1).run(folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
-    assert_eq!(std::fs::read(&kept).unwrap(), b"kept");
+    tiles(1).run(&terrain, folder.path(), &|_| true).unwrap();
+    let marked = [std::fs::read(&kept).unwrap(), b"kept".to_vec()].concat();
+    std::fs::write(&kept, &marked).unwrap();
+    let broken = folder.path().join("0/neg_x_0_0.glb");
+    std::fs::write(&broken, "no tile").unwrap();
+    assert!(matches!(tiles(1).run(&terrain, folder.path(), &|_| true).unwrap(), Outcome::Done(_)));
+    assert_eq!(std::fs::read(&kept).unwrap(), marked);
+    assert!(std::fs::read(&broken).unwrap().starts_with(b"glTF"));
     assert!(folder.path().join("1/neg_z_1_1.glb").is_file());
-    let other = Tileset { cells: 5, ..tiles(1) }.run(folder.path(), &|_| true).unwrap_err().to_string();
+    let other = Tileset { cells: 6, ..tiles(1) }.run(&terrain, folder.path(), &|_| true).unwrap_err().to_string();
     assert!(other.contains("holds tiles of another bake"), "{other}");
     for (tileset, words) in [
         (Tileset { cells: 0, ..tiles(1) }, "0 cells"),
+        (Tileset { cells: 7, ..tiles(1) }, "use even numbers"),
         (Tileset { texture_px: Some(1), ..tiles(1) }, "use 2 to 1024"),
         (Tileset { water: MeshWater::Apart, ..tiles(1) }, "no mesh of the water"),
         (tiles(17), "use 0 to 16"),
         (tiles(9), "use fewer levels, or a region"),
     ] {
-        let error = tileset.run(&folder.path().join("none"), &|_| true).unwrap_err().to_string();
+        let error = tileset.run(&terrain, &folder.path().join("none"), &|_| true).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     }
     assert!(!folder.path().join("none").exists());
@@ -342,9 +386,10 @@ fn tiles_that_are_there_are_kept_and_those_of_another_bake_are_not_touched() {
 
 #[test]
 fn a_spacing_becomes_cells_that_can_be_halved() {
-    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 1000.0, 1), 8);
-    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 900.0, 1), 9);
-    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 900.0, 3), 12);
-    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, 1e-300, 3) % 4, 0);
-    assert_eq!(MeshBake::cells_for(&Area::Globe, 40_000.0, 1e9, 4), 8);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, Some(1000.0), 1), 8);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, Some(900.0), 1), 9);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, Some(900.0), 3), 12);
+    assert_eq!(MeshBake::cells_for(&REGION, 40_000.0, Some(1e-300), 3) % 4, 0);
+    assert_eq!(MeshBake::cells_for(&Area::Globe, 40_000.0, Some(1e9), 4), 8);
+    assert_eq!(MeshBake::cells_for(&Area::Globe, 40_000.0, None, 4), MeshBake::CELLS);
 }

@@ -1,13 +1,16 @@
 //! The textures of a square as PNG files: colour, tangent-space normals, roughness. Texels lie in the coordinates of
-//! the square; a value stands for the centre of its texel.
+//! the square; a value is the mean of four samples of its texel.
 
 use super::patch::Patch;
 use super::square::Square;
-use super::surface::{BAND, Surface};
+use super::surface::{BAND, Point, Surface};
 use crate::bake::format::srgb_byte;
 use crate::bake::progress::Progress;
 use glam::DVec3;
 use std::io::{self, Write};
+
+/// Samples of a texel along each of its sides.
+pub(super) const FINER: usize = 2;
 
 /// PNG files.
 pub(super) struct Textures {
@@ -44,7 +47,9 @@ impl Textures {
     ) -> io::Result<()> {
         let side = px as usize;
         let place = |texel: usize| (texel as f64 + 0.5) / f64::from(px);
-        let direction = |row: usize, column: usize| square.direction(place(column), place(row));
+        // Four samples of a texel.
+        let part = |sample: usize| (sample as f64 + 0.5) / f64::from(px * FINER as u32);
+        let direction = |row: usize, column: usize| square.direction(part(column), part(row));
         let mut pictures = [
             picture(&mut self.albedo, px, true)?,
             picture(&mut self.normal, px, false)?,
@@ -59,10 +64,13 @@ impl Textures {
             bytes.extend(texels.flatten());
             out.write_all(&bytes)
         };
-        for first in (0..side).step_by(BAND) {
-            let rows = first..(first + BAND).min(side);
-            let points = surface.band(rows.clone(), side, &direction, square.spacing_rad(px), progress);
-            for (row, points) in rows.zip(points.chunks_exact(side)) {
+        let spacing_rad = square.spacing_rad(px * FINER as u32);
+        for first in (0..side).step_by(BAND / FINER) {
+            let rows = first..(first + BAND / FINER).min(side);
+            let fine = rows.start * FINER..rows.end * FINER;
+            let samples = surface.band(fine, side * FINER, &direction, spacing_rad, progress);
+            for (row, samples) in rows.zip(samples.chunks_exact(side * FINER * FINER)) {
+                let points: Vec<Texel> = (0..side).map(|column| Texel::new(samples, column)).collect();
                 write(&mut albedo, &mut points.iter().map(|point| point.color.map(srgb_byte)))?;
                 write(&mut roughness, &mut points.iter().map(|point| [0xff, byte(point.roughness), 0]))?;
                 let mut normals = points.iter().enumerate().map(|(column, point)| {
@@ -80,6 +88,27 @@ impl Textures {
         normal.finish()?;
         roughness.finish()?;
         Ok(())
+    }
+}
+
+/// The mean of the samples of a texel.
+struct Texel {
+    color: [f64; 3],
+    roughness: f64,
+    normal_planet: DVec3,
+}
+
+impl Texel {
+    /// `samples`: [`FINER`] rows of them.
+    fn new(samples: &[Point], column: usize) -> Self {
+        let width = samples.len() / FINER;
+        let of_texel = || samples.chunks_exact(width).flat_map(|row| &row[column * FINER..(column + 1) * FINER]);
+        let mean = |value: &dyn Fn(&Point) -> f64| of_texel().map(value).sum::<f64>() / (FINER * FINER) as f64;
+        Self {
+            color: std::array::from_fn(|k| mean(&|point| point.color[k])),
+            roughness: mean(&|point| point.roughness),
+            normal_planet: of_texel().map(|point| point.normal_planet).sum::<DVec3>().normalize_or(DVec3::Z),
+        }
     }
 }
 

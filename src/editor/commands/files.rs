@@ -2,7 +2,7 @@
 
 use super::{Menu, Row, ctrl, ctrl_shift, plain};
 use crate::editor::command::Command;
-use crate::editor::handlers::{open_file, opening, saving};
+use crate::editor::handlers::{baking, open_file, opening, saving};
 use crate::editor::state::questions::Goal;
 use eframe::egui::Key;
 
@@ -49,9 +49,9 @@ pub(super) fn rows() -> Vec<Row> {
         .keys([ctrl(Key::L)]),
         Row::new(
             Command::Bake,
-            "Bake maps…",
-            "Write maps for games and other programs: heights, normals, colours, climate, water.",
-            |s, _| s.shows.bake ^= true,
+            "Bake maps and meshes…",
+            "Write maps, a mesh or 3D tiles for games and other programs.",
+            |s, _| baking::toggle(s),
         )
         .within(Menu::File, 2)
         .keys([ctrl_shift(Key::B)]),

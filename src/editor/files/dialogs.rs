@@ -41,6 +41,13 @@ pub enum DialogRequest {
         /// Proposed file name.
         file_name: String,
     },
+    /// A file to write a mesh to.
+    Mesh {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// Proposed file name.
+        file_name: String,
+    },
     /// A folder to write files to.
     Folder {
         /// Folder to begin in.
@@ -66,7 +73,8 @@ impl DialogRequest {
             DialogRequest::ImportTable { .. } => "Import biome table",
             DialogRequest::ExportTable { .. } => "Export biome table",
             DialogRequest::Photograph { .. } => "Save picture",
-            DialogRequest::Folder { .. } => "Choose a folder for the maps",
+            DialogRequest::Mesh { .. } => "Save mesh",
+            DialogRequest::Folder { .. } => "Choose a folder to bake into",
             DialogRequest::SaveAs { .. } => "Save planet",
         }
     }
@@ -77,6 +85,7 @@ impl DialogRequest {
             DialogRequest::Open { .. } | DialogRequest::SaveAs { .. } => ("Planet presets", &["ron"]),
             DialogRequest::Picture { .. } | DialogRequest::Photograph { .. } => ("Pictures", &["png", "exr"]),
             DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
+            DialogRequest::Mesh { .. } => ("Meshes", &["glb", "obj"]),
             DialogRequest::Folder { .. } => ("Folders", &[]),
         }
     }
@@ -94,6 +103,7 @@ impl DialogRequest {
             | DialogRequest::ImportTable { folder }
             | DialogRequest::ExportTable { folder, .. }
             | DialogRequest::Photograph { folder, .. }
+            | DialogRequest::Mesh { folder, .. }
             | DialogRequest::Folder { folder, .. }
             | DialogRequest::SaveAs { folder, .. } => folder.as_ref(),
         }
@@ -104,6 +114,7 @@ impl DialogRequest {
         match self {
             DialogRequest::ExportTable { file_name, .. }
             | DialogRequest::Photograph { file_name, .. }
+            | DialogRequest::Mesh { file_name, .. }
             | DialogRequest::Folder { file_name, .. }
             | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
             _ => None,

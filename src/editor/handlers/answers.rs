@@ -4,6 +4,7 @@ use super::{baking, biome_table, opening, pictures, saving, shooting};
 use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::files::disk::TheirFile;
 use crate::editor::state::State;
+use crate::editor::state::bake_settings::Product;
 use crate::editor::state::questions::{Asking, Change, Goal, Replace};
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf,
         Asking::Picture(path) => pictures::choose(state, &path, &file),
         Asking::ImportTable => biome_table::import(state, &file),
         Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),
-        Asking::Maps => baking::start(state, ctx, &file),
+        Asking::Baked(product) => baking::chosen(state, ctx, product, &file, agreed),
         Asking::Photograph(subject) => shooting::chosen(state, ctx, subject, &file, agreed),
     }
 }
@@ -56,11 +57,13 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
     match (answer, replace) {
         (ReplaceAnswer::Replace, Replace::Planet(path)) => saving::write(state, ctx, path),
         (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
+        (ReplaceAnswer::Replace, Replace::Mesh(path)) => baking::start(state, ctx, Product::Mesh, &path),
         (ReplaceAnswer::Replace, Replace::Photograph { subject, path, .. }) => {
             shooting::start(state, ctx, subject, &path);
         }
         (ReplaceAnswer::OtherName, Replace::Planet(_)) => saving::save_as(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Table(_)) => biome_table::ask_for_export(state, ctx),
+        (ReplaceAnswer::OtherName, Replace::Mesh(_)) => baking::ask(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Photograph { subject, .. }) => shooting::ask(state, ctx, subject),
         (ReplaceAnswer::Cancel, _) => state.questions.after_save = None,
     }

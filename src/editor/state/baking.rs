@@ -1,7 +1,8 @@
-//! Maps for other programs: what the user chose, the small picture of a map, and the bake on another thread.
+//! Maps, meshes and tiles for other programs: the small picture of a map, and the bake on another thread.
 
+use super::bake_settings::{BakeSettings, Product};
 use super::job::{GoOn, Job};
-use crate::bake::{Bake, Detail, Format, Map, Outcome, Preview, Projection, Region};
+use crate::bake::{Outcome, Preview};
 use crate::planet::Planet;
 use crate::terrain::{MapStore, Terrain};
 use std::path::{Path, PathBuf};
@@ -9,90 +10,6 @@ use std::sync::Arc;
 
 /// Width of the small picture, pixels.
 const PREVIEW_PX: u32 = 288;
-
-/// How pixels lie on the globe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// The globe in one picture.
-    Globe,
-    /// Six faces of a cube.
-    Cube,
-    /// A square about a place.
-    Region,
-}
-
-impl Form {
-    /// All of them, with the name that a person reads and what it is for.
-    pub const ALL: [(Form, &'static str, &'static str); 3] = [
-        (Form::Globe, "Globe", "Equirectangular: the whole globe in one picture, twice as wide as high"),
-        (Form::Cube, "Cube", "Six faces of a cube texture"),
-        (Form::Region, "Region", "A square about a place, as terrain engines take it"),
-    ];
-}
-
-/// What is to be baked.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BakeSettings {
-    /// The maps, in the order of [`Map::ALL`].
-    pub maps: Vec<Map>,
-    /// The map in the small picture.
-    pub previewed: Map,
-    /// How pixels lie on the globe.
-    pub form: Form,
-    /// The square, for [`Form::Region`].
-    pub region: Region,
-    /// Width of a picture in pixels.
-    pub size: u32,
-    /// The kind of file.
-    pub format: Format,
-    /// How much of a structure is in the maps.
-    pub detail: Detail,
-}
-
-impl Default for BakeSettings {
-    fn default() -> Self {
-        Self {
-            maps: vec![Map::Height, Map::Normal, Map::Albedo],
-            previewed: Map::Height,
-            form: Form::Globe,
-            region: Region { lat_deg: 0.0, lon_deg: 0.0, side_km: 100.0 },
-            size: 4096,
-            format: Format::Png16,
-            detail: Detail::Pixel,
-        }
-    }
-}
-
-impl BakeSettings {
-    /// The projection of the form.
-    pub fn projection(&self) -> Projection {
-        match self.form {
-            Form::Globe => Projection::Equirect,
-            Form::Cube => Projection::Cube,
-            Form::Region => Projection::Region(self.region),
-        }
-    }
-
-    /// Width and height of all pictures of one map, and how many there are.
-    pub fn pictures(&self) -> ([u32; 2], u64) {
-        match self.form {
-            Form::Globe => ([self.size, self.size / 2], 1),
-            Form::Cube => ([self.size; 2], 6),
-            Form::Region => ([self.size; 2], 1),
-        }
-    }
-
-    fn bake(&self, terrain: Arc<Terrain>, time_secs: f64) -> Bake {
-        let mut bake = Bake::new(terrain, self.maps.clone(), self.projection(), self.size, self.format);
-        (bake.detail, bake.time_secs) = (self.detail, time_secs);
-        bake
-    }
-
-    /// Whether the small picture of these settings is that of others.
-    fn shows_the_same(&self, other: &Self) -> bool {
-        self.previewed == other.previewed && self.projection() == other.projection()
-    }
-}
 
 /// The small picture of a map, made on another thread.
 #[derive(Default)]
@@ -116,7 +33,8 @@ impl BakePreview {
         self.under_way.is_some()
     }
 
-    /// Asks for the picture of these settings, if it is not the newest. One is made at a time.
+    /// Asks for the picture of these settings, which are [as shown](BakeSettings::as_shown), if it is not the newest.
+    /// One is made at a time.
     pub fn ask(
         &mut self,
         settings: &BakeSettings,
@@ -125,7 +43,8 @@ impl BakePreview {
         wake: impl Fn() + Send + Sync + 'static,
     ) {
         let is_asked = self.asked.as_ref().is_some_and(|asked| {
-            asked.settings.shows_the_same(settings)
+            asked.settings.previewed == settings.previewed
+                && asked.settings.projection() == settings.projection()
                 && Arc::ptr_eq(&asked.planet, planet)
                 && (!settings.previewed.is_of_clouds() || asked.time_secs == time_secs)
         });
@@ -155,8 +74,10 @@ impl BakePreview {
 
 /// A bake that is under way.
 pub struct Baking {
-    /// The folder of the maps.
-    pub folder: PathBuf,
+    /// What is written.
+    pub product: Product,
+    /// The folder of maps or tiles, or the file of a mesh.
+    pub to: PathBuf,
     job: Job<Result<Outcome, String>>,
 }
 
@@ -166,16 +87,21 @@ impl Baking {
         settings: BakeSettings,
         planet: Arc<Planet>,
         store: Option<Arc<MapStore>>,
-        (folder, time_secs): (&Path, f64),
+        (to, time_secs): (&Path, f64),
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
-        let to = folder.to_owned();
+        let (product, path) = (settings.product, to.to_owned());
         let work = move |go_on: GoOn<'_>| {
             let terrain = Terrain::load(planet, store, &|_| go_on(0.0)).map_err(|error| error.to_string())?;
             let Some(terrain) = terrain else { return Ok(Outcome::Stopped) };
-            settings.bake(Arc::new(terrain), time_secs).run(&to, go_on).map_err(|error| error.to_string())
+            let outcome = match settings.product {
+                Product::Maps => settings.bake(Arc::new(terrain), time_secs).run(&path, go_on),
+                Product::Mesh => settings.mesh(terrain.planet()).run(&terrain, &path, go_on),
+                Product::Tiles => settings.tileset().run(&terrain, &path, go_on),
+            };
+            outcome.map_err(|error| error.to_string())
         };
-        Self { folder: folder.to_owned(), job: Job::start(work, wake) }
+        Self { product, to: to.to_owned(), job: Job::start(work, wake) }
     }
 
     /// Share that is done, 0 to 1.
@@ -183,14 +109,14 @@ impl Baking {
         self.job.done()
     }
 
-    /// Stops. The same bake goes on from there.
+    /// Stops. The same bake of maps or tiles goes on from there.
     pub fn cancel(&self) {
         self.job.stop();
     }
 
     /// How it ended, once it has.
     pub fn ended(&self) -> Option<Result<Outcome, String>> {
-        let failed = || Err("the maps could not be computed; try again".to_owned());
+        let failed = || Err("it could not be computed; try again".to_owned());
         self.job.ended().map(|result| result.unwrap_or_else(failed))
     }
 }

@@ -9,13 +9,15 @@
 //! - [`device`]: the graphics device
 //! - [`pictures`]: height maps, read in the background
 //! - [`recovery`]: the working copy
-//! - [`job`]: work on a thread of its own; [`baking`]: maps for other programs
+//! - [`job`]: work on a thread of its own; [`bake_settings`], [`baking`]: maps and meshes for other
+//!   programs
 //! - [`shelf`]: what the library shows
 //! - [`shooting`]: photographs and films
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
 //! - [`system`]: the system in whose sky the planet is drawn
 //! - [`sheet`], [`thumbnails`]: planets with small pictures; the thread that draws them
 
+pub mod bake_settings;
 pub mod baking;
 pub mod describe;
 pub mod device;
@@ -42,7 +44,8 @@ use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
-use baking::{BakePreview, BakeSettings, Baking};
+use bake_settings::BakeSettings;
+use baking::{BakePreview, Baking};
 use device::DeviceWatch;
 use document::Document;
 use eframe::egui;
@@ -168,9 +171,11 @@ pub struct State {
     pub thumbnails_folder: Option<PathBuf>,
     /// What the user wants to bake.
     pub bake: BakeSettings,
+    /// Whether the user has set the region.
+    pub bake_region_is_set: bool,
     /// The small picture of a map.
     pub bake_preview: BakePreview,
-    /// The maps that are being baked.
+    /// What is being baked.
     pub baking: Option<Baking>,
     /// Variations of the planet.
     pub variations: Variations,
@@ -219,6 +224,7 @@ impl State {
             shelf: Shelf::default(),
             thumbnails_folder: None,
             bake: BakeSettings::default(),
+            bake_region_is_set: false,
             bake_preview: BakePreview::default(),
             baking: None,
             variations: Variations::default(),

@@ -1,5 +1,6 @@
 //! Questions about files, and the actions that wait for the answers.
 
+use super::bake_settings::Product;
 use super::shooting::Subject;
 use super::templates::Template;
 use crate::editor::files::dialogs::{DialogRequest, FileDialogs, Wake};
@@ -38,8 +39,8 @@ pub enum Asking {
     ExportTable,
     /// A file for a photograph or a film.
     Photograph(Subject),
-    /// A folder for baked maps.
-    Maps,
+    /// A folder or a file for what is baked.
+    Baked(Product),
 }
 
 /// A file that exists and would be replaced.
@@ -49,6 +50,8 @@ pub enum Replace {
     Planet(PathBuf),
     /// By the picture of the biome table.
     Table(PathBuf),
+    /// By a mesh.
+    Mesh(PathBuf),
     /// By a photograph, or by the frames of a film of this name.
     Photograph {
         /// What is taken.
@@ -64,7 +67,10 @@ impl Replace {
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            Replace::Planet(path) | Replace::Table(path) | Replace::Photograph { first: path, .. } => path,
+            Replace::Planet(path)
+            | Replace::Table(path)
+            | Replace::Mesh(path)
+            | Replace::Photograph { first: path, .. } => path,
         }
     }
 }

@@ -271,6 +271,20 @@ impl Viewport {
         })
     }
 
+    /// The place in the middle of the picture and its distance from the eye; where that is sky, the place under the
+    /// eye.
+    pub fn looked_at(&self, planet: &Planet) -> (LatLon, f64) {
+        self.with_ground(planet, |cameras, ground| {
+            let pose = cameras.pose(ground);
+            let (eye_m, ahead) = (pose.position_planet_m, pose.planet_from_view * DVec3::NEG_Z);
+            let altitude_m = || eye_m.length() - ground.surface_radius_m(pose.up());
+            match ground.raycast(eye_m, ahead) {
+                Some(away_m) => (LatLon::from_direction(eye_m + ahead * away_m), away_m),
+                None => (LatLon::from_direction(pose.up()), altitude_m()),
+            }
+        })
+    }
+
     /// Where the picture is in the window.
     pub fn rect(&self) -> egui::Rect {
         self.rect

@@ -64,7 +64,7 @@ const STEPS: [Step; 6] = [
     Step {
         about: About::Menus,
         title: "Take it with you",
-        text: "A planet is one file, which a game loads. Bake maps for other programs, take pictures, fly films.",
+        text: "A planet is one file, which a game loads. Bake maps and meshes for other programs, take pictures, fly films.",
         tries: &[("Bake maps", Command::Bake), ("Picture or film", Command::Photo), ("All keys", Command::Controls)],
     },
 ];

@@ -1,6 +1,7 @@
 //! Sizes and counts that belong to the CPU and the shaders alike.
 
 use crate::giant;
+use crate::noise_tile::VARIATION_PERIODS_M;
 use crate::rings;
 use crate::sea;
 use crate::terrain::border;
@@ -28,10 +29,8 @@ pub(crate) use sea::{BED_REACH_M, BREAKING, CROWDED, DEEP, ICE_COLDER_C, ICE_DAM
 pub(crate) const WAVE_LOST: f64 = 1.9;
 /// Least share of a wave's phase difference that one of the two pixel steps shows: a wave may run between them, at 45°.
 pub(crate) const WAVE_ACROSS: f64 = 0.7;
-/// Octaves of the macro variation of ground and ice, coarse to fine: their periods in metres.
-pub(crate) const VARIATION_PERIODS_M: [f64; VARIATION_OCTAVES] = [2.6e6, 330e3, 41e3, 5100.0, 640.0, 80.0, 10.0, 1.25];
 /// Octaves of the macro variation.
-pub(crate) const VARIATION_OCTAVES: usize = 8;
+pub(crate) const VARIATION_OCTAVES: usize = VARIATION_PERIODS_M.len();
 /// Octaves of the border jitter.
 pub(crate) const BORDER_OCTAVES: usize = border::OCTAVES;
 /// Layers of clouds through which rays march, lowest first: fog, rain, low clouds, middle clouds.

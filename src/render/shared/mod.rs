@@ -16,7 +16,7 @@ use super::material_maps::{PATTERN_ROUGHNESS, PATTERN_STEEPEST};
 use super::scene::DebugView;
 use super::tone::{self, Tone};
 use super::wgsl::{Constant, constant};
-use super::{horizon_pool, material_noise, noise_tile};
+use super::{horizon_pool, material_noise};
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
@@ -58,7 +58,7 @@ pub(crate) fn text() -> String {
         ("COARSEST_MORPHING", &u32::from(COARSEST_MORPHING)),
         // Noises
         ("OCTAVE_TURN", &OCTAVE_TURN),
-        ("NOISE_TILE_SIDE", &(noise_tile::SIDE as f64)),
+        ("NOISE_TILE_SIDE", &(crate::noise_tile::SIDE as f64)),
         ("VARIATION_OCTAVES", &(VARIATION_OCTAVES as u32)),
         ("BORDER_OCTAVES", &(BORDER_OCTAVES as u32)),
         ("BORDER_GAIN", &border::GAIN),

@@ -1,9 +1,9 @@
 //! Uniforms of the ground: macro variation, patterns, biome table.
 
 use super::{Body, octave, wrapped};
+use crate::noise_tile::VARIATION_PERIODS_M;
 use crate::planet::{Planet, TableBlend, TableRows};
 use crate::render::biome_table::{WRAP_FAR_M, WRAP_M};
-use crate::render::shared::VARIATION_PERIODS_M;
 use crate::terrain::border::{self, OCTAVE_TURN};
 use glam::DVec3;
 
