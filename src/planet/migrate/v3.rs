@@ -2,9 +2,8 @@
 
 use crate::planet::param::Curve;
 use crate::planet::{
-    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, GroundEdits, Layer, Planet, Precision, Rings, Star, Structure,
-    VERSION,
-    Version, Water,
+    Atmosphere, Biomes, Climate, Clouds, EditorNotes, Giant, GroundEdits, Layer, Planet, Precision, Rings, Star,
+    Structure, VERSION, Version, Water,
 };
 use serde::{Deserialize, Serialize};
 
