@@ -7,6 +7,7 @@ use crate::planet::Planet;
 use crate::planet::file::read_text;
 use crate::render::Worlds;
 use crate::sphere::LatLon;
+use crate::system::kepler::Ellipse;
 use crate::system::limits::{distance_text, hill_radii_m, warnings};
 use crate::system::nbody::{EventKind, Scheme, Trial, try_out};
 use crate::system::{Pose, System};
@@ -51,7 +52,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if let Some(years) = args.trial {
         let shortest = (0..system.bodies.len()).filter_map(|body| worlds.ephemeris().orbit(body));
-        let shortest_secs = shortest.map(|orbit| orbit.period_secs()).fold(YEAR_SECS, f64::min);
+        let shortest_secs = shortest.map(Ellipse::period_secs).fold(YEAR_SECS, f64::min);
         let step_secs = args.step.map_or(shortest_secs / 200.0, |hours| hours * 3600.0);
         let trial = try_out(system, &radii_m, args.scheme, (years * YEAR_SECS, step_secs), &mut |_| true);
         for text in told(system, &trial, step_secs) {

@@ -133,9 +133,9 @@ pub fn eccentric_anomaly(mean_rad: f64, eccentricity: f64) -> f64 {
     for _ in 0..60 {
         let off = anomaly - eccentricity * libm::sin(anomaly) - mean;
         if off > 0.0 {
-            high = anomaly
+            high = anomaly;
         } else {
-            low = anomaly
+            low = anomaly;
         }
         let mut next = anomaly - off / (1.0 - eccentricity * libm::cos(anomaly));
         if !(low..=high).contains(&next) {

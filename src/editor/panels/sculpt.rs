@@ -9,7 +9,7 @@ use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::edits::{Flatten, GroundEdit, MAX_EDITS, edit_path};
 use crate::planet::param::{Choice, ParamPath};
-use crate::planet::{Planet, Tool};
+use crate::planet::{EditPoint, Planet, Tool};
 use crate::sphere::LatLon;
 use eframe::egui::{self, AtomExt};
 use std::sync::Arc;
@@ -275,7 +275,7 @@ fn buttons(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>, ch
 /// Flies to an edit, as high as it is wide.
 fn go_to(draft: &mut Draft<'_>, index: usize) {
     let Some(edit) = draft.planet.edits.get(index) else { return };
-    let middle: glam::DVec3 = edit.points.0.iter().map(|point| point.direction()).sum();
+    let middle: glam::DVec3 = edit.points.0.iter().map(EditPoint::direction).sum();
     let middle = middle.try_normalize().unwrap_or(glam::DVec3::Z);
     let spread_rad = edit.points.0.iter().map(|point| point.direction().angle_between(middle)).fold(0.0, f64::max);
     let size_m = spread_rad * draft.planet.radius_m() + edit.radius_km * 1000.0;

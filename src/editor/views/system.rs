@@ -72,8 +72,8 @@ impl SystemWindow {
         time(ui, time_secs, commands);
         ui.separator();
         let parents = open.worlds.system().parents();
-        for number in 0..parents.len() {
-            if parents[number].is_none() {
+        for (number, parent) in parents.iter().enumerate() {
+            if parent.is_none() {
                 self.branch(ui, open, &poses, (number, 0), commands);
             }
         }
@@ -152,8 +152,8 @@ impl SystemWindow {
             let away = (position_m - poses[center].position_m) * per_m;
             rect.center() + Vec2::new(away.x as f32, -away.y as f32)
         };
-        for number in 0..poses.len() {
-            let (Some(orbit), Some(parent)) = (ephemeris.orbit(number), parents[number]) else { continue };
+        for (number, parent) in parents.iter().enumerate() {
+            let (Some(orbit), Some(parent)) = (ephemeris.orbit(number), *parent) else { continue };
             if orbit.semi_major_m * per_m < 2.0 {
                 continue;
             }
