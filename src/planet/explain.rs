@@ -217,6 +217,7 @@ fn in_words(param: &Param, names: &[&str]) -> String {
 fn numbers(path: &str) -> &'static str {
     match parameter(path) {
         Some((Param { domain: Domain::Curve { .. }, .. }, _)) => "two for each point: `(from, to)`",
+        None if path.contains(".points[") => "two for each point, `(latitude, longitude)`, or three with a height",
         _ => "three, for red, green and blue",
     }
 }

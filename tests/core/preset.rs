@@ -98,7 +98,7 @@ fn each_mistake_is_told_with_its_place_and_what_would_be_right() {
         (
             "(\n    version: 3,\n    sead: 2,\n)",
             "f.ron:3:5: sead: there is no field `sead` here; did you mean `seed`? use `version`, `name`, `seed`, `radius_km`, \
-             `precision`, `settlements`, `height_curve`, `star`, `layers`, `climate`, `biomes`, `structure`, `water`, `atmosphere`, `clouds`, `editor`",
+             `precision`, `settlements`, `height_curve`, `star`, `layers`, `edits`, `climate`, `biomes`, `structure`, `water`, `atmosphere`, `clouds`, `editor`",
         ),
         (
             "(version: 3, layers: [(), (shape: Fbm(ocataves: 3))])",

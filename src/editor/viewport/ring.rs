@@ -3,7 +3,7 @@
 use super::outline::{in_rect, project};
 use crate::editor::widgets::number::length_text;
 use crate::lod::View;
-use crate::planet::GroundEdit;
+use crate::planet::{EditPoint, GroundEdit};
 use crate::sphere::geo::east_north;
 use crate::terrain::Terrain;
 use eframe::egui::{self, Align2, Color32, Painter, Pos2, Rect, Stroke, vec2};
@@ -89,7 +89,7 @@ pub(super) fn paint_brush(painter: &Painter, ground: &Ground<'_>, middle: DVec3,
 
 /// Draws the points of an edit and the way between them; of a stamp, its ring.
 pub(super) fn paint_edit(painter: &Painter, ground: &Ground<'_>, edit: &GroundEdit) {
-    let dirs: Vec<DVec3> = edit.points.0.iter().take(MOST_POINTS).map(|point| point.direction()).collect();
+    let dirs: Vec<DVec3> = edit.points.0.iter().take(MOST_POINTS).map(EditPoint::direction).collect();
     if edit.tool.is_stamp() {
         dirs.iter().for_each(|dir| ground.ring(painter, *dir, edit.radius_km * 1000.0, Stroke::new(1.0, FAINT)));
     } else {
