@@ -44,7 +44,7 @@ impl Menu {
             Menu::Edit => "Edit",
             Menu::View => "View",
             Menu::Camera => "Camera",
-            Menu::Sculpt => "Sculpt",
+            Menu::Sculpt => "Tools",
             Menu::Bookmarks => "Bookmarks",
             Menu::Planets => "Planets",
             Menu::Help => "Help",

@@ -219,6 +219,7 @@ fn in_words(param: &Param, names: &[&str]) -> String {
 fn numbers<R: Root>(path: &str) -> &'static str {
     match parameter::<R>(path) {
         Some((Param { domain: Domain::Curve { .. }, .. }, _)) => "two for each point: `(from, to)`",
+        None if path.contains(".points[") => "two for each point, `(latitude, longitude)`, or three with a height",
         _ => "three, for red, green and blue",
     }
 }

@@ -304,16 +304,16 @@ fn edits_are_read_written_and_checked() {
     };
     for (edit, told) in [
         ("()", "f.ron:1:22: edits[0].points: an edit needs a point; use `[(latitude, longitude)]`, or remove the edit"),
-        ("(points: [(91, 0)])", "f.ron:1:31: edits[0].points[0]: the latitude 91 is out of range; use -90 to 90°"),
+        ("(points: [(91, 0)])", "f.ron:1:32: edits[0].points[0]: the latitude 91 is out of range; use -90 to 90°"),
         (
             "(points: [(0, 0), (0, 170)])",
-            "f.ron:1:39: edits[0].points[1]: this point is more than 120° from the one before it; add points between them",
+            "f.ron:1:40: edits[0].points[1]: this point is more than 120° from the one before it; add points between them",
         ),
-        ("(radius_km: 0, points: [(0, 0)])", "f.ron:1:33: edits[0].radius_km: 0 is out of range; use 0.001 to 5000 km"),
+        ("(radius_km: 0, points: [(0, 0)])", "f.ron:1:34: edits[0].radius_km: 0 is out of range; use 0.001 to 5000 km"),
     ] {
         assert_eq!(message(edit), told);
     }
-    assert!(message("(points: [(1)])").starts_with("f.ron:1:"), "{}", message("(points: [(1)])"));
+    assert!(message("(points: [(1)])").contains("latitude"), "{}", message("(points: [(1)])"));
     assert!(message("(points: 3)").contains("edits[0].points"), "{}", message("(points: 3)"));
     assert!(message("(tool: Rise())").contains("Raise"), "{}", message("(tool: Rise())"));
 }

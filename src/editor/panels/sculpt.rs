@@ -7,7 +7,7 @@ use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
-use crate::planet::edits::{Flatten, GroundEdit, MAX_EDITS, edit_path};
+use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, edit_path};
 use crate::planet::param::{Choice, ParamPath};
 use crate::planet::{EditPoint, Planet, Tool};
 use crate::sphere::LatLon;
@@ -18,6 +18,8 @@ use std::sync::Arc;
 const LIST_SHARE: f32 = 0.3;
 /// Height of a row of the list, in points.
 const ROW: f32 = 20.0;
+/// Room for the scroll bar of the tab, in points, beside that of the list in it.
+const SCROLL_BAR: f32 = 14.0;
 /// The change of the radius by one key.
 const STEP: f64 = 1.25;
 /// Share of the planet's radius that a brush has at first, and the most it has, in kilometres.
@@ -81,6 +83,7 @@ impl SculptState {
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
+    ui.set_max_width(ui.available_width() - SCROLL_BAR);
     state.selected = state.selected.filter(|index| *index < draft.planet.edits.len());
     if !draft.shown.filter.is_active() {
         tools(ui, state, draft);

@@ -106,7 +106,9 @@ impl Hand {
         self.follow_line(ui, link, planet);
         let pos = response.interact_pointer_pos().or(response.hover_pos());
         self.ring = pos.filter(|_| brush.is_some()).and_then(|pos| scene.ground(self.ground_on(scene), pos));
-        let over_point = pos.and_then(|pos| point_under(link, scene, planet, pos));
+        // A tool in hand takes hold of no point: strokes often begin where the last one was.
+        let held_under = |pos| link.brush.is_none().then(|| point_under(link, scene, planet, pos)).flatten();
+        let over_point = pos.and_then(held_under);
         if response.hovered() && (brush.is_some() || over_point.is_some()) {
             let icon = if over_point.is_some() { egui::CursorIcon::Grab } else { egui::CursorIcon::Crosshair };
             ui.ctx().set_cursor_icon(icon);
@@ -115,7 +117,8 @@ impl Hand {
         if response.drag_started_by(egui::PointerButton::Primary)
             && let Some(origin) = origin
         {
-            edit = match (point_under(link, scene, planet, origin), brush) {
+            let under = link.brush.is_none().then(|| point_under(link, scene, planet, origin)).flatten();
+            edit = match (under, brush) {
                 (Some((edit, point)), _) => {
                     self.gesture = Gesture::Point { edit, point, on: scene.surface.clone() };
                     None

@@ -145,7 +145,7 @@ params! {
 }
 
 params! {
-    /// `h + (height along the line - h) * strength * w`; across the bed, heights of near parts of the line are averaged.
+    /// `h + (height along the line - h) * strength * w`; heights of near parts of the line are averaged.
     pub struct Road {
         /// Share of the way to the heights of the line.
         strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;

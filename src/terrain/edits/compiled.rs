@@ -212,7 +212,7 @@ impl CompiledEdit {
         })
     }
 
-    /// By how much a ragged outline brings the radius nearer, 1 to 1 + 4 times the raggedness, and its derivative by the
+    /// By how much a ragged outline brings the radius nearer, 1 to 1 + 4 times the raggedness; its derivative by the
     /// noise. The cube makes few deep bays of many shallow ones.
     fn stretch(&self, noise: f64) -> (f64, f64) {
         let share = 0.5 + 0.5 * noise / outline::MOST;
