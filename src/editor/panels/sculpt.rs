@@ -9,7 +9,7 @@ use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, edit_path};
 use crate::planet::param::{Choice, ParamPath};
-use crate::planet::{EditPoint, Planet, Tool};
+use crate::planet::{Planet, Tool};
 use crate::sphere::LatLon;
 use eframe::egui::{self, AtomExt};
 use std::sync::Arc;
