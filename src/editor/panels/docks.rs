@@ -24,7 +24,7 @@ const WINDOW_HEIGHT: f32 = 460.0;
 /// Width of the strips at the sides of the picture where a dragged tab makes a new dock.
 const STRIP: f32 = 110.0;
 /// Tabs side by side, at most.
-const COLUMNS: usize = 5;
+const COLUMNS: usize = 4;
 
 /// The tab that is dragged.
 #[derive(Clone, Copy)]
@@ -132,14 +132,18 @@ impl PanelState {
         let tabs: Vec<usize> = self.layout.tabs(dock).collect();
         let open = self.layout.open_tab(dock);
         let columns = tabs.len().clamp(1, COLUMNS);
-        let width = (ui.available_width() - 4.0 * (columns - 1) as f32) / columns as f32;
+        let room = ui.available_width() - 4.0 * (columns - 1) as f32;
+        // Of equal widths, those of long names would push the row beyond the panel.
+        let share = |tab: usize| PANELS[tab].label.len() as f32 + 3.0;
         for row in tabs.chunks(columns) {
+            let all: f32 = row.iter().map(|tab| share(*tab)).sum();
+            let room = room * row.len() as f32 / columns as f32;
             ui.horizontal(|ui| {
                 for &tab in row {
                     let panel = &PANELS[tab];
                     let button =
                         egui::Button::selectable(open == Some(tab), panel.label).sense(egui::Sense::click_and_drag());
-                    let response = ui.add_sized([width, 22.0], button);
+                    let response = ui.add_sized([room * share(tab) / all, 22.0], button);
                     response.dnd_set_drag_payload(Dragged(tab));
                     if response.clicked() {
                         self.layout.open(tab);
