@@ -96,7 +96,14 @@ fn what_is_removed_moves_aside() {
     keep(&mut harness, "", "Layered");
     let file = folder.path().join("library").join("Layered.ron");
     assert!(file.is_file());
-    harness.state_mut().push(Action::Library(LibraryAction::Remove(0)));
-    harness.run_steps(6);
+    // The list is read in the background.
+    for _ in 0..200 {
+        harness.state_mut().push(Action::Library(LibraryAction::Remove(0)));
+        harness.run_steps(6);
+        if !file.exists() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
     assert!(!file.exists() && folder.path().join("library/removed/Layered.ron").is_file());
 }

@@ -65,7 +65,9 @@ impl OpenSystem {
         match &self.origin {
             Origin::File(path) => {
                 let folder = path.parent().map_or_else(PathBuf::new, std::path::Path::to_owned);
-                Some(Preset::File(folder.join(&member.preset)))
+                let path = folder.join(&member.preset);
+                // Without `..` in the title.
+                Some(Preset::File(std::fs::canonicalize(&path).unwrap_or(path)))
             }
             Origin::Shipped(_) => {
                 let name = member.preset.rsplit('/').next()?;

@@ -44,7 +44,7 @@ pub const ALL: [Entry; 14] = [
     entry(Template::Shipped("cinnabar.ron"), "Red desert", "Thin dusty air, dunes, a great rift, no sea"),
     entry(Template::Shipped("hoarfrost.ron"), "Ice world", "Old ice with crevasses, open water at the equator"),
     entry(Template::Shipped("pallor.ron"), "Moon", "Craters and plains of lava under a black sky"),
-    entry(Template::Shipped("garland.ron"), "Gas giant", "Bands, jets and storms, with rings"),
+    entry(Template::Shipped("garland.ron"), "Ringed giant", "Bands, jets and storms of a gas giant"),
     entry(Template::Blank, "Blank sphere", "Nothing yet: no layers, no water, no air"),
     entry(Template::Random(Kind::Temperate), "Random: temperate", "Seas, continents and clouds by chance"),
     entry(Template::Random(Kind::Cold), "Random: cold", "Ice and cold ground by chance"),

@@ -49,7 +49,9 @@ impl SystemWindow {
             choices(ui, state, commands);
             match &state.system {
                 Some(system) => {
-                    egui::ScrollArea::vertical().max_height(ctx.content_rect().height() - 150.0).show(ui, |ui| {
+                    let height = (ctx.content_rect().height() - 150.0).max(120.0);
+                    let area = egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+                    area.show(ui, |ui| {
                         self.content(ui, state, system, commands);
                     });
                 }
@@ -148,8 +150,10 @@ impl SystemWindow {
         let widest_m =
             if widest_m > 0.0 { widest_m } else { orbits.map(|orbit| orbit.semi_major_m).fold(1.0, f64::max) };
         let per_m = 0.5 * f64::from(rect.height().min(rect.width())) / (widest_m * ROOM) * self.zoom;
+        // Roots of distances: inner orbits are not crowded together.
         let at = |position_m: DVec3| {
-            let away = (position_m - poses[center].position_m) * per_m;
+            let away_m = position_m - poses[center].position_m;
+            let away = away_m * (per_m * (widest_m / away_m.truncate().length().max(1.0)).sqrt());
             rect.center() + Vec2::new(away.x as f32, -away.y as f32)
         };
         for (number, parent) in parents.iter().enumerate() {
