@@ -109,7 +109,7 @@ fn rings_scatter_and_dim_as_the_reference_and_have_the_shadow_of_the_planet() {
             let at = eye - *dir * (eye.z / dir.z);
             let radii = at.length() / planet.radius_m();
             // Away from edges and from the planet's disc.
-            if hit(eye, *dir, planet.radius_m() * 1.02).is_some() || !(1.72..1.95).contains(&radii) {
+            if hit(eye, *dir, planet.radius_m() * 1.02).is_some() || !(1.72..1.9).contains(&radii) {
                 continue;
             }
             let along = at.dot(sun_dir);
