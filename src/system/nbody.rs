@@ -1,10 +1,10 @@
 //! Motion under the attraction of all bodies, to see whether a system lasts.
 //!
 //! Two symplectic schemes: velocity Verlet (second order: Swope et al., A computer simulation method for the
-//! calculation of equilibrium constants, 1982) and a composition of seven Verlet steps (sixth order, solution A: Yoshida,
-//! Construction of higher order symplectic integrators, Physics Letters A 150, 1990). Their energy error stays bounded;
-//! it does not grow as that of other schemes does. Equal inputs give equal bits: bodies are summed in one order, on one
-//! thread.
+//! calculation of equilibrium constants, 1982) and a composition of seven Verlet steps (sixth order, solution A:
+//! Yoshida, Construction of higher order symplectic integrators, Physics Letters A 150, 1990). Their energy error stays
+//! bounded; it does not grow as that of other schemes does. Equal inputs give equal bits: bodies are summed in one
+//! order, on one thread.
 
 use super::{Ephemeris, System};
 use glam::DVec3;
