@@ -2,17 +2,12 @@
 #include "uniforms.wgsl"
 #include "math.wgsl"
 
-fn smooth1(x: f32) -> f32 {
-    let y = saturate1(x);
-    return y * y * (3.0 - 2.0 * y);
-}
-
 // Value noise along a line, -1 to 1.
 fn line_noise(at: f32, octave: u32) -> f32 {
     let cell = u32(at);
     let a = unit_from_hash(hash3(vec3u(cell, octave, body.ring_seed))).x;
     let b = unit_from_hash(hash3(vec3u(cell + 1u, octave, body.ring_seed))).x;
-    return 2.0 * mix(a, b, smooth1(at - f32(cell))) - 1.0;
+    return 2.0 * mix(a, b, smoothstep(0.0, 1.0, at - f32(cell))) - 1.0;
 }
 
 // Colour of the pieces (rgb) and optical depth (a) at a distance from the centre. `footprint_km`: width over which they
@@ -36,7 +31,7 @@ fn ring_at(radius_km: f32, footprint_km: f32) -> vec4f {
     var amplitude = 0.62 * body.ringlets;
     var count = body.ringlet_count;
     for (var octave = 0u; octave < body.ringlet_octaves; octave++) {
-        let seen = 1.0 - smooth1((count * footprint - 0.25) / 0.75);
+        let seen = 1.0 - smoothstep(0.25, 1.0, count * footprint);
         sum += amplitude * seen * line_noise(saturate1(share) * count, octave);
         amplitude *= RINGLET_GAIN;
         count *= 2.0;

@@ -5,6 +5,8 @@
 //! fade into each other, each with eddies of its own: nothing repeats and nothing jumps.
 
 use crate::planet::{Giant, Planet};
+use crate::rings::smooth;
+use crate::world::noise::mix;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -166,17 +168,10 @@ fn color(giant: &Giant, edges: &[f64], seed: u32, lat: f64) -> [f64; 3] {
     })
 }
 
-fn smooth(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}
-
-/// A random number from 0 to 1 (SplitMix64).
+/// A random number from 0 to 1.
 fn random(number: u32, salt: u32, seed: u32) -> f64 {
-    let mut z = (u64::from(seed) << 32 | u64::from(salt) << 16 | u64::from(number)).wrapping_add(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    let bits = mix(u64::from(seed) << 32 | u64::from(salt) << 16 | u64::from(number));
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 #[cfg(test)]

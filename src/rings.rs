@@ -165,7 +165,8 @@ fn gaps(rings: &Rings, seed: u32) -> Vec<[f64; 2]> {
     (0..rings.gaps).map(|gap| [0.08 + 0.88 * random(gap, 0), 0.003 + 0.007 * random(gap, 1).powi(2)]).collect()
 }
 
-fn smooth(x: f64) -> f64 {
+/// A smooth step from 0 to 1.
+pub(crate) fn smooth(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }

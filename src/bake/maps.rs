@@ -244,6 +244,7 @@ impl Map {
     /// Why a planet has no such map, if it has none.
     pub fn missing(self, planet: &Planet) -> Option<&'static str> {
         match self {
+            _ if planet.giant.is_some() && !self.is_of_clouds() => Some("no ground: it is a gas giant"),
             Map::WaterDepth if planet.water.is_none() && planet.structure.is_none() => {
                 Some("neither a sea nor a structure, so it has no water")
             }

@@ -38,6 +38,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
+    planet.check_ground()?;
     let Some(height_m) = args.height.or(planet.sea_level_m()) else {
         let file = args.file.display();
         return Err(format!("{file}: {} has no sea; name the --height of the lines", planet.name).into());

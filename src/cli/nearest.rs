@@ -73,6 +73,7 @@ struct Property {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let planet = Arc::new(load(&args.file)?);
+    planet.check_ground()?;
     let property = &args.property;
     let biome = property.biome.as_deref().map(|name| biome(&planet, name)).transpose()?;
     let within_m = args.within * 1000.0;

@@ -1,6 +1,6 @@
 //! `tellus system`: where the bodies of a system are, and whether it lasts; and the camera of `render` in a system.
 
-use super::{Failure, args, print};
+use super::{Failure, args, maps, print};
 use crate::film::InSystem;
 use crate::lod::Camera;
 use crate::planet::Planet;
@@ -71,7 +71,9 @@ fn line(worlds: &Worlds, poses: &[Pose], hill_m: &[f64], number: usize) -> Strin
     let over = |other: usize| {
         let towards = poses[other].position_m - poses[number].position_m;
         let (lat, lon) = LatLon::from_direction(poses[number].system_from_body.inverse() * towards).to_degrees();
-        format!("{lat:.1}, {lon:.1}")
+        let side =
+            |degrees: f64, sides: [&str; 2]| format!("{:.1}° {}", degrees.abs(), sides[usize::from(degrees < 0.0)]);
+        format!("{} {}", side(lat, ["N", "S"]), side(lon, ["E", "W"]))
     };
     if let (Some(parent), Some(orbit)) = (parent, worlds.ephemeris().orbit(number)) {
         let days = orbit.period_secs() / 86_400.0;
@@ -86,7 +88,7 @@ fn line(worlds: &Worlds, poses: &[Pose], hill_m: &[f64], number: usize) -> Strin
         if let Some(star) = star {
             text += &format!("; {} over {}", system.bodies[star].name, over(star));
         }
-        if let Some(parent) = parent.filter(|parent| Some(*parent) != star) {
+        if let Some(parent) = parent.filter(|parent| Some(*parent) != star && !system.bodies[*parent].is_point()) {
             text += &format!("; {} over {}", system.bodies[parent].name, over(parent));
         }
     }
@@ -105,7 +107,7 @@ fn told(system: &System, trial: &Trial, step_secs: f64) -> Vec<String> {
         let when = event.time_secs / YEAR_SECS;
         lines.push(match event.kind {
             EventKind::Encounter => {
-                format!("after {when:.3} years {a} comes into the Hill sphere of {b}, or it into its own")
+                format!("after {when:.3} years {a} and {b} are nearer to each other than the Hill radius of one")
             }
             EventKind::Escape => format!("after {when:.3} years {a} leaves {b}"),
             EventKind::Collision => format!("after {when:.3} years {a} and {b} collide"),
@@ -135,7 +137,7 @@ pub(super) fn place(file: &Path, body: &str) -> Result<InSystem, Failure> {
     if worlds.planet(number).is_none() {
         return Err(format!("--body: {body} has no surface; name a planet or a moon").into());
     }
-    Ok(InSystem::new(Arc::new(worlds), number))
+    Ok(InSystem::new(Arc::new(worlds), number, maps::kept()))
 }
 
 fn find(worlds: &Worlds, argument: &str, name: &str) -> Result<usize, Failure> {

@@ -274,6 +274,7 @@ impl EditorApp {
             eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
             time_secs: state.viewport.settings.time_secs,
             stray: state.variations.wish.stray,
+            in_system: state.viewport.body().is_some(),
             planet: &mut planet,
         };
         panels.show_docks(ui, &mut bench);

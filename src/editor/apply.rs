@@ -1,8 +1,6 @@
 //! Carries out the actions that views ask for.
 
-use super::command::{
-    Action, Answer, Command, Commands, PanelAction, Setting, Shoot, SystemAction, VariationAction, Window,
-};
+use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, VariationAction, Window};
 use super::commands;
 use super::handlers::{
     answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, system, variations,
@@ -35,11 +33,8 @@ pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -
 fn takes_typed_value(action: &Action) -> bool {
     match action {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
-        Action::System(SystemAction::SetTime(_)) => false,
-        Action::System(_) => true,
-        Action::Library(_) | Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) | Action::Browse(_) => {
-            true
-        }
+        Action::System(_) | Action::Library(_) | Action::Browse(_) => true,
+        Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) => true,
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) | Action::Bake(_) => false,
         Action::Panel(PanelAction::Reveal { .. }) | Action::Jump(_) | Action::ToggleLock(_) | Action::Clip(_) => true,
         Action::Variation(action) => matches!(action, VariationAction::Take(_) | VariationAction::UnlockAll),
@@ -119,6 +114,7 @@ fn set(state: &mut State, setting: Setting) {
         Setting::Bloom(bloom) => settings.post.bloom = bloom,
         Setting::AutoExposure(automatic) => settings.auto_exposure = automatic,
         Setting::Refine(refine) => settings.refine = refine,
+        Setting::TimeSecs(time_secs) => settings.time_secs = time_secs,
         Setting::TimeSpeed(time_speed) => settings.time_speed = time_speed,
     }
 }

@@ -207,6 +207,8 @@ pub enum Setting {
     AutoExposure(bool),
     /// Whether still pictures get finer.
     Refine(bool),
+    /// Seconds since time zero.
+    TimeSecs(f64),
     /// Seconds of the planet for each second of the clock.
     TimeSpeed(f64),
 }
@@ -278,7 +280,7 @@ pub enum LibraryAction {
 }
 
 /// An action on systems.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemAction {
     /// Open the shipped system of this index.
     Open(usize),
@@ -286,8 +288,6 @@ pub enum SystemAction {
     Visit(usize),
     /// Draw the planet alone.
     Leave,
-    /// Set the time, in seconds since time zero.
-    SetTime(f64),
 }
 
 /// An action on maps and meshes for other programs.

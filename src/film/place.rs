@@ -2,7 +2,7 @@
 
 use crate::planet::{InvalidPlanet, Planet};
 use crate::render::{Body, Neighbour, Scene, Worlds};
-use crate::terrain::Terrain;
+use crate::terrain::{MapStore, Terrain};
 use crate::tiles::build_over;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -13,14 +13,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct InSystem {
     worlds: Arc<Worlds>,
     body: usize,
+    maps: Option<Arc<MapStore>>,
     /// The ground of the bodies that have been drawn.
     terrains: Arc<Mutex<HashMap<usize, Arc<Terrain>>>>,
 }
 
 impl InSystem {
-    /// The body with a number.
-    pub fn new(worlds: Arc<Worlds>, body: usize) -> Self {
-        Self { worlds, body, terrains: Arc::default() }
+    /// The body with a number. `maps`: where solved world maps are kept.
+    pub fn new(worlds: Arc<Worlds>, body: usize, maps: Option<Arc<MapStore>>) -> Self {
+        Self { worlds, body, maps, terrains: Arc::default() }
     }
 
     /// The system.
@@ -62,7 +63,9 @@ impl InSystem {
             return Ok(terrain.clone());
         }
         let planet = self.worlds.planet(number).cloned().unwrap_or_default();
-        let terrain = Arc::new(Terrain::try_new(planet)?);
+        let loaded = Terrain::load(planet.clone(), self.maps.clone(), &|_| true)?;
+        // Nobody gives up.
+        let terrain = Arc::new(loaded.map_or_else(|| Terrain::try_new(planet), Ok)?);
         terrains.insert(number, terrain.clone());
         Ok(terrain)
     }

@@ -1,5 +1,6 @@
 //! Gas giants: planets without a ground, whose clouds are drawn in bands by jets.
 
+use super::Planet;
 use super::param::{Domain, Stage, Unit, count, linear, log, params};
 use super::starting::Starting;
 
@@ -38,6 +39,19 @@ params! {
         spot_color: [f64; 3] = [0.52, 0.18, 0.07], "Colour of the spot", Unit::None, Domain::Color, Stage::Uniform;
         /// Seed of bands, eddies and storms.
         seed: u32 = 0, "Seed", Unit::None, Domain::Seed, Stage::Uniform;
+    }
+}
+
+impl Planet {
+    /// Whether the planet has a ground.
+    ///
+    /// # Errors
+    /// A gas giant has none.
+    pub fn check_ground(&self) -> Result<(), String> {
+        match self.giant {
+            Some(_) => Err(format!("{} is a gas giant: it has no ground", self.name)),
+            None => Ok(()),
+        }
     }
 }
 

@@ -23,6 +23,22 @@ const SUN_MAGNITUDE: f64 = -26.74;
 const FAINTEST: f64 = 9.0;
 
 /// A system whose presets are loaded.
+///
+/// ```
+/// use tellus::glam::DVec3;
+/// use tellus::render::Worlds;
+/// use tellus::system::System;
+///
+/// let file = std::path::Path::new("systems/hearth.ron");
+/// let system = System::load(file)?;
+/// let planets = system.load_planets(file)?;
+/// let worlds = Worlds::new(system, planets);
+/// let [moon, aurel] = ["Pallor", "Aurel"].map(|name| worlds.system().find(name).unwrap_or(0));
+/// let around = worlds.around(moon, DVec3::X * 1.75e6, 0.0);
+/// println!("Aurel is {:.0} km away", around.place(aurel).0.length() / 1000.0);
+/// # assert!((3.5e8..4.1e8).contains(&around.place(aurel).0.length()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Worlds {
     system: System,
@@ -70,16 +86,23 @@ impl Worlds {
         let mut planet = (**self.planet(body)?).clone();
         let poses = self.ephemeris.at(time_secs);
         let (brightness, star, light) = self.stars(&poses, poses[body].position_m).into_iter().next()?;
-        let towards = poses[star].position_m - poses[body].position_m;
-        let under = LatLon::from_direction(poses[body].system_from_body.inverse() * towards.normalize_or(DVec3::X));
-        let (lat_deg, lon_deg) = under.to_degrees();
+        let distance_m = poses[star].position_m.distance(poses[body].position_m);
+        let (lat_deg, lon_deg) = LatLon::from_direction(self.star_dir(body, time_secs)?).to_degrees();
         let of = &mut planet.star;
         // The ranges of a preset hold.
         (of.latitude_deg, of.longitude_deg, of.day_hours) = (lat_deg, lon_deg, 0.0);
         of.brightness = brightness.clamp(0.0, 100.0);
         of.color = light.color();
-        of.radius_deg = (light.radius_m() / towards.length()).min(1.0).asin().to_degrees().clamp(0.01, 20.0);
+        of.radius_deg = (light.radius_m() / distance_m).min(1.0).asin().to_degrees().clamp(0.01, 20.0);
         Some(planet)
+    }
+
+    /// The direction of the brightest star over a body, in its planet frame, at a time; None without stars.
+    pub fn star_dir(&self, body: usize, time_secs: f64) -> Option<DVec3> {
+        let poses = self.ephemeris.at(time_secs);
+        let own = poses.get(body)?;
+        let (_, star, _) = *self.stars(&poses, own.position_m).first()?;
+        Some(own.system_from_body.inverse() * (poses[star].position_m - own.position_m).normalize_or(DVec3::X))
     }
 
     /// The stars by their brightness at a place, brightest first.
@@ -196,6 +219,9 @@ impl Around<'_> {
         let reflected = drawn.iter().filter_map(|body| self.brightest_neighbour(*body));
         scene.suns.extend(reflected.map(|sun| Sun { brightness: sun.brightness * adapted, ..sun }));
         let others = (0..self.poses.len()).filter(|body| !drawn.contains(body));
+        // The brightest stars are suns with discs.
+        let suns: Vec<usize> = stars.iter().take(MAX_SUNS - 1).map(|star| star.1).collect();
+        let others = others.filter(|body| !suns.contains(body));
         let mut points: Vec<(f64, Point)> = others.filter_map(|body| self.point(body)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         scene.points = points.into_iter().map(|(_, point)| point).collect();
@@ -244,13 +270,7 @@ impl Around<'_> {
 
     /// A body as a point, with its magnitude.
     fn point(&self, body: usize) -> Option<(f64, Point)> {
-        // The brightest stars are suns with discs.
-        let is_sun = |star: usize| {
-            let stars = self.worlds.stars(&self.poses, self.eye_m);
-            stars.iter().take(MAX_SUNS - 1).any(|(_, number, _)| *number == star)
-        };
         let (brightness, color) = match &self.worlds.system.bodies[body].light {
-            Some(_) if is_sun(body) => return None,
             Some(light) => (light.brightness_at((self.poses[body].position_m - self.eye_m).length()), light.color()),
             None => self.reflected(body, self.eye_m)?,
         };

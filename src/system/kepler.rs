@@ -109,12 +109,17 @@ impl Ellipse {
     pub fn state(&self, time_secs: f64) -> (DVec3, DVec3) {
         let e = self.eccentricity;
         let anomaly = eccentric_anomaly(self.mean_anomaly_rad(time_secs), e);
-        let (sine, cosine) = (libm::sin(anomaly), libm::cos(anomaly));
-        let root = (1.0 - e * e).sqrt();
-        let position = DVec3::new(cosine - e, root * sine, 0.0) * self.semi_major_m;
+        let (sine, cosine) = libm::sincos(anomaly);
         let speed = self.semi_major_m * self.mean_motion / (1.0 - e * cosine);
-        let velocity = DVec3::new(-sine, root * cosine, 0.0) * speed;
-        (self.frame_from_perifocal * position, self.frame_from_perifocal * velocity)
+        let velocity = DVec3::new(-sine, (1.0 - e * e).sqrt() * cosine, 0.0) * speed;
+        (self.at_anomaly(anomaly), self.frame_from_perifocal * velocity)
+    }
+
+    /// Position relative to the parent at an eccentric anomaly: even steps of it are spread well over the ellipse.
+    pub fn at_anomaly(&self, eccentric_rad: f64) -> DVec3 {
+        let (sine, cosine) = libm::sincos(eccentric_rad);
+        let (e, root) = (self.eccentricity, (1.0 - self.eccentricity * self.eccentricity).sqrt());
+        self.frame_from_perifocal * (DVec3::new(cosine - e, root * sine, 0.0) * self.semi_major_m)
     }
 }
 

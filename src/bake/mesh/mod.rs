@@ -260,6 +260,7 @@ impl MeshBake {
     /// # Errors
     /// What is wrong with what is asked for, and what would be right.
     pub fn check(&self, planet: &Planet) -> Result<(), String> {
+        planet.check_ground()?;
         if let Area::Region(region) = &self.area {
             region.check(planet)?;
         }

@@ -121,6 +121,7 @@ impl Tileset {
     /// # Errors
     /// What is wrong with what is asked for, and what would be right.
     pub fn check(&self, planet: &Planet) -> Result<(), String> {
+        planet.check_ground()?;
         if self.levels > MAX_LEVEL {
             return Err(format!("level {} is out of range; use 0 to {MAX_LEVEL}", self.levels));
         }

@@ -63,7 +63,7 @@ fn sequence(state: &State, subject: Subject, path: &Path) -> Result<Sequence, St
             ..settings.post
         },
         photo: Photo { samples: photo.samples, lens, ..Photo::default() },
-        system: None,
+        system: state.viewport.in_system(),
         focuses: photo.focus_m.is_none(),
     };
     match subject {

@@ -19,7 +19,6 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: SystemAction) {
             state.system = None;
             state.viewport.set_system(None);
         }
-        SystemAction::SetTime(time_secs) => state.viewport.settings.time_secs = time_secs,
     }
 }
 
@@ -39,7 +38,6 @@ fn open(state: &mut State, ctx: &egui::Context, opened: Result<OpenSystem, Strin
         Ok(system) => {
             let first = system.first_planet();
             state.shows.system = true;
-            state.viewport.set_system(None);
             state.system = Some(system);
             if let Some(first) = first {
                 opening::pursue(state, ctx, Goal::Visit(first));
@@ -61,8 +59,7 @@ pub fn visit(state: &mut State, body: usize) {
     if state.document_number == number {
         return;
     }
-    if let Some(system) = &mut state.system {
-        system.here = Some(body);
+    if let Some(system) = &state.system {
         state.viewport.set_system(Some((system.worlds.clone(), body)));
         state.reset_view();
     }

@@ -54,6 +54,8 @@ pub struct Bench<'a> {
     pub time_secs: f64,
     /// How far the dice of a tab stray, 0 to 1.
     pub stray: f64,
+    /// Whether the stars of a system light the planet.
+    pub in_system: bool,
 }
 
 impl PanelState {
@@ -188,6 +190,7 @@ impl PanelState {
             commands: bench.commands,
             eye_lon_deg: bench.eye_lon_deg,
             time_secs: bench.time_secs,
+            in_system: bench.in_system,
             planet: bench.planet,
         };
         self.rows(ui, tab, &mut draft);

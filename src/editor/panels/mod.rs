@@ -146,6 +146,8 @@ pub struct Draft<'a> {
     pub eye_lon_deg: f64,
     /// Seconds since time zero.
     pub time_secs: f64,
+    /// Whether the stars of a system light the planet.
+    pub in_system: bool,
 }
 
 impl Draft<'_> {

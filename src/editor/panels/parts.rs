@@ -46,6 +46,10 @@ pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 
 /// The star.
 pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
+    if draft.in_system {
+        ui.label("The stars of the system light the planet. This one shines when the planet is alone: leave the system in its window.");
+        ui.add_space(4.0);
+    }
     labelled_row(ui, &draft.shown, "Temperature", |ui, label| {
         let mut kelvin = star_kelvin(draft.planet.star.color).round();
         let allowed = Allowed::numbers(Unit::None, *STAR_KELVIN.start(), *STAR_KELVIN.end()).marked(" K");
@@ -58,7 +62,7 @@ pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     calendar(ui, draft);
     ui.add_space(4.0);
     whole(ui, "star", &mut draft.planet.star, &mut Star::default(), draft.shown);
-    if !draft.shown.filter.is_active() {
+    if !draft.shown.filter.is_active() && !draft.in_system {
         ui.add_space(4.0);
         ui.weak("Shift and drag on the planet turns the star.");
     }

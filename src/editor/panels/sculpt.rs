@@ -7,6 +7,7 @@ use crate::editor::viewport::sculpt::{SculptLink, tidy_km};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::number::length_text;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
+use crate::editor::widgets::row_view::{LockView, RowView};
 use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, edit_path};
 use crate::planet::param::{Choice, ParamPath};
 use crate::planet::{Planet, Tool};
@@ -18,8 +19,6 @@ use std::sync::Arc;
 const LIST_SHARE: f32 = 0.3;
 /// Height of a row of the list, in points.
 const ROW: f32 = 20.0;
-/// Room for the scroll bar of the tab, in points, beside that of the list in it.
-const SCROLL_BAR: f32 = 14.0;
 /// The change of the radius by one key.
 const STEP: f64 = 1.25;
 /// Share of the planet's radius that a brush has at first, and the most it has, in kilometres.
@@ -83,7 +82,6 @@ impl SculptState {
 
 /// Shows the tab.
 pub fn show(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
-    ui.set_max_width(ui.available_width() - SCROLL_BAR);
     state.selected = state.selected.filter(|index| *index < draft.planet.edits.len());
     if !draft.shown.filter.is_active() {
         tools(ui, state, draft);
@@ -139,7 +137,9 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let owner = "brush";
     // A path that no planet has: what is said of parameters of the planet is not said of these.
     let base = ParamPath::default().join("brush");
-    let grid = Grid { base, owner, skip: &NOT_OF_BRUSH, shown: draft.shown, biomes: &[] };
+    let locks = LockView::none();
+    let shown = RowView { locks: &locks, ..draft.shown };
+    let grid = Grid { base, owner, skip: &NOT_OF_BRUSH, shown, biomes: &[] };
     let default_tool = Tool::of_kind(tool).unwrap_or_default();
     let mut default = GroundEdit { tool: default_tool, radius_km: brush.radius_km, ..GroundEdit::default() };
     let before = brush.tool.index();

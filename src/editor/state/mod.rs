@@ -309,9 +309,6 @@ impl State {
         self.document = document;
         // Another planet is alone until a system is known in which it stands.
         self.viewport.set_system(None);
-        if let Some(system) = &mut self.system {
-            system.here = None;
-        }
         self.forget_document();
     }
 

@@ -2,8 +2,7 @@
 
 use crate::planet::shipped;
 use crate::render::Worlds;
-use crate::system::System;
-use crate::system::shipped as systems;
+use crate::system::{System, limits, shipped as systems};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -23,8 +22,8 @@ pub struct OpenSystem {
     pub origin: Origin,
     /// Its bodies.
     pub worlds: Arc<Worlds>,
-    /// The body that is the open planet; None while the planet is another.
-    pub here: Option<usize>,
+    /// What about it does not last.
+    pub warnings: Vec<String>,
 }
 
 /// Where a planet to open is.
@@ -45,7 +44,7 @@ impl OpenSystem {
         let shipped = systems::ALL.get(index).ok_or("there is no such system")?;
         let system = shipped.load().map_err(|error| error.to_string())?;
         let planets = shipped.planets(&system);
-        Ok(Self { origin: Origin::Shipped(index), worlds: Arc::new(Worlds::new(system, planets)), here: None })
+        Ok(Self::new(Origin::Shipped(index), Worlds::new(system, planets)))
     }
 
     /// A system file, with the presets that it names.
@@ -55,7 +54,13 @@ impl OpenSystem {
     pub fn file(path: PathBuf) -> Result<Self, String> {
         let system = System::load(&path).map_err(|error| error.to_string())?;
         let planets = system.load_planets(&path).map_err(|error| error.to_string())?;
-        Ok(Self { origin: Origin::File(path), worlds: Arc::new(Worlds::new(system, planets)), here: None })
+        Ok(Self::new(Origin::File(path), Worlds::new(system, planets)))
+    }
+
+    fn new(origin: Origin, worlds: Worlds) -> Self {
+        let warnings = limits::warnings(worlds.system(), &worlds.radii_m());
+        let warnings = warnings.into_iter().map(|warning| warning.message).collect();
+        Self { origin, worlds: Arc::new(worlds), warnings }
     }
 
     /// The preset of a body; None for stars and points.

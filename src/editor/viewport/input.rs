@@ -35,6 +35,8 @@ pub struct Edited<'a> {
     pub planet: &'a mut Planet,
     /// Seconds since time zero.
     pub time_secs: f64,
+    /// Whether drags turn the sun: it is the planet's own.
+    pub turns_sun: bool,
     /// Whether the first button of the pointer is taken by a tool.
     pub held: bool,
     /// The terrain on screen, if a drag with Ctrl moves its plates.
@@ -50,7 +52,7 @@ pub fn handle(
     ground: &dyn Ground,
     edited: Edited<'_>,
 ) -> Moved {
-    let Edited { planet, time_secs, held: is_held, plates } = edited;
+    let Edited { planet, time_secs, turns_sun, held: is_held, plates } = edited;
     let rect = response.rect;
     let aspect = f64::from(rect.width() / rect.height());
     let to_view = |pos: egui::Pos2| in_view(rect, pos);
@@ -90,7 +92,7 @@ pub fn handle(
                 }
             }
             Drag::View if delta != egui::Vec2::ZERO => cameras.look(-right, -up, ground),
-            Drag::Sun if delta != egui::Vec2::ZERO => {
+            Drag::Sun if turns_sun && delta != egui::Vec2::ZERO => {
                 let sun = planet.star.place(time_secs).direction();
                 let (lat_deg, lon_deg) = turn_sun(sun, &cameras.camera(ground), right, up).to_degrees();
                 planet.star.set_place(lat_deg, lon_deg, time_secs);

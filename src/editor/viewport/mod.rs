@@ -41,6 +41,7 @@ pub mod timeline;
 pub use clicks::{Click, TabLink};
 pub use settings::ViewSettings;
 
+use crate::film::InSystem;
 use crate::lod::opening::opening_place;
 use crate::lod::pose::Pose;
 use crate::lod::{Camera, View};
@@ -151,7 +152,8 @@ impl Viewport {
     /// Looks at the whole planet, as when it was opened.
     pub fn reset_view(&mut self, planet: &Planet) {
         let dive = self.cameras.dives();
-        self.cameras = Cameras::new(self.ground_radius_m, opening_place(planet));
+        let lit = self.neighbours.as_ref().and_then(|neighbours| neighbours.lit_planet(self.settings.time_secs));
+        self.cameras = Cameras::new(self.ground_radius_m, opening_place(lit.as_ref().unwrap_or(planet)));
         self.cameras.set_dive(dive);
     }
 
@@ -169,6 +171,23 @@ impl Viewport {
     /// Keeps a planet in the place of the one that is kept, and gives that.
     pub fn swap_compared(&mut self, planet: Arc<Planet>) -> Option<Arc<Planet>> {
         self.compare.as_mut().map(|compare| compare.swap(planet))
+    }
+
+    /// The number of the planet among the bodies of its system; None if it is alone.
+    pub fn body(&self) -> Option<usize> {
+        self.neighbours.as_ref().map(Neighbours::body)
+    }
+
+    /// The planet's place in its system; None if it is alone.
+    pub fn in_system(&self) -> Option<InSystem> {
+        self.neighbours.as_ref().map(Neighbours::place)
+    }
+
+    /// The direction of the star over the planet now: that of the system, or of the preset.
+    pub fn star_dir_planet(&self, planet: &Planet) -> DVec3 {
+        let time_secs = self.settings.time_secs;
+        let of_system = self.neighbours.as_ref().and_then(|neighbours| neighbours.star_dir_planet(time_secs));
+        of_system.unwrap_or_else(|| planet.star.place(time_secs).direction())
     }
 
     /// The window's context.
@@ -367,6 +386,7 @@ impl Viewport {
             planet: draft,
             held: held.taken,
             time_secs: self.settings.time_secs,
+            turns_sun: self.neighbours.is_none(),
             plates: terrain.filter(|_| self.tab.plates),
         };
         let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, edited);

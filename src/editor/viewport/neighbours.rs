@@ -1,9 +1,11 @@
 //! The other bodies of a system around the planet: their tiles, built in the background, and their places.
 
+use crate::film::InSystem;
 use crate::lod::View;
+use crate::planet::Planet;
 use crate::render::{Neighbour, Projection, Scene, Worlds};
+use crate::terrain::MapStore;
 use crate::tiles::{Builder, BuilderOptions};
-use crate::world::MapStore;
 use eframe::egui;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -32,6 +34,26 @@ pub(super) struct Sky {
 impl Neighbours {
     pub(super) fn new(worlds: Arc<Worlds>, body: usize, maps: Option<Arc<MapStore>>) -> Self {
         Self { worlds, body, builders: HashMap::new(), maps }
+    }
+
+    /// The number of the planet among the bodies.
+    pub(super) fn body(&self) -> usize {
+        self.body
+    }
+
+    /// The direction of the brightest star over the planet.
+    pub(super) fn star_dir_planet(&self, time_secs: f64) -> Option<DVec3> {
+        self.worlds.star_dir(self.body, time_secs)
+    }
+
+    /// The planet in the light of the system.
+    pub(super) fn lit_planet(&self, time_secs: f64) -> Option<Planet> {
+        self.worlds.lit_planet(self.body, time_secs)
+    }
+
+    /// The planet's place in the system, for photographs.
+    pub(super) fn place(&self) -> InSystem {
+        InSystem::new(self.worlds.clone(), self.body, self.maps.clone())
     }
 
     /// The bodies as a view sees them at a time. Those whose tiles are still built are left out.

@@ -77,7 +77,7 @@ fn compass(ui: &egui::Ui, rect: Rect, state: &State) {
     let planet = state.document.valid_planet();
     let pose = state.viewport.pose(planet);
     let heading_rad = pose.bookmark(String::new(), 0.0).heading_deg.to_radians();
-    let star = planet.star.place(state.viewport.settings.time_secs).direction();
+    let star = state.viewport.star_dir_planet(planet);
     let up = pose.up();
     let (east, north) = east_north(up);
     let star_rad = f64::atan2(star.dot(east), star.dot(north));

@@ -119,13 +119,20 @@ pub struct RowView<'a> {
 #[derive(Debug, Default)]
 pub struct LockView {
     locks: Locks,
+    /// Whether the rows are of no planet: they cannot be locked.
+    is_of_none: bool,
     toggled: RefCell<Option<ParamPath>>,
 }
 
 impl LockView {
     /// The locks of a planet.
     pub fn of(planet: &Planet) -> Self {
-        Self { locks: Locks::of(planet), toggled: RefCell::default() }
+        Self { locks: Locks::of(planet), ..Self::default() }
+    }
+
+    /// For rows that are not of a planet, such as those of a brush.
+    pub fn none() -> Self {
+        Self { is_of_none: true, ..Self::default() }
     }
 
     /// Whether the lock is on this parameter or part itself.
@@ -150,6 +157,9 @@ impl LockView {
 
     /// A menu entry that locks or unlocks.
     pub fn entry(&self, ui: &mut egui::Ui, path: &ParamPath) {
+        if self.is_of_none {
+            return;
+        }
         let (label, told) = match (self.is_on(path), self.hold(path)) {
             (true, _) => ("Unlock", "Let variations and random planets change it again"),
             (false, true) => ("Lock", "Locked already, by the lock on what it belongs to"),
