@@ -36,6 +36,7 @@ fn sun_disc(dir: vec3f) -> vec3f {
 // Bodies too small for a surface: points of light, drawn as the stars are.
 fn points(dir: vec3f, pixel_rad: f32) -> vec3f {
     var sum = vec3f(0.0);
+    if ALONE { return sum; }
     for (var i = 0u; i < body.point_count; i++) {
         let away = length(cross(dir, body.points[i].dir)) / max(pixel_rad, 0.0006);
         if dot(dir, body.points[i].dir) > 0.0 { sum += body.points[i].light * exp(-1.6 * away * away); }
@@ -215,7 +216,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     // Rings beyond the air are a part of the scene that it veils.
     var rings = RingLight(vec3f(0.0), 1.0, NOTHING_KM);
-    for (var i = 0u; i < body.ring_count; i++) { rings = rings_along(dir, far); }
+    if !ALONE && body.ring_count > 0u { rings = rings_along(dir, far); }
     let shell_km = path_through_air(body.eye_altitude_km, dot(dir, body.eye_up), far);
     let is_behind = shell_km.y > shell_km.x && rings.at_km > shell_km.x;
     if is_behind { scene = scene * rings.transmittance + rings.light; }

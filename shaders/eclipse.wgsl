@@ -1,6 +1,9 @@
 // Light of a sun that other bodies and the rings let through.
 #include "planet_rings.wgsl"
 
+// Whether the body has no rings, no occluders and no points behind it (src/render/variant.rs): nothing here is needed.
+override ALONE: bool = false;
+
 // Sines and angles of small discs: drivers compute asin with few digits.
 fn angle_of_sine(sine: f32) -> f32 {
     let x = min(sine, 1.0);
@@ -25,6 +28,7 @@ fn visible_share(sun_radius: f32, body_radius: f32, apart: f32) -> f32 {
 
 // Share of the active sun's light that reaches the point `at_km` from the centre of the body.
 fn sun_share(at_km: vec3f) -> vec3f {
+    if ALONE { return vec3f(1.0); }
     var share = vec3f(1.0);
     let towards = normalize(active_sun.dir - at_km * active_sun.per_km);
     for (var i = 0u; i < body.occluder_count; i++) {
@@ -36,7 +40,7 @@ fn sun_share(at_km: vec3f) -> vec3f {
         let radius = angle_of_sine(occluder.radius_km / distance);
         share *= mix(occluder.glow, vec3f(1.0), visible_share(active_sun.radius_rad, radius, apart));
     }
-    for (var i = 0u; i < body.ring_count; i++) { share *= through_rings(at_km, towards); }
+    if body.ring_count > 0u { share *= through_rings(at_km, towards); }
     return share;
 }
 

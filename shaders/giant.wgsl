@@ -3,6 +3,9 @@
 #include "uniforms.wgsl"
 #include "math.wgsl"
 
+// Whether the body is a giant (src/render/variant.rs).
+override GIANT: bool = false;
+
 // Colour (rgb) and angular speed of the jets (a) at a latitude. `sine`: of the latitude.
 fn band_at(sine: f32) -> vec4f {
     let place = clamp(asin(clamp(sine, -1.0, 1.0)) / PI + 0.5, 0.0, 0.99999) * f32(BAND_ENTRIES - 1u);

@@ -443,7 +443,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     let site = site_of(in, pixel_ground, up, climate.temperature_c, location, footprint_m, variation);
     var ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
-    for (var i = 0u; i < body.giant_count; i++) {
+    if GIANT {
         let deck = giant_deck(up, footprint_m * 0.001 / body.radius_km);
         ground = Material(deck.albedo, 1.0, 0.0, -deck.slope * GIANT_RELIEF, vec3f(0.0));
     }

@@ -34,8 +34,8 @@
 //! - [`atmosphere`]: the physics of the air: transmittance and radiance along a ray
 //! - [`sea`]: waves, and the height of the water at a time
 //! - [`clouds`]: where clouds are, at any time
-//! - [`giant`]: bands, jets and storms of gas giants
 //! - [`rings`]: rings along the radius: optical depth, light, shadow
+//! - [`giant`]: bands, jets and storms of gas giants
 //! - [`lod`]: which nodes are drawn for a view
 //! - [`tiles`]: tiles from nodes, on all cores, in the background, stage by stage
 //! - `noise_tile`: the noise of patterns on the ground and of clouds, as the renderer samples it

@@ -3,6 +3,7 @@
 
 use super::screen_pass::{Blend, Input, Output, Scope, ScreenPass, writes};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -16,6 +17,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     ],
     writes: &[writes(Target::AfterAir), Output { target: Target::Stars, blend: Blend::Multiply }],
     depth: None,
-    by_nearness: false,
+    varies: Varies::WithNeighbours,
     runs: |work| work.shaded,
 };

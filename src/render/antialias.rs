@@ -2,6 +2,7 @@
 
 use super::screen_pass::{Input, Scope, ScreenPass, writes};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -10,6 +11,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Sample(Target::Toned)],
     writes: &[writes(Target::Smoothed)],
     depth: None,
-    by_nearness: false,
+    varies: Varies::Never,
     runs: |work| work.shaded && work.smooth_edges,
 };

@@ -2,6 +2,7 @@
 
 use super::screen_pass::{Blend, Input, Output, Scope, ScreenPass};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -10,6 +11,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Load(Target::BeforeAir), Input::Depth(Target::Depth), Input::Load(Target::CloudLight)],
     writes: &[Output { target: Target::AfterAir, blend: Blend::Add }],
     depth: None,
-    by_nearness: false,
+    varies: Varies::Never,
     runs: |work| work.shaded && work.aurora,
 };

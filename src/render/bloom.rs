@@ -78,7 +78,7 @@ impl BloomPass {
                 writes_depth: false,
                 encodes_srgb: false,
                 is_linear: false,
-                nearness: None,
+                constants: &[],
             };
             Ok::<Step, RenderError>(Step { pipeline: gpu::screen_pipeline(device, &description)?, inputs })
         };

@@ -3,6 +3,7 @@
 
 use super::screen_pass::{Input, Scope, ScreenPass, writes};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -11,7 +12,7 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Load(Target::BeforeAir), Input::Depth(Target::Depth)],
     writes: &[writes(Target::CloudLight), writes(Target::CloudDistance)],
     depth: None,
-    by_nearness: true,
+    varies: Varies::WithNearness,
     runs: |work| work.shaded && work.clouds,
 };
 
@@ -28,6 +29,6 @@ pub(crate) const GATHER: ScreenPass = ScreenPass {
     ],
     writes: &[writes(Target::CloudLight), writes(Target::CloudDistance)],
     depth: None,
-    by_nearness: false,
+    varies: Varies::Never,
     runs: |work| work.shaded && work.clouds && work.carries_clouds,
 };

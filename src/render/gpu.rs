@@ -1,7 +1,6 @@
 //! Small wgpu helpers for all passes: bind group layouts, full-screen pipelines, error scopes, reading back.
 
 use super::RenderError;
-use super::nearness::Nearness;
 use super::targets::DEPTH_FORMAT;
 use std::future::Future;
 use std::pin::pin;
@@ -151,8 +150,8 @@ pub(crate) struct ScreenPipelineDescriptor<'a> {
     pub(crate) encodes_srgb: bool,
     /// Whether the target takes linear values: the shader constant TARGET_IS_LINEAR.
     pub(crate) is_linear: bool,
-    /// The value of the shader constant NEARNESS, if the shader has it.
-    pub(crate) nearness: Option<Nearness>,
+    /// Further constants of the shader.
+    pub(crate) constants: &'a [(&'static str, f64)],
 }
 
 /// Creates a full-screen pipeline.
@@ -165,7 +164,7 @@ pub(crate) fn screen_pipeline(
         .into_iter()
         .filter(|(_, holds)| *holds)
         .map(|(name, _)| (name, 1.0))
-        .chain(of.nearness.map(Nearness::constant))
+        .chain(of.constants.iter().copied())
         .collect();
     checked(device, of.entry, || {
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {

@@ -105,7 +105,7 @@ impl LutPipelines {
                 writes_depth: false,
                 encodes_srgb: false,
                 is_linear: false,
-                nearness: None,
+                constants: &[],
             };
             gpu::screen_pipeline(device, &description)
         };

@@ -6,7 +6,7 @@
 //!
 //! - `scene`: what is drawn. `renderer`: resources and preparation. `prepared`: the stages. `error`: what can go wrong
 //! - `passes`: the list of all passes; `screen_pass`: a pass over all pixels; `targets`: the textures between them
-//! - `nearness`: pipelines for distant views leave out what no pixel resolves
+//! - `variant`: pipelines leave out what a body does not need; `nearness`: what no pixel resolves from afar
 //! - opaque stage: `morph` (compute), `terrain` with `ground_view`, `body_tiles`, `pool`, `layer_pool`, `detail_pool`,
 //!   `horizon_pool`; then `water`
 //! - air stage: `clouds`, `air`, `aurora`; `copy` where there is no air
@@ -65,6 +65,7 @@ mod terrain;
 mod tone;
 mod tonemap;
 mod uniforms;
+mod variant;
 mod water;
 mod wgsl;
 mod white_balance;

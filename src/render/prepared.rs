@@ -1,12 +1,12 @@
 //! A frame whose uniforms, tiles and LUTs are on the GPU: the stages that the caller records.
 
 use super::clouds;
-use super::nearness::Nearness;
 use super::renderer::{Renderer, ViewResources};
 use super::scene::BodyId;
 use super::screen_pass::{Drawing, ScreenPipeline, Work};
 use super::targets::{self, DEPTH_FORMAT, Owned, RADIANCE_FORMAT, Target};
 use super::terrain::GroundTargets;
+use super::variant::Variant;
 use super::{FrameStats, Metering, RenderError};
 
 /// Targets of the opaque stage. Both are as large as [`Renderer::prepare`] was told.
@@ -131,7 +131,7 @@ impl<'r> PreparedFrame<'r> {
                 viewport_px: self.plan.viewport_px,
                 load: load && !under_sea,
                 lines: self.plan.lines,
-                nearness: body_view.nearness,
+                variant: body_view.variant,
             };
             let groups = [&body_view.group, resources.luts.group()];
             let pass = &self.renderer.pipelines.terrain;
@@ -143,7 +143,7 @@ impl<'r> PreparedFrame<'r> {
             for pass in self.running(&self.renderer.pipelines.opaque, &body.work) {
                 pass.draw(
                     encoder,
-                    &Drawing { nearness: body_view.nearness, ..self.drawing(view, &groups, &texture, load) },
+                    &Drawing { variant: body_view.variant, ..self.drawing(view, &groups, &texture, load) },
                 )?;
             }
             load = true;
@@ -192,7 +192,7 @@ impl<'r> PreparedFrame<'r> {
             let groups = [&body_view.group, resources.luts.group()];
             for pass in self.running(&self.renderer.pipelines.air, &body.work) {
                 let mut drawing = self.drawing(view, &groups, &with_kept, number > 0);
-                (drawing.keeps_rest, drawing.nearness) = (!self.is_whole(), body_view.nearness);
+                (drawing.keeps_rest, drawing.variant) = (!self.is_whole(), body_view.variant);
                 if let (Some(kept), true) = (kept, pass.pass.shader == clouds::PASS.shader) {
                     drawing.texture = &marching;
                     drawing.viewport_px = kept.marched_px(self.plan.viewport_px);
@@ -352,7 +352,7 @@ impl<'r> PreparedFrame<'r> {
             texture,
             exposure: &view.exposure.result,
             viewport_px: self.plan.viewport_px,
-            nearness: Nearness::Orbit,
+            variant: Variant::FIRST,
             load,
             keeps_rest: false,
         }

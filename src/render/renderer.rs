@@ -5,7 +5,6 @@ use super::body_tiles::BodyTiles;
 use super::ground_view::GroundView;
 use super::history::{CloudFrame, CloudHistory, Progress, Still};
 use super::luts::{LutRuns, Luts, Patterns};
-use super::nearness::Nearness;
 use super::passes::Pipelines;
 use super::prepared::{Plan, PlannedBody, PreparedFrame};
 use super::scene::{Body, BodyId, DebugView, Reuse, Scene, ViewId};
@@ -14,6 +13,7 @@ use super::shared::MAX_SUNS;
 use super::targets::{self, Owned, Target, Targets};
 use super::terrain::Indices;
 use super::uniforms::{self, Drawn, UniformBuffer};
+use super::variant::Variant;
 use super::{FrameStats, Metering, RenderError, exposure, gpu, shaders};
 use crate::clouds::coverages;
 use crate::lod::Quality;
@@ -81,8 +81,8 @@ pub(crate) struct BodyView {
     pub(crate) ground: GroundView,
     /// The clouds of the frames before, if they are kept.
     pub(crate) clouds: Option<CloudHistory>,
-    /// How near the eye is to the body in this frame.
-    pub(crate) nearness: Nearness,
+    /// What the body needs in this frame.
+    pub(crate) variant: Variant,
 }
 
 impl Renderer {
@@ -272,14 +272,14 @@ impl Renderer {
             let body_view = view.bodies.entry(body.id).or_insert_with(|| {
                 let uniforms = UniformBuffer::new::<uniforms::Body>(device, "body");
                 let group = group(&view.frame, &uniforms);
-                BodyView { uniforms, group, ground: GroundView::new(device), clouds: None, nearness: Nearness::Ground }
+                BodyView { uniforms, group, ground: GroundView::new(device), clouds: None, variant: Variant::FIRST }
             });
             let mut values = uniforms::body(scene, body, drawn, number == 0);
             let terrain = &*body.surface.terrain;
             let clouds = resources.luts.update_clouds(queue, (&body.revision, Some(terrain)), scene);
             values.cloud_offsets = clouds.offsets;
             (values.cloud_odd_share, values.cloud_least_level) = (clouds.odd_share, clouds.least_level);
-            body_view.nearness = Nearness::of(&values, frame_values.pixel_rad);
+            body_view.variant = Variant::of(&values, frame_values.pixel_rad);
             let clouds = CloudFrame {
                 reuse: if planned.work.clouds { scene.reuse } else { Reuse::None },
                 progress: view.progress,

@@ -1,8 +1,8 @@
 //! A pass over all pixels of the picture: its description, and its pipeline.
 
 use super::gpu::{self, Slot};
-use super::nearness::Nearness;
 use super::targets::Target;
+use super::variant::{Variant, Varies};
 use super::{RenderError, shaders};
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -80,8 +80,8 @@ pub(crate) struct ScreenPass {
     pub(crate) writes: &'static [Output],
     /// A depth texture that the pass tests and writes.
     pub(crate) depth: Option<Target>,
-    /// Whether its shader has the constant of [`Nearness`].
-    pub(crate) by_nearness: bool,
+    /// Which variants of its pipeline there are.
+    pub(crate) varies: Varies,
     /// When it runs.
     pub(crate) runs: fn(&Work) -> bool,
 }
@@ -93,8 +93,8 @@ pub(crate) struct Shared<'a> {
     pub(crate) luts: &'a wgpu::BindGroupLayout,
 }
 
-/// Format of the output, and nearness.
-type Kind = (Option<wgpu::TextureFormat>, Option<Nearness>);
+/// Format of the output, and variant.
+type Kind = (Option<wgpu::TextureFormat>, Variant);
 
 /// The pipeline of a pass.
 pub(crate) struct ScreenPipeline {
@@ -102,7 +102,7 @@ pub(crate) struct ScreenPipeline {
     inputs: wgpu::BindGroupLayout,
     layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    /// By the format of the output, if the pass writes it, and by nearness, if its shader knows it.
+    /// By the format of the output, if the pass writes it, and by variant.
     pipelines: Mutex<HashMap<Kind, wgpu::RenderPipeline>>,
 }
 
@@ -115,8 +115,8 @@ pub(crate) struct Drawing<'a> {
     pub(crate) exposure: &'a wgpu::Buffer,
     /// Left, top, width and height in the targets.
     pub(crate) viewport_px: [u32; 4],
-    /// How near the eye is to the body.
-    pub(crate) nearness: Nearness,
+    /// What the body needs.
+    pub(crate) variant: Variant,
     /// Whether the targets keep what they hold; if not they are cleared.
     pub(crate) load: bool,
     /// Whether the caller's targets keep what they hold outside of the viewport.
@@ -147,21 +147,21 @@ impl ScreenPipeline {
         let made = Self { pass, inputs, layout, module, pipelines: Mutex::default() };
         let writes_output = pass.writes.iter().any(|output| output.target == Target::Output);
         if !writes_output {
-            made.pipeline(device, None, Nearness::Orbit)?;
+            made.pipeline(device, None, Variant::FIRST)?;
         }
         Ok(made)
     }
 
-    /// The pipeline for a format of the output and a distance of the eye.
+    /// The pipeline for a format of the output and a body.
     fn pipeline(
         &self,
         device: &wgpu::Device,
         output: Option<wgpu::TextureFormat>,
-        nearness: Nearness,
+        variant: Variant,
     ) -> Result<wgpu::RenderPipeline, RenderError> {
-        let nearness = self.pass.by_nearness.then_some(nearness);
+        let variant = variant.among(self.pass.varies);
         let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = pipelines.get(&(output, nearness)) {
+        if let Some(pipeline) = pipelines.get(&(output, variant)) {
             return Ok(pipeline.clone());
         }
         let component = |src_factor, dst_factor| {
@@ -189,10 +189,10 @@ impl ScreenPipeline {
             writes_depth: self.pass.depth.is_some(),
             encodes_srgb: output.is_some_and(|format| format.is_srgb()),
             is_linear: output == Some(wgpu::TextureFormat::Rgba32Float),
-            nearness,
+            constants: &variant.constants(self.pass.varies),
         };
         let pipeline = gpu::screen_pipeline(device, &description)?;
-        pipelines.insert((output, nearness), pipeline.clone());
+        pipelines.insert((output, variant), pipeline.clone());
         Ok(pipeline)
     }
 
@@ -201,7 +201,7 @@ impl ScreenPipeline {
         let pass = self.pass;
         let output = pass.writes.iter().find(|output| output.target == Target::Output);
         let format = output.and_then(|output| (with.texture)(output.target)).map(|view| view.texture().format());
-        let pipeline = self.pipeline(with.device, format, with.nearness)?;
+        let pipeline = self.pipeline(with.device, format, with.variant)?;
         let resource = |input: &Input| match input {
             Input::Load(target) | Input::Sample(target) | Input::Depth(target) => {
                 (with.texture)(*target).map(wgpu::BindingResource::TextureView)

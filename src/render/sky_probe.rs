@@ -47,7 +47,7 @@ impl Renderer {
             writes_depth: false,
             encodes_srgb: false,
             is_linear: false,
-            nearness: None,
+            constants: &[],
         };
         let pipeline = gpu::screen_pipeline(device, &description)?;
         let input = ray_texture(device, queue, rays);

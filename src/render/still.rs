@@ -2,6 +2,7 @@
 
 use super::screen_pass::{Input, Scope, ScreenPass, writes};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -15,6 +16,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     ],
     writes: &[writes(Target::MeanLight), writes(Target::MeanStars)],
     depth: None,
-    by_nearness: false,
+    varies: Varies::Never,
     runs: |_| true,
 };

@@ -6,10 +6,10 @@ use super::gpu;
 use super::ground_view::{GroundView, INSTANCE_BYTES};
 use super::horizon_pool::HORIZON;
 use super::morph::SHOWN_ATTRIBUTES;
-use super::nearness::Nearness;
 use super::screen_pass::Shared;
 use super::shared::SHOWN_BYTES;
 use super::targets::{RADIANCE_FORMAT, Target};
+use super::variant::Variant;
 use super::{FrameStats, RenderError, shaders};
 use crate::lod::stitch;
 use crate::lod::tile::Vertex;
@@ -39,8 +39,8 @@ const ENTRY: &str = "terrain.wgsl";
 pub(crate) struct TerrainPass {
     layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    /// By whether edges alone are drawn, and by nearness.
-    pipelines: Mutex<HashMap<(bool, Nearness), wgpu::RenderPipeline>>,
+    /// By whether edges alone are drawn, and by variant.
+    pipelines: Mutex<HashMap<(bool, Variant), wgpu::RenderPipeline>>,
 }
 
 impl TerrainPass {
@@ -49,19 +49,19 @@ impl TerrainPass {
         let (detail, horizon) = (DETAIL.layout(device), HORIZON.layout(device));
         let layout = gpu::pipeline_layout(device, ENTRY, &[shared.uniforms, shared.luts, &detail, &horizon]);
         let made = Self { layout, module, pipelines: Mutex::default() };
-        made.pipeline(device, false, Nearness::Orbit)?;
+        made.pipeline(device, false, Variant::FIRST)?;
         Ok(made)
     }
 
-    /// The pipeline for triangles or their edges, and a distance of the eye.
+    /// The pipeline for triangles or their edges, and a body.
     fn pipeline(
         &self,
         device: &wgpu::Device,
         lines: bool,
-        nearness: Nearness,
+        variant: Variant,
     ) -> Result<wgpu::RenderPipeline, RenderError> {
         let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = pipelines.get(&(lines, nearness)) {
+        if let Some(pipeline) = pipelines.get(&(lines, variant)) {
             return Ok(pipeline.clone());
         }
         let buffer = |array_stride, step_mode, attributes| {
@@ -78,7 +78,7 @@ impl TerrainPass {
             false => (wgpu::PrimitiveTopology::TriangleList, Some(wgpu::Face::Back)),
             true => (wgpu::PrimitiveTopology::LineList, None),
         };
-        let constants = [nearness.constant()];
+        let constants = variant.constants_of_ground();
         let pipeline = gpu::checked(device, ENTRY, || {
             device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(ENTRY),
@@ -105,7 +105,7 @@ impl TerrainPass {
                 cache: None,
             })
         })?;
-        pipelines.insert((lines, nearness), pipeline.clone());
+        pipelines.insert((lines, variant), pipeline.clone());
         Ok(pipeline)
     }
 }
@@ -162,8 +162,8 @@ pub(crate) struct GroundTargets<'a> {
     pub(crate) load: bool,
     /// Edges of triangles alone.
     pub(crate) lines: bool,
-    /// How near the eye is to the body.
-    pub(crate) nearness: Nearness,
+    /// What the body needs.
+    pub(crate) variant: Variant,
 }
 
 impl TerrainPass {
@@ -176,7 +176,7 @@ impl TerrainPass {
         (tiles, view): (&BodyTiles, &GroundView),
         to: &GroundTargets<'_>,
     ) -> Result<FrameStats, RenderError> {
-        let pipeline = self.pipeline(device, to.lines, to.nearness)?;
+        let pipeline = self.pipeline(device, to.lines, to.variant)?;
         let attachment = |view, load: bool| {
             let load = if load { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
             Some(wgpu::RenderPassColorAttachment {

@@ -2,6 +2,7 @@
 
 use super::screen_pass::{Input, Scope, ScreenPass, writes};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -10,6 +11,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     reads: &[Input::Load(Target::Composite), Input::Exposure, Input::Load(Target::Stars), Input::Sample(Target::Bloom)],
     writes: &[writes(Target::Toned)],
     depth: None,
-    by_nearness: false,
+    varies: Varies::Never,
     runs: |_| true,
 };

@@ -2,6 +2,7 @@
 
 use super::screen_pass::{Input, Scope, ScreenPass, writes};
 use super::targets::Target;
+use super::variant::Varies;
 
 /// See the module.
 pub(crate) const PASS: ScreenPass = ScreenPass {
@@ -14,6 +15,6 @@ pub(crate) const PASS: ScreenPass = ScreenPass {
     ],
     writes: &[writes(Target::Radiance)],
     depth: Some(Target::Depth),
-    by_nearness: true,
+    varies: Varies::WithNearness,
     runs: |work| work.shaded && work.sea,
 };

@@ -181,7 +181,7 @@ uniform_struct! {
         point_count: u32,
         points: [Point; MAX_POINTS],
         /// 1 for a gas giant.
-        giant_count: u32,
+        is_giant: u32,
         /// How far eddies fold the bands; their size in radii of the planet; contrast of the filaments.
         giant_turbulence: f32,
         giant_eddy_radii: f32,

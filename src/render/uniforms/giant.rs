@@ -9,7 +9,7 @@ use glam::{DVec4, Vec4};
 /// Sets the bands and storms of a giant at a time.
 pub(super) fn at(out: &mut Body, planet: &Planet, time_secs: f64) {
     let (Some(giant), Some(bands)) = (&planet.giant, Bands::new(planet)) else { return };
-    out.giant_count = 1;
+    out.is_giant = 1;
     out.giant_turbulence = giant.turbulence as f32;
     out.giant_eddy_radii = giant.eddy_radii as f32;
     out.giant_filaments = giant.filaments as f32;
