@@ -1,5 +1,5 @@
-//! The variants of the pipelines that draw a body: each leaves out what the body does not need. An `if` on a uniform does
-//! not save it: software adapters run both branches, and run the body of a loop once that counts to 0.
+//! The variants of the pipelines that draw a body: each leaves out what the body does not need. An `if` on a uniform
+//! does not save it: software adapters run both branches, and run the body of a loop once that counts to 0.
 
 use super::nearness::Nearness;
 use super::shared::Body;
