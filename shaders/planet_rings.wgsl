@@ -44,8 +44,14 @@ fn ring_at(radius_km: f32, footprint_km: f32) -> vec4f {
 fn through_rings(at_km: vec3f, towards: vec3f) -> vec3f {
     let path_km = -at_km.z / select(towards.z, 1e-6, abs(towards.z) < 1e-6);
     if path_km <= 0.0 { return vec3f(1.0); }
-    let radius_km = length(at_km.xy + towards.xy * path_km);
+    let crossing_km = at_km.xy + towards.xy * path_km;
+    let radius_km = length(crossing_km);
     // The sun's disc blurs the shadow.
     let blur_km = 2.0 * path_km * active_sun.radius_rad;
-    return vec3f(exp(-ring_at(radius_km, blur_km).a / max(abs(towards.z), 1e-3)));
+    // Over the width of a pixel, the place where the light crosses the rings moves the farther the flatter it falls.
+    let from_eye_km = at_km - body.eye_km;
+    let slant = max(abs(dot(normalize(from_eye_km), normalize(at_km))), 0.2);
+    let pixel_km = length(from_eye_km) * frame.pixel_rad / slant;
+    let moved = length(vec2f(1.0, dot(crossing_km, towards.xy) / (max(radius_km, 1e-6) * max(abs(towards.z), 1e-3))));
+    return vec3f(exp(-ring_at(radius_km, max(blur_km, pixel_km * moved)).a / max(abs(towards.z), 1e-3)));
 }

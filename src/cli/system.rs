@@ -7,16 +7,13 @@ use crate::planet::Planet;
 use crate::planet::file::read_text;
 use crate::render::Worlds;
 use crate::sphere::LatLon;
-use crate::system::kepler::Ellipse;
 use crate::system::limits::{distance_text, hill_radii_m, warnings};
-use crate::system::nbody::{EventKind, Scheme, Trial, try_out};
-use crate::system::{Pose, System};
+use crate::system::nbody::{Scheme, Trial, fitting_step_secs, try_out};
+use crate::system::{Pose, System, YEAR_SECS};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-const YEAR_SECS: f64 = 365.25 * 86_400.0;
 
 /// List the bodies of a system at a time, and say whether it lasts
 #[derive(clap::Args)]
@@ -51,10 +48,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         print(&format!("warning: {}", warning.message))?;
     }
     if let Some(years) = args.trial {
-        let shortest = (0..system.bodies.len()).filter_map(|body| worlds.ephemeris().orbit(body));
-        let shortest_secs = shortest.map(Ellipse::period_secs).fold(YEAR_SECS, f64::min);
-        let step_secs = args.step.map_or(shortest_secs / 200.0, |hours| hours * 3600.0);
-        let trial = try_out(system, &radii_m, args.scheme, (years * YEAR_SECS, step_secs), &mut |_| true);
+        let step_secs = args.step.map_or_else(|| fitting_step_secs(system), |hours| hours * 3600.0);
+        let trial = try_out(system, &radii_m, args.scheme, (years * YEAR_SECS, step_secs), &mut |_, _| true);
         for text in told(system, &trial, step_secs) {
             print(&text)?;
         }
@@ -102,17 +97,7 @@ fn told(system: &System, trial: &Trial, step_secs: f64) -> Vec<String> {
         step_secs / 3600.0,
         trial.energy_error
     )];
-    for event in &trial.events {
-        let [a, b] = event.bodies.map(|body| &system.bodies[body].name);
-        let when = event.time_secs / YEAR_SECS;
-        lines.push(match event.kind {
-            EventKind::Encounter => {
-                format!("after {when:.3} years {a} and {b} are nearer to each other than the Hill radius of one")
-            }
-            EventKind::Escape => format!("after {when:.3} years {a} leaves {b}"),
-            EventKind::Collision => format!("after {when:.3} years {a} and {b} collide"),
-        });
-    }
+    lines.extend(trial.events.iter().map(|event| event.told(system)));
     if trial.events.is_empty() {
         lines.push("no encounter, no escape, no collision".to_owned());
     }

@@ -22,6 +22,7 @@ use super::state::pictures::Pictures;
 use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
+use super::state::system::OpenSystem;
 use super::state::variations::Variations;
 use super::viewport::Viewport;
 use super::views::bake::BakeWindow;
@@ -195,6 +196,11 @@ impl EditorApp {
         &self.state.document
     }
 
+    /// The open system.
+    pub fn system(&self) -> Option<&OpenSystem> {
+        self.state.system.as_ref()
+    }
+
     /// The height maps' pictures.
     pub fn pictures(&self) -> &Pictures {
         &self.state.pictures
@@ -310,6 +316,9 @@ impl EditorApp {
         let busy = ctx.input(|i| i.pointer.any_down() || !i.keys_down.is_empty()) || ctx.text_edit_focused();
         if !busy {
             self.state.document.settle();
+            if let Some(system) = &mut self.state.system {
+                system.settle();
+            }
         }
     }
 
@@ -346,6 +355,7 @@ impl eframe::App for EditorApp {
         open_file::poll(state, ctx);
         shooting::poll(state);
         baking::poll(state, ctx);
+        handlers::system::poll(state, ctx);
         handlers::device::poll(state);
         state.doing.note_file(state.document.path());
         self.commands = apply_all(state, ctx, self.commands.take());

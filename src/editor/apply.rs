@@ -1,6 +1,8 @@
 //! Carries out the actions that views ask for.
 
-use super::command::{Action, Answer, Command, Commands, PanelAction, Setting, Shoot, VariationAction, Window};
+use super::command::{
+    Action, Answer, Command, Commands, PanelAction, Setting, Shoot, SystemAction, VariationAction, Window,
+};
 use super::commands;
 use super::handlers::{
     answers, baking, bookmarks, clipboard, library, opening, pictures, place, shooting, system, variations,
@@ -33,6 +35,8 @@ pub fn apply_all(state: &mut State, ctx: &egui::Context, actions: Vec<Action>) -
 fn takes_typed_value(action: &Action) -> bool {
     match action {
         Action::Command(command) => commands::row(*command).is_some_and(|row| row.takes_typed_value),
+        // A field of the window is being typed in: its value would be lost.
+        Action::System(SystemAction::Edit(..)) => false,
         Action::System(_) | Action::Library(_) | Action::Browse(_) => true,
         Action::OpenPath(_) | Action::OpenShipped(_) | Action::Begin(_) => true,
         Action::Answer(_) | Action::Bookmark(_) | Action::Set(_) | Action::Shoot(_) | Action::Bake(_) => false,

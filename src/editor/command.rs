@@ -12,6 +12,7 @@ use super::viewport::camera::Mode;
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
 use crate::render::{DebugView, Tone};
+use crate::system::System;
 use std::path::PathBuf;
 
 /// A command: an action with a menu entry or a shortcut.
@@ -280,14 +281,51 @@ pub enum LibraryAction {
 }
 
 /// An action on systems.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SystemAction {
+    /// Begin a system around the open planet.
+    Begin,
+    /// Change the system: an undo step of this name.
+    Edit(Box<System>, String),
+    /// Add a body about the one of a number.
+    Add(usize, NewBody),
+    /// Remove a body, and what orbits it.
+    Remove(usize),
+    /// Lock the orbit and rotation of a body, or unlock them: random orbits leave it as it is.
+    Lock(usize),
+    /// Put the bodies on random orbits.
+    Roll,
+    /// Undo the last change of the system.
+    Undo,
+    /// Redo it.
+    Redo,
+    /// Save the system.
+    Save,
+    /// Save it to another file.
+    SaveAs,
+    /// Run it for some years under the attraction of all its bodies.
+    Try(f64),
+    /// Stop that.
+    StopTrial,
     /// Open the shipped system of this index.
     Open(usize),
     /// Go to the body of this number: its planet becomes the document.
     Visit(usize),
     /// Draw the planet alone.
     Leave,
+}
+
+/// A body to add to a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NewBody {
+    /// The shipped planet of this index.
+    Shipped(usize),
+    /// The planet that is open.
+    Open,
+    /// A planet whose file is asked for.
+    Ask,
+    /// A star.
+    Star,
 }
 
 /// An action on maps and meshes for other programs.

@@ -184,14 +184,14 @@ fn edit() -> Vec<Row> {
         Row::new(Command::Undo, "Undo", "Undo the last change.", State::undo)
             .within(Menu::Edit, 0)
             .keys([ctrl(Key::Z)])
-            .enabled_when(|s| s.document.history().undo_label().is_some())
-            .renamed(|s| s.document.history().undo_label().map(|step| format!("Undo: {}", lower_first(step))))
+            .enabled_when(|s| s.undo_label().is_some())
+            .renamed(|s| s.undo_label().map(|step| format!("Undo: {}", lower_first(step))))
             .yielding_to_text(),
         Row::new(Command::Redo, "Redo", "Redo the last undone change.", State::redo)
             .within(Menu::Edit, 0)
             .keys([ctrl_shift(Key::Z), ctrl(Key::Y)])
-            .enabled_when(|s| s.document.history().redo_label().is_some())
-            .renamed(|s| s.document.history().redo_label().map(|step| format!("Redo: {}", lower_first(step))))
+            .enabled_when(|s| s.redo_label().is_some())
+            .renamed(|s| s.redo_label().map(|step| format!("Redo: {}", lower_first(step))))
             .yielding_to_text(),
         Row::new(Command::History, "History", "List the undo steps; a click goes to one.", |s, _| {
             s.shows.history ^= true;

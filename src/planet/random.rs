@@ -8,7 +8,7 @@
 //! [`random`] makes a planet: a few layers that build on each other, a climate, and biomes that suit it. [`vary`] moves
 //! the numbers of an existing planet. Both use the descriptions of parameters wherever those suffice.
 
-mod dice;
+pub(crate) mod dice;
 mod grounds;
 mod lands;
 mod structure;

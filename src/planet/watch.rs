@@ -24,16 +24,8 @@ use std::time::{Duration, Instant, SystemTime};
 #[derive(Debug)]
 pub struct PresetWatch {
     path: PathBuf,
-    interval: Duration,
-    looked: Option<Instant>,
-    /// The files as they were loaded last.
-    loaded: Files,
-    /// The files at the last look, if they differ.
-    changing: Option<Files>,
+    files: FileWatch,
 }
-
-/// Date and length of each file; None for a file that is not there.
-type Files = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
 
 impl PresetWatch {
     /// Time between two looks at the disk.
@@ -49,8 +41,8 @@ impl PresetWatch {
         let path = path.as_ref().to_owned();
         // The pictures of a preset that cannot be read yet are known once it can.
         let pictures = Planet::open(&path).map(|planet| pictures(&planet)).unwrap_or_default();
-        let loaded = look(&path, &pictures);
-        Self { path, interval, looked: None, loaded, changing: None }
+        let files = FileWatch::new(pictures.into_iter().chain([path.clone()]), interval);
+        Self { path, files }
     }
 
     /// The planet, if its files have changed and then stayed as they are for the time between two looks: a program may
@@ -59,47 +51,86 @@ impl PresetWatch {
     /// # Errors
     /// What is wrong with the changed preset, once for each change.
     pub fn poll(&mut self) -> Option<Result<Planet, LoadError>> {
-        if self.looked.is_some_and(|looked| looked.elapsed() < self.interval) {
-            return None;
-        }
-        self.looked = Some(Instant::now());
-        let pictures: Vec<PathBuf> = self.loaded.keys().filter(|file| **file != self.path).cloned().collect();
-        let now = look(&self.path, &pictures);
-        if now == self.loaded || now.get(&self.path) == Some(&None) {
-            self.changing = None;
-            return None;
-        }
-        if self.changing.as_ref() != Some(&now) {
-            self.changing = Some(now);
+        if !self.files.poll(&self.path) {
             return None;
         }
         let planet = Planet::load(&self.path);
-        // The preset may refer to other pictures now. One that changed meanwhile is found at the next look.
-        self.loaded = now;
+        // The preset may refer to other pictures now.
         if let Ok(planet) = &planet {
-            let pictures = self::pictures(planet);
-            self.loaded.retain(|file, _| *file == self.path || pictures.contains(file));
-            for (file, stamp) in look(&self.path, &pictures) {
-                self.loaded.entry(file).or_insert(stamp);
-            }
+            self.files.follow(pictures(planet).into_iter().chain([self.path.clone()]));
         }
-        self.changing = None;
         Some(planet)
     }
 }
 
-fn pictures(planet: &Planet) -> Vec<PathBuf> {
+/// Watches several files by their dates and lengths.
+#[derive(Debug)]
+pub(crate) struct FileWatch {
+    interval: Duration,
+    looked: Option<Instant>,
+    /// The files as they were loaded last.
+    loaded: Files,
+    /// The files at the last look, if they differ.
+    changing: Option<Files>,
+}
+
+/// Date and length of each file; None for a file that is not there.
+type Files = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
+
+impl FileWatch {
+    /// Watches files from now on.
+    pub(crate) fn new(files: impl IntoIterator<Item = PathBuf>, interval: Duration) -> Self {
+        Self { interval, looked: None, loaded: look(files), changing: None }
+    }
+
+    /// Whether the files have changed since they were loaded, and then stayed as they are for the time between two looks.
+    /// `main`: a file without which there is no news.
+    pub(crate) fn poll(&mut self, main: &Path) -> bool {
+        if self.looked.is_some_and(|looked| looked.elapsed() < self.interval) {
+            return false;
+        }
+        self.looked = Some(Instant::now());
+        let now = look(self.loaded.keys().cloned());
+        if now == self.loaded || now.get(main) == Some(&None) {
+            self.changing = None;
+            return false;
+        }
+        if self.changing.as_ref() != Some(&now) {
+            self.changing = Some(now);
+            return false;
+        }
+        (self.loaded, self.changing) = (now, None);
+        true
+    }
+
+    /// Whether the files have changed, but may still be written.
+    pub(crate) fn is_changing(&self) -> bool {
+        self.changing.is_some()
+    }
+
+    /// Watches these files instead of others. One that was watched before and has changed meanwhile is found at the next
+    /// look.
+    pub(crate) fn follow(&mut self, files: impl IntoIterator<Item = PathBuf>) {
+        let before = std::mem::take(&mut self.loaded);
+        self.loaded = look(files);
+        for (file, stamp) in before {
+            self.loaded.entry(file).and_modify(|now| *now = stamp);
+        }
+    }
+}
+
+/// The pictures that a preset refers to.
+pub(crate) fn pictures(planet: &Planet) -> Vec<PathBuf> {
     let keys = planet.pictures().filter_map(|(_, file, layout)| file.key(layout));
     keys.map(|PictureKey { file, .. }| file).collect()
 }
 
-fn look(preset: &Path, pictures: &[PathBuf]) -> Files {
+fn look(files: impl IntoIterator<Item = PathBuf>) -> Files {
     let stamp = |path: &Path| {
         let metadata = std::fs::metadata(path).ok()?;
         Some((metadata.modified().unwrap_or(SystemTime::UNIX_EPOCH), metadata.len()))
     };
-    let files = pictures.iter().map(PathBuf::as_path).chain([preset]);
-    files.map(|path| (path.to_owned(), stamp(path))).collect()
+    files.into_iter().map(|path| (path.clone(), stamp(&path))).collect()
 }
 
 #[cfg(test)]

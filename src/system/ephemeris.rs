@@ -35,9 +35,7 @@ impl Ephemeris {
         let parents = system.parents();
         let track = |(body, parent): (&super::Member, &Option<usize>)| {
             let about = parent.map_or(0.0, |parent| system.bodies[parent].gravity_m3_s2());
-            let gravity = about + body.gravity_m3_s2();
-            let ellipse = body.orbit.as_ref().map(|orbit| Ellipse::new(orbit, gravity));
-            Track { parent: *parent, ellipse, spin: body.spin.clone() }
+            Track { parent: *parent, ellipse: body.ellipse(about), spin: body.spin.clone() }
         };
         Self { bodies: system.bodies.iter().zip(&parents).map(track).collect() }
     }

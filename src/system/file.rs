@@ -1,6 +1,6 @@
 //! Loading, checking and saving a system file; see [`crate::planet::file`], which does the same for presets.
 
-use super::{MAX_BODIES, Member, System, VERSION};
+use super::{MAX_BODIES, MAX_ECCENTRICITY, Member, Start, System, VERSION};
 use crate::planet::file::{LoadError, SaveError, all_placed, read_as, read_text, write_atomically};
 use crate::planet::param::{ParamPath, Segment};
 use crate::planet::picture::folder_of;
@@ -174,6 +174,24 @@ impl System {
                 None => return add("parent", format!("there is no body `{name}`; {}", self.known_before(number))),
             },
         };
+        if body.orbit.is_some() && body.start.is_some() {
+            return add("start", "the body has an orbit already; remove the start or the orbit".to_owned());
+        }
+        if let (Some(parent), Some(start)) = (parent, &body.start) {
+            let of = &self.bodies[parent];
+            let why = match (of.is_point(), body.ellipse(of.gravity_m3_s2()).map(|ellipse| ellipse.eccentricity)) {
+                (true, _) => Some(format!("`{}` has no mass to hold the body; write an orbit with a period", of.name)),
+                (false, None) => Some(escape(start, of, body)),
+                (false, Some(e)) if e > MAX_ECCENTRICITY => {
+                    Some(format!("the orbit has an eccentricity of {e:.4}; use at most {MAX_ECCENTRICITY}"))
+                }
+                _ => None,
+            };
+            return why.map_or((), |why| add("start", why));
+        }
+        if parent.is_none() && body.start.is_some() {
+            return add("start", "the body at the root is at rest in the origin; name a parent or use None".to_owned());
+        }
         match (parent, &body.orbit) {
             (None, Some(_)) => add("orbit", "the body at the root has no orbit; name a parent or use None".to_owned()),
             (None, None) if number > 0 => {
@@ -182,7 +200,10 @@ impl System {
                     format!("only the first body is at the root; name a parent; {}", self.known_before(number)),
                 );
             }
-            (Some(_), None) => add("orbit", "the orbit around the parent is missing; write `orbit: (...)`".to_owned()),
+            (Some(_), None) => add(
+                "orbit",
+                "the orbit around the parent is missing; write `orbit: (...)` or `start: (...)`".to_owned(),
+            ),
             (Some(parent), Some(orbit)) => {
                 let mass = self.bodies[parent].mass_earths + body.mass_earths;
                 if orbit.period_hours <= 0.0 && (mass <= 0.0 || self.bodies[parent].is_point()) {
@@ -199,6 +220,22 @@ impl System {
     fn known_before(&self, number: usize) -> String {
         let names: Vec<String> = self.bodies[..number].iter().map(|body| format!("`{}`", body.name)).collect();
         if names.is_empty() { "the first body has none".to_owned() } else { format!("use {}", names.join(", ")) }
+    }
+}
+
+/// Why a body does not stay with its parent.
+fn escape(start: &Start, parent: &Member, body: &Member) -> String {
+    let (distance_m, speed) = (start.position_m().length(), start.velocity().length());
+    let gravity = parent.gravity_m3_s2() + body.gravity_m3_s2();
+    let least = (2.0 * gravity / distance_m.max(1.0)).sqrt();
+    match speed < least {
+        true => format!("the body falls straight into `{}`; give it a velocity across the line to it", parent.name),
+        false => format!(
+            "at {:.3} km/s the body leaves `{}`, which holds less than {:.3} km/s there; use less",
+            speed / 1000.0,
+            parent.name,
+            least / 1000.0
+        ),
     }
 }
 

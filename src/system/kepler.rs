@@ -3,7 +3,7 @@
 //! The perifocal frame of an orbit has its x-axis towards the periapsis and its z-axis along the orbit's normal.
 
 use super::Orbit;
-use glam::{DQuat, DVec3};
+use glam::{DMat2, DQuat, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// An elliptic orbit around a mass.
@@ -91,6 +91,37 @@ impl Ellipse {
             anomaly_deg: degrees(self.anomaly_rad),
             period_hours: 0.0,
         }
+    }
+
+    /// The place in the plane of the orbit, in its perifocal frame, that is seen over `over_m` along the z-axis of the
+    /// frame of the elements; metres from the parent. None if the orbit is seen edge on, or the place is the parent's.
+    pub fn in_plane_m(&self, over_m: DVec2) -> Option<DVec2> {
+        let [x, y] = [DVec3::X, DVec3::Y].map(|axis| (self.frame_from_perifocal * axis).truncate());
+        let seen = DMat2::from_cols(x, y);
+        if seen.determinant().abs() < 1e-3 {
+            return None;
+        }
+        let in_plane_m = seen.inverse() * over_m;
+        (in_plane_m.length() > 0.0 && in_plane_m.is_finite()).then_some(in_plane_m)
+    }
+
+    /// The orbit of the same shape and plane that passes through a place: the ellipse is scaled, and the body stands there
+    /// at a time. `over_m`: the place, metres from the parent, seen along the z-axis of the frame of the elements. None if
+    /// the orbit is seen edge on, or the place is the parent's.
+    pub fn through(&self, over_m: DVec2, time_secs: f64) -> Option<Self> {
+        let in_plane_m = self.in_plane_m(over_m)?;
+        let distance_m = in_plane_m.length();
+        let e = self.eccentricity;
+        let cosine = in_plane_m.x / distance_m;
+        let semi_major_m = distance_m * (1.0 + e * cosine) / (1.0 - e * e);
+        let root = (1.0 - e * e).sqrt();
+        let eccentric = libm::atan2(in_plane_m.y / distance_m * root, e + cosine);
+        let mean = eccentric - e * libm::sin(eccentric);
+        // Kepler's third law.
+        let mean_motion = self.mean_motion * (self.semi_major_m / semi_major_m).powf(1.5);
+        let since_secs = time_secs % (TAU / mean_motion);
+        let anomaly_rad = (mean - mean_motion * since_secs).rem_euclid(TAU);
+        Some(Self { semi_major_m, anomaly_rad, mean_motion, ..*self })
     }
 
     /// Period in seconds.
@@ -216,6 +247,32 @@ mod tests {
                 assert!(off < 1e-12 * (1.0_f64).max(periods.abs() * 4.0), "{number}, {periods}: {off}");
             }
         }
+    }
+
+    #[test]
+    fn an_orbit_goes_through_a_place_at_a_time() {
+        let elements = Orbit {
+            semi_major_km: 4e5,
+            eccentricity: 0.3,
+            inclination_deg: 40.0,
+            node_deg: 70.0,
+            periapsis_deg: 200.0,
+            ..Orbit::default()
+        };
+        let ellipse = Ellipse::new(&elements, 4e14);
+        for (place_m, time_secs) in [(DVec2::new(3e8, 1e8), 0.0), (DVec2::new(-2e7, 9e8), 3e8), (-DVec2::X * 1e6, -5e7)]
+        {
+            let moved = ellipse.through(place_m, time_secs).unwrap();
+            let (position_m, _) = moved.state(time_secs);
+            assert!((position_m.truncate() - place_m).length() < 1e-6 * place_m.length(), "{position_m} {place_m}");
+            assert_eq!(moved.frame_from_perifocal, ellipse.frame_from_perifocal);
+            // The mass is the same.
+            let gravity = |ellipse: &Ellipse| ellipse.mean_motion.powi(2) * ellipse.semi_major_m.powi(3);
+            assert!((gravity(&moved) / gravity(&ellipse) - 1.0).abs() < 1e-12);
+        }
+        assert!(ellipse.through(DVec2::ZERO, 0.0).is_none());
+        let upright = Ellipse::new(&Orbit { inclination_deg: 90.0, ..elements }, 4e14);
+        assert!(upright.through(DVec2::X * 1e8, 0.0).is_none());
     }
 
     #[test]

@@ -10,9 +10,9 @@ pub fn hill_radii_m(system: &System) -> Vec<f64> {
     let parents = system.parents();
     let radius = |(number, body): (usize, &super::Member)| {
         let parent = parents[number].map(|parent| &system.bodies[parent]);
-        match (parent, &body.orbit) {
-            (Some(parent), Some(orbit)) if parent.mass_earths > 0.0 => {
-                let nearest_m = orbit.semi_major_km * 1000.0 * (1.0 - orbit.eccentricity);
+        match parent.and_then(|parent| Some((parent, body.ellipse(parent.gravity_m3_s2())?))) {
+            Some((parent, orbit)) if parent.mass_earths > 0.0 => {
+                let nearest_m = orbit.semi_major_m * (1.0 - orbit.eccentricity);
                 nearest_m * (body.mass_earths / (3.0 * parent.mass_earths)).cbrt()
             }
             _ => f64::INFINITY,

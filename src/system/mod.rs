@@ -4,6 +4,9 @@
 //! - [`kepler`]: orbits from elements, exact at any time
 //! - [`ephemeris`]: where all bodies are at a time, and how they are turned
 //! - [`nbody`]: the motion under the attraction of all bodies, to see whether a system lasts
+//! - [`edit`](self): bodies that are added, removed and renamed; [`random`](System::rolled): random orbits
+//! - [`trails`]: the paths of bodies during a trial
+//! - [`watch`]: hot reload of a system file
 //! - [`limits`]: Hill radii, Roche limits, and what a system violates
 //! - [`light`]: starlight and reflected light at a body; which bodies may cover a star
 //! - [`shipped`]: the systems that come with the program
@@ -12,21 +15,30 @@
 //! elements, and its z-axis points north. Lengths are metres, times seconds, angles radians, all in
 //! f64, unless a name says otherwise.
 
+mod edit;
 pub mod ephemeris;
 pub mod file;
 pub mod kepler;
 pub mod light;
 pub mod limits;
 pub mod nbody;
+mod random;
 pub mod shipped;
+pub mod trails;
+pub mod watch;
 
 pub use ephemeris::{Ephemeris, Pose};
 
 use crate::planet::param::{Domain, Stage, Unit, linear, log, params};
 use crate::planet::{STAR_KELVIN, star_color};
+use glam::DVec3;
+use kepler::Ellipse;
 
 /// The version of the system format that this crate writes.
 pub const VERSION: u32 = 1;
+
+/// Greatest eccentricity of an orbit.
+pub const MAX_ECCENTRICITY: f64 = 0.97;
 
 /// Most bodies of a system.
 pub const MAX_BODIES: usize = 64;
@@ -35,6 +47,8 @@ pub const MAX_BODIES: usize = 64;
 pub const GRAVITATION: f64 = 6.674_30e-11;
 /// Mass of the Earth, kg: 3.986004418e14 m³/s² (IERS) by the constant of gravitation.
 pub const EARTH_MASS_KG: f64 = 3.986_004_418e14 / GRAVITATION;
+/// Seconds of a Julian year.
+pub const YEAR_SECS: f64 = 365.25 * 86_400.0;
 /// The astronomical unit, metres (IAU 2012).
 pub const ASTRONOMICAL_UNIT_M: f64 = 149_597_870_700.0;
 
@@ -63,8 +77,10 @@ params! {
     } with {
         /// The light of a star; None for a body that does not shine.
         light: Option<Light> = None;
-        /// The orbit around the parent; None for the body at the root.
+        /// The orbit around the parent; None for the body at the root, and for a body with a start.
         orbit: Option<Orbit> = None;
+        /// Position and velocity at time zero, instead of an orbit.
+        start: Option<Start> = None;
         /// Rotation about the axis.
         spin: Spin = Spin::default();
     }
@@ -88,7 +104,7 @@ params! {
         /// Semi-major axis: the mean of the least and the greatest distance.
         semi_major_km: f64 = 149_597_870.7, "Semi-major axis", Unit::Kilometres, log(1.0, 1e12), Stage::Uniform;
         /// Eccentricity: 0 is a circle.
-        eccentricity: f64 = 0.0, "Eccentricity", Unit::None, linear(0.0, 0.97), Stage::Uniform;
+        eccentricity: f64 = 0.0, "Eccentricity", Unit::None, linear(0.0, MAX_ECCENTRICITY), Stage::Uniform;
         /// Inclination to the plane of reference; above 90° the motion is retrograde.
         inclination_deg: f64 = 0.0, "Inclination", Unit::Degrees, linear(0.0, 180.0), Stage::Uniform;
         /// Longitude of the ascending node: where the body rises through the plane of reference.
@@ -99,6 +115,25 @@ params! {
         anomaly_deg: f64 = 0.0, "Mean anomaly", Unit::Degrees, linear(0.0, 360.0), Stage::Uniform;
         /// Period; 0: that of the masses of both bodies. A body that orbits a point must have one.
         period_hours: f64 = 0.0, "Period", Unit::Hours, log(0.0, 1e10), Stage::Uniform;
+    }
+}
+
+params! {
+    /// Where a body begins: position and velocity from its parent at time zero, in the frame of the system. They decide
+    /// its orbit.
+    pub struct Start {
+        /// Position along the x-axis.
+        x_km: f64 = 149_597_870.7, "X", Unit::Kilometres, linear(-1e12, 1e12), Stage::Uniform;
+        /// Position along the y-axis.
+        y_km: f64 = 0.0, "Y", Unit::Kilometres, linear(-1e12, 1e12), Stage::Uniform;
+        /// Position along the z-axis, which points north.
+        z_km: f64 = 0.0, "Z", Unit::Kilometres, linear(-1e12, 1e12), Stage::Uniform;
+        /// Velocity along the x-axis.
+        x_km_s: f64 = 0.0, "Velocity X", Unit::KilometresPerSecond, linear(-1e5, 1e5), Stage::Uniform;
+        /// Velocity along the y-axis.
+        y_km_s: f64 = 29.784_69, "Velocity Y", Unit::KilometresPerSecond, linear(-1e5, 1e5), Stage::Uniform;
+        /// Velocity along the z-axis.
+        z_km_s: f64 = 0.0, "Velocity Z", Unit::KilometresPerSecond, linear(-1e5, 1e5), Stage::Uniform;
     }
 }
 
@@ -143,9 +178,32 @@ impl Member {
         self.mass_kg() * GRAVITATION
     }
 
+    /// Its ellipse about a parent, from its orbit or its start. `parent_gravity`: of the parent, m³/s². None at the root,
+    /// and for a start from which the body escapes or falls straight down.
+    pub fn ellipse(&self, parent_gravity: f64) -> Option<Ellipse> {
+        let gravity = parent_gravity + self.gravity_m3_s2();
+        match (&self.orbit, &self.start) {
+            (Some(orbit), _) => Some(Ellipse::new(orbit, gravity)),
+            (None, Some(start)) => Ellipse::from_state(start.position_m(), start.velocity(), gravity),
+            (None, None) => None,
+        }
+    }
+
     /// Whether it is a point: it has no surface and gives no light.
     pub fn is_point(&self) -> bool {
         self.preset.is_empty() && self.light.is_none()
+    }
+}
+
+impl Start {
+    /// Position in metres.
+    pub fn position_m(&self) -> DVec3 {
+        DVec3::new(self.x_km, self.y_km, self.z_km) * 1000.0
+    }
+
+    /// Velocity in m/s.
+    pub fn velocity(&self) -> DVec3 {
+        DVec3::new(self.x_km_s, self.y_km_s, self.z_km_s) * 1000.0
     }
 }
 

@@ -6,7 +6,8 @@
 //! bounded; it does not grow as that of other schemes does. Equal inputs give equal bits: bodies are summed in one
 //! order, on one thread.
 
-use super::{Ephemeris, System};
+use super::kepler::Ellipse;
+use super::{Ephemeris, System, YEAR_SECS};
 use glam::DVec3;
 
 /// A scheme of integration.
@@ -201,6 +202,21 @@ pub struct Event {
     pub kind: EventKind,
 }
 
+impl Event {
+    /// What happened, and when, with the names of the bodies.
+    pub fn told(&self, system: &System) -> String {
+        let [a, b] = self.bodies.map(|body| &system.bodies[body].name);
+        let years = self.time_secs / YEAR_SECS;
+        match self.kind {
+            EventKind::Encounter => {
+                format!("after {years:.3} years {a} and {b} are nearer to each other than the Hill radius of one")
+            }
+            EventKind::Escape => format!("after {years:.3} years {a} leaves {b}"),
+            EventKind::Collision => format!("after {years:.3} years {a} and {b} collide"),
+        }
+    }
+}
+
 /// The kinds of [`Event`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
@@ -212,14 +228,21 @@ pub enum EventKind {
     Collision,
 }
 
-/// Runs a system and watches it. `radii_m`: radius of each body, 0 where it is unknown. `is_wanted` is asked now and
-/// then whether to go on.
+/// Seconds of a step that suits a system: a two-hundredth of the shortest period.
+pub fn fitting_step_secs(system: &System) -> f64 {
+    let ephemeris = Ephemeris::new(system);
+    let orbits = (0..system.bodies.len()).filter_map(|body| ephemeris.orbit(body));
+    orbits.map(Ellipse::period_secs).fold(YEAR_SECS, f64::min) / 200.0
+}
+
+/// Runs a system and watches it. `radii_m`: radius of each body, 0 where it is unknown. `observe` is told the share that
+/// is done and the bodies after each step, and answers whether to go on.
 pub fn try_out(
     system: &System,
     radii_m: &[f64],
     scheme: Scheme,
     (secs, step_secs): (f64, f64),
-    is_wanted: &mut dyn FnMut(f64) -> bool,
+    observe: &mut dyn FnMut(f64, &Bodies) -> bool,
 ) -> Trial {
     let (mut bodies, parents) = (Bodies::of(system), system.parents());
     let start = bodies.energy();
@@ -227,7 +250,7 @@ pub fn try_out(
     let hill_m = super::limits::hill_radii_m(system);
     let steps = (secs / step_secs).ceil().max(0.0) as u64;
     for number in 0..steps {
-        if number % 256 == 0 && !is_wanted(number as f64 / steps as f64) {
+        if !observe(number as f64 / steps as f64, &bodies) {
             break;
         }
         bodies.step(scheme, step_secs);

@@ -8,6 +8,7 @@
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
 //! - `sculpt`: ground edits
+//! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
@@ -29,6 +30,7 @@ mod saving;
 mod sculpt;
 mod sphere;
 mod structure;
+mod system;
 mod terrain;
 mod water;
 

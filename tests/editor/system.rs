@@ -1,9 +1,12 @@
 //! Systems: opening one, going from body to body, the time.
 
-use crate::app::{self, Editor, click, planet, send, until};
+use crate::app::{self, Editor, click, drag, planet, scroll_to, send, type_text, unfold, until};
+use eframe::egui;
+use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use tellus::editor::command::{Action, Command, SystemAction};
+use tellus::editor::command::{Action, Command, NewBody, SystemAction};
 use tellus::editor::files::dialogs::ScriptedDialogs;
+use tellus::editor::state::system::trial::TrialRun;
 use tellus::planet::shipped;
 
 fn hearth() -> Editor {
@@ -75,4 +78,165 @@ fn a_planet_becomes_a_giant_and_gets_its_ground_back() {
     assert!(harness.state().document().problems().is_empty());
     click(&mut harness, "This planet is a gas giant");
     assert_eq!(planet(&harness), before);
+}
+
+fn system(harness: &Editor) -> tellus::system::System {
+    (**harness.state().system().unwrap().system()).clone()
+}
+
+fn act(harness: &mut Editor, action: SystemAction) {
+    harness.state_mut().push(Action::System(action));
+    harness.run_steps(6);
+}
+
+/// The place of a position on the map, as the map has it: distances as their roots.
+fn on_map(harness: &Editor, center: usize, body: usize) -> egui::Pos2 {
+    let rect = harness.get_by_role_and_label(Role::Canvas, "Map of the orbits").rect();
+    let open = harness.state().system().unwrap();
+    let (ephemeris, parents) = (open.worlds.ephemeris(), open.system().parents());
+    let poses = ephemeris.at(harness.state().viewport().settings.time_secs);
+    let children = (0..parents.len()).filter(|child| parents[*child] == Some(center));
+    let reach =
+        |body: usize| ephemeris.orbit(body).map_or(0.0, |orbit| orbit.semi_major_m * (1.0 + orbit.eccentricity));
+    let widest_m = children.map(reach).fold(0.0, f64::max);
+    let per_m = 0.5 * f64::from(rect.height()) / (widest_m * 1.12);
+    let away_m = poses[body].position_m - poses[center].position_m;
+    let away = away_m * (per_m * (widest_m / away_m.truncate().length()).sqrt());
+    rect.center() + egui::vec2(away.x as f32, -away.y as f32)
+}
+
+#[test]
+fn bodies_are_dragged_on_the_map_and_undo_takes_the_last_change_wherever_it_was() {
+    let mut harness = hearth();
+    let begun = system(&harness);
+    let body = begun.find("Cinnabar").unwrap();
+    let at = on_map(&harness, 0, body);
+    let rect = harness.get_by_role_and_label(Role::Canvas, "Map of the orbits").rect();
+    let to = rect.center() + (at - rect.center()) * 0.8;
+    drag(&mut harness, at, to);
+    let moved = system(&harness);
+    let size_km = |system: &tellus::system::System| system.bodies[body].orbit.as_ref().unwrap().semi_major_km;
+    // The map has the roots of distances.
+    let ratio = size_km(&moved) / size_km(&begun);
+    assert!((ratio - 0.64).abs() < 0.03, "{ratio}");
+    assert!(on_map(&harness, 0, body).distance(to) < 3.0);
+    assert_eq!(harness.state().system().unwrap().history().undo_label(), Some("Move Cinnabar"));
+    assert_eq!(harness.state().system().unwrap().history().undo_len(), 1, "a drag is one step");
+    // Then the planet.
+    send(&mut harness, Command::RandomPlanet);
+    send(&mut harness, Command::Undo);
+    assert_eq!((planet(&harness).name.as_str(), system(&harness)), ("Maren", moved.clone()));
+    act(&mut harness, SystemAction::Undo);
+    assert_eq!(system(&harness), begun);
+    send(&mut harness, Command::Redo);
+    assert_eq!(system(&harness), moved, "the system was changed last");
+    send(&mut harness, Command::Undo);
+    assert_eq!(system(&harness), begun);
+}
+
+#[test]
+fn bodies_are_added_named_locked_rolled_and_removed() {
+    let mut harness = hearth();
+    let begun = system(&harness);
+    let here = harness.state().viewport().body();
+    let pallor = shipped::ALL.iter().position(|preset| preset.file == "pallor.ron").unwrap();
+    act(&mut harness, SystemAction::Add(begun.find("Maren").unwrap(), NewBody::Shipped(pallor)));
+    let added = system(&harness);
+    assert_eq!(added.bodies.last().unwrap().name, "Pallor 2");
+    assert_eq!(added.bodies.last().unwrap().parent, "Maren");
+    assert_eq!(harness.state().system().unwrap().warnings, Vec::<String>::new());
+    click(&mut harness, "Lock Aurel");
+    click(&mut harness, "Random orbits");
+    let rolled = system(&harness);
+    let aurel = begun.find("Aurel").unwrap();
+    assert_eq!(rolled.bodies[aurel], begun.bodies[aurel]);
+    assert!(rolled.bodies.iter().zip(&added.bodies).any(|(a, b)| a.orbit != b.orbit));
+    // The planet stays the body that it is.
+    assert_eq!(harness.state().viewport().body(), here);
+    act(&mut harness, SystemAction::Remove(begun.find("Maren").unwrap()));
+    assert_eq!(system(&harness).bodies.len(), begun.bodies.len() - 1, "its moon went with it");
+    assert_eq!(harness.state().viewport().body(), None, "the planet stands alone");
+    for _ in 0..3 {
+        act(&mut harness, SystemAction::Undo);
+    }
+    assert_eq!(system(&harness), begun);
+}
+
+#[test]
+fn a_name_and_numbers_are_typed_and_children_follow_the_name() {
+    let mut harness = hearth();
+    let aurel = system(&harness).find("Aurel").unwrap();
+    click(&mut harness, "Aurel");
+    unfold(&mut harness, "Body: Aurel");
+    scroll_to(&mut harness, "Name");
+    harness.get_by_role_and_label(Role::TextInput, "Name").focus();
+    harness.run_steps(3);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    type_text(&mut harness, "Home");
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(6);
+    let named = system(&harness);
+    assert_eq!(named.bodies[aurel].name, "Home");
+    assert_eq!(named.bodies[named.find("Pallor").unwrap()].parent, "Home");
+    assert_eq!(harness.state().system().unwrap().history().undo_label(), Some("Rename Aurel"));
+    assert!(
+        harness.query_by_label("Home eccentricity").is_some()
+            || harness.query_all_by_label_contains("Eccentricity").count() > 0
+    );
+}
+
+#[test]
+fn a_run_tells_whether_the_system_lasts() {
+    let mut harness = hearth();
+    act(&mut harness, SystemAction::Try(0.3));
+    until(&mut harness, "the end of the run", |harness| {
+        matches!(harness.state().system().unwrap().trial, TrialRun::Done(_))
+    });
+    unfold(&mut harness, "Does it last?");
+    assert!(harness.query_by_label_contains("the energy is off by").is_some());
+    assert!(harness.query_by_label_contains("No body met another").is_some());
+    // Another system is not the one that was run.
+    act(&mut harness, SystemAction::Roll);
+    assert!(matches!(harness.state().system().unwrap().trial, TrialRun::None));
+}
+
+#[test]
+fn a_changed_system_is_asked_for_and_saved_with_its_presets() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.ron");
+    let mut harness = app::open([1024.0, 700.0], vec![Some(path.clone())]);
+    act(&mut harness, SystemAction::Open(0));
+    assert_eq!(planet(&harness).name, "Maren");
+    act(&mut harness, SystemAction::Roll);
+    let rolled = system(&harness);
+    act(&mut harness, SystemAction::Open(1));
+    assert!(harness.query_by_label_contains("Hearth has unsaved changes").is_some());
+    click(&mut harness, "Save changes");
+    until(&mut harness, "the other system", |harness| planet(harness).name == "Sabkha");
+    let saved = tellus::system::System::load(&path).unwrap();
+    assert_eq!(saved.bodies[2].orbit, rolled.bodies[2].orbit);
+    assert!(saved.load_planets(&path).unwrap().iter().flatten().count() >= 6);
+    // Saving again elsewhere replaces nothing without a question.
+    act(&mut harness, SystemAction::Roll);
+    act(&mut harness, SystemAction::Leave);
+    click(&mut harness, "Discard changes");
+    assert!(harness.state().system().is_none() && harness.state().viewport().body().is_none());
+}
+
+#[test]
+fn a_system_begins_around_a_planet_with_a_file() {
+    let mut harness = app::open([1024.0, 700.0], Vec::new());
+    act(&mut harness, SystemAction::Begin);
+    assert!(harness.state().system().is_none(), "no file holds the planet");
+    assert!(harness.query_by_label_contains("Save the planet first").is_some());
+    let maren = shipped::ALL.iter().position(|preset| preset.file == "maren.ron").unwrap();
+    harness.state_mut().push(Action::OpenShipped(maren));
+    harness.run_steps(6);
+    act(&mut harness, SystemAction::Begin);
+    assert_eq!(harness.state().viewport().body(), Some(1));
+    let begun = system(&harness);
+    assert_eq!((begun.bodies[0].name.as_str(), begun.bodies[1].name.as_str()), ("Sun", "Maren"));
+    assert_eq!(begun.bodies[1].orbit.as_ref().unwrap().semi_major_km.round(), 149_598_000.0);
+    act(&mut harness, SystemAction::Add(1, NewBody::Open));
+    assert_eq!(system(&harness).bodies[2].parent, "Maren");
 }

@@ -55,6 +55,13 @@ pub enum DialogRequest {
         /// Proposed name of the folder.
         file_name: String,
     },
+    /// A file to save a system to.
+    SaveSystem {
+        /// Folder to begin in.
+        folder: Option<PathBuf>,
+        /// Proposed file name.
+        file_name: String,
+    },
     /// A file to save to.
     SaveAs {
         /// Folder to begin in.
@@ -76,6 +83,7 @@ impl DialogRequest {
             DialogRequest::Mesh { .. } => "Save mesh",
             DialogRequest::Folder { .. } => "Choose a folder to bake into",
             DialogRequest::SaveAs { .. } => "Save planet",
+            DialogRequest::SaveSystem { .. } => "Save system",
         }
     }
 
@@ -83,6 +91,7 @@ impl DialogRequest {
     fn filter(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             DialogRequest::Open { .. } | DialogRequest::SaveAs { .. } => ("Planet presets", &["ron"]),
+            DialogRequest::SaveSystem { .. } => ("Systems", &["ron"]),
             DialogRequest::Picture { .. } | DialogRequest::Photograph { .. } => ("Pictures", &["png", "exr"]),
             DialogRequest::ImportTable { .. } | DialogRequest::ExportTable { .. } => ("Pictures", &["png"]),
             DialogRequest::Mesh { .. } => ("Meshes", &["glb", "obj"]),
@@ -105,6 +114,7 @@ impl DialogRequest {
             | DialogRequest::Photograph { folder, .. }
             | DialogRequest::Mesh { folder, .. }
             | DialogRequest::Folder { folder, .. }
+            | DialogRequest::SaveSystem { folder, .. }
             | DialogRequest::SaveAs { folder, .. } => folder.as_ref(),
         }
     }
@@ -116,6 +126,7 @@ impl DialogRequest {
             | DialogRequest::Photograph { file_name, .. }
             | DialogRequest::Mesh { file_name, .. }
             | DialogRequest::Folder { file_name, .. }
+            | DialogRequest::SaveSystem { file_name, .. }
             | DialogRequest::SaveAs { file_name, .. } => Some(file_name),
             _ => None,
         }

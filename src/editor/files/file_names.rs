@@ -13,6 +13,13 @@ pub fn readable_stem(path: &Path) -> String {
     chars.next().map_or_else(|| "Unnamed".to_owned(), |first| first.to_uppercase().chain(chars).collect())
 }
 
+/// A file name for what has a name: "Ice moon" is "ice-moon.ron". `or`: the stem for a name without letters.
+pub fn file_name_of(name: &str, or: &str) -> String {
+    let stem: String = name.to_lowercase().chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+    let stem = stem.trim_matches('-');
+    format!("{}.{PRESET_EXTENSION}", if stem.is_empty() { or } else { stem })
+}
+
 /// Whether two paths, relative or not, are of one file.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).ok();

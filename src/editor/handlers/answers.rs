@@ -1,11 +1,11 @@
 //! Answers to questions about files, and the window's close button.
 
-use super::{baking, biome_table, opening, pictures, saving, shooting};
+use super::{baking, biome_table, opening, pictures, saving, shooting, system};
 use crate::editor::command::{Action, ChangeAnswer, Command, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::files::disk::TheirFile;
 use crate::editor::state::State;
 use crate::editor::state::bake_settings::Product;
-use crate::editor::state::questions::{Asking, Change, Goal, Replace};
+use crate::editor::state::questions::{Asking, Change, Goal, Replace, Work};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 
@@ -34,20 +34,27 @@ fn chosen(state: &mut State, ctx: &egui::Context, asking: Asking, file: PathBuf,
         Asking::ImportTable => biome_table::import(state, &file),
         Asking::ExportTable => biome_table::export_chosen(state, &file, agreed),
         Asking::Baked(product) => baking::chosen(state, ctx, product, &file, agreed),
+        Asking::SaveSystem => system::save_chosen(state, ctx, &file, agreed),
+        Asking::Body(parent) => system::add_file(state, parent, &file),
         Asking::Photograph(subject) => shooting::chosen(state, ctx, subject, &file, agreed),
     }
 }
 
 /// Goes on after the question about unsaved work.
 pub fn unsaved(state: &mut State, ctx: &egui::Context, answer: UnsavedAnswer) {
-    let Some(goal) = state.questions.unsaved.take() else { return };
-    match answer {
-        UnsavedAnswer::Save => {
+    let Some((work, goal)) = state.questions.unsaved.take() else { return };
+    match (answer, work) {
+        (UnsavedAnswer::Save, Work::Planet) => {
             state.questions.after_save = Some(goal);
             saving::save(state, ctx);
         }
-        UnsavedAnswer::Discard => opening::reach(state, ctx, goal),
-        UnsavedAnswer::Cancel => {}
+        (UnsavedAnswer::Save, Work::System) => {
+            state.questions.after_save = Some(goal);
+            system::save(state, ctx);
+        }
+        (UnsavedAnswer::Discard, Work::Planet) => opening::pursue_past_planet(state, ctx, goal),
+        (UnsavedAnswer::Discard, Work::System) => opening::reach(state, ctx, goal),
+        (UnsavedAnswer::Cancel, _) => {}
     }
 }
 
@@ -57,12 +64,14 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
     match (answer, replace) {
         (ReplaceAnswer::Replace, Replace::Planet(path)) => saving::write(state, ctx, path),
         (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
+        (ReplaceAnswer::Replace, Replace::System(path)) => system::write(state, ctx, path),
         (ReplaceAnswer::Replace, Replace::Mesh(path)) => baking::start(state, ctx, Product::Mesh, &path),
         (ReplaceAnswer::Replace, Replace::Photograph { subject, path, .. }) => {
             shooting::start(state, ctx, subject, &path);
         }
         (ReplaceAnswer::OtherName, Replace::Planet(_)) => saving::save_as(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Table(_)) => biome_table::ask_for_export(state, ctx),
+        (ReplaceAnswer::OtherName, Replace::System(_)) => system::save_as(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Mesh(_)) => baking::ask(state, ctx),
         (ReplaceAnswer::OtherName, Replace::Photograph { subject, .. }) => shooting::ask(state, ctx, subject),
         (ReplaceAnswer::Cancel, _) => state.questions.after_save = None,
@@ -108,8 +117,8 @@ pub fn close_request(state: &mut State, ctx: &egui::Context, commands: &mut Comm
     if ctx.text_edit_focused() && !state.questions.has_question() {
         ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
         commands.push(Action::Command(Command::Quit));
-    } else if state.loses_work() {
+    } else if state.loses_work() || state.system_is_dirty() {
         ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-        state.questions.unsaved = Some(Goal::Quit);
+        opening::pursue(state, ctx, Goal::Quit);
     }
 }

@@ -4,7 +4,7 @@ use crate::editor::files::dialogs::DialogRequest;
 use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable_stem, with_extension};
 use crate::editor::handlers::system;
 use crate::editor::state::document::Document;
-use crate::editor::state::questions::{Asking, Goal};
+use crate::editor::state::questions::{Asking, Goal, Work};
 use crate::editor::state::templates::Template;
 use crate::editor::state::{State, recovery};
 use crate::editor::widgets::random_seed;
@@ -59,8 +59,23 @@ fn read(path: &Path) -> Result<Document, LoadError> {
 /// Pursues a goal: asks first if unsaved work would be lost.
 pub fn pursue(state: &mut State, ctx: &egui::Context, goal: Goal) {
     state.questions.after_save = None;
-    if state.loses_work() {
-        state.questions.unsaved = Some(goal);
+    let stays = matches!(goal, Goal::BeginSystem | Goal::LeaveSystem | Goal::OpenSystem(_));
+    if state.loses_work() && !stays {
+        state.questions.unsaved = Some((Work::Planet, goal));
+    } else {
+        pursue_past_planet(state, ctx, goal);
+    }
+}
+
+/// Pursues a goal for which unsaved changes of the planet may go: asks first if those of the system would be lost.
+pub fn pursue_past_planet(state: &mut State, ctx: &egui::Context, goal: Goal) {
+    let ends_system = match &goal {
+        Goal::OpenSystem(_) | Goal::BeginSystem | Goal::LeaveSystem | Goal::Quit => true,
+        Goal::OpenPath(path) => system::is_system(path),
+        Goal::Begin(_) | Goal::Open | Goal::OpenShipped(_) | Goal::Visit(_) => false,
+    };
+    if ends_system && state.system_is_dirty() {
+        state.questions.unsaved = Some((Work::System, goal));
     } else {
         reach(state, ctx, goal);
     }
@@ -81,6 +96,9 @@ pub fn reach(state: &mut State, ctx: &egui::Context, goal: Goal) {
         Goal::OpenPath(path) => open_path(state, &path),
         Goal::OpenShipped(index) => open_shipped(state, index),
         Goal::Visit(body) => system::visit(state, body),
+        Goal::OpenSystem(index) => system::open_shipped(state, ctx, index),
+        Goal::BeginSystem => system::begin(state),
+        Goal::LeaveSystem => system::leave(state),
         Goal::Quit => {
             state.questions.may_close = true;
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);

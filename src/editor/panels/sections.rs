@@ -108,6 +108,9 @@ const RINGS: &[Section] = &[
     open("Light", &["dust", "inner_color", "outer_color"]),
 ];
 
+const MEMBER: &[Section] =
+    &[open("Orbit", &["orbit"]), open("Start", &["start"]), folded("Rotation", &["spin"]), open("Light", &["light"])];
+
 /// The sections of the part at `path`; none for a part whose parameters are few.
 pub fn sections_of(path: &ParamPath) -> &'static [Section] {
     use Segment::{Field, Index};
@@ -125,6 +128,7 @@ pub fn sections_of(path: &ParamPath) -> &'static [Section] {
         [Field("clouds")] => CLOUDS,
         [Field("giant")] => GIANT,
         [Field("rings")] => RINGS,
+        [Field("bodies"), Index(_)] => MEMBER,
         _ => &[],
     }
 }

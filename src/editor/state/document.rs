@@ -5,6 +5,7 @@
 
 use super::describe;
 use super::history::{History, Home};
+use crate::editor::files::file_names::file_name_of;
 use crate::planet::param::ParamPath;
 use crate::planet::picture::{Picture, PictureKey, folder_of};
 use crate::planet::{Bookmark, Planet, validate};
@@ -233,16 +234,7 @@ impl Document {
         if let Some(name) = self.home.path.as_deref().and_then(Path::file_name) {
             return name.to_string_lossy().into_owned();
         }
-        let stem: String = self
-            .planet
-            .name
-            .to_lowercase()
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '-' })
-            .collect::<String>()
-            .trim_matches('-')
-            .to_owned();
-        format!("{}.ron", if stem.is_empty() { "planet" } else { &stem })
+        file_name_of(&self.planet.name, "planet")
     }
 
     fn show(&mut self, planet: Arc<Planet>) {

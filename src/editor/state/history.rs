@@ -1,8 +1,8 @@
-//! Undo and redo: one step for each gesture, each a whole planet.
+//! Undo and redo: one step for each gesture, each a whole document: a planet, or a system.
 //!
-//! A gesture (a drag, a stroke, a typed number) changes the planet in many frames. [`History::record`] opens a step at
-//! its first change; [`History::settle`], called while nobody drags or types, closes it. Planets are shared by `Arc`: a
-//! step takes the memory of one planet.
+//! A gesture (a drag, a stroke, a typed number) changes the document in many frames. [`History::record`] opens a step at
+//! its first change; [`History::settle`], called while nobody drags or types, closes it. Documents are shared by `Arc`: a
+//! step takes the memory of one.
 
 use crate::editor::files::file_names::is_same_file;
 use crate::planet::Planet;
@@ -34,35 +34,41 @@ impl Home {
     }
 }
 
-/// An undo step: its name, and the planet on its other side.
+/// An undo step: its name, and the document on its other side.
 #[derive(Clone, Debug)]
-struct Step {
+struct Step<T, H> {
     label: String,
-    planet: Arc<Planet>,
-    /// The file of the planet on the other side, if it is another.
-    home: Option<Home>,
+    document: Arc<T>,
+    /// The file of the document on the other side, if it is another.
+    home: Option<H>,
 }
 
-impl Step {
-    /// Takes the step. Gives the planet on its other side, and the step back.
-    fn turned(self, current: &Arc<Planet>, home: &mut Home) -> (Arc<Planet>, Self) {
+impl<T, H> Step<T, H> {
+    /// Takes the step. Gives the document on its other side, and the step back.
+    fn turned(self, current: &Arc<T>, home: &mut H) -> (Arc<T>, Self) {
         let back = self.home.map(|other| std::mem::replace(home, other));
-        (self.planet, Self { label: self.label, planet: current.clone(), home: back })
+        (self.document, Self { label: self.label, document: current.clone(), home: back })
     }
 }
 
-/// The steps that can be undone and redone.
-#[derive(Debug, Default)]
-pub struct History {
-    undo: VecDeque<Step>,
-    redo: Vec<Step>,
+/// The steps of a document of type `T` that can be undone and redone; `H` tells its file.
+#[derive(Debug)]
+pub struct History<T = Planet, H = Home> {
+    undo: VecDeque<Step<T, H>>,
+    redo: Vec<Step<T, H>>,
     /// Whether the gesture of the newest step is under way.
     open: bool,
 }
 
-impl History {
+impl<T, H> Default for History<T, H> {
+    fn default() -> Self {
+        Self { undo: VecDeque::new(), redo: Vec::new(), open: false }
+    }
+}
+
+impl<T: PartialEq, H> History<T, H> {
     /// Notes that `before` is about to be replaced. A change with the name of the gesture under way joins its step.
-    pub fn record(&mut self, before: &Arc<Planet>, label: &str) {
+    pub fn record(&mut self, before: &Arc<T>, label: &str) {
         self.redo.clear();
         if self.open && self.undo.back().is_some_and(|step| step.label == label) {
             return;
@@ -70,59 +76,44 @@ impl History {
         self.push(before, None, label);
     }
 
-    /// Notes a change after which the planet has another file; `home` is the file before.
-    pub fn record_move(&mut self, before: &Arc<Planet>, home: Home, label: &str) {
+    /// Notes a change after which the document has another file; `home` is the file before.
+    pub fn record_move(&mut self, before: &Arc<T>, home: H, label: &str) {
         self.redo.clear();
         self.push(before, Some(home), label);
     }
 
-    fn push(&mut self, before: &Arc<Planet>, home: Option<Home>, label: &str) {
-        self.undo.push_back(Step { label: label.to_owned(), planet: before.clone(), home });
+    fn push(&mut self, before: &Arc<T>, home: Option<H>, label: &str) {
+        self.undo.push_back(Step { label: label.to_owned(), document: before.clone(), home });
         if self.undo.len() > MAX_STEPS {
             self.undo.pop_front();
         }
         self.open = true;
     }
 
-    /// The planets of steps that change the file, with their files.
-    pub fn homes(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
-        self.undo.iter().chain(&self.redo).filter_map(|step| Some((&step.planet, step.home.as_ref()?)))
-    }
-
-    /// Notes the content of a file in every step of that file.
-    pub fn note_file(&mut self, now: &Home) {
-        let Some(path) = &now.path else { return };
-        for home in self.undo.iter_mut().chain(&mut self.redo).filter_map(|step| step.home.as_mut()) {
-            if home.path.as_ref().is_some_and(|other| is_same_file(other, path)) {
-                (home.saved, home.bytes) = (now.saved.clone(), now.bytes.clone());
-            }
-        }
-    }
-
-    /// Ends the gesture under way. A gesture that ends with the planet of its begin leaves no step.
-    pub fn settle(&mut self, current: &Arc<Planet>) {
-        if self.open && self.undo.back().is_some_and(|step| step.planet == *current) {
+    /// Ends the gesture under way. A gesture that ends with the document of its begin leaves no step.
+    pub fn settle(&mut self, current: &Arc<T>) {
+        if self.open && self.undo.back().is_some_and(|step| step.document == *current) {
             self.undo.pop_back();
         }
         self.open = false;
     }
 
-    /// Goes one step back. Gives the planet before the step, and sets `home` to its file.
-    pub fn undo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
+    /// Goes one step back. Gives the document before the step, and sets `home` to its file.
+    pub fn undo(&mut self, current: &Arc<T>, home: &mut H) -> Option<Arc<T>> {
         self.settle(current);
         let step = self.undo.pop_back()?;
-        let (planet, step) = step.turned(current, home);
+        let (document, step) = step.turned(current, home);
         self.redo.push(step);
-        Some(planet)
+        Some(document)
     }
 
     /// Goes one step forward.
-    pub fn redo(&mut self, current: &Arc<Planet>, home: &mut Home) -> Option<Arc<Planet>> {
+    pub fn redo(&mut self, current: &Arc<T>, home: &mut H) -> Option<Arc<T>> {
         self.open = false;
         let step = self.redo.pop()?;
-        let (planet, step) = step.turned(current, home);
+        let (document, step) = step.turned(current, home);
         self.undo.push_back(step);
-        Some(planet)
+        Some(document)
     }
 
     /// Name of the step that undo takes.
@@ -156,6 +147,23 @@ impl History {
     }
 }
 
+impl History {
+    /// The planets of steps that change the file, with their files.
+    pub fn homes(&self) -> impl Iterator<Item = (&Arc<Planet>, &Home)> {
+        self.undo.iter().chain(&self.redo).filter_map(|step| Some((&step.document, step.home.as_ref()?)))
+    }
+
+    /// Notes the content of a file in every step of that file.
+    pub fn note_file(&mut self, now: &Home) {
+        let Some(path) = &now.path else { return };
+        for home in self.undo.iter_mut().chain(&mut self.redo).filter_map(|step| step.home.as_mut()) {
+            if home.path.as_ref().is_some_and(|other| is_same_file(other, path)) {
+                (home.saved, home.bytes) = (now.saved.clone(), now.bytes.clone());
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -166,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_gesture_is_one_step() {
-        let mut history = History::default();
+        let mut history = History::<Planet, Home>::default();
         history.record(&planet(0), "Change seed");
         history.record(&planet(1), "Change seed");
         history.record(&planet(2), "Change seed");
@@ -180,7 +188,7 @@ mod tests {
 
     #[test]
     fn gestures_that_differ_or_are_settled_between_are_steps_of_their_own() {
-        let mut history = History::default();
+        let mut history = History::<Planet, Home>::default();
         history.record(&planet(0), "Change seed");
         history.settle(&planet(1));
         history.record(&planet(1), "Change seed");
@@ -191,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_gesture_that_ends_where_it_began_leaves_nothing() {
-        let mut history = History::default();
+        let mut history = History::<Planet, Home>::default();
         history.record(&planet(0), "Change seed");
         history.settle(&planet(0));
         assert_eq!(history.undo_len(), 0);
@@ -199,7 +207,7 @@ mod tests {
 
     #[test]
     fn an_edit_forgets_what_could_be_redone_and_memory_is_bounded() {
-        let mut history = History::default();
+        let mut history = History::<Planet, Home>::default();
         for seed in 0..2 * MAX_STEPS as u32 {
             history.record(&planet(seed), "Change seed");
             history.settle(&planet(seed + 1));

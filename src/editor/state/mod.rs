@@ -44,6 +44,7 @@ use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
+use crate::system::System;
 use bake_settings::BakeSettings;
 use baking::{BakePreview, Baking};
 use device::DeviceWatch;
@@ -60,7 +61,7 @@ use shooting::{PhotoSettings, Shooting};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
-use system::OpenSystem;
+use system::{OpenSystem, follow};
 use variations::Variations;
 
 /// A message about something that went wrong; shown until it is dismissed.
@@ -245,6 +246,9 @@ impl State {
     /// Makes an undo step of a changed planet, and starts the clock that stops at its picture.
     pub fn edit(&mut self, planet: Planet, label: Option<String>) {
         let shown_before = self.document.valid_planet().clone();
+        if let Some(system) = self.system.as_mut().filter(|_| planet != **self.document.planet()) {
+            system.was_changed_last = false;
+        }
         self.document.edit(planet, label);
         if !Arc::ptr_eq(self.document.valid_planet(), &shown_before) {
             self.start_edit_clock();
@@ -258,18 +262,57 @@ impl State {
         self.document.settle();
     }
 
-    /// Goes one undo step back.
+    /// Goes one undo step back: of the system if it was changed last.
     pub fn undo(&mut self, ctx: &egui::Context) {
+        if self.system.as_ref().is_some_and(OpenSystem::takes_undo) {
+            return self.change_system(OpenSystem::undo);
+        }
         self.document.undo();
         self.start_edit_clock();
         ctx.request_repaint();
     }
 
-    /// Goes one undo step forward.
+    /// Goes one undo step forward: of the system if it was changed last.
     pub fn redo(&mut self, ctx: &egui::Context) {
+        if self.system.as_ref().is_some_and(OpenSystem::takes_redo) {
+            return self.change_system(OpenSystem::redo);
+        }
         self.document.redo();
         self.start_edit_clock();
         ctx.request_repaint();
+    }
+
+    /// The name of the step that undo takes.
+    pub fn undo_label(&self) -> Option<&str> {
+        let of_system = self.system.as_ref().filter(|system| system.takes_undo());
+        of_system.map_or(self.document.history().undo_label(), |system| system.history().undo_label())
+    }
+
+    /// The name of the step that redo takes.
+    pub fn redo_label(&self) -> Option<&str> {
+        let of_system = self.system.as_ref().filter(|system| system.takes_redo());
+        of_system.map_or(self.document.history().redo_label(), |system| system.history().redo_label())
+    }
+
+    /// Changes the open system. The planet stays the body that it is.
+    pub fn change_system(&mut self, change: impl FnOnce(&mut OpenSystem)) {
+        let Some(system) = &mut self.system else { return };
+        let before = system.system().clone();
+        change(system);
+        self.follow_system(&before);
+    }
+
+    /// Shows the open system after a change. `before`: the system before it.
+    pub fn follow_system(&mut self, before: &System) {
+        if let Some((system, body)) = self.system.as_ref().zip(self.viewport.body()) {
+            let follows = follow(before, system.worlds.system(), body);
+            self.viewport.set_system(follows.map(|body| (system.worlds.clone(), body)));
+        }
+    }
+
+    /// Whether the system has changes that no file holds.
+    pub fn system_is_dirty(&self) -> bool {
+        self.system.as_ref().is_some_and(OpenSystem::is_dirty)
     }
 
     /// Undoes or redoes until this number of steps is done.

@@ -21,7 +21,21 @@ pub enum Goal {
     OpenShipped(usize),
     /// The planet of this body of the open system.
     Visit(usize),
+    /// The shipped system of this index.
+    OpenSystem(usize),
+    /// A new system around the planet.
+    BeginSystem,
+    /// Draw the planet alone.
+    LeaveSystem,
     Quit,
+}
+
+/// What has unsaved changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Work {
+    Planet,
+    System,
 }
 
 /// The use of the file that is asked for.
@@ -41,6 +55,10 @@ pub enum Asking {
     Photograph(Subject),
     /// A folder or a file for what is baked.
     Baked(Product),
+    /// A file to save the system to.
+    SaveSystem,
+    /// The preset of a new body about this one.
+    Body(usize),
 }
 
 /// A file that exists and would be replaced.
@@ -52,6 +70,8 @@ pub enum Replace {
     Table(PathBuf),
     /// By a mesh.
     Mesh(PathBuf),
+    /// By the system.
+    System(PathBuf),
     /// By a photograph, or by the frames of a film of this name.
     Photograph {
         /// What is taken.
@@ -70,6 +90,7 @@ impl Replace {
             Replace::Planet(path)
             | Replace::Table(path)
             | Replace::Mesh(path)
+            | Replace::System(path)
             | Replace::Photograph { first: path, .. } => path,
         }
     }
@@ -104,7 +125,7 @@ pub struct Questions {
     /// "Which path?"
     pub path: Option<WantedPath>,
     /// "Save, discard or cancel?", and the action that waits for the answer.
-    pub unsaved: Option<Goal>,
+    pub unsaved: Option<(Work, Goal)>,
     /// "Replace that file?"
     pub replace: Option<Replace>,
     /// "The file has changed on disk: whose planet?"

@@ -197,7 +197,12 @@ impl Viewport {
 
     /// Draws the planet as a body of a system, with the others around it; None draws it alone.
     pub fn set_system(&mut self, system: Option<(Arc<Worlds>, usize)>) {
-        self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
+        match (&mut self.neighbours, system) {
+            (Some(neighbours), Some((worlds, body))) => neighbours.set(worlds, body),
+            (_, system) => {
+                self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
+            }
+        }
     }
 
     /// A renderer on the same device, for pictures that are not on screen; none without a device.

@@ -36,6 +36,11 @@ impl Neighbours {
         Self { worlds, body, builders: HashMap::new(), maps }
     }
 
+    /// Takes the bodies of a changed system. Tiles that are still right stay.
+    pub(super) fn set(&mut self, worlds: Arc<Worlds>, body: usize) {
+        (self.worlds, self.body) = (worlds, body);
+    }
+
     /// The number of the planet among the bodies.
     pub(super) fn body(&self) -> usize {
         self.body

@@ -5,7 +5,7 @@ use super::path_field::PathField;
 use super::rename::RenameField;
 use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::state::document::Document;
-use crate::editor::state::questions::Change;
+use crate::editor::state::questions::{Change, Work};
 use crate::editor::state::{Message, State};
 use eframe::egui;
 use std::path::Path;
@@ -39,8 +39,12 @@ impl Prompts {
     fn question(&mut self, ctx: &egui::Context, state: &State) -> Option<Answer> {
         let questions = &state.questions;
         self.path = self.path.take().filter(|field| questions.path.as_ref().is_some_and(|wanted| field.is_for(wanted)));
-        if questions.unsaved.is_some() {
-            unsaved(ctx, state).map(Answer::Unsaved)
+        if let Some((work, _)) = &questions.unsaved {
+            match work {
+                Work::Planet => unsaved(ctx, state),
+                Work::System => unsaved_system(ctx, state),
+            }
+            .map(Answer::Unsaved)
         } else if let Some(replace) = &questions.replace {
             replaced(ctx, replace.path()).map(Answer::Replace)
         } else if let Some(change) = &questions.change {
@@ -115,6 +119,17 @@ fn unsaved(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
     let answers: Vec<_> = dirty.then_some(save).into_iter().chain(rest).collect();
     let heading = if dirty { "Save your changes?" } else { "Lose your changes?" };
     question(ctx, "unsaved work", (heading, &lines), &answers, UnsavedAnswer::Cancel)
+}
+
+fn unsaved_system(ctx: &egui::Context, state: &State) -> Option<UnsavedAnswer> {
+    let name = state.system.as_ref().map_or("", |system| &system.system().name);
+    let lines = [format!("The system {name} has unsaved changes.")];
+    let answers = [
+        ("Save changes", UnsavedAnswer::Save),
+        ("Discard changes", UnsavedAnswer::Discard),
+        ("Cancel", UnsavedAnswer::Cancel),
+    ];
+    question(ctx, "unsaved system", ("Save your changes?", &lines), &answers, UnsavedAnswer::Cancel)
 }
 
 fn replaced(ctx: &egui::Context, path: &Path) -> Option<ReplaceAnswer> {

@@ -6,7 +6,7 @@ use crate::planet::param::{Domain, Param, Value};
 const MOST_LOG: f64 = 1.5;
 
 /// Rounds to three significant digits, to keep files readable.
-pub(super) fn three_digits(value: f64) -> f64 {
+pub(crate) fn three_digits(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
     }
@@ -15,7 +15,7 @@ pub(super) fn three_digits(value: f64) -> f64 {
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
-pub(super) struct Dice(pub(super) u64);
+pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
     fn next(&mut self) -> u64 {
@@ -27,25 +27,25 @@ impl Dice {
     }
 
     /// From 0 to below 1.
-    pub(super) fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     /// Rounded: tenths of small numbers, hundredths of smaller ones.
-    pub(super) fn rounded(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn rounded(&mut self, low: f64, high: f64) -> f64 {
         let step = if high - low > 5.0 { 1.0 } else { 100.0 };
         ((self.between(low, high) * step).round() / step).clamp(low, high)
     }
 
-    pub(super) fn rounded_log(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn rounded_log(&mut self, low: f64, high: f64) -> f64 {
         three_digits(libm::exp(self.between(libm::log(low), libm::log(high)))).clamp(low, high)
     }
 
-    pub(super) fn color(&mut self, low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn color(&mut self, low: [f64; 3], high: [f64; 3]) -> [f64; 3] {
         let mut color = low;
         for (component, high) in color.iter_mut().zip(high) {
             *component = three_digits(self.between(*component, high)).clamp(*component, high);
@@ -53,20 +53,20 @@ impl Dice {
         color
     }
 
-    pub(super) fn chance(&mut self, share: f64) -> bool {
+    pub(crate) fn chance(&mut self, share: f64) -> bool {
         self.unit() < share
     }
 
-    pub(super) fn seed(&mut self) -> u32 {
+    pub(crate) fn seed(&mut self) -> u32 {
         // Four digits suffice, and can be read out.
         (self.next() % 10_000) as u32
     }
 
-    pub(super) fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
+    pub(crate) fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
         &from[(self.next() % from.len() as u64) as usize]
     }
 
-    pub(super) fn name(&mut self) -> String {
+    pub(crate) fn name(&mut self) -> String {
         const STARTS: &[&str] =
             &["Ar", "Bel", "Cal", "Dor", "El", "Fen", "Ish", "Kor", "Mir", "Nov", "Or", "Tal", "Ver"];
         const MIDDLES: &[&str] = &["a", "e", "i", "o", "u", "ae", "ia", "and", "ess", "ili", "or"];
@@ -76,7 +76,7 @@ impl Dice {
 
     /// A value moved by up to `strength` of its own size; `None` if it cannot move. Zero is a choice, not a size, and
     /// stays.
-    pub(super) fn moved(&mut self, param: &Param, value: &Value, strength: f64) -> Option<Value> {
+    pub(crate) fn moved(&mut self, param: &Param, value: &Value, strength: f64) -> Option<Value> {
         if strength == 0.0 {
             return None;
         }
