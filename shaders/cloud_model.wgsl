@@ -55,7 +55,7 @@ const HEAP_TOP: f32 = 0.4;
 const GROWING: f32 = 0.6;
 const GROWN: f32 = 1.0;
 // Cover from which rain falls.
-const RAINING: f32 = 0.75;
+const RAINING: f32 = 0.65;
 
 // `footprint`: size in km below which nothing is resolved.
 fn sky_over(dir: vec3f, footprint: f32) -> Sky {
@@ -84,15 +84,29 @@ fn sky_over(dir: vec3f, footprint: f32) -> Sky {
 }
 
 // Logarithm of the ratio of the optical depths of thick and thin columns of one cloud.
-const SPREAD: f32 = 1.6;
+const SPREAD: f32 = 2.0;
 // Optical depth of columns over that of the layer, at the edge of weather systems and in their middle.
-const THIN: f32 = 0.4;
-const THICK: f32 = 1.2;
+const THIN: f32 = 0.28;
+const THICK: f32 = 0.8;
 // Height of the base of anvils in the layer, and heights within which it blurs.
 const ANVIL_BASE: f32 = 0.78;
 const ANVIL_EDGE: f32 = 0.08;
 // Covers at the base of the layer from which anvils begin, and at which they are closed.
 const ANVIL_COVERS: vec2f = vec2f(0.35, 0.7);
+
+// Heights of the tops of anvils, for the lowest and the highest noise.
+const ANVIL_TOPS: vec2f = vec2f(0.84, 1.08);
+// Share of the ground under closed clouds on which rain falls, so that its shafts are seen apart.
+const CLOSED_RAIN: f32 = 0.5;
+// How far shafts of rain lean back at the ground, in heights of the rain: wind grows with height.
+const LEAN: f32 = 0.35;
+// Optical depth of shafts over the mean of rain.
+const SHAFT: f32 = 5.0;
+
+// Clouds are thin at their borders: their density rises from 0 without a kink. `x`: distance from the border, 0 to 1.
+fn thickened(x: f32) -> f32 { return x * x * (2.0 - x); }
+// The distance from the border by which `thickened` shrinks dense clouds.
+const SHRUNK: f32 = 0.08;
 
 // A cloud at a point.
 struct Cloud {
@@ -108,8 +122,18 @@ struct Cloud {
 fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footprint: f32) -> Cloud {
     var cover = sky.covers[number];
     if cover <= 0.0 { return Cloud(0.0, 0.0); }
-    let layered = vec4f(1.0, 0.5, sky.layered, 0.6 * sky.layered)[number];
-    var position = drifted(rel);
+    let layered = vec4f(1.0, 0.0, sky.layered, 0.6 * sky.layered)[number];
+    var place = rel;
+    if number == RAIN_LAYER {
+        // Shafts are the same from the cloud down, and lean back.
+        let rain = body.cloud_layers[RAIN_LAYER];
+        let up = (body.eye_km + rel) / body.radius_km;
+        let fallen = 1.0 - height;
+        let lean = LEAN * fallen * fallen * vec3f(-up.y, up.x, 0.0);
+        place += (lean - height * up) * (rain.top_km - rain.bottom_km);
+        cover *= CLOSED_RAIN;
+    }
+    var position = drifted(place);
     // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
     var bend = 0.0;
     var carve = 0.5;
@@ -145,7 +169,9 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     let reach = 0.5 * max(extent, ANVIL_EDGE);
     let low = max(height - reach, 0.0);
     let high = min(height + reach, 1.0);
-    let anvil = body.cloud_towers * (1.0 - layered) * saturate1((high - max(low, ANVIL_BASE)) / (high - low))
+    let anvil_top = mix(ANVIL_TOPS.x, ANVIL_TOPS.y, carve);
+    let anvil = body.cloud_towers * (1.0 - layered)
+        * saturate1((min(high, anvil_top) - max(low, ANVIL_BASE)) / (high - low))
         * smoothstep(ANVIL_COVERS.x, ANVIL_COVERS.y, base);
     var narrowed = 0.55 * max(risen - 0.25, 0.0);
     // Tops of decks and of small heaps are uneven; the ice of an anvil is thin.
@@ -161,19 +187,21 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
         envelope = saturate1((0.55 + 0.6 * carve - height) * 3.0);
     } else if number == RAIN_LAYER {
         narrowed = 0.0;
-        // It thins out as it falls.
-        envelope = 0.4 + 0.6 * height;
+        // It thins out as it falls; light rain does not reach the ground.
+        envelope = (0.4 + 0.6 * height) * saturate1(1.5 * height + 2.5 * (carve - 0.25));
     }
     if body.cloud_towers <= 0.0 && number == LOW_LAYER { envelope = 1.0; }
     cover = mix(base, max(base, anvil), f32(number == LOW_LAYER));
     let n = clamp(carve - (1.0 - cover) * narrowed, 0.0, 1.0);
-    let width = mix(0.3, 0.55, layered);
+    // Thin layers are wispy: their clouds have no borders.
+    let wispy = exp(-0.25 * depth);
+    let width = select(mix(mix(0.3, 0.55, layered), 1.2, wispy), 0.3, number == RAIN_LAYER);
     // Even overcast cloud varies in thickness. Optical depths are distributed log-normally (Barker, Wielicki, Parker, A
     // parameterization for computing grid-averaged solar fluxes, 1996).
-    let bulk = exp(SPREAD * (n - 0.5 + bend * cover));
-    let closed = cover * cover * cover;
-    let sharp = saturate1((n - 1.0 + cover) / width + closed) * bulk;
-    let column = saturate1((carve - 1.0 + cover) / width + closed) * bulk;
+    let bulk = select(exp(SPREAD * (n - 0.5 + bend * cover)), SHAFT, number == RAIN_LAYER);
+    let closed = select(cover * cover * cover, 0.0, number == RAIN_LAYER) + SHRUNK * saturate1(10.0 * cover);
+    let sharp = thickened(saturate1((n - 1.0 + cover) / width + closed)) * bulk;
+    let column = thickened(saturate1((carve - 1.0 + cover) / width + closed)) * bulk;
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-depth);
     // Of a dense layer no light is left in 32 bits.

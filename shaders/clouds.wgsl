@@ -20,11 +20,11 @@ fn sent_back(depth: f32) -> f32 {
 }
 
 // Height of tops over the optical depth of their column, by the layer's thickness.
-const RELIEF: f32 = 0.3;
+const RELIEF: f32 = 0.5;
 // Sine of the sun's elevation below which slopes of tops are lit as at this sine, and limits of their factor on light.
 // A low sun would make every slope black or glaring.
 const RELIEF_LEAST_SUN: f32 = 0.15;
-const RELIEF_LIMITS: vec2f = vec2f(0.35, 1.5);
+const RELIEF_LIMITS: vec2f = vec2f(0.3, 1.5);
 
 // Distance in km after `number` steps of a march that starts within the layer. The steps are the same in all directions
 // and grow by a constant ratio. Steps that depend on the distance to the far end would be longest along the horizon and
@@ -34,6 +34,10 @@ fn grown_km(layer: CloudLayer, number: f32) -> f32 {
     return layer.stride.x * (pow(ratio, number) - 1.0) / (ratio - 1.0);
 }
 
+// How much steps through rain grow, 0 to 1.
+const RAIN_BEND: f32 = 0.2;
+// Share of the light under clouds that is left where it rains: there the clouds are thicker than their mean.
+const RAIN_SHADE: f32 = 0.5;
 // Height of cloud tops over the bottom of the layer, by the layer's thickness: closed cover towers.
 const TOWER: f32 = 2.0;
 // Distances to the sun's side at which tops may cast shade, radians along the ground.
@@ -56,10 +60,21 @@ fn shade(rel: vec3f, cover: f32, sun_mu: f32, footprint: f32) -> f32 {
     return 1.0 - 0.8 * covered * (1.0 - smoothstep(0.3, 0.7, sun_mu));
 }
 
+// Jitter of a pixel, 0 to 1. Any 3x3 pixels have one value in each ninth, so that their mean (air.wgsl) has no pattern.
+fn jitter_of(pixel: vec2f) -> f32 {
+    let place = vec2u(floor(pixel) - frame.origin_px);
+    return fract((f32((3u * place.x + 7u * place.y) % 9u) + 0.5) / 9.0 + frame.noise_shift);
+}
+
 // Density below which there is no cloud.
-const LEAST_DENSITY: f32 = 0.002;
+const LEAST_DENSITY: f32 = 0.004;
 // Width of what a step resolves, in steps.
 const BLUR: f32 = 0.45;
+const RAIN_BLUR: f32 = 0.015;
+// Optical depth of the first part of a step within a cloud: most light comes from it.
+const FIRST_PART: f32 = 1.5;
+// Limits of the exponent that shortens the first parts of a step.
+const SHORTENING: vec2f = vec2f(1.5, 3.0);
 // Halvings of a step to find where a ray enters a cloud.
 const SEARCH: i32 = 3;
 
@@ -81,7 +96,9 @@ fn height_in_layer(way: Way, at_km: f32) -> f32 {
 
 // The cloud at a distance along a ray, as steps of a length resolve it.
 fn cloud_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> Cloud {
-    let footprint = max(at_km * frame.pixel_rad, step_km * BLUR);
+    // Shafts of rain are narrower than steps: the mean over the jitter of pixels shows them.
+    let blur = select(BLUR, RAIN_BLUR, way.layer == RAIN_LAYER);
+    let footprint = max(at_km * frame.pixel_rad, step_km * blur);
     let height = height_in_layer(way, at_km);
     let extent = abs(height_in_layer(way, at_km + step_km) - height);
     return cloud_at(way.layer, way.dir * at_km, sky, height, extent, footprint);
@@ -105,8 +122,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     let sun = active_sun.dir;
     let steps = layer.steps;
     let span = way.to_km - from_km;
-    // Even steps from afar, growing steps from within the layer.
-    let bend = span / (span + from_km + 1e-6);
+    // Even steps from afar, growing steps from within the layer. Few growing steps would pass over distant rain.
+    let bend = select(span / (span + from_km + 1e-6), RAIN_BEND, way.layer == RAIN_LAYER);
     let extinction = layer.optical_depth / thickness;
 
     // Light that reaches the layer at the middle of the segment; it varies little along the ray.
@@ -124,6 +141,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
     );
     let to_sun = 1.0 / max(abs(sun_mu), 0.07);
     let from_above = saturate1(-2.0 * dot(dir, up));
+    // From the side, light escapes from thin layers as well, but their long paths hold more of it.
+    let from_side = 1.0 - smoothstep(-0.1, 0.1, dot(dir, up));
     // From above, one sees tops that a low sun only grazes (law of Lommel and Seeliger); the march is too coarse to
     // resolve this.
     let high = max(sun_mu, 0.0) + 0.02;
@@ -158,19 +177,24 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             enter = mix(enter, inside, jitter);
         }
         was_empty = false;
+        // The first parts are the shortest: there the light comes from.
+        let first = FIRST_PART / (extinction * found.density * (t1 - enter));
+        let shortening = clamp(-log(first) / log(max(layer.stride.z, 2.0)), SHORTENING.x, SHORTENING.y);
         let from_sun = sun_share(body.eye_km + dir * t);
         // Light after the layers above: what they leave of direct light, and what they make diffuse.
         let over = depth_over(way.layer, sky_here);
         let passes = let_through(over);
         let hides = 1.0 - exp(-over);
         let sky_left = mix(1.0, passes, hides);
-        let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes);
-        // The first parts are the shortest: there the light comes from.
+        let shaded = select(1.0, RAIN_SHADE, way.layer == RAIN_LAYER);
+        let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes * shaded);
+        var part_from = enter;
         for (var k = 0.0; k < layer.stride.z; k += 1.0) {
-            let shares = vec3f(k, k + jitter, k + 1.0) / layer.stride.z;
-            let at = enter + (t1 - enter) * shares * sqrt(shares);
-            let length_km = at.z - at.x;
-            var here = at.y;
+            let shares = vec2f(k + jitter, k + 1.0) / layer.stride.z;
+            let at = enter + (t1 - enter) * pow(shares, vec2f(shortening));
+            let length_km = at.y - part_from;
+            part_from = at.y;
+            var here = at.x;
             var cloud = found;
             if layer.stride.z > 1.0 {
                 cloud = cloud_on(way, here, sky_here, length_km);
@@ -199,7 +223,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             // Tops that fall off towards the sun are brighter.
             let rise = (ahead.column - cloud.column) * thickness * RELIEF / (reach * max(sun_mu, RELIEF_LEAST_SUN));
             lit *= mix(1.0, clamp(1.0 - rise, RELIEF_LIMITS.x, RELIEF_LIMITS.y), from_above);
-            let returned = mix(1.0, sent_back(layer.optical_depth * cloud.column), from_above);
+            let thick = sent_back(layer.optical_depth * cloud.column);
+            let returned = mix(mix(1.0, sqrt(thick), from_side), thick, from_above);
             let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * lit) + ambient) * from_sun * returned;
             let passed = exp(-extinction * density * length_km);
             let seen = out.transmittance * (1.0 - passed);
@@ -306,7 +331,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         }
     }
     // Jitter between neighbouring pixels hides the steps, which would show as terraces.
-    let jitter = gradient_noise(pixel);
+    let jitter = jitter_of(pixel);
     var light = vec3f(0.0);
     var state = March(vec3f(0.0), 1.0, 0.0, 0.0);
     for (var i = 0u; i < body.sun_count; i++) {

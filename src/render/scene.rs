@@ -141,7 +141,9 @@ pub struct Projection {
     pub tangents: [f64; 4],
     /// Offset of the picture in pixels of [`Scene::size_px`], right and down: for temporal antialiasing.
     pub jitter_px: [f64; 2],
-    /// Distance of the near plane. `None`: 0.05 to 1000 m, by the distance of the highest ground.
+    /// Distance of the near plane. `None`: 0.05 to 1000 m, by the distance of the highest ground, which hides a ship
+    /// next to a camera in orbit. A game sets it to the nearest that it draws, such as 0.1 m: reversed depth in
+    /// floating point is as precise with any near plane.
     pub near_m: Option<f64>,
 }
 
