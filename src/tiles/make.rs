@@ -109,10 +109,11 @@ pub(crate) fn make_tile(
         _ => Arc::new(terrain.climate.climates_of_maps(&points.dirs).collect()),
     };
 
+    let painted = terrain.painted(&points.dirs);
     let same_heights = before.keys.heights == terrain.tile_keys_at(id).heights;
     if let Some(tile) = before.tile.filter(|_| same_heights) {
-        let climate_of = VertexClimate { noise: &climate, from_maps: &from_maps };
-        let tile = work.run(Stage::Climate, || with_climate(tile, simd, terrain.planet(), &points.dirs, &climate_of));
+        let climate_of = VertexClimate { noise: &climate, from_maps: &from_maps, painted: &painted };
+        let tile = work.run(Stage::Climate, || with_climate(tile, terrain, &points.dirs, &climate_of));
         let parts = before.parts.map(|parts| Parts { climate_noises, climate, map_keys, from_maps, ..parts.clone() });
         return (fields, Some((tile, parts)));
     }
@@ -151,7 +152,11 @@ pub(crate) fn make_tile(
             let mut kept = Kept {
                 layers: &fields,
                 relief: &relief_fields,
-                climate: ClimateInputs { noise: [&climate.temperature, &climate.moisture], from_maps: &from_maps },
+                climate: ClimateInputs {
+                    noise: [&climate.temperature, &climate.moisture],
+                    from_maps: &from_maps,
+                    painted: &painted,
+                },
             };
             let mut heights = terrain.joined(&points, &spacings_rad, &mut kept);
             heights.flood(&points.dirs, own_spacing_rad, terrain.planet().sea_level_m());
@@ -161,7 +166,7 @@ pub(crate) fn make_tile(
 
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        let climate = VertexClimate { noise: &climate, from_maps: &from_maps };
+        let climate = VertexClimate { noise: &climate, from_maps: &from_maps, painted: &painted };
         Tile { heights_serial, ..mesh(terrain, id, &points.dirs, &heights, &climate) }
     });
     let parts = Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, map_keys, from_maps };

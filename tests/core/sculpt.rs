@@ -3,11 +3,11 @@
 use crate::support::dice::Dice;
 use glam::DVec3;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::edits::{
-    Canyon, Crater, EditPoint, EditPoints, Flatten, GroundEdit, Island, Limit, Mesa, Raise, Ridge, Road, Terrace, Tool,
-    Volcano,
+    BiomePaint, Canyon, Coast, Crater, EditPoint, EditPoints, Fault, Flatten, GroundEdit, Island, Limit, Mesa,
+    MoisturePaint, PaintMode, Raise, Ridge, Road, Smooth, TemperaturePaint, Terrace, Tool, Volcano, Wall,
 };
 use tellus::planet::{Fbm, GroundEdits, Layer, Planet, Shape, Water};
 use tellus::simd::Simd;
@@ -130,6 +130,20 @@ fn each_tool_has_the_height_of_its_formula_in_the_middle_at_the_rim_and_at_the_e
     (from.height_m, to.height_m) = (250.0, 250.0);
     near(&heights(Tool::Road(Road { strength: 1.0 }), &[from, to], 0.5, &[0.0, 0.5, 1.0]), &[250.0, 250.0, 0.0]);
 
+    let wall = Tool::Wall(Wall { height_m: 90.0, top: 0.5 });
+    near(&heights(wall, &line, 0.5, &[0.0, 0.5, 0.75, 1.0]), &[90.0, 90.0, 45.0, 0.0]);
+
+    // Across the middle of a line that runs along the equator: the north is on its left side.
+    let along = [at(0.0, 0.0), at(0.0, 4.0), at(0.0, 8.0)];
+    let across = |tool: Tool, softness: f64, shares: &[f64]| -> Vec<f64> {
+        let terrain = terrain(&planet(0.0, vec![GroundEdit { softness, ..edit(tool, 40.0, &along) }]));
+        shares.iter().map(|share| terrain.height_m(beside(&along[1], 0.0, 40.0 * share))).collect()
+    };
+    let fault = Tool::Fault(Fault { throw_m: 1000.0, scarp: 0.2, drop: 0.25 });
+    near(&across(fault, 0.5, &[0.5, 0.0, -0.5, -1.0, 1.0]), &[187.5, 250.0, -62.5, 0.0, 0.0]);
+    let coast = Coast { land_m: 80.0, depth_m: 120.0, flip: false };
+    near(&across(Tool::Coast(coast), 0.5, &[0.5, 0.0, -0.5, 1.0]), &[-50.0 + 60.0, -50.0, -50.0 - 90.0, 0.0]);
+
     // Steps, on ground that is not flat.
     let terraced = edit(Tool::Terrace(Terrace { step_m: 100.0, sharpness: 1.0, strength: 1.0 }), 200.0, &[middle]);
     let (before, after) = (terrain(&planet(900.0, Vec::new())), terrain(&planet(900.0, vec![terraced])));
@@ -171,6 +185,26 @@ fn land_alone_and_sea_floor_alone_change_no_other_ground_and_make_no_cliff() {
 }
 
 #[test]
+fn heights_above_and_below_alone_are_changed() {
+    let raise = |above_m: f64, below_m: f64| {
+        let raise = edit(Tool::Raise(Raise { amount_m: 500.0 }), 300.0, &[at(5.0, 5.0)]);
+        terrain(&planet(2500.0, vec![GroundEdit { above_m, below_m, softness: 0.2, ..raise }]))
+    };
+    let (before, after) = (terrain(&planet(2500.0, Vec::new())), raise(-300.0, 400.0));
+    let mut changed = 0;
+    for i in 0..2000 {
+        let dir = beside(&at(5.0, 5.0), f64::from(i) * 7.3, f64::from(i) * 0.1);
+        let (ground_m, height_m) = (before.height_m(dir), after.height_m(dir));
+        if ground_m <= -300.0 || ground_m >= 400.0 {
+            assert_eq!(ground_m, height_m);
+        } else {
+            changed += usize::from(height_m > ground_m);
+        }
+    }
+    assert!(changed > 200, "{changed}");
+}
+
+#[test]
 fn every_query_and_instruction_set_has_the_same_bits_and_normals_follow_the_heights() {
     let planet = planet(400.0, every_tool());
     let (plain, edited) = (terrain(&Planet { edits: GroundEdits::default(), ..planet.clone() }), terrain(&planet));
@@ -207,7 +241,6 @@ fn bounds_hold_everywhere_and_are_narrow_away_from_edits() {
     let planet = planet(400.0, every_tool());
     let (plain, edited) = (terrain(&Planet { edits: GroundEdits::default(), ..planet.clone() }), terrain(&planet));
     let (lo, hi) = edited.height_bounds_m();
-    let mut narrower = 0;
     for dir in around(&planet, 600) {
         for angle in [1e-4, 0.01, 0.1] {
             let (near_lo, near_hi) = edited.height_bounds_near_m(dir, angle);
@@ -218,10 +251,151 @@ fn bounds_hold_everywhere_and_are_narrow_away_from_edits() {
                     "{near_lo} {height_m} {near_hi}"
                 );
             }
-            narrower += usize::from(edited.height_bounds_near_m(dir, angle) == plain.height_bounds_near_m(dir, angle));
         }
     }
+    let far = tellus::sphere::geo::spread(500);
+    let narrower = far.filter(|dir| edited.height_bounds_near_m(*dir, 0.01) == plain.height_bounds_near_m(*dir, 0.01));
+    let narrower = narrower.count();
     assert!(narrower > 100, "{narrower}");
+}
+
+#[test]
+fn copies_of_a_stamp_lie_within_the_spread_and_small_ones_are_many() {
+    let middle = at(20.0, 30.0);
+    let mesa = Tool::Mesa(Mesa { height_m: 500.0, talus: 0.0 });
+    let scattered =
+        GroundEdit { copies: 400, spread_km: 300.0, smallest: 0.25, softness: 0.0, ..edit(mesa, 8.0, &[middle]) };
+    let terrain = terrain(&planet(0.0, vec![scattered.clone()]));
+    let mut dice = Dice(3);
+    let (mut low, mut high) = (0, 0);
+    for _ in 0..20_000 {
+        let dir = beside(&middle, dice.roll() * 360.0, dice.roll() * 300.0);
+        let height_m = terrain.height_m(dir);
+        low += usize::from(height_m > 100.0 && height_m < 250.0);
+        high += usize::from(height_m > 400.0);
+    }
+    // Half the size covers a quarter of the ground, and there are four times as many.
+    assert!(low > 100 && high > 20, "{low} {high}");
+    for i in 0..300 {
+        assert_eq!(terrain.height_m(beside(&middle, f64::from(i) * 31.0, 309.0 + f64::from(i))), 0.0);
+    }
+    let other = GroundEdit { seed: 2, ..scattered.clone() };
+    let dirs: Vec<DVec3> = (0..500).map(|i| beside(&middle, f64::from(i) * 7.0, f64::from(i) * 0.5)).collect();
+    assert_ne!(terrain.heights_m(&dirs), self::terrain(&planet(0.0, vec![other])).heights_m(&dirs));
+    let text =
+        "(version: 3, edits: [(tool: Crater(), copies: 1000, points: [(0, 0), (0, 1), (0, 2), (0, 3), (0, 4)])])";
+    let message = Planet::from_text("f.ron", text).map(|_| ()).unwrap_err().to_string();
+    assert!(
+        message.contains("edits[0].copies: 5000 copies around 5 points are too many; use at most 800"),
+        "{message}"
+    );
+}
+
+#[test]
+fn smoothing_takes_fine_detail_away_and_keeps_large_slopes_and_hills() {
+    let middle = at(20.0, 30.0);
+    let hills = planet(900.0, vec![edit(Tool::Raise(Raise { amount_m: 600.0 }), 120.0, &[middle])]);
+    let mut smoothed = hills.clone();
+    let tool = Tool::Smooth(Smooth { size: 0.5, strength: 1.0 });
+    smoothed.edits.push(GroundEdit { softness: 0.3, ..edit(tool, 60.0, &[middle]) });
+    let (before, after) = (terrain(&hills), terrain(&smoothed));
+    // Second differences over half a kilometre, and how far the ground moved.
+    let (mut rough, mut even, mut moved_m) = (0.0, 0.0, 0.0_f64);
+    for i in 0..200 {
+        let (heading_deg, away_km) = (f64::from(i) * 17.0, f64::from(i) * 0.2);
+        let bend = |terrain: &Terrain| {
+            let height_m = |off_km: f64| terrain.height_m(beside(&middle, heading_deg, away_km + off_km));
+            (height_m(-0.5) - 2.0 * height_m(0.0) + height_m(0.5)).abs()
+        };
+        (rough, even) = (rough + bend(&before), even + bend(&after));
+        let dir = beside(&middle, heading_deg, away_km);
+        moved_m = moved_m.max((before.height_m(dir) - after.height_m(dir)).abs());
+    }
+    assert!(even < 0.1 * rough, "{even} {rough}");
+    assert!(moved_m > 1.0 && moved_m < 250.0, "{moved_m}");
+    let outside = beside(&middle, 40.0, 61.0);
+    assert_eq!(before.height_m(outside), after.height_m(outside));
+
+    // An edit before it shows through, wherever it is changed; one behind it stays sharp.
+    let mut first = smoothed.clone();
+    first.edits.insert(0, edit(Tool::Raise(Raise { amount_m: 300.0 }), 4.0, &[middle]));
+    let mut last = smoothed.clone();
+    last.edits.push(edit(Tool::Raise(Raise { amount_m: 300.0 }), 4.0, &[middle]));
+    let rise_m = |planet: &Planet| terrain(planet).height_m(middle.direction()) - after.height_m(middle.direction());
+    assert!((rise_m(&last) - 300.0).abs() < 1e-9);
+    let through_m = rise_m(&first);
+    assert!((0.0..100.0).contains(&through_m), "{through_m}");
+}
+
+/// The ground under paint is the same; the answers of samples are what the vertices show.
+#[test]
+fn paint_changes_the_climate_of_samples_and_of_tiles_alike_and_no_height() {
+    let middle = at(20.0, 30.0);
+    let plain = planet(900.0, Vec::new());
+    let dir = middle.direction();
+    let bare = terrain(&plain).sample(dir);
+    let painted = |tool: Tool| {
+        let planet = Planet { edits: vec![edit(tool, 80.0, &[middle])].into_iter().collect(), ..plain.clone() };
+        let terrain = terrain(&planet);
+        let outside = beside(&middle, 100.0, 81.0);
+        let before = self::terrain(&plain).sample(outside);
+        assert_eq!(terrain.sample(outside), before);
+        terrain.sample(dir)
+    };
+    let warm = TemperaturePaint { mode: PaintMode::Shift, temperature_c: 7.0 };
+    let found = painted(Tool::Temperature(warm.clone()));
+    assert!((found.temperature_c - bare.temperature_c - 7.0).abs() < 1e-9 && found.height_m == bare.height_m);
+    let set = TemperaturePaint { mode: PaintMode::Set, temperature_c: -11.0 };
+    assert!((painted(Tool::Temperature(set)).temperature_c + 11.0).abs() < 1e-9);
+    let wet = MoisturePaint { mode: PaintMode::Set, moisture: 0.83 };
+    assert!((painted(Tool::Moisture(wet.clone())).moisture - 0.83).abs() < 1e-9);
+
+    let mut planet = planet(900.0, every_tool());
+    planet.biomes = tellus::planet::shipped::default_planet().biomes;
+    let biome = planet.biomes.table.key(planet.biomes.table.columns() - 1, 0).unwrap();
+    for (tool, lat_deg) in [
+        (Tool::Biome(BiomePaint { biome, strength: 1.0 }), 12.0),
+        (Tool::Temperature(warm), 12.4),
+        (Tool::Moisture(wet), 11.8),
+    ] {
+        planet.edits.push(edit(tool, 30.0, &[at(lat_deg, -70.0), at(lat_deg, -69.0)]));
+    }
+    let view = view(12.0, -70.0, 4e4);
+    let builder = Builder::new(|| {});
+    let surface = settled(&builder, &planet, &view);
+    let (lapse, sea_m) = (planet.climate.lapse_c_per_km, planet.water.as_ref().unwrap().level_m);
+    let mut checked = 0;
+    for leaf in &surface.leaves {
+        for (i, vertex) in leaf.tile.vertices.iter().enumerate().step_by(13) {
+            let dir = leaf.tile.id.direction((i % 33) as f64 / 32.0, (i / 33) as f64 / 32.0);
+            let sample = surface.terrain.sample(dir);
+            let above_km = (f64::from(vertex.height_m) - sea_m).max(0.0) / 1000.0;
+            let temperature_c = f64::from(vertex.temperature_c) - lapse * above_km;
+            let moisture = f64::from(vertex.moisture) - planet.climate.drying_per_km * above_km;
+            assert!((temperature_c - sample.temperature_c).abs() < 1e-3, "{temperature_c} {}", sample.temperature_c);
+            assert!((moisture.clamp(0.0, 1.0) - sample.moisture).abs() < 1e-4);
+            checked += 1;
+        }
+    }
+    assert!(checked > 1000);
+    let index = planet.biomes.index_of(biome).unwrap();
+    let first = planet.edits.len() - 3;
+    let mut alone = planet.clone();
+    (0..2).for_each(|_| drop(alone.edits.remove(first + 1)));
+    let sample = terrain(&alone).sample(at(12.0, -69.5).direction());
+    assert_eq!(alone.biomes.palette[sample.biome].name, alone.biomes.palette[index].name);
+
+    // Paint runs no height stage without biome relief, and touches few tiles.
+    let mut flat = plain.clone();
+    settled(&builder, &flat, &view);
+    flat.edits.push(edit(Tool::Moisture(MoisturePaint::default()), 2.0, &[at(12.0, -70.0)]));
+    let second = settled(&builder, &flat, &view);
+    assert!(second.stats.tiles_built > 0 && second.stats.tiles_built * 3 < second.leaves.len());
+    assert!(!second.stats.ran().contains(tellus::planet::param::Stage::Height));
+    let vertices = |surface: &Surface| -> Vec<_> {
+        surface.leaves.iter().map(|leaf| (leaf.tile.id, leaf.tile.vertices.clone())).collect()
+    };
+    assert!(vertices(&second) == vertices(&build_now(&Arc::new(flat), &view).unwrap()));
 }
 
 fn view(lat_deg: f64, lon_deg: f64, altitude_m: f64) -> View {
@@ -315,87 +489,46 @@ fn edits_are_read_written_and_checked() {
     }
     assert!(message("(points: [(1)])").contains("latitude"), "{}", message("(points: [(1)])"));
     assert!(message("(points: 3)").contains("edits[0].points"), "{}", message("(points: 3)"));
+    assert!(message("(tool: Biome(biome: 'z'), points: [(0, 0)])").contains("edits[0].tool.biome: 'z' is no key"));
     assert!(message("(tool: Rise())").contains("Raise"), "{}", message("(tool: Rise())"));
 }
 
-/// Many strokes all over a planet.
-fn strokes(count: usize) -> Vec<GroundEdit> {
-    let mut dice = Dice(11);
-    (0..count)
-        .map(|_| {
-            let dir = DVec3::new(dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5).normalize();
-            let mut points = vec![EditPoint::under(dir)];
-            let heading_deg = dice.roll() * 360.0;
-            for step in 1..10 {
-                points.push(EditPoint::under(beside(
-                    &points[0],
-                    heading_deg + f64::from(step) * 3.0,
-                    f64::from(step) * 4.0,
-                )));
-            }
-            edit(Tool::Raise(Raise { amount_m: 100.0 }), 8.0, &points)
-        })
-        .collect()
-}
-
-/// Figures for the documents: `cargo test --test core ten_thousand -- --ignored --nocapture`.
+/// Changes one after the other end where the same list ends that is compiled from nothing.
 #[test]
-#[ignore = "a measurement"]
-fn ten_thousand_strokes_cost_what_the_few_in_view_cost() {
-    let view = View { size_px: [1280, 800], quality: Quality::Medium, ..view(12.0, -70.0, 1.5e5) };
-    let (none, mut many) = (planet(400.0, Vec::new()), planet(400.0, strokes(10_000)));
-    let text = many.to_text();
-    println!("file {:.2} MB, text in {:?}", text.len() as f64 / 1e6, time(|| drop(many.to_text())));
-    println!("read in {:?}", time(|| drop(Planet::from_text("f", &text))));
-    println!(
-        "check {:?}, clone {:?}, equal {:?}",
-        time(|| drop(many.check())),
-        time(|| drop(many.clone())),
-        time(|| {
-            let copy: GroundEdits = many.edits.iter().cloned().collect();
-            assert!(copy == many.edits);
-        })
-    );
-    for planet in [&none, &many] {
-        let arc = Arc::new(planet.clone());
-        let times: Vec<_> = (0..9).map(|_| time(|| drop(build_now(&arc, &view)))).collect();
-        let compile: Vec<_> = (0..5).map(|_| time(|| drop(terrain(planet)))).collect();
-        println!("full {:?}, compile {:?}", median(times), median(compile));
-    }
-    let builder = Builder::new(|| {});
-    settled(&builder, &many, &view);
-    let mut times = Vec::new();
-    for i in 0..30 {
-        let name = format!("{i}");
-        let points = [at(12.0, -70.0), at(12.1, -70.0 + 0.05 * f64::from(i))];
-        if i == 0 {
-            many.edits.push(edit(Tool::Raise(Raise { amount_m: 50.0 }), 8.0, &points));
-        }
-        let last = many.edits.len() - 1;
-        *many.edits.get_mut(last).unwrap() =
-            GroundEdit { name, ..edit(Tool::Raise(Raise { amount_m: 50.0 }), 8.0, &points) };
-        let arc = Arc::new(many.clone());
-        times.push(time(|| {
-            builder.request(&arc, &view);
-            while !builder.has_all_tiles() {
-                std::thread::sleep(Duration::from_micros(200));
+fn many_changes_end_as_the_list_that_is_compiled_at_once() {
+    let mut dice = Dice(23);
+    let mut edited = planet(300.0, every_tool());
+    let dirs = around(&edited, 300);
+    for round in 0..120 {
+        let count = edited.edits.len();
+        let (at, to) = ((dice.roll() * count as f64) as usize, (dice.roll() * count as f64) as usize);
+        match round % 6 {
+            0 if count > 12 => drop(edited.edits.remove(at)),
+            1 => edited.edits.shift(at, to),
+            2 => edited.edits.get_mut(at).unwrap().enabled ^= true,
+            3 => edited.edits.get_mut(at).unwrap().radius_km = 5.0 + 200.0 * dice.roll(),
+            _ => {
+                let mut more = every_tool().swap_remove((dice.roll() * Tool::NAMES.len() as f64) as usize);
+                more.radius_km = 3.0 + 60.0 * dice.roll();
+                edited.edits.insert(to, more);
             }
-        }));
-        let stats = builder.surface().unwrap().stats;
-        if i == 29 {
-            println!("{} tiles of {}, compile {:.2} ms", stats.tiles_built, stats.tiles, stats.compile_secs * 1e3);
         }
+        drop(terrain(&edited));
     }
-    println!("edit {:?}", median(times));
-}
-
-fn time(work: impl FnOnce()) -> Duration {
-    let begun = Instant::now();
-    work();
-    begun.elapsed()
-}
-
-fn median(mut times: Vec<Duration>) -> Duration {
-    times.sort();
-    times[times.len() / 2]
+    let step_by_step = terrain(&edited);
+    // A planet of another size in between: nothing of the edits is kept.
+    drop(terrain(&Planet { radius_km: 900.0, ..edited.clone() }));
+    let at_once = terrain(&edited);
+    assert_eq!(step_by_step.heights_m(&dirs), at_once.heights_m(&dirs));
+    assert!(step_by_step.samples(&dirs, Wanted::ALL) == at_once.samples(&dirs, Wanted::ALL));
+    assert!(at_once.revision().changes_since(&step_by_step.revision()).is_empty());
+    let view = view(12.0, -70.0, 4e4);
+    let all = |planet: &Planet| {
+        let surface = build_now(&Arc::new(planet.clone()), &view).unwrap();
+        surface.leaves.iter().map(|leaf| leaf.tile.vertices.clone()).collect::<Vec<_>>()
+    };
+    let builder = Builder::new(|| {});
+    settled(&builder, &Planet { edits: every_tool().into_iter().collect(), ..edited.clone() }, &view);
+    let moved = settled(&builder, &edited, &view);
+    assert!(moved.leaves.iter().map(|leaf| leaf.tile.vertices.clone()).collect::<Vec<_>>() == all(&edited));
 }
