@@ -98,7 +98,8 @@ impl Measure {
         let known = self.measured.take().filter(|(of, _)| Arc::ptr_eq(of, terrain));
         let (_, measured) =
             self.measured.insert(known.unwrap_or_else(|| (terrain.clone(), measure(terrain, &self.points))));
-        let corner = ground.rect.left_bottom() + vec2(12.0, -12.0);
+        // Above the scale.
+        let corner = ground.rect.left_bottom() + vec2(12.0, -44.0);
         egui::Area::new(egui::Id::unique("measured"))
             .pivot(egui::Align2::LEFT_BOTTOM)
             .fixed_pos(corner)
@@ -180,7 +181,7 @@ fn figures(ui: &mut egui::Ui, measured: &Measured) {
         ui.label(format!("Area {}", area_text(*area_m2)));
     }
     ui.label(format!("From {from_m:.0} m to {to_m:.0} m: {:+.0} m", to_m - from_m));
-    ui.label(format!("Lowest {lo:.0} m, highest {hi:.0} m, steepest {:.0}°", steepest.atan().to_degrees()));
+    ui.label(format!("Lowest {lo:.0} m, highest {hi:.0} m, steepest {:.1}°", steepest.atan().to_degrees()));
     let (rect, _) = ui.allocate_exact_size(PLOT, egui::Sense::hover());
     plot(&ui.painter_at(rect), rect.shrink(2.0), heights_m, (lo, hi), *sea_m);
 }

@@ -1,6 +1,7 @@
 //! One edit, compiled: its tool, its line, and the pieces of that line.
 
 use super::index::{Hash, Piece, chord_of};
+use super::near::Arcs;
 use super::outline::{self, Noise, Sampled};
 use super::paint::Paint;
 use super::path::{self, Arc, angle_of};
@@ -210,10 +211,10 @@ impl CompiledEdit {
     }
 
     /// What is near a direction, of these arcs. None if the edit does not reach there.
-    fn place(&self, dir: DVec3, arcs: &[u32]) -> Option<Place> {
+    fn place(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Place> {
         let most = self.reach_chord * self.reach_chord;
         let mut nearest = Nearest { chord2: f64::MAX, arc: 0 };
-        for &number in arcs {
+        for number in arcs.at(dir) {
             let (chord2, _) = self.arcs[number as usize].chord2(dir);
             if chord2 < nearest.chord2 {
                 nearest = Nearest { chord2, arc: number };
@@ -229,8 +230,8 @@ impl CompiledEdit {
     }
 
     /// Averages the heights of a road over its near arcs.
-    fn average(&self, dir: DVec3, arcs: &[u32], place: &mut Place) {
-        for arc in arcs.iter().map(|number| &self.arcs[*number as usize]) {
+    fn average(&self, dir: DVec3, arcs: &Arcs<'_>, place: &mut Place) {
+        for arc in arcs.at(dir).map(|number| &self.arcs[number as usize]) {
             let t = angle_of(arc.chord2(dir).0) / self.radius_rad;
             if t >= 1.0 {
                 continue;
@@ -252,14 +253,14 @@ impl CompiledEdit {
     }
 
     /// The weight of paint, by these of its arcs: 1 in the core, 0 from the radius on.
-    pub(super) fn weight(&self, dir: DVec3, arcs: &[u32]) -> f64 {
+    pub(super) fn weight(&self, dir: DVec3, arcs: &Arcs<'_>) -> f64 {
         let Some(place) = self.place(dir, arcs) else { return 0.0 };
         let stretch = self.outline.as_ref().map_or(1.0, |noise| self.stretch(noise.at(dir).value).0);
         falloff(angle_of(place.nearest.chord2) / self.radius_rad * stretch, self.core).0
     }
 
     /// Whether a direction is within reach of these of its arcs.
-    pub(super) fn reaches(&self, dir: DVec3, arcs: &[u32]) -> bool {
+    pub(super) fn reaches(&self, dir: DVec3, arcs: &Arcs<'_>) -> bool {
         self.place(dir, arcs).is_some()
     }
 
@@ -269,7 +270,7 @@ impl CompiledEdit {
     pub(super) fn effect(
         &self,
         dir: DVec3,
-        arcs: &[u32],
+        arcs: &Arcs<'_>,
         ground_m: f64,
         smooth: Option<(f64, DVec3)>,
     ) -> Option<Effect> {

@@ -265,6 +265,10 @@ pub(super) fn range_of(list: &[u32], roster: &Roster, is_near: impl Fn(&Piece) -
 
 /// A hash of pieces in order, by what they do. Where one edit ends and the next begins counts, too.
 fn hash(list: &[u32], roster: &Roster) -> u128 {
+    // As a cell that never had a piece.
+    if list.is_empty() {
+        return 0;
+    }
     let (mut hash, mut last) = (Hash::default(), None);
     for &number in list {
         let slot = slot_of(number);

@@ -36,6 +36,7 @@ use crate::sphere::NodeId;
 use compiled::CompiledEdit;
 use glam::DVec3;
 use index::{Index, Piece, Walk};
+use near::Arcs;
 pub(crate) use near::Near;
 pub(crate) use paint::Painted;
 use paint::Places;
@@ -184,15 +185,15 @@ impl Edits {
     ) {
         let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
         near.each_leaf(Walk::new(&self.ground), &self.roster, dirs, |points, near| {
-            let acts = |(slot, _): &(u32, &[u32])| self.roster.rank_of(*slot) < end;
+            let acts = |(slot, _): &(u32, Arcs<'_>)| self.roster.rank_of(*slot) < end;
             let smooth = self.smooth_heights(dirs, points, near.groups().filter(acts), ground);
             for i in points.iter().map(|point| *point as usize) {
                 for (slot, arcs) in near.groups().filter(acts) {
                     let Some(edit) = self.roster.edit(slot) else { continue };
                     let smooth = smooth.iter().find(|(of, _)| *of == slot).map(|(_, known)| known);
-                    let smooth = smooth.zip(edit.smooth).filter(|_| edit.reaches(dirs[i], arcs));
+                    let smooth = smooth.zip(edit.smooth).filter(|_| edit.reaches(dirs[i], &arcs));
                     let smooth = smooth.map(|(known, lattice)| lattice.at(dirs[i], known));
-                    let Some(effect) = edit.effect(dirs[i], arcs, heights.height_m[i], smooth) else { continue };
+                    let Some(effect) = edit.effect(dirs[i], &arcs, heights.height_m[i], smooth) else { continue };
                     heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
                     for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
                         let before = components(gradient, i);
@@ -208,7 +209,7 @@ impl Edits {
         &self,
         dirs: &[DVec3],
         points: &[u32],
-        groups: impl Iterator<Item = (u32, &'a [u32])>,
+        groups: impl Iterator<Item = (u32, Arcs<'a>)>,
         ground: &Ground<'_>,
     ) -> Vec<(u32, smooth::Heights)> {
         let smoothing = groups.filter_map(|(slot, arcs)| {
@@ -216,7 +217,7 @@ impl Edits {
             let lattice = edit.smooth?;
             let mut wanted = smooth::Heights::default();
             let own = points.iter().filter_map(|point| dirs.get(*point as usize));
-            for &dir in own.filter(|dir| edit.reaches(**dir, arcs)) {
+            for &dir in own.filter(|dir| edit.reaches(**dir, &arcs)) {
                 lattice.each_node(dir, |node| {
                     wanted.insert(node, 0.0);
                 });
@@ -237,7 +238,7 @@ impl Edits {
             for i in points.iter().map(|point| *point as usize) {
                 for (slot, arcs) in near.groups() {
                     let Some(edit) = self.roster.edit(slot) else { continue };
-                    let (Some(paint), weight) = (edit.paint(), edit.weight(dirs[i], arcs)) else { continue };
+                    let (Some(paint), weight) = (edit.paint(), edit.weight(dirs[i], &arcs)) else { continue };
                     if weight > 0.0 {
                         painted.resize(dirs.len(), Painted::NONE);
                         paint.apply(&mut painted[i], weight, |key| self.places.of(key));

@@ -9,10 +9,19 @@ use std::ops::Range;
 /// Fewer points take all arcs of the pieces that are near.
 const LEAST_POINTS: usize = 4;
 
-/// The arcs of one edit.
+/// The arcs of one edit, piece by piece.
 #[derive(Clone, Debug)]
 struct Group {
     slot: u32,
+    /// Of the list of spans.
+    spans: Range<u32>,
+}
+
+/// The arcs of one piece that are near, and its disc.
+#[derive(Clone, Debug)]
+struct Span {
+    middle: DVec3,
+    chord2: f64,
     /// Of the list of arcs.
     arcs: Range<u32>,
 }
@@ -21,6 +30,7 @@ struct Group {
 #[derive(Debug, Default)]
 pub(crate) struct Near {
     groups: Vec<Group>,
+    spans: Vec<Span>,
     /// Arcs by their places in their edits.
     arcs: Vec<u32>,
     /// Points with the addresses of the lists of their leaves; the points of one leaf.
@@ -32,6 +42,7 @@ impl Near {
     /// Looks at the pieces of a leaf of the index, near some points.
     fn refill(&mut self, list: &[u32], roster: &Roster, dirs: &[DVec3], points: &[u32]) {
         self.groups.clear();
+        self.spans.clear();
         self.arcs.clear();
         let own = || points.iter().filter_map(|point| dirs.get(*point as usize));
         let Some(&first) = own().next() else { return };
@@ -53,20 +64,23 @@ impl Near {
                 self.arcs.extend(all.filter(|arc| edit.may_reach(*arc, middle, chord)));
             }
             let arcs = before..self.arcs.len() as u32;
-            match self.groups.last_mut().filter(|_| last == Some(slot) && !edit.is_stamp()) {
-                Some(group) => group.arcs.end = arcs.end,
-                None if !arcs.is_empty() => {
-                    self.groups.push(Group { slot, arcs });
-                    last = Some(slot);
-                }
-                None => {}
+            if arcs.is_empty() {
+                continue;
             }
+            self.spans.push(Span { middle: piece.middle, chord2: piece.chord * piece.chord, arcs });
+            let end = self.spans.len() as u32;
+            match self.groups.last_mut().filter(|_| last == Some(slot) && !edit.is_stamp()) {
+                Some(group) => group.spans.end = end,
+                None => self.groups.push(Group { slot, spans: end - 1..end }),
+            }
+            last = Some(slot);
         }
     }
 
-    /// The edits near, in order, each with its arcs. A stamp comes once for each place.
-    pub(super) fn groups(&self) -> impl Iterator<Item = (u32, &[u32])> {
-        self.groups.iter().map(|group| (group.slot, &self.arcs[group.arcs.start as usize..group.arcs.end as usize]))
+    /// The edits near, in order, by their slots, each with its arcs. A stamp comes once for each place.
+    pub(super) fn groups(&self) -> impl Iterator<Item = (u32, Arcs<'_>)> {
+        let spans = |group: &Group| &self.spans[group.spans.start as usize..group.spans.end as usize];
+        self.groups.iter().map(move |group| (group.slot, Arcs { spans: spans(group), arcs: &self.arcs }))
     }
 
     /// Calls `each` with the points of each leaf that has pieces, by their numbers, and with what is near them.
@@ -102,5 +116,21 @@ impl Near {
             self.own = numbers;
         }
         self.points = points;
+    }
+}
+
+/// The arcs of an edit near some points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arcs<'a> {
+    spans: &'a [Span],
+    arcs: &'a [u32],
+}
+
+impl Arcs<'_> {
+    /// Those of the pieces that hold a direction.
+    #[inline]
+    pub(super) fn at(&self, dir: DVec3) -> impl Iterator<Item = u32> {
+        let holding = self.spans.iter().filter(move |span| span.middle.distance_squared(dir) <= span.chord2);
+        holding.flat_map(|span| &self.arcs[span.arcs.start as usize..span.arcs.end as usize]).copied()
     }
 }
