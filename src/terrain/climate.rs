@@ -180,8 +180,8 @@ impl SeaLevelClimate {
         }
     }
 
-    /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature and
-    /// moisture.
+    /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature
+    /// and moisture.
     #[inline(always)]
     pub(crate) fn at(&self, sin_lat: f64, noise: [f64; 2], from_maps: MapClimate) -> [f64; 2] {
         self.lifted(sin_lat, [0.0; 2], noise, from_maps)
@@ -284,8 +284,8 @@ impl Rules {
         [paint.temperature.at_sea(temperature_c, less[0]), paint.moisture.at_sea(moisture, less[1])]
     }
 
-    /// Lowest and greatest moisture and row at a point without paint, for any noise up to `most_noise` either way and any
-    /// world maps.
+    /// Lowest and greatest moisture and row at a point without paint, for any noise up to `most_noise` either way and
+    /// any world maps.
     pub(crate) fn ranges(&self, sin_lat: f64, height_m: f64, most_noise: f64) -> [(f64, f64); 2] {
         let [driest, wettest] = MapClimate::EXTREMES;
         let low = self.at(sin_lat, height_m, [-most_noise; 2], driest, &Painted::NONE);

@@ -268,7 +268,8 @@ impl Terrain {
         self.world().wants_draft(&self.map_inputs)
     }
 
-    /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be solved.
+    /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be
+    /// solved.
     pub(crate) fn with_draft_maps(&self, fields: &CellFields, work: &mut MapWork) -> Option<Self> {
         if !self.wants_draft() {
             return None;

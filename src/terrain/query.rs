@@ -68,8 +68,8 @@ pub struct Wanted {
     pub climate: bool,
     /// Cell and biome. They take the slope and the climate, which are then filled in too.
     pub biome: bool,
-    /// Water level, river, lake, basin, wind, rain and plate. Without a structure rain takes the climate, which is then
-    /// filled in too.
+    /// Water level, river, lake, basin, wind, rain and plate. Without a structure rain takes the climate, which is
+    /// then filled in too.
     pub water: bool,
 }
 

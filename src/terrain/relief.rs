@@ -117,8 +117,8 @@ impl Relief {
         (lo * most_m * (1.0 + 1e-6), hi * most_m * (1.0 + 1e-6))
     }
 
-    /// Adds biome relief to heights that the layers made, and to their gradients. `is_painted`: whether the climate may be
-    /// painted at one of the points.
+    /// Adds biome relief to heights that the layers made, and to their gradients. `is_painted`: whether the climate
+    /// may be painted at one of the points.
     pub(crate) fn add(
         &self,
         heights: &mut Heights,

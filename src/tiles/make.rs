@@ -22,7 +22,8 @@ use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a tile was made from, the fields of its layers apart; kept so that an edit runs only the stages it makes stale.
+/// What a tile was made from, the fields of its layers apart; kept so that an edit runs only the stages it makes
+/// stale.
 #[derive(Clone, Debug)]
 pub(crate) struct Parts {
     points: Arc<Points>,
@@ -67,9 +68,9 @@ pub(crate) struct Before<'a> {
 /// The fields of a planet's layers; None for those that are not known.
 pub(crate) type Fields = Vec<Option<Arc<Field>>>;
 
-/// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is asked
-/// before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay gets only
-/// a new climate; it has parts only if it had them before.
+/// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is
+/// asked before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay
+/// gets only a new climate; it has parts only if it had them before.
 pub(crate) fn make_tile(
     terrain: &Terrain,
     id: NodeId,
@@ -178,8 +179,8 @@ fn directions(id: NodeId) -> Vec<DVec3> {
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
 }
 
-/// The climate noise at a tile's points, and the octave samples that it took. Every second point of every second row is
-/// a point of the parent: its noise is copied if the parent's is known.
+/// The climate noise at a tile's points, and the octave samples that it took. Every second point of every second row
+/// is a point of the parent: its noise is copied if the parent's is known.
 fn climate_field(
     terrain: &Terrain,
     id: NodeId,

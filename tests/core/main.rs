@@ -7,7 +7,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`: ground edits
+//! - `sculpt`, `paint`: ground edits
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
@@ -21,6 +21,7 @@ mod joining;
 mod landforms;
 mod lod;
 mod nonsense;
+mod paint;
 mod physics;
 mod preset;
 mod rebuild;

@@ -42,8 +42,8 @@ struct Measured {
 }
 
 impl Measure {
-    /// Takes drags and clicks: a drag measures a straight way, clicks add points, Enter or a double click ends the line,
-    /// Escape forgets it.
+    /// Takes drags and clicks: a drag measures a straight way, clicks add points, Enter or a double click ends the
+    /// line, Escape forgets it.
     pub(super) fn handle(&mut self, ui: &egui::Ui, response: &egui::Response, scene: &Scene<'_>) {
         let (enter, escape, origin) =
             ui.input(|i| (i.key_pressed(egui::Key::Enter), i.key_pressed(egui::Key::Escape), i.pointer.press_origin()));
@@ -154,7 +154,8 @@ fn measure(terrain: &Terrain, points: &[DVec3]) -> Measured {
     }
 }
 
-/// The solid angle inside a shape, the smaller side of its outline: a fan of triangles (Van Oosterom and Strackee 1983).
+/// The solid angle inside a shape, the smaller side of its outline: a fan of triangles (Van Oosterom and Strackee
+/// 1983).
 fn area_sr(points: &[DVec3]) -> f64 {
     let Some((&a, rest)) = points.split_first() else { return 0.0 };
     let triangle = |pair: &[DVec3]| {

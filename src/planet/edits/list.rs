@@ -103,8 +103,8 @@ impl GroundEdits {
         Some(Arc::unwrap_or_clone(Arc::make_mut(&mut self.0).remove(index)).edit)
     }
 
-    /// Paint of biomes follows a palette that was changed: a biome that got another key keeps its paint, that of a biome
-    /// that is gone becomes the first.
+    /// Paint of biomes follows a palette that was changed: a biome that got another key keeps its paint, that of a
+    /// biome that is gone becomes the first.
     pub(crate) fn follow_palette(&mut self, before: &[Biome], after: &[Biome]) {
         let Some(first) = after.first() else { return };
         let has = |palette: &[Biome], key: char| palette.iter().any(|biome| biome.key == key);

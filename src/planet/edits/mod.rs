@@ -40,7 +40,8 @@ params! {
         name: String = "Edit".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
         /// Whether the edit changes the ground.
         enabled: bool = true, "Enabled", Unit::None, Domain::Flag, Stage::Height;
-        /// Which ground it changes: all, or only land or sea floor. At the sea level it begins gently. Paint ignores it.
+        /// Which ground it changes: all, or only land or sea floor. At the sea level it begins gently. Paint ignores
+        /// it.
         limit: Limit = Limit::Everywhere, "Acts on", Unit::None, Domain::Choice, Stage::Height;
         /// It changes only ground above this height, and begins gently there; at the lowest value, all ground.
         above_m: f64 = -MOST_LIMIT_M, "Only above", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;

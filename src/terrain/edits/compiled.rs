@@ -264,8 +264,8 @@ impl CompiledEdit {
         self.place(dir, arcs).is_some()
     }
 
-    /// What the edit does to ground of a height, by these of its arcs. None if nothing. `smooth`: the smooth ground and
-    /// its gradient, for an edit that smooths.
+    /// What the edit does to ground of a height, by these of its arcs. None if nothing. `smooth`: the smooth ground
+    /// and its gradient, for an edit that smooths.
     #[inline]
     pub(super) fn effect(
         &self,
@@ -352,8 +352,8 @@ fn away(dir: DVec3, from: DVec3) -> DVec3 {
     (apart - dir * dir.dot(apart)).normalize_or_zero()
 }
 
-/// A change of the ground above or below a level alone. It begins at the level, over as much height as it changes, so that
-/// no coast becomes a cliff.
+/// A change of the ground above or below a level alone. It begins at the level, over as much height as it changes, so
+/// that no coast becomes a cliff.
 fn limited(change: Change, ground_m: f64, level_m: f64, above: bool) -> Change {
     let over_m = if above { ground_m - level_m } else { level_m - ground_m };
     if over_m <= 0.0 {

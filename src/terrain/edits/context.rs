@@ -1,5 +1,5 @@
-//! What edits that smooth depend on besides their own numbers: the edits before them that are near. It is part of their
-//! content, so that tiles are built again when one of those changes.
+//! What edits that smooth depend on besides their own numbers: the edits before them that are near. It is part of
+//! their content, so that tiles are built again when one of those changes.
 
 use super::compiled::CompiledEdit;
 use super::index::{Hash, Index, Piece};
@@ -58,8 +58,8 @@ pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> 
     refreshed
 }
 
-/// Whether the disc of a piece, wider by an angle, overlaps another one. Exact, unlike the test that the index uses: the
-/// cells of the index depend on earlier revisions, and the context must not.
+/// Whether the disc of a piece, wider by an angle, overlaps another one. Exact, unlike the test that the index uses:
+/// the cells of the index depend on earlier revisions, and the context must not.
 fn overlaps(piece: &Piece, other: &Piece, reach_rad: f64) -> bool {
     let radius_rad = |piece: &Piece| angle_of(piece.chord * piece.chord);
     let apart_rad = angle_of(piece.middle.distance_squared(other.middle));

@@ -1,6 +1,6 @@
-//! Which pieces of edits are near: a quadtree over the squares of the sphere. Each cell lists the pieces that touch it,
-//! in the order in which they act; a leaf has few, or cannot be split with profit. A change of a few edits makes new
-//! cells only where they are; all others are shared with the revision before.
+//! Which pieces of edits are near: a quadtree over the squares of the sphere. Each cell lists the pieces that touch
+//! it, in the order in which they act; a leaf has few, or cannot be split with profit. A change of a few edits makes
+//! new cells only where they are; all others are shared with the revision before.
 
 use super::compiled::CompiledEdit;
 use super::roster::{Changes, Roster, number, slot_of};

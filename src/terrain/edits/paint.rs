@@ -102,7 +102,8 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Those of a planet for these biomes, whose keys are in order. The earlier ones serve where the table is the same.
+    /// Those of a planet for these biomes, whose keys are in order. The earlier ones serve where the table is the
+    /// same.
     pub(super) fn next(&self, planet: &Planet, keys: Vec<char>) -> Self {
         let biomes = &planet.biomes;
         let by_temperature = biomes.rows == TableRows::Temperature;

@@ -1,6 +1,6 @@
 //! Smooth ground: a quadratic B-spline through the heights at the nodes of a cubic lattice in space. It has no detail
-//! finer than the lattice, is the same at every level of detail, and knows neither poles nor the edges of the cube. The
-//! height at a node is that of the ground under its direction, as the earlier edits left it.
+//! finer than the lattice, is the same at every level of detail, and knows neither poles nor the edges of the cube.
+//! The height at a node is that of the ground under its direction, as the earlier edits left it.
 
 use glam::DVec3;
 use std::collections::HashMap;

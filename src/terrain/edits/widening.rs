@@ -1,5 +1,5 @@
-//! What edits do to the bounds of heights. The lowest height falls by some amount, or to some level; the greatest rises
-//! likewise. Such changes one after the other are such a change again, and so is the widest of several.
+//! What edits do to the bounds of heights. The lowest height falls by some amount, or to some level; the greatest
+//! rises likewise. Such changes one after the other are such a change again, and so is the widest of several.
 
 /// A change of the lowest and of the greatest height.
 #[derive(Clone, Copy, Debug, PartialEq)]
