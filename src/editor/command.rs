@@ -72,6 +72,8 @@ pub enum Command {
     /// Take the tool of this index in hand to sculpt.
     TakeTool(usize),
     PutDownTool,
+    /// Measure on the planet, or stop.
+    Measure,
     LargerTool,
     SmallerTool,
 }
@@ -183,6 +185,8 @@ pub enum SculptAction {
     Take(usize),
     /// Put the tool down, or take it again.
     PutDown,
+    /// Measure with drags and clicks, or stop.
+    Measure,
     /// Make the brush larger.
     Larger,
     /// Make the brush smaller.

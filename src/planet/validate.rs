@@ -2,13 +2,13 @@
 //!
 //! Ranges come from the description of each parameter. Rules that involve several parameters are here.
 
-use super::edits::{self, MAX_EDIT_POINTS, MAX_EDITS};
+use super::edits::{self, MAX_ALL_COPIES, MAX_EDIT_POINTS, MAX_EDITS};
 use super::notes::{MAX_BOOKMARKS, MAX_LOCKS};
 use super::param::{ParamPath, Params as _, Segment};
 use super::structure::MAX_PLATES;
 use super::{
     EditPoint, GroundEdit, GroundEdits, Layer, MAX_BIOMES, MAX_LAYERS, MAX_MASKS, MAX_SLOPE_DISTANCES, Mask, Planet,
-    Steep, Table, layers, parts,
+    Steep, Table, Tool, layers, parts,
 };
 use std::collections::HashSet;
 
@@ -75,6 +75,7 @@ pub fn problems(planet: &Planet) -> Vec<(ParamPath, String)> {
         }
     }
     biomes(&planet.biomes, &mut found);
+    painted_biomes(planet, &mut found);
     found.0
 }
 
@@ -226,6 +227,12 @@ fn points(index: usize, edit: &GroundEdit, found: &mut Found) {
         }
     }
     if edit.tool.is_stamp() {
+        let all = points.len() * edit.copies as usize;
+        if all > MAX_ALL_COPIES {
+            let most = MAX_ALL_COPIES / points.len().max(1);
+            let message = format!("{all} copies around {} points are too many; use at most {most}", points.len());
+            found.add(edits::edit_path(index).join("copies"), message);
+        }
         return;
     }
     let is_far = |[a, b]: [&EditPoint; 2]| a.direction().dot(b.direction()) < LEAST_COSINE;
@@ -302,6 +309,19 @@ fn biomes(biomes: &parts::Biomes, found: &mut Found) {
     }
     references(biomes, &keys, found);
     table(biomes, &keys, found);
+}
+
+/// Paint must name biomes.
+fn painted_biomes(planet: &Planet, found: &mut Found) {
+    for (index, edit) in planet.edits.iter().enumerate() {
+        if let Tool::Biome(paint) = &edit.tool
+            && planet.biomes.index_of(paint.biome).is_none()
+        {
+            let known: String = planet.biomes.palette.iter().map(|biome| biome.key).take(MAX_BIOMES).collect();
+            let path = edits::edit_path(index).join("tool").join("biome");
+            found.add(path, format!("{:?} is no key of the palette; use one of `{known}`", paint.biome));
+        }
+    }
 }
 
 /// Rules that are on must name biomes. The key of a rule that is off does not matter; loading resets it

@@ -1,5 +1,6 @@
 //! Climate: temperature and moisture at the surface, and the row and column of the biome table that follow.
 
+use super::edits::Painted;
 use super::field::Field;
 use super::landform::Landform;
 use super::points::Points;
@@ -98,14 +99,20 @@ pub(crate) struct ClimateInputs<'a> {
     pub(crate) noise: [&'a [f64]; 2],
     /// What world maps say; empty if the climate reads none.
     pub(crate) from_maps: &'a [MapClimate],
+    /// Paint; empty where there is none.
+    pub(crate) painted: &'a [Painted],
 }
 
 impl ClimateInputs<'_> {
-    /// Noise and what world maps say of one point.
+    /// Noise, what world maps say, and paint of one point.
     #[inline(always)]
-    pub(crate) fn at(&self, i: usize) -> ([f64; 2], MapClimate) {
+    pub(crate) fn at(&self, i: usize) -> ([f64; 2], MapClimate, Painted) {
         let at = |numbers: &[f64]| numbers.get(i).copied().unwrap_or(0.0);
-        ([at(self.noise[0]), at(self.noise[1])], self.from_maps.get(i).copied().unwrap_or(MapClimate::NONE))
+        (
+            [at(self.noise[0]), at(self.noise[1])],
+            self.from_maps.get(i).copied().unwrap_or(MapClimate::NONE),
+            self.painted.get(i).copied().unwrap_or(Painted::NONE),
+        )
     }
 }
 
@@ -173,8 +180,8 @@ impl SeaLevelClimate {
         }
     }
 
-    /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature and
-    /// moisture.
+    /// Temperature in °C and moisture (not limited to 0 to 1) at the sine of a latitude, with noise for temperature
+    /// and moisture.
     #[inline(always)]
     pub(crate) fn at(&self, sin_lat: f64, noise: [f64; 2], from_maps: MapClimate) -> [f64; 2] {
         self.lifted(sin_lat, [0.0; 2], noise, from_maps)
@@ -235,12 +242,20 @@ impl Rules {
 
     /// The climate at the sine of a latitude and a height of the ground, with noise for temperature and moisture.
     #[inline(always)]
-    pub(crate) fn at(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], from_maps: MapClimate) -> PointClimate {
+    pub(crate) fn at(
+        &self,
+        sin_lat: f64,
+        height_m: f64,
+        noise: [f64; 2],
+        from_maps: MapClimate,
+        painted: &Painted,
+    ) -> PointClimate {
         // Above the sea bed the surface is the sea's.
         let above_m = height_m - self.sea_m;
-        let above_km = above_m.max(0.0) / 1000.0;
-        let less = [self.lapse_c_per_km * above_km, self.drying_per_km * above_km];
+        let less = self.less(height_m);
         let [temperature_c, moisture] = self.sea_level.lifted(sin_lat, less, noise, from_maps);
+        let temperature_c = painted.temperature.at_surface(temperature_c, less[0]);
+        let moisture = painted.moisture.at_surface(moisture, less[1]);
         let temperature = (temperature_c - self.coldest_c) / self.range_c;
         let row = (if self.by_temperature { temperature_c } else { above_m } - self.lowest) / self.span;
         PointClimate {
@@ -251,23 +266,46 @@ impl Rules {
         }
     }
 
-    /// Lowest and greatest moisture and row at a point, for any noise up to `most_noise` either way and any world maps.
+    /// How much colder and drier it is at a height of the ground than at sea level.
+    #[inline(always)]
+    fn less(&self, height_m: f64) -> [f64; 2] {
+        let above_km = (height_m - self.sea_m).max(0.0) / 1000.0;
+        [self.lapse_c_per_km * above_km, self.drying_per_km * above_km]
+    }
+
+    /// Temperature in °C and moisture at sea level that give the painted ones at a height of the ground.
+    pub(crate) fn painted_at_sea(
+        &self,
+        [temperature_c, moisture]: [f64; 2],
+        height_m: f64,
+        paint: &Painted,
+    ) -> [f64; 2] {
+        let less = self.less(height_m);
+        [paint.temperature.at_sea(temperature_c, less[0]), paint.moisture.at_sea(moisture, less[1])]
+    }
+
+    /// Lowest and greatest moisture and row at a point without paint, for any noise up to `most_noise` either way and
+    /// any world maps.
     pub(crate) fn ranges(&self, sin_lat: f64, height_m: f64, most_noise: f64) -> [(f64, f64); 2] {
         let [driest, wettest] = MapClimate::EXTREMES;
-        let low = self.at(sin_lat, height_m, [-most_noise; 2], driest);
-        let high = self.at(sin_lat, height_m, [most_noise; 2], wettest);
+        let low = self.at(sin_lat, height_m, [-most_noise; 2], driest, &Painted::NONE);
+        let high = self.at(sin_lat, height_m, [most_noise; 2], wettest, &Painted::NONE);
         [(low.moisture, high.moisture), (low.row.min(high.row), low.row.max(high.row))]
     }
 
     /// Derivatives of moisture and row by height; 0 where they are limited.
-    pub(crate) fn by_height(&self, height_m: f64, climate: &PointClimate) -> [f64; 2] {
+    pub(crate) fn by_height(&self, height_m: f64, climate: &PointClimate, painted: &Painted) -> [f64; 2] {
         let over_sea = height_m > self.sea_m;
         let inside = |x: f64| x > 0.0 && x < 1.0;
-        let moisture = if over_sea && inside(climate.moisture) { -self.drying_per_km / 1000.0 } else { 0.0 };
+        let moisture = if over_sea && inside(climate.moisture) {
+            -self.drying_per_km / 1000.0 * painted.moisture.falls()
+        } else {
+            0.0
+        };
         let row = match self.by_temperature {
             _ if !inside(climate.row) => 0.0,
             true if !over_sea => 0.0,
-            true => -self.lapse_c_per_km / 1000.0 / self.span,
+            true => -self.lapse_c_per_km / 1000.0 / self.span * painted.temperature.falls(),
             false => 1.0 / self.span,
         };
         [moisture, row]

@@ -7,11 +7,14 @@
 
 use super::Terrain;
 use super::climate::{ClimateInputs, MapClimate};
+use super::edits::{self, Edits, Painted};
 use super::field::Field;
 use super::height::{self, Batch, Heights, LayerFields};
 use super::landform;
+use super::lane::CHUNK;
 use super::points::Points;
 use super::relief::{self, ReliefFields, Shares};
+use glam::DVec3;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -51,6 +54,7 @@ impl relief::Inputs for Kept<'_> {
 pub(crate) struct JoinScratch {
     layers: height::Scratch,
     shares: Shares,
+    edits: edits::Near,
 }
 
 impl Terrain {
@@ -68,11 +72,46 @@ impl Terrain {
         let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad };
         batch.join(inputs, &mut scratch.layers, heights, each);
         if let Some(edits) = &self.edits {
-            edits.apply(&points.dirs, spacings_rad, heights, self.stack.limits_m());
+            self.apply_edits(edits, &points.dirs, spacings_rad, heights, &mut scratch.edits, None);
         }
         if let Some(relief) = &self.relief {
-            relief.add(heights, spacings_rad, points, inputs, &mut scratch.shares);
+            let is_painted = self.edits.as_ref().is_some_and(|edits| edits.may_paint(&points.dirs));
+            relief.add(heights, spacings_rad, points, inputs, &mut scratch.shares, is_painted);
         }
+    }
+
+    /// Changes heights by the edits, or by those before the one in a slot.
+    fn apply_edits(
+        &self,
+        edits: &Edits,
+        dirs: &[DVec3],
+        spacings_rad: &[f64],
+        heights: &mut Heights,
+        near: &mut edits::Near,
+        before: Option<u32>,
+    ) {
+        let ground_before = |slot: u32, dirs: &[DVec3]| self.ground_before(edits, slot, dirs);
+        let ground = edits::Ground { before: &ground_before, nodes: &self.nodes };
+        edits.apply(dirs, spacings_rad, heights, self.stack.limits_m(), near, (&ground, before));
+    }
+
+    /// Heights at points as the layers and the edits before the one in a slot make them.
+    fn ground_before(&self, edits: &Edits, slot: u32, dirs: &[DVec3]) -> Vec<f64> {
+        // The scratch of the thread is in use.
+        let mut scratch = BatchScratch::default();
+        let mut heights_m = Vec::with_capacity(dirs.len());
+        for dirs in dirs.chunks(CHUNK) {
+            let BatchScratch { points, noise, join, heights } = &mut scratch;
+            points.refill(dirs.iter().copied(), 0.0);
+            noise.restart(self);
+            let points = &*points;
+            let mut inputs = Evaluated { terrain: self, points, spacings_rad: &[], noise };
+            let batch = Batch { stack: &self.stack, simd: self.simd, points, spacings_rad: &[] };
+            batch.join(&mut inputs, &mut join.layers, heights, |_, _| {});
+            self.apply_edits(edits, dirs, &[], heights, &mut join.edits, Some(slot));
+            heights_m.extend_from_slice(&heights.height_m);
+        }
+        heights_m
     }
 
     /// As [`Terrain::join`], in memory that the thread keeps.
@@ -139,6 +178,8 @@ pub(crate) struct NoiseScratch {
     relief: Vec<Slot>,
     climate: [Slot; 2],
     from_maps: Vec<MapClimate>,
+    painted: Vec<Painted>,
+    near: edits::Near,
     /// The points of a layer whose mask is 0 elsewhere, and its field there.
     some_points: Points,
     some: Field,
@@ -159,7 +200,7 @@ impl NoiseScratch {
 
     /// The inputs of the climate at the points of the batch.
     pub(crate) fn climate(&mut self, terrain: &Terrain, points: &Points) -> ClimateInputs<'_> {
-        let Self { landform, climate, from_maps, .. } = self;
+        let Self { landform, climate, from_maps, painted, near, .. } = self;
         if climate[0].claim() {
             for (k, slot) in climate.iter_mut().enumerate() {
                 match terrain.climate.noises() {
@@ -169,9 +210,17 @@ impl NoiseScratch {
             }
             from_maps.clear();
             from_maps.extend(terrain.climate.climates_of_maps(&points.dirs));
+            match &terrain.edits {
+                Some(edits) => edits.painted(&points.dirs, near, painted),
+                None => painted.clear(),
+            }
         }
         let [temperature, moisture] = &self.climate;
-        ClimateInputs { noise: [&temperature.field.value, &moisture.field.value], from_maps: &self.from_maps }
+        ClimateInputs {
+            noise: [&temperature.field.value, &moisture.field.value],
+            from_maps: &self.from_maps,
+            painted: &self.painted,
+        }
     }
 }
 

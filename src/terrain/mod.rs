@@ -33,7 +33,7 @@ pub(crate) mod climate;
 pub(crate) mod coarse;
 mod contact;
 mod contours;
-mod edits;
+pub(crate) mod edits;
 mod effects;
 pub(crate) mod evaluate;
 pub(crate) mod field;
@@ -54,7 +54,7 @@ mod scalar;
 mod water;
 pub(crate) mod wet;
 
-use crate::planet::{InvalidPlanet, Key, Planet};
+use crate::planet::{InvalidPlanet, Planet};
 use crate::sphere::NodeId;
 pub use crate::world::MapStore;
 use crate::world::weather::Weather;
@@ -71,7 +71,7 @@ use crate::simd::Simd;
 use biome::CompiledBiomes;
 use climate::{CompiledClimate, Rules};
 use coarse::{CellFields, LayerGround};
-use edits::Edits;
+use edits::{Edits, Near, Nodes, Painted};
 use glam::DVec3;
 use height::LayerStack;
 use landform::{Landform, Maps};
@@ -99,6 +99,8 @@ pub struct Terrain {
     pub(crate) climate: CompiledClimate,
     /// Ground edits, if any is on.
     edits: Option<Arc<Edits>>,
+    /// What edits that smooth know of the ground.
+    nodes: Arc<Nodes>,
     /// Biome relief, if any biome has one.
     pub(crate) relief: Option<Relief>,
     keys: Keys,
@@ -173,6 +175,7 @@ impl Terrain {
             stack,
             under,
             edits,
+            nodes: Arc::default(),
             climate,
             relief,
             keys,
@@ -197,6 +200,7 @@ impl Terrain {
             Arc::make_mut(under).set_maps(&Maps { plates, weather: None });
         }
         self.climate.world = world;
+        self.nodes = Arc::default();
         self.height_bounds_m = self.with_relief(self.with_edits(self.stack.bounds_m(), None));
         self
     }
@@ -264,7 +268,8 @@ impl Terrain {
         self.world().wants_draft(&self.map_inputs)
     }
 
-    /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be solved.
+    /// The same terrain with drafts of its own world maps, if those of another planet serve and its own must be
+    /// solved.
     pub(crate) fn with_draft_maps(&self, fields: &CellFields, work: &mut MapWork) -> Option<Self> {
         if !self.wants_draft() {
             return None;
@@ -279,6 +284,20 @@ impl Terrain {
         LayerGround { inputs: &self.map_inputs, stack, under, simd: self.simd, fields }
     }
 
+    /// The paint of the climate at points; nothing if there is none at any.
+    pub(crate) fn painted(&self, dirs: &[DVec3]) -> Vec<Painted> {
+        let mut painted = Vec::new();
+        if let Some(edits) = &self.edits {
+            edits.painted(dirs, &mut Near::default(), &mut painted);
+        }
+        painted
+    }
+
+    /// The rules of the climate.
+    pub(crate) fn climate_rules(&self) -> &Rules {
+        &self.rules
+    }
+
     /// Content keys of the tile of a node. Edits count where they touch it.
     pub(crate) fn tile_keys_at(&self, id: NodeId) -> TileKeys {
         self.with_edits_near(self.tile_keys(), id)
@@ -286,8 +305,8 @@ impl Terrain {
 
     /// The same from the keys that all tiles have before edits.
     pub(crate) fn with_edits_near(&self, keys: TileKeys, id: NodeId) -> TileKeys {
-        match self.edits.as_ref().and_then(|edits| edits.key_near(id)) {
-            Some(edits) => TileKeys { heights: Key::of(&(keys.heights, edits)), ..keys },
+        match &self.edits {
+            Some(edits) => self.content.with_edits(keys, (edits.key_near(id), edits.paint_key_near(id))),
             None => keys,
         }
     }
@@ -322,7 +341,8 @@ impl Terrain {
     pub fn height_bounds_near_m(&self, dir_planet: DVec3, angle_rad: f64) -> (f64, f64) {
         let angle_rad = if angle_rad.is_nan() { PI } else { angle_rad.abs().min(PI) };
         let dir = unit(dir_planet);
-        let bounds_m = self.with_edits(self.stack.bounds_near_m(dir, angle_rad), Some((dir, angle_rad)));
+        let wide_rad = self.edits.as_ref().map_or(angle_rad, |edits| edits.reach_rad(dir, angle_rad)).min(PI);
+        let bounds_m = self.with_edits(self.stack.bounds_near_m(dir, wide_rad), Some((dir, wide_rad)));
         let ((lo, hi), (lowest, highest)) = (self.with_relief(bounds_m), self.height_bounds_m);
         (lo.max(lowest), hi.min(highest))
     }

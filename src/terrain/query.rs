@@ -68,8 +68,8 @@ pub struct Wanted {
     pub climate: bool,
     /// Cell and biome. They take the slope and the climate, which are then filled in too.
     pub biome: bool,
-    /// Water level, river, lake, basin, wind, rain and plate. Without a structure rain takes the climate, which is then
-    /// filled in too.
+    /// Water level, river, lake, basin, wind, rain and plate. Without a structure rain takes the climate, which is
+    /// then filled in too.
     pub water: bool,
 }
 
@@ -240,8 +240,8 @@ impl Terrain {
         let BatchScratch { points, noise, .. } = &mut *scratch.0;
         let inputs = noise.climate(self, points);
         for (i, (sample, &dir)) in samples.iter_mut().zip(&points.dirs).enumerate() {
-            let (noise, from_maps) = inputs.at(i);
-            let climate = self.rules.at(dir.z, sample.height_m, noise, from_maps);
+            let (noise, from_maps, painted) = inputs.at(i);
+            let climate = self.rules.at(dir.z, sample.height_m, noise, from_maps, &painted);
             let PointClimate { temperature_c, temperature, moisture, .. } = climate;
             let precipitation_mm = moisture * self.planet.climate.wettest_mm;
             *sample = Sample { temperature_c, temperature, moisture, precipitation_mm, ..*sample };

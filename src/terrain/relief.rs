@@ -3,13 +3,14 @@
 //! The biome table is blended linearly at the climate of the ground below, so that no biome border makes a cliff.
 //! Gradients follow the blend by the height of that ground exactly. They leave out its dependence on latitude,
 //! climate noise and the coast distance: two cells of the table lie hundreds of kilometres apart, so that this is
-//! less than a millionth of the relief's height per metre.
+//! less than a millionth of the relief's height per metre. They leave out the fade of painted climate, too.
 //!
 //! Border jitter does not move the blend. Its noise is a texture with creases between texels: heights made with it
 //! would have creases in their normals, and cliffs where its finest octaves cross a cell of the table. So the relief
 //! of a biome begins gradually, up to half a cell before or after the border that is drawn.
 
 use super::climate::{ClimateInputs, CompiledClimate, MapClimate, Rules};
+use super::edits::Painted;
 use super::field::Field;
 use super::height::Heights;
 use super::landform::Landform;
@@ -116,7 +117,8 @@ impl Relief {
         (lo * most_m * (1.0 + 1e-6), hi * most_m * (1.0 + 1e-6))
     }
 
-    /// Adds biome relief to heights that the layers made, and to their gradients.
+    /// Adds biome relief to heights that the layers made, and to their gradients. `is_painted`: whether the climate
+    /// may be painted at one of the points.
     pub(crate) fn add(
         &self,
         heights: &mut Heights,
@@ -124,16 +126,17 @@ impl Relief {
         points: &Points,
         inputs: &mut impl Inputs,
         shares: &mut Shares,
+        is_painted: bool,
     ) {
         let can_reach = |(dir, height_m): (&DVec3, &f64)| self.can_reach(dir.z, *height_m);
-        if !points.dirs.iter().zip(&heights.height_m).any(can_reach) {
+        if !is_painted && !points.dirs.iter().zip(&heights.height_m).any(can_reach) {
             return;
         }
         let climate = inputs.climate();
         shares.0.clear();
         shares.0.extend(points.dirs.iter().zip(&heights.height_m).enumerate().map(|(i, (dir, height_m))| {
-            let (noise, from_maps) = climate.at(i);
-            self.shares(dir.z, *height_m, noise, from_maps)
+            let (noise, from_maps, painted) = climate.at(i);
+            self.shares(dir.z, *height_m, noise, from_maps, &painted)
         }));
         for noise in 0..self.noises.len() {
             if shares.0.iter().flatten().any(|share| share.noise == noise && share.height_m != 0.0) {
@@ -180,9 +183,16 @@ impl Relief {
     }
 
     /// The four cells around the climate of the ground, with bilinear weights.
-    fn shares(&self, sin_lat: f64, height_m: f64, noise: [f64; 2], from_maps: MapClimate) -> [Share; 4] {
-        let climate = self.rules.at(sin_lat, height_m, noise, from_maps);
-        let [by_moisture, by_row] = self.rules.by_height(height_m, &climate);
+    fn shares(
+        &self,
+        sin_lat: f64,
+        height_m: f64,
+        noise: [f64; 2],
+        from_maps: MapClimate,
+        painted: &Painted,
+    ) -> [Share; 4] {
+        let climate = self.rules.at(sin_lat, height_m, noise, from_maps, painted);
+        let [by_moisture, by_row] = self.rules.by_height(height_m, &climate, painted);
         let (x, y) = (climate.moisture * self.columns as f64 - 0.5, (1.0 - climate.row) * self.rows as f64 - 0.5);
         let (column, row) = (x.floor(), y.floor());
         let (u, v) = (x - column, y - row);

@@ -140,6 +140,19 @@ impl TileContent {
     }
 }
 
+impl TileContent {
+    /// The keys of tiles with edits of the ground and paint of these keys.
+    pub(super) fn with_edits(&self, keys: TileKeys, (ground, paint): (Option<Key>, Option<Key>)) -> TileKeys {
+        // Biome relief follows the climate.
+        let shaping = (ground, paint.filter(|_| self.relief.is_some()));
+        let changed = |key: Key, by: &dyn std::fmt::Debug| Key::of(&(key, by));
+        TileKeys {
+            heights: if shaping == (None, None) { keys.heights } else { changed(keys.heights, &shaping) },
+            climate: paint.map_or(keys.climate, |paint| changed(keys.climate, &paint)),
+        }
+    }
+}
+
 /// A planet, compiled, before its world maps are known.
 pub(super) struct Compiled {
     pub(super) stack: LayerStack,
@@ -187,14 +200,12 @@ impl Compiled {
         };
         let edits = Edits::new(planet);
         let tiles = content.keys(final_map_keys(&map_inputs), plates);
-        let heights = match &edits {
-            Some(edits) => Key::of(&(tiles.heights, edits.key())),
-            None => tiles.heights,
-        };
+        let all = edits.as_ref().map(|edits| (Some(edits.key()), edits.paint_key()));
+        let tiles = content.with_edits(tiles, all.unwrap_or_default());
         let [materials, cloud_map, optical_depth, air_tables] = texture_keys(planet);
         let keys = Keys {
             fields: fields.into(),
-            heights,
+            heights: tiles.heights,
             climate_noise,
             climate: tiles.climate,
             materials,

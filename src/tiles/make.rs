@@ -22,7 +22,8 @@ use glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a tile was made from, the fields of its layers apart; kept so that an edit runs only the stages it makes stale.
+/// What a tile was made from, the fields of its layers apart; kept so that an edit runs only the stages it makes
+/// stale.
 #[derive(Clone, Debug)]
 pub(crate) struct Parts {
     points: Arc<Points>,
@@ -67,9 +68,9 @@ pub(crate) struct Before<'a> {
 /// The fields of a planet's layers; None for those that are not known.
 pub(crate) type Fields = Vec<Option<Arc<Field>>>;
 
-/// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is asked
-/// before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay gets only
-/// a new climate; it has parts only if it had them before.
+/// Builds the tile of a node and adds what that took to `work`. Returns the fields of the layers. `keep_going` is
+/// asked before each layer; if it says no, there is no tile and only some of the fields. A tile whose heights stay
+/// gets only a new climate; it has parts only if it had them before.
 pub(crate) fn make_tile(
     terrain: &Terrain,
     id: NodeId,
@@ -109,10 +110,11 @@ pub(crate) fn make_tile(
         _ => Arc::new(terrain.climate.climates_of_maps(&points.dirs).collect()),
     };
 
+    let painted = terrain.painted(&points.dirs);
     let same_heights = before.keys.heights == terrain.tile_keys_at(id).heights;
     if let Some(tile) = before.tile.filter(|_| same_heights) {
-        let climate_of = VertexClimate { noise: &climate, from_maps: &from_maps };
-        let tile = work.run(Stage::Climate, || with_climate(tile, simd, terrain.planet(), &points.dirs, &climate_of));
+        let climate_of = VertexClimate { noise: &climate, from_maps: &from_maps, painted: &painted };
+        let tile = work.run(Stage::Climate, || with_climate(tile, terrain, &points.dirs, &climate_of));
         let parts = before.parts.map(|parts| Parts { climate_noises, climate, map_keys, from_maps, ..parts.clone() });
         return (fields, Some((tile, parts)));
     }
@@ -151,7 +153,11 @@ pub(crate) fn make_tile(
             let mut kept = Kept {
                 layers: &fields,
                 relief: &relief_fields,
-                climate: ClimateInputs { noise: [&climate.temperature, &climate.moisture], from_maps: &from_maps },
+                climate: ClimateInputs {
+                    noise: [&climate.temperature, &climate.moisture],
+                    from_maps: &from_maps,
+                    painted: &painted,
+                },
             };
             let mut heights = terrain.joined(&points, &spacings_rad, &mut kept);
             heights.flood(&points.dirs, own_spacing_rad, terrain.planet().sea_level_m());
@@ -161,7 +167,7 @@ pub(crate) fn make_tile(
 
     let tile = work.run(Stage::Climate, || {
         profiling::scope!("mesh");
-        let climate = VertexClimate { noise: &climate, from_maps: &from_maps };
+        let climate = VertexClimate { noise: &climate, from_maps: &from_maps, painted: &painted };
         Tile { heights_serial, ..mesh(terrain, id, &points.dirs, &heights, &climate) }
     });
     let parts = Parts { points, heights, heights_serial, relief_fields, climate_noises, climate, map_keys, from_maps };
@@ -173,8 +179,8 @@ fn directions(id: NodeId) -> Vec<DVec3> {
     (0..TILE_VERTICES).map(|i| id.direction((i % TILE_SIDE) as f64 * step, (i / TILE_SIDE) as f64 * step)).collect()
 }
 
-/// The climate noise at a tile's points, and the octave samples that it took. Every second point of every second row is
-/// a point of the parent: its noise is copied if the parent's is known.
+/// The climate noise at a tile's points, and the octave samples that it took. Every second point of every second row
+/// is a point of the parent: its noise is copied if the parent's is known.
 fn climate_field(
     terrain: &Terrain,
     id: NodeId,

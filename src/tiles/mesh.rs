@@ -2,11 +2,11 @@
 
 use super::deviation::find_deviations;
 use crate::lod::tile::{TILE_VERTICES, Tile, Vertex};
-use crate::planet::Planet;
-use crate::simd::{Simd, for_each_simd};
+use crate::simd::for_each_simd;
 use crate::sphere::NodeId;
 use crate::terrain::Terrain;
 use crate::terrain::climate::{ClimateField, MapClimate, SeaLevelClimate};
+use crate::terrain::edits::Painted;
 use crate::terrain::height::Heights;
 use crate::terrain::lane::{CHUNK, Lane};
 use glam::DVec3;
@@ -45,7 +45,8 @@ pub(super) fn mesh(
             let gradient = [&x[range.clone()], &y[range.clone()], &z[range.clone()]];
             face(simd, radius_m, dirs, height_m, gradient, &mut lanes.normal_oct[band]);
         }
-        climate.chunk(simd, &rules, dirs, range, &mut lanes);
+        let height_m = lanes.height_m;
+        climate.chunk(terrain, &rules, dirs, range, &height_m, &mut lanes);
         vertices.extend((0..dirs.len()).map(|i| lanes.vertex(i)));
     }
     let mut tile = Tile {
@@ -64,17 +65,15 @@ pub(super) fn mesh(
 }
 
 /// The same tile with another climate: its heights, and all that follows from them, stay.
-pub(super) fn with_climate(
-    tile: &Tile,
-    simd: Simd,
-    planet: &Planet,
-    dirs: &[DVec3],
-    climate: &VertexClimate<'_>,
-) -> Tile {
+pub(super) fn with_climate(tile: &Tile, terrain: &Terrain, dirs: &[DVec3], climate: &VertexClimate<'_>) -> Tile {
     let mut tile = Tile { serial: next_serial(), ..Tile::clone(tile) };
-    let (rules, mut lanes) = (SeaLevelClimate::new(planet), Lanes::default());
+    let (rules, mut lanes) = (SeaLevelClimate::new(terrain.planet()), Lanes::default());
     for range in chunks(dirs.len().min(tile.vertices.len())) {
-        climate.chunk(simd, &rules, &dirs[range.clone()], range.clone(), &mut lanes);
+        let mut height_m = [0.0; CHUNK];
+        for (height_m, vertex) in height_m.iter_mut().zip(&tile.vertices[range.clone()]) {
+            *height_m = vertex.height_m;
+        }
+        climate.chunk(terrain, &rules, &dirs[range.clone()], range.clone(), &height_m, &mut lanes);
         for (i, vertex) in tile.vertices[range].iter_mut().enumerate() {
             (vertex.temperature_c, vertex.moisture) = (lanes.temperature_c[i], lanes.moisture[i]);
         }
@@ -91,12 +90,31 @@ pub(super) struct VertexClimate<'a> {
     pub(super) noise: &'a ClimateField,
     /// What world maps say; empty if the climate reads none.
     pub(super) from_maps: &'a [MapClimate],
+    /// Paint; empty where there is none.
+    pub(super) painted: &'a [Painted],
 }
 
 impl VertexClimate<'_> {
-    fn chunk(&self, simd: Simd, rules: &SeaLevelClimate, dirs: &[DVec3], range: Range<usize>, lanes: &mut Lanes) {
+    /// `height_m`: the heights of the vertices of the chunk.
+    fn chunk(
+        &self,
+        terrain: &Terrain,
+        rules: &SeaLevelClimate,
+        dirs: &[DVec3],
+        range: Range<usize>,
+        height_m: &Lane<f32>,
+        lanes: &mut Lanes,
+    ) {
         let noise = [&self.noise.temperature[range.clone()], &self.noise.moisture[range.clone()]];
-        weather(simd, rules, dirs, noise, self.from_maps.get(range).unwrap_or(&[MapClimate::NONE; CHUNK]), lanes);
+        let from_maps = self.from_maps.get(range.clone()).unwrap_or(&[MapClimate::NONE; CHUNK]);
+        weather(terrain.simd(), rules, dirs, noise, from_maps, lanes);
+        let painted = self.painted.get(range).unwrap_or_default();
+        for (i, paint) in painted.iter().enumerate().filter(|(_, paint)| **paint != Painted::NONE) {
+            let at_sea = [lanes.temperature_c[i], lanes.moisture[i]].map(f64::from);
+            let rules = terrain.climate_rules();
+            let [temperature_c, moisture] = rules.painted_at_sea(at_sea, f64::from(height_m[i]), paint);
+            (lanes.temperature_c[i], lanes.moisture[i]) = (temperature_c as f32, moisture as f32);
+        }
     }
 }
 

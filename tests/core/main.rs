@@ -7,7 +7,7 @@
 //! - `allocations`: queries that allocate nothing
 //! - `sphere`, `landforms`, `joining`, `relief`, `terrain`: the evaluator
 //! - `lod`, `rebuild`: level of detail and incremental rebuilds
-//! - `sculpt`: ground edits
+//! - `sculpt`, `paint`: ground edits
 //! - `system`: orbits and resonances
 //! - `water`: rivers, lakes and weather of a structure
 //! - `atmosphere`: the CPU reference of the air
@@ -22,6 +22,7 @@ mod joining;
 mod landforms;
 mod lod;
 mod nonsense;
+mod paint;
 mod physics;
 mod preset;
 mod rebuild;

@@ -46,7 +46,7 @@ fn every_tool_makes_an_edit_with_a_drag_and_each_is_one_step_that_is_undone_and_
     let eye = harness.state().viewport().eye(&planet(&harness)).1;
     for (number, label) in Tool::LABELS.iter().enumerate() {
         app::send(&mut harness, Command::TakeTool(number));
-        let from = middle + egui::vec2(-70.0 + 14.0 * number as f32, -50.0);
+        let from = middle + egui::vec2(-70.0 + 8.0 * number as f32, -50.0);
         stroke(&mut harness, from, from + egui::vec2(40.0, 60.0), egui::Modifiers::NONE);
         let edits = planet(&harness).edits;
         assert_eq!((edits.len(), undo_len(&harness), undo_label(&harness).as_str()), (number + 1, number + 1, *label));
@@ -142,6 +142,78 @@ fn edits_are_listed_found_hidden_changed_moved_and_removed() {
     assert!(harness.query_by_label("Edit Volcano 2").is_none());
 }
 
+#[test]
+fn a_whole_edit_is_moved_turned_and_scaled_by_its_handles() {
+    let mut harness = open();
+    let middle = canvas(&harness).center();
+    let (left, right) = (middle + egui::vec2(-60.0, 20.0), middle + egui::vec2(60.0, 20.0));
+    click(&mut harness, "Tool Wall");
+    stroke(&mut harness, left, right, egui::Modifiers::NONE);
+    app::send(&mut harness, Command::PutDownTool);
+    let edit = |harness: &app::Editor| planet(harness).edits.get(0).unwrap().clone();
+    let spread = |edit: &tellus::planet::GroundEdit| {
+        let points = &edit.points.0;
+        points[0].direction().angle_between(points[points.len() - 1].direction())
+    };
+    let first = edit(&harness);
+    stroke(&mut harness, right, right + egui::vec2(0.0, -40.0), egui::Modifiers::COMMAND);
+    let moved = edit(&harness);
+    assert_eq!(undo_label(&harness), "Move edit");
+    assert!((spread(&moved) / spread(&first) - 1.0).abs() < 1e-4 && moved.points.0[0] != first.points.0[0]);
+    let grabbed = right + egui::vec2(0.0, -40.0);
+    stroke(&mut harness, grabbed, grabbed + egui::vec2(-25.0, -25.0), egui::Modifiers::SHIFT);
+    let turned = edit(&harness);
+    assert_eq!(undo_label(&harness), "Turn edit");
+    assert!(spread(&turned) < 0.95 * spread(&moved) && turned.points.0.len() == moved.points.0.len());
+    for before in [&moved, &first] {
+        app::send(&mut harness, Command::Undo);
+        assert!(edit(&harness) == *before);
+    }
+}
+
+#[test]
+fn ways_are_measured_and_forgotten_without_an_edit() {
+    let mut harness = open();
+    let middle = canvas(&harness).center();
+    app::send(&mut harness, Command::Measure);
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 30.0), egui::Modifiers::NONE);
+    assert!(harness.query_by_label_contains("Length ").is_some() && harness.query_by_label_contains("Area ").is_none());
+    assert_eq!(undo_len(&harness), 0);
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("Length ").is_none());
+    click(&mut harness, "Tool Measure");
+    let eye = harness.state().viewport().eye(&planet(&harness)).1;
+    stroke(&mut harness, middle, middle + egui::vec2(60.0, 30.0), egui::Modifiers::NONE);
+    assert_ne!(harness.state().viewport().eye(&planet(&harness)).1, eye, "without the tool the planet turns");
+}
+
+#[test]
+fn paint_of_a_biome_follows_its_key() {
+    use tellus::editor::state::document::Document;
+    use tellus::planet::edits::{BiomePaint, EditPoint, GroundEdit};
+    let mut planet = tellus::planet::shipped::default_planet();
+    let old = planet.biomes.palette[2].key;
+    let mut edit = GroundEdit { tool: Tool::Biome(BiomePaint { biome: old, strength: 1.0 }), ..GroundEdit::default() };
+    edit.points.0 = vec![EditPoint::default()];
+    planet.edits.push(edit);
+    let mut document = Document::new(planet.clone(), None);
+    planet.biomes.palette[2].key = '~';
+    planet.biomes.replace_key(old, '~');
+    document.edit(planet.clone(), None);
+    let painted = |document: &Document| match document.planet().edits.get(0).unwrap().tool {
+        Tool::Biome(BiomePaint { biome, .. }) => biome,
+        _ => '!',
+    };
+    assert_eq!(painted(&document), '~');
+    let first = planet.biomes.palette[0].key;
+    planet.biomes.replace_key('~', first);
+    planet.biomes.palette.remove(2);
+    document.edit(planet, None);
+    assert_eq!(painted(&document), first);
+    assert!(document.planet().check().is_ok());
+}
+
 /// Random edits through the document: undo to the start and redo to the end give the same planets.
 #[test]
 fn two_thousand_random_changes_are_undone_and_redone_to_the_bit() {
@@ -159,7 +231,7 @@ fn two_thousand_random_changes_are_undone_and_redone_to_the_bit() {
             1 if count > 1 => planet.edits.shift(at, count - 1 - at),
             2 if count > 0 => planet.edits.get_mut(at).unwrap().radius_km = 1.0 + dice.roll() * 100.0,
             _ => {
-                let tool = Tool::of_kind((dice.roll() * 11.0) as usize).unwrap();
+                let tool = Tool::of_kind((dice.roll() * Tool::NAMES.len() as f64) as usize).unwrap();
                 let mut edit = GroundEdit { tool, ..GroundEdit::default() };
                 edit.points.0 = vec![EditPoint { latitude_deg: dice.roll() * 80.0, ..EditPoint::default() }];
                 planet.edits.push(edit);

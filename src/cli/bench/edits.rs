@@ -54,13 +54,13 @@ pub(super) fn measure(planet: &Arc<Planet>, part: Option<&'static str>) -> Vec<s
 }
 
 /// The builder, and a bell that it rings when a surface changes.
-struct Bench {
+pub(super) struct Bench {
     builder: Builder,
     bell: Arc<(Mutex<()>, Condvar)>,
 }
 
 impl Bench {
-    fn new(budget_bytes: usize) -> Self {
+    pub(super) fn new(budget_bytes: usize) -> Self {
         let bell = Arc::new((Mutex::new(()), Condvar::new()));
         let ring = Arc::clone(&bell);
         let builder =
@@ -91,7 +91,7 @@ impl Bench {
 
     /// Requests a planet and waits for its complete surface: seconds to the first and to the final tiles, and
     /// statistics.
-    fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<([f64; 2], BuildStats)> {
+    pub(super) fn settle(&self, planet: &Arc<Planet>, view: &View) -> Option<([f64; 2], BuildStats)> {
         let (start, mut first_secs) = (Instant::now(), None);
         self.builder.request(planet, view);
         while !self.builder.has_all_tiles() {

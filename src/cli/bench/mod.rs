@@ -4,6 +4,7 @@
 //! - [`edits`]: time from an edit to the finished tiles
 //! - [`queries`]: time of heights, samples and rays
 //! - [`bake`]: million pixels a second of a height map
+//! - [`sculpt`]: time and memory of thousands of ground edits
 //! - [`structure`]: time to solve plates, weather and rivers, and points a second with rivers
 //! - [`clouds`]: time of cloud maps and queries
 //! - [`frames`]: time of a frame and of its clouds, sea and air
@@ -17,6 +18,7 @@ mod edits;
 mod frames;
 mod noise;
 mod queries;
+mod sculpt;
 mod structure;
 mod thumbnails;
 
@@ -53,6 +55,8 @@ enum Part {
     Bake,
     /// Edits of two planets without a structure: the first, and the one whose tiles take longest
     Edits,
+    /// Ten thousand ground edits
+    Sculpt,
     /// Plates, weather and rivers
     Structure,
     /// Cloud maps and queries of clouds
@@ -113,6 +117,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let heaviest = (0..planets.len()).max_by(|a, b| full_ms(a).total_cmp(&full_ms(b))).unwrap_or(0);
         report["heaviest"] = json!(planets[heaviest].0);
         report["heaviest_edits"] = json!(edits::measure(&planets[heaviest].1, None));
+    }
+    if wants(Part::Sculpt) {
+        report["sculpt"] = sculpt::measure()?;
     }
     if wants(Part::Structure) {
         report["structure"] = structure::measure(&shipped::default_planet())?;

@@ -18,6 +18,13 @@ const TOOLS: [(&str, &str); Tool::NAMES.len()] = [
     ("Sculpt: ridge", "Draw a crest, point after point."),
     ("Sculpt: canyon", "Draw a valley with steep walls, point after point."),
     ("Sculpt: road", "Draw a level bed, point after point."),
+    ("Sculpt: smooth", "Smooth fine detail away with drags."),
+    ("Sculpt: wall", "Draw a rampart or dam, point after point."),
+    ("Sculpt: fault", "Draw a step in the ground, point after point."),
+    ("Sculpt: coast", "Draw a coast, point after point: land on the left side."),
+    ("Sculpt: moisture", "Paint the climate wetter with drags; with Shift drier."),
+    ("Sculpt: temperature", "Paint the climate warmer with drags; with Shift colder."),
+    ("Sculpt: biome", "Paint a biome with drags."),
 ];
 
 pub(super) fn rows() -> Vec<Row> {
@@ -35,6 +42,13 @@ pub(super) fn rows() -> Vec<Row> {
             "Sculpt with drags on the planet, or move the camera with them.",
             Key::B,
             SculptAction::PutDown,
+        ),
+        (
+            Command::Measure,
+            "Measure",
+            "Measure lengths, areas and profiles with drags and clicks on the planet.",
+            Key::J,
+            SculptAction::Measure,
         ),
         (Command::LargerTool, "Larger brush", "Make the brush larger.", Key::CloseBracket, SculptAction::Larger),
         (Command::SmallerTool, "Smaller brush", "Make the brush smaller.", Key::OpenBracket, SculptAction::Smaller),

@@ -131,7 +131,7 @@ fn table_params(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 }
 
 /// The biomes as rows refer to them.
-fn names(biomes: &Biomes) -> Vec<BiomeName> {
+pub(super) fn names(biomes: &Biomes) -> Vec<BiomeName> {
     let named = |biome: &Biome| BiomeName { key: biome.key, name: biome.name.clone(), color: biome.color };
     biomes.palette.iter().map(named).collect()
 }

@@ -213,9 +213,9 @@ impl PanelState {
         // A tool in hand takes all clicks.
         let sculpts = self.layout.visible().any(|tab| PANELS[tab].sculpts);
         let sculpt = if sculpts { self.sculpt.link() } else { Default::default() };
-        match sculpt.brush {
-            Some(_) => TabLink { solo, overlay, sculpt, ..TabLink::default() },
-            None => TabLink { solo, overlay, sculpt, ..link },
+        match sculpt.brush.is_some() || sculpt.measures {
+            true => TabLink { solo, overlay, sculpt, ..TabLink::default() },
+            false => TabLink { solo, overlay, sculpt, ..link },
         }
     }
 

@@ -1,5 +1,6 @@
 //! The sculpt tab: the tool in hand, the list of ground edits, and the parameters of the selected one.
 
+use super::biomes::names;
 use super::{Draft, rest};
 use crate::editor::command::{Action, SculptAction};
 use crate::editor::finder::place::Place;
@@ -10,7 +11,7 @@ use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::row_view::{LockView, RowView};
 use crate::planet::edits::{EditPoint, Flatten, GroundEdit, MAX_EDITS, edit_path};
 use crate::planet::param::{Choice, ParamPath};
-use crate::planet::{Planet, Tool};
+use crate::planet::{Planet, TableRows, Tool};
 use crate::sphere::LatLon;
 use eframe::egui::{self, AtomExt};
 use std::sync::Arc;
@@ -24,10 +25,17 @@ const STEP: f64 = 1.25;
 /// Share of the planet's radius that a brush has at first, and the most it has, in kilometres.
 const FIRST_SHARE: f64 = 0.01;
 const FIRST_KM: f64 = 50.0;
+/// What the measure tool does.
+const MEASURES: &str = "Drag to measure a way and its profile; click point after point for longer ways and areas, Enter \
+                        ends one, Escape forgets it.";
 /// Parameters of an edit that have rows of their own.
 const OWN_ROWS: [&str; 3] = ["name", "enabled", "points"];
 /// Parameters of an edit that a brush does not have.
 const NOT_OF_BRUSH: [&str; 4] = ["name", "enabled", "points", "seed"];
+/// Parameters of tools that change the ground alone.
+const OF_GROUND: [&str; 3] = ["limit", "above_m", "below_m"];
+/// Parameters of stamps alone.
+const OF_STAMPS: [&str; 3] = ["copies", "spread_km", "smallest"];
 
 /// The tool in hand and the selection.
 #[derive(Default)]
@@ -38,6 +46,8 @@ pub struct SculptState {
     tool: usize,
     /// Whether the tool is in hand: then drags on the planet sculpt.
     in_hand: bool,
+    /// Whether drags and clicks measure.
+    measures: bool,
     /// Index of the edit whose parameters are shown.
     pub selected: Option<usize>,
     /// Words that edits in the list must have.
@@ -49,7 +59,8 @@ impl SculptState {
     /// What the tab has in hand.
     pub fn link(&self) -> SculptLink {
         let brush = self.brushes.iter().find(|(tool, _)| *tool == self.tool).map(|(_, brush)| brush);
-        SculptLink { brush: brush.filter(|_| self.in_hand).cloned().map(Arc::new), selected: self.selected }
+        let brush = brush.filter(|_| self.in_hand).cloned().map(Arc::new);
+        SculptLink { brush, selected: self.selected, measures: self.measures }
     }
 
     /// Selects an edit.
@@ -60,8 +71,9 @@ impl SculptState {
     /// Carries out what a command asks for.
     pub fn act(&mut self, planet: &Planet, action: SculptAction) {
         match action {
-            SculptAction::Take(tool) => (self.tool, self.in_hand) = (tool, true),
-            SculptAction::PutDown => self.in_hand ^= true,
+            SculptAction::Take(tool) => (self.tool, self.in_hand, self.measures) = (tool, true, false),
+            SculptAction::PutDown => (self.in_hand, self.measures) = (!self.in_hand, false),
+            SculptAction::Measure => (self.in_hand, self.measures) = (false, !self.measures),
             SculptAction::Larger => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km * STEP),
             SculptAction::Smaller => self.brush(planet).radius_km = tidy_km(self.brush(planet).radius_km / STEP),
         }
@@ -76,6 +88,12 @@ impl SculptState {
             self.brushes.push((self.tool, GroundEdit { tool, radius_km, ..GroundEdit::default() }));
             self.brushes.len() - 1
         });
+        if let Tool::Biome(paint) = &mut self.brushes[at].1.tool
+            && planet.biomes.index_of(paint.biome).is_none()
+            && let Some(first) = planet.biomes.palette.first()
+        {
+            paint.biome = first.key;
+        }
         &mut self.brushes[at].1
     }
 }
@@ -105,18 +123,27 @@ fn tools(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
             let is_held = state.in_hand && state.tool == tool;
             let button = ui.selectable_label(is_held, *label).on_hover_text(*doc);
             if button.accessible_name(format!("Tool {label}")).clicked() {
-                (state.tool, state.in_hand) = (tool, !is_held);
+                (state.tool, state.in_hand, state.measures) = (tool, !is_held, false);
                 state.brush(draft.planet);
             }
         }
+        let measure = ui.selectable_label(state.measures, "Measure").on_hover_text(MEASURES);
+        if measure.accessible_name("Tool Measure").clicked() {
+            (state.in_hand, state.measures) = (false, !state.measures);
+        }
     });
     let told = match (state.in_hand, Tool::of_kind(state.tool)) {
-        (false, _) => "Choose a tool to sculpt. Without one, drags move the camera; points of the selected edit move.",
+        _ if state.measures => MEASURES,
+        (false, _) => {
+            "Choose a tool to sculpt. Without one, drags move the camera; points of the selected edit move, with Ctrl the \
+             whole edit, with Shift it turns; the square draws its radius."
+        }
         (true, Some(tool)) if tool.is_stamp() => {
             "Click to place it; drag to draw its size. Alt and drag moves the camera; [ and ] change the size."
         }
-        (true, Some(Tool::Ridge(_) | Tool::Canyon(_) | Tool::Road(_))) => {
-            "Click point after point, and Enter; or drag. Alt and drag moves the camera; [ and ] change the size."
+        (true, Some(tool)) if tool.is_line() => {
+            "Click point after point, and Enter; a click on the first closes the line. Or drag. Alt and drag moves the \
+             camera; [ and ] change the size."
         }
         (true, Some(Tool::Raise(_))) => {
             "Drag to raise, with Shift to lower. Alt and drag moves the camera; [ and ] change the size."
@@ -139,7 +166,9 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let base = ParamPath::default().join("brush");
     let locks = LockView::none();
     let shown = RowView { locks: &locks, ..draft.shown };
-    let grid = Grid { base, owner, skip: &NOT_OF_BRUSH, shown, biomes: &[] };
+    let biomes = names(&draft.planet.biomes);
+    let skip = skipped(&NOT_OF_BRUSH, &brush.tool);
+    let grid = Grid { base, owner, skip: &skip, shown, biomes: &biomes };
     let default_tool = Tool::of_kind(tool).unwrap_or_default();
     let mut default = GroundEdit { tool: default_tool, radius_km: brush.radius_km, ..GroundEdit::default() };
     let before = brush.tool.index();
@@ -150,6 +179,7 @@ fn brush(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
             *height_m = sea_m;
         }
     }
+    unpaintable(ui, draft.planet, &brush.tool);
     // The grid also offers the choice of the tool.
     let after = brush.tool.index();
     if after != before {
@@ -302,11 +332,32 @@ fn selected(ui: &mut egui::Ui, state: &mut SculptState, draft: &mut Draft<'_>) {
     let renamed = edit.name != name;
     let tool = Tool::of_kind(edit.tool.index()).unwrap_or_default();
     let mut default = GroundEdit { tool, ..GroundEdit::default() };
-    let grid = Grid { base: edit_path(index), owner: &name, skip: &OWN_ROWS, shown: draft.shown, biomes: &[] };
+    let biomes = names(&draft.planet.biomes);
+    let skip = skipped(&OWN_ROWS, &edit.tool);
+    let grid = Grid { base: edit_path(index), owner: &name, skip: &skip, shown: draft.shown, biomes: &biomes };
     params_grid(ui, &grid, &mut edit, &mut default);
+    unpaintable(ui, draft.planet, &edit.tool);
     if let Some(now) = draft.planet.edits.get_mut(index).filter(|now| **now != edit) {
         *now = edit;
         draft.name_edit(if renamed { "Rename edit".to_owned() } else { format!("Change {name}") });
+    }
+}
+
+/// Parameters that are not shown: those of a list, and those that a tool does not read.
+fn skipped(list: &[&'static str], tool: &Tool) -> Vec<&'static str> {
+    let ground: &[&'static str] = if tool.is_paint() { &OF_GROUND } else { &[] };
+    let stamp: &[&'static str] = if tool.is_stamp() { &[] } else { &OF_STAMPS };
+    [list, ground, stamp].concat()
+}
+
+/// Says why paint of a biome does nothing, or not all.
+fn unpaintable(ui: &mut egui::Ui, planet: &Planet, tool: &Tool) {
+    let Tool::Biome(paint) = tool else { return };
+    let biomes = &planet.biomes;
+    if !biomes.table.rows().iter().any(|row| row.contains(paint.biome)) {
+        ui.weak("No cell of the biome table has this biome: give it one in the Biomes tab, or nothing is painted.");
+    } else if biomes.rows == TableRows::Elevation {
+        ui.weak("The rows of the biome table are heights: only moisture is painted.");
     }
 }
 

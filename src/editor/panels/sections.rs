@@ -29,8 +29,12 @@ const LAYER: &[Section] = &[
     folded("Structure", &["under", "folding"]),
 ];
 
-const EDIT: &[Section] =
-    &[open("Tool", &["tool"]), open("Extent", &["radius_km", "softness", "raggedness", "seed", "limit"])];
+const EDIT: &[Section] = &[
+    open("Tool", &["tool"]),
+    open("Extent", &["radius_km", "softness", "raggedness", "seed"]),
+    folded("Acts on", &["limit", "above_m", "below_m"]),
+    folded("Copies", &["copies", "spread_km", "smallest"]),
+];
 
 const STAR: &[Section] = &[
     open("Light", &["color", "brightness", "radius_deg"]),

@@ -141,6 +141,7 @@ impl Document {
         let label = label.unwrap_or_else(|| describe::change(&self.planet, &planet));
         // A surface rule that was just switched on gets a biome, within the same step.
         planet.biomes.name_missing(false);
+        planet.edits.follow_palette(&self.planet.biomes.palette, &planet.biomes.palette);
         self.history.record(&self.planet, &label);
         self.show(Arc::new(planet));
     }

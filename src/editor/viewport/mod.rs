@@ -12,7 +12,7 @@
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
 //!   dragged
-//! - [`sculpt`]: strokes, stamps and lines on the planet; `ring`: the ring of the brush
+//! - [`sculpt`]: strokes, stamps and lines; `ring`, `handles`: what is drawn of them; `measure`: lengths, profiles
 //! - [`adaptation`]: exposure that adapts gradually; [`refinement`]: still pictures that get finer
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, its parts, the time of each frame
 
@@ -23,8 +23,10 @@ pub mod clock;
 pub mod compare;
 pub mod frames;
 pub mod ground;
+mod handles;
 pub mod input;
 pub mod layer_view;
+mod measure;
 mod neighbours;
 mod outline;
 mod picture;

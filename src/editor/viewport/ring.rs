@@ -1,5 +1,6 @@
 //! The ring of a brush on the ground, and the points of an edit.
 
+use super::handles::radius_dir;
 use super::outline::{in_rect, project};
 use crate::editor::widgets::number::length_text;
 use crate::lod::View;
@@ -40,6 +41,11 @@ impl Ground<'_> {
         place_m.dot(self.view.camera.position_planet_m - place_m) > 0.0
     }
 
+    /// Radius of the planet.
+    pub(super) fn radius_m(&self) -> f64 {
+        self.terrain.planet().radius_m()
+    }
+
     /// Where the ground under a direction is in the window, if it is on the side that the eye sees.
     pub(super) fn on_screen(&self, dir: DVec3) -> Option<Pos2> {
         let place_m = self.places_m(&[dir]).pop()?;
@@ -51,7 +57,7 @@ impl Ground<'_> {
     }
 
     /// Draws lines from place to place.
-    fn draw(&self, painter: &Painter, dirs: &[DVec3], stroke: Stroke) {
+    pub(super) fn draw(&self, painter: &Painter, dirs: &[DVec3], stroke: Stroke) {
         let places_m = self.places_m(dirs);
         for pair in places_m.windows(2).filter(|pair| self.is_seen(pair[0]) && self.is_seen(pair[1])) {
             if let Some(line) = self.line(pair[0], pair[1]) {
@@ -91,11 +97,18 @@ pub(super) fn paint_brush(painter: &Painter, ground: &Ground<'_>, middle: DVec3,
 pub(super) fn paint_edit(painter: &Painter, ground: &Ground<'_>, edit: &GroundEdit) {
     let dirs: Vec<DVec3> = edit.points.0.iter().take(MOST_POINTS).map(EditPoint::direction).collect();
     if edit.tool.is_stamp() {
-        dirs.iter().for_each(|dir| ground.ring(painter, *dir, edit.radius_km * 1000.0, Stroke::new(1.0, FAINT)));
+        let spread_km = if edit.copies > 1 { edit.spread_km } else { 0.0 };
+        for radius_km in [edit.radius_km, spread_km].into_iter().filter(|radius_km| *radius_km > 0.0) {
+            dirs.iter().for_each(|dir| ground.ring(painter, *dir, radius_km * 1000.0, Stroke::new(1.0, FAINT)));
+        }
     } else {
         ground.draw(painter, &dirs, Stroke::new(1.0, FAINT));
     }
     for place in dirs.iter().filter_map(|dir| ground.on_screen(*dir)) {
         painter.circle(place, 3.5, INK, Stroke::new(1.0, Color32::BLACK));
+    }
+    if let Some(place) = radius_dir(edit, ground.radius_m()).and_then(|dir| ground.on_screen(dir)) {
+        let square = Rect::from_center_size(place, vec2(7.0, 7.0));
+        painter.rect(square, 0.0, INK, Stroke::new(1.0, Color32::BLACK), egui::StrokeKind::Outside);
     }
 }

@@ -4,11 +4,13 @@
 //! a gesture are one undo step. Rays are cast at the ground as it was when the gesture began: a brush that raises the
 //! ground would else climb its own hill.
 
+use super::handles::{self, HOLD, Handle, Others};
+use super::measure::Measure;
 use super::pointer::in_view;
 use super::ring;
 use crate::editor::widgets::random_seed;
 use crate::lod::{Camera, View};
-use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDIT_POINTS, MAX_EDITS, Raise};
+use crate::planet::edits::{EditPoint, GroundEdit, MAX_EDIT_POINTS, MAX_EDITS, PaintMode};
 use crate::planet::param::Choice;
 use crate::planet::{Planet, Tool};
 use crate::tiles::Surface;
@@ -18,10 +20,11 @@ use std::sync::Arc;
 
 /// Distance between the points of a stroke, in radii.
 const SPACING: f64 = 0.3;
-/// Distance within which the pointer takes hold of a point, in points of the window.
-const HOLD: f32 = 9.0;
-/// Name of the undo step of a point that is moved.
+/// Names of the undo steps of a point that is moved, of an edit that is moved, turned and scaled, and of its radius.
 const MOVE_STEP: &str = "Move point of edit";
+const SHIFT_STEP: &str = "Move edit";
+const TURN_STEP: &str = "Turn edit";
+const RADIUS_STEP: &str = "Radius of edit";
 /// Name of the undo step of a point that is added to a line.
 const POINT_STEP: &str = "Add point to edit";
 
@@ -32,6 +35,8 @@ pub struct SculptLink {
     pub brush: Option<Arc<GroundEdit>>,
     /// Index of the edit whose points are shown and can be moved.
     pub selected: Option<usize>,
+    /// Whether drags and clicks measure.
+    pub measures: bool,
 }
 
 /// What is under way.
@@ -43,8 +48,10 @@ enum Gesture {
     Stroke { index: usize, fixed: usize, on: Arc<Surface> },
     /// A stamp, whose radius follows the pointer.
     Stamp { index: usize, middle: DVec3, on: Arc<Surface> },
-    /// A point of an edit.
-    Point { edit: usize, point: usize, on: Arc<Surface> },
+    /// A point of an edit, whose points were these.
+    Point { edit: usize, point: usize, before: Vec<EditPoint>, others: Others, on: Arc<Surface> },
+    /// The radius of an edit.
+    Radius { edit: usize, on: Arc<Surface> },
 }
 
 /// What is on screen.
@@ -56,7 +63,7 @@ pub(super) struct Scene<'a> {
 
 impl Scene<'_> {
     /// The ground or the sea under a point of the window.
-    fn ground(&self, on: &Surface, pos: egui::Pos2) -> Option<DVec3> {
+    pub(super) fn ground(&self, on: &Surface, pos: egui::Pos2) -> Option<DVec3> {
         let (x, y) = in_view(self.rect, pos);
         let ray = self.camera.ray_dir_planet(x, y, f64::from(self.rect.width() / self.rect.height()));
         let away_m = on.terrain.raycast(self.camera.position_planet_m, ray)?;
@@ -83,6 +90,7 @@ pub(super) struct Hand {
     ring: Option<DVec3>,
     /// The edit that was made or changed last, once.
     touched: Option<usize>,
+    measure: Measure,
 }
 
 impl Hand {
@@ -103,11 +111,15 @@ impl Hand {
         let (modifiers, origin) = ui.input(|i| (i.modifiers, i.pointer.press_origin()));
         // With Alt, drags move the camera as without a brush.
         let brush = link.brush.as_deref().filter(|_| !modifiers.alt);
+        if link.measures && !modifiers.alt {
+            self.measure.handle(ui, response, scene);
+            return Held { taken: true, edit: None };
+        }
         self.follow_line(ui, link, planet);
         let pos = response.interact_pointer_pos().or(response.hover_pos());
         self.ring = pos.filter(|_| brush.is_some()).and_then(|pos| scene.ground(self.ground_on(scene), pos));
         // A tool in hand takes hold of no point: strokes often begin where the last one was.
-        let held_under = |pos| link.brush.is_none().then(|| point_under(link, scene, planet, pos)).flatten();
+        let held_under = |pos| link.brush.is_none().then(|| handle_under(link, scene, planet, pos)).flatten();
         let over_point = pos.and_then(held_under);
         if response.hovered() && (brush.is_some() || over_point.is_some()) {
             let icon = if over_point.is_some() { egui::CursorIcon::Grab } else { egui::CursorIcon::Crosshair };
@@ -117,10 +129,10 @@ impl Hand {
         if response.drag_started_by(egui::PointerButton::Primary)
             && let Some(origin) = origin
         {
-            let under = link.brush.is_none().then(|| point_under(link, scene, planet, origin)).flatten();
+            let under = link.brush.is_none().then(|| handle_under(link, scene, planet, origin)).flatten();
             edit = match (under, brush) {
-                (Some((edit, point)), _) => {
-                    self.gesture = Gesture::Point { edit, point, on: scene.surface.clone() };
+                (Some((edit, handle)), _) => {
+                    self.hold(edit, handle, modifiers, scene, planet);
                     None
                 }
                 (None, Some(brush)) => self.begin(brush, modifiers.shift, scene, origin, planet),
@@ -149,7 +161,8 @@ impl Hand {
     /// The ground that rays are cast at.
     fn ground_on<'a>(&'a self, scene: &Scene<'a>) -> &'a Surface {
         match &self.gesture {
-            Gesture::Stroke { on, .. } | Gesture::Stamp { on, .. } | Gesture::Point { on, .. } => on,
+            Gesture::Stroke { on, .. } | Gesture::Stamp { on, .. } => on,
+            Gesture::Point { on, .. } | Gesture::Radius { on, .. } => on,
             Gesture::None => scene.surface,
         }
     }
@@ -162,6 +175,21 @@ impl Hand {
             matches!(tools, (Some(edit), Some(brush)) if edit.tool.index() == brush.tool.index())
         };
         self.line = self.line.filter(fits).filter(|_| !ends);
+    }
+
+    /// Takes hold of a handle: with Ctrl the whole edit moves, with Shift it turns.
+    fn hold(&mut self, edit: usize, handle: Handle, keys: egui::Modifiers, scene: &Scene<'_>, planet: &Planet) {
+        let on = scene.surface.clone();
+        let before = planet.edits.get(edit).map(|edit| edit.points.0.clone()).unwrap_or_default();
+        let others = match (keys.command, keys.shift) {
+            (true, _) => Others::Move,
+            (_, true) => Others::Turn,
+            _ => Others::Stay,
+        };
+        self.gesture = match handle {
+            Handle::Point(point) => Gesture::Point { edit, point, before, others, on },
+            Handle::Radius => Gesture::Radius { edit, on },
+        };
     }
 
     /// Begins a stroke or a stamp.
@@ -193,10 +221,8 @@ impl Hand {
         let mut edit = GroundEdit { seed: random_seed() as u32, ..brush.clone() };
         edit.name = format!("{} {}", label(brush).unwrap_or("Edit"), index + 1);
         edit.points.0 = vec![point];
-        if let Tool::Raise(Raise { amount_m }) = &mut edit.tool
-            && inverse
-        {
-            *amount_m = -*amount_m;
+        if inverse {
+            invert(&mut edit.tool);
         }
         planet.edits.push(edit);
         self.touched = Some(index);
@@ -223,16 +249,29 @@ impl Hand {
             }
             Gesture::Stamp { index, middle, .. } => {
                 let edit = planet.edits.get_mut(*index)?;
-                let radius_km = 2.0 * (0.5 * to.distance(*middle)).min(1.0).asin() * radius_m / 1000.0;
-                edit.radius_km = tidy_km(radius_km);
+                edit.radius_km = tidy_km(to.angle_between(*middle) * radius_m / 1000.0);
                 label(edit)
             }
-            Gesture::Point { edit, point, on } => {
+            Gesture::Radius { edit, .. } => {
                 self.touched = Some(*edit);
                 let edit = planet.edits.get_mut(*edit)?;
-                let moved = point_at(on, edit, to);
-                *edit.points.0.get_mut(*point)? = moved;
-                Some(MOVE_STEP)
+                let middle = edit.points.0.first()?.direction();
+                edit.radius_km = tidy_km(to.angle_between(middle) * radius_m / 1000.0);
+                Some(RADIUS_STEP)
+            }
+            Gesture::Point { edit, point, before, others, on } => {
+                self.touched = Some(*edit);
+                let edit = planet.edits.get_mut(*edit)?;
+                edit.points.0 = handles::dragged(before, *point, to, *others);
+                match others {
+                    Others::Stay => {
+                        let moved = point_at(on, edit, to);
+                        *edit.points.0.get_mut(*point)? = moved;
+                        Some(MOVE_STEP)
+                    }
+                    Others::Move => Some(SHIFT_STEP),
+                    Others::Turn => Some(TURN_STEP),
+                }
             }
         }
     }
@@ -248,15 +287,18 @@ impl Hand {
     ) -> Option<&'static str> {
         let point = point_at(scene.surface, brush, scene.ground(scene.surface, pos)?);
         if let Some(index) = self.line {
+            let first = planet.edits.get(index)?.points.0.first().copied()?;
+            let closes = is_near(scene, &first, pos) && planet.edits.get(index)?.points.0.len() > 2;
             let edit = planet.edits.get_mut(index)?;
             if edit.points.0.len() < MAX_EDIT_POINTS {
-                edit.points.0.push(point);
+                edit.points.0.push(if closes { first } else { point });
             }
+            self.line = self.line.filter(|_| !closes);
             self.touched = Some(index);
             return Some(POINT_STEP);
         }
         let index = self.place(brush, inverse, point, planet)?;
-        if matches!(brush.tool, Tool::Ridge(_) | Tool::Canyon(_) | Tool::Road(_)) {
+        if brush.tool.is_line() {
             self.line = Some(index);
         }
         label(brush)
@@ -264,7 +306,7 @@ impl Hand {
 
     /// Draws the ring of the brush, and the points of the selected edit.
     pub(super) fn paint(
-        &self,
+        &mut self,
         painter: &egui::Painter,
         link: &SculptLink,
         scene: &Scene<'_>,
@@ -272,6 +314,9 @@ impl Hand {
         planet: &Planet,
     ) {
         let ground = ring::Ground { terrain: &scene.surface.terrain, view, rect: scene.rect };
+        if link.measures {
+            self.measure.paint(painter, &ground, &scene.surface.terrain);
+        }
         if let Some(edit) = link.selected.and_then(|index| planet.edits.get(index)) {
             ring::paint_edit(painter, &ground, edit);
         }
@@ -286,6 +331,25 @@ impl Hand {
             ring::paint_brush(painter, &ground, middle, radius_km * 1000.0, softness);
         }
     }
+}
+
+/// Turns a tool around: what raises lowers, what is left is right.
+fn invert(tool: &mut Tool) {
+    match tool {
+        Tool::Raise(raise) => raise.amount_m = -raise.amount_m,
+        Tool::Fault(fault) => fault.throw_m = -fault.throw_m,
+        Tool::Coast(coast) => coast.flip = !coast.flip,
+        Tool::Moisture(paint) if paint.mode == PaintMode::Shift => paint.moisture = -paint.moisture,
+        Tool::Temperature(paint) if paint.mode == PaintMode::Shift => paint.temperature_c = -paint.temperature_c,
+        _ => {}
+    }
+}
+
+/// Whether a point is under the pointer.
+fn is_near(scene: &Scene<'_>, point: &EditPoint, pos: egui::Pos2) -> bool {
+    let view = View { camera: scene.camera, ..scene.surface.view };
+    let ground = ring::Ground { terrain: &scene.surface.terrain, view: &view, rect: scene.rect };
+    ground.on_screen(point.direction()).is_some_and(|place| place.distance(pos) <= HOLD)
 }
 
 /// The name of the undo step of an edit with this tool.
@@ -308,14 +372,11 @@ pub fn tidy_km(radius_km: f64) -> f64 {
     ((radius_km / unit).round() * unit * 1e6).round() / 1e6
 }
 
-/// The edit and the point of it that the pointer can take hold of.
-fn point_under(link: &SculptLink, scene: &Scene<'_>, planet: &Planet, pos: egui::Pos2) -> Option<(usize, usize)> {
+/// The edit and the handle of it that the pointer can take hold of.
+fn handle_under(link: &SculptLink, scene: &Scene<'_>, planet: &Planet, pos: egui::Pos2) -> Option<(usize, Handle)> {
     let index = link.selected?;
     let edit = planet.edits.get(index)?;
     let view = View { camera: scene.camera, ..scene.surface.view };
     let ground = ring::Ground { terrain: &scene.surface.terrain, view: &view, rect: scene.rect };
-    let at = |point: &EditPoint| ground.on_screen(point.direction()).map(|place| place.distance(pos));
-    let near = edit.points.0.iter().enumerate().filter_map(|(number, point)| Some((number, at(point)?)));
-    let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, away)| *away <= HOLD)?;
-    Some((index, nearest.0))
+    handles::under(&ground, edit, pos).map(|handle| (index, handle))
 }

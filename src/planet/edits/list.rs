@@ -1,7 +1,8 @@
 //! The list of ground edits of a planet. Copies share their edits until one of them is changed, so that a planet with
 //! thousands of edits is copied, compared and kept in undo steps at almost no cost.
 
-use super::GroundEdit;
+use super::{GroundEdit, Tool};
+use crate::planet::Biome;
 use crate::planet::param::{Form, Look, ParamPath, Params, Part, PartType, Segment, Visit};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::{Arc, OnceLock};
@@ -100,6 +101,25 @@ impl GroundEdits {
     pub fn remove(&mut self, index: usize) -> Option<GroundEdit> {
         self.0.get(index)?;
         Some(Arc::unwrap_or_clone(Arc::make_mut(&mut self.0).remove(index)).edit)
+    }
+
+    /// Paint of biomes follows a palette that was changed: a biome that got another key keeps its paint, that of a
+    /// biome that is gone becomes the first.
+    pub(crate) fn follow_palette(&mut self, before: &[Biome], after: &[Biome]) {
+        let Some(first) = after.first() else { return };
+        let has = |palette: &[Biome], key: char| palette.iter().any(|biome| biome.key == key);
+        for index in 0..self.len() {
+            let Some(Tool::Biome(paint)) = self.get(index).map(|edit| &edit.tool) else { continue };
+            if has(after, paint.biome) {
+                continue;
+            }
+            let at = before.iter().position(|biome| biome.key == paint.biome).filter(|_| before.len() == after.len());
+            let renamed = at.and_then(|at| after.get(at)).filter(|biome| !has(before, biome.key));
+            let new = renamed.unwrap_or(first).key;
+            if let Some(Tool::Biome(paint)) = self.get_mut(index).map(|edit| &mut edit.tool) {
+                paint.biome = new;
+            }
+        }
     }
 
     /// Moves an edit to another index. An index out of range changes nothing.

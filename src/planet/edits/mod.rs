@@ -5,7 +5,7 @@
 //! - `points`: the points of an edit on the globe
 //! - `list`: the list of edits, cheap to copy
 //!
-//! Strokes, stamps and splines have one form: a tool along points. A stamp acts around each point alone.
+//! Strokes, stamps, splines and paint have one form: a tool along points. A stamp acts around each point alone.
 
 mod list;
 mod points;
@@ -14,14 +14,23 @@ mod tools;
 pub use list::GroundEdits;
 pub(crate) use list::Shared;
 pub use points::{EditPoint, EditPoints};
-pub use tools::{Canyon, Crater, Flatten, Island, Mesa, Raise, Ridge, Road, Roughen, Terrace, Tool, Volcano};
+pub use tools::{
+    BiomePaint, Canyon, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise, Ridge, Road,
+    Roughen, Smooth, TemperaturePaint, Terrace, Tool, Volcano, Wall,
+};
 
-use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, linear, log, params};
+use super::param::{Domain, ParamPath, Segment, Stage, Unit, choice, count, linear, log, params};
 
 /// Most edits a planet may have.
 pub const MAX_EDITS: usize = 20_000;
+/// Height limits of edits go so far, either way.
+pub const MOST_LIMIT_M: f64 = 20_000.0;
 /// Most points of one edit.
 pub const MAX_EDIT_POINTS: usize = 1000;
+/// Most copies of a stamp around one of its points, and around all of them.
+pub const MAX_COPIES: u32 = 1000;
+/// See [`MAX_COPIES`].
+pub const MAX_ALL_COPIES: usize = 4000;
 
 params! {
     /// A change of the ground at a place: a stroke, a stamp or a spline. Edits act in order, after all layers and the
@@ -31,8 +40,13 @@ params! {
         name: String = "Edit".to_owned(), "Name", Unit::None, Domain::Text { max_chars: 48 }, Stage::Label;
         /// Whether the edit changes the ground.
         enabled: bool = true, "Enabled", Unit::None, Domain::Flag, Stage::Height;
-        /// Which ground it changes: all, or only land or sea floor. At the sea level it begins gently.
+        /// Which ground it changes: all, or only land or sea floor. At the sea level it begins gently. Paint ignores
+        /// it.
         limit: Limit = Limit::Everywhere, "Acts on", Unit::None, Domain::Choice, Stage::Height;
+        /// It changes only ground above this height, and begins gently there; at the lowest value, all ground.
+        above_m: f64 = -MOST_LIMIT_M, "Only above", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;
+        /// It changes only ground below this height; at the greatest value, all ground.
+        below_m: f64 = MOST_LIMIT_M, "Only below", Unit::Metres, linear(-MOST_LIMIT_M, MOST_LIMIT_M), Stage::Height;
         /// Distance from its line, or from the middle of a stamp, to where it ends; for a crater, to the rim.
         radius_km: f64 = 50.0, "Radius", Unit::Kilometres, log(0.001, 5000.0), Stage::Height;
         /// Share of the radius over which it fades: 0 is a cliff, 1 fades from the middle on.
@@ -41,6 +55,13 @@ params! {
         raggedness: f64 = 0.0, "Raggedness", Unit::None, linear(0.0, 1.0), Stage::Height;
         /// Seed of its outline and roughness.
         seed: u32 = 1, "Seed", Unit::None, Domain::Seed, Stage::Height;
+        /// Of a stamp: how many copies are scattered around each of its points.
+        copies: u32 = 1, "Copies", Unit::None, count(1, MAX_COPIES), Stage::Height;
+        /// Of a stamp: distance from each point within which its copies lie.
+        spread_km: f64 = 0.0, "Spread", Unit::Kilometres, log(0.0, 5000.0), Stage::Height;
+        /// Of a stamp: size of the smallest copy, as a share of the radius and of all heights. Small ones are many, as
+        /// craters are: half the size, four times the number.
+        smallest: f64 = 0.3, "Smallest", Unit::None, linear(0.05, 1.0), Stage::Height;
     } with {
         /// Tool: what it does to the ground.
         tool: Tool = Tool::default();

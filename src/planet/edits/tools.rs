@@ -1,8 +1,9 @@
-//! The tools of ground edits and their parameters. Formulas are in `terrain::edits::tool`: `t` is the distance from the
-//! line or the middle in radii, `w` falls from 1 to 0 over the softness.
+//! The tools of ground edits and their parameters. Formulas are in `terrain::edits::tool`: `t` is the distance from
+//! the line or the middle in radii, `w` falls from 1 to 0 over the softness.
 
+use crate::planet::biome::UNSET_KEY;
 use crate::planet::kinds::kinds;
-use crate::planet::param::{Stage, Unit, linear, log, params};
+use crate::planet::param::{Domain, Stage, Unit, choice, linear, log, params};
 
 kinds! {
     /// What an edit does to the ground.
@@ -29,12 +30,39 @@ kinds! {
     Canyon(Canyon) = "Canyon",
     /// A bed along a line, at the heights of its points.
     Road(Road) = "Road",
+    /// Smooths away what is finer than a part of the brush.
+    Smooth(Smooth) = "Smooth",
+    /// A rampart or dam with a level top along a line.
+    Wall(Wall) = "Wall",
+    /// A step in the ground along a line: the left side rises, the right side sinks.
+    Fault(Fault) = "Fault",
+    /// A coast along a line: land on the left side, sea on the right.
+    Coast(Coast) = "Coast",
+    /// Paints how wet the climate is.
+    Moisture(MoisturePaint) = "Moisture",
+    /// Paints how warm the climate is.
+    Temperature(TemperaturePaint) = "Temperature",
+    /// Paints a biome: the climate that it has in the biome table.
+    Biome(BiomePaint) = "Biome",
 }
 
 impl Tool {
     /// Whether the tool acts around each of its points alone, and not along the line through them.
     pub fn is_stamp(&self) -> bool {
         matches!(self, Tool::Crater(_) | Tool::Volcano(_) | Tool::Mesa(_) | Tool::Island(_))
+    }
+
+    /// Whether the tool acts along a line that is drawn point by point.
+    pub fn is_line(&self) -> bool {
+        matches!(
+            self,
+            Tool::Ridge(_) | Tool::Canyon(_) | Tool::Road(_) | Tool::Wall(_) | Tool::Fault(_) | Tool::Coast(_)
+        )
+    }
+
+    /// Whether the tool paints the climate, and leaves the ground as it is.
+    pub fn is_paint(&self) -> bool {
+        matches!(self, Tool::Moisture(_) | Tool::Temperature(_) | Tool::Biome(_))
     }
 }
 
@@ -149,5 +177,90 @@ params! {
     pub struct Road {
         /// Share of the way to the heights of the line.
         strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + (smooth ground - h) * strength * w`
+    pub struct Smooth {
+        /// Size of what is smoothed away, as a share of the radius: ground finer than that becomes even.
+        size: f64 = 0.5, "Size", Unit::None, log(0.05, 1.0), Stage::Height;
+        /// Share of the way to smooth ground.
+        strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + height_m` on the top.
+    pub struct Wall {
+        /// Height of the top above the ground below it.
+        height_m: f64 = 100.0, "Height", Unit::Metres, log(0.0, 20_000.0), Stage::Height;
+        /// Share of the radius that is level top.
+        top: f64 = 0.5, "Top", Unit::None, linear(0.0, 0.95), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + throw_m * slip * (step - drop) * (1 - t)^2`; the slip is 1 in the middle of the line and 0 at its ends.
+    pub struct Fault {
+        /// Height of the step in the middle of the line; negative lets the right side rise.
+        throw_m: f64 = 800.0, "Throw", Unit::Metres, linear(-20_000.0, 20_000.0), Stage::Height;
+        /// Width of the step as a share of the radius.
+        scarp: f64 = 0.1, "Scarp", Unit::None, log(0.01, 1.0), Stage::Height;
+        /// Share of the throw by which the right side sinks.
+        drop: f64 = 0.3, "Drop", Unit::None, linear(0.0, 1.0), Stage::Height;
+    }
+}
+
+params! {
+    /// `h + (shore - h) * w`: the shore is at the sea level on the line, `land_m` above it one radius to the left,
+    /// `depth_m` below it one radius to the right. It fades towards the ends of a line that is not closed.
+    pub struct Coast {
+        /// Height of the land above the sea.
+        land_m: f64 = 80.0, "Land", Unit::Metres, log(0.0, 10_000.0), Stage::Height;
+        /// Depth of the sea floor.
+        depth_m: f64 = 120.0, "Depth", Unit::Metres, log(0.0, 10_000.0), Stage::Height;
+        /// Whether land and sea change sides.
+        flip: bool = false, "Other side", Unit::None, Domain::Flag, Stage::Height;
+    }
+}
+
+choice! {
+    /// What paint does to the climate.
+    pub enum PaintMode {
+        /// Adds to what the climate says.
+        Shift = "Shift",
+        /// Puts a value in its place.
+        Set = "Set",
+    }
+}
+
+params! {
+    /// Shift: `m + moisture * w`; set: `m + (moisture - m) * w`, at the surface.
+    pub struct MoisturePaint {
+        /// Whether it adds to the moisture or sets it.
+        mode: PaintMode = PaintMode::Shift, "Mode", Unit::None, Domain::Choice, Stage::Climate;
+        /// Moisture that is added or set; the biome table has 0 (dry) to 1 (wet).
+        moisture: f64 = 0.3, "Moisture", Unit::None, linear(-1.0, 1.0), Stage::Climate;
+    }
+}
+
+params! {
+    /// Shift: `T + temperature_c * w`; set: `T + (temperature_c - T) * w`, at the surface.
+    pub struct TemperaturePaint {
+        /// Whether it adds to the temperature or sets it.
+        mode: PaintMode = PaintMode::Shift, "Mode", Unit::None, Domain::Choice, Stage::Climate;
+        /// Temperature that is added or set.
+        temperature_c: f64 = 8.0, "Temperature", Unit::Celsius, linear(-100.0, 100.0), Stage::Climate;
+    }
+}
+
+params! {
+    /// Sets moisture and temperature to those of the biome, by `strength * w`.
+    pub struct BiomePaint {
+        /// The biome.
+        biome: char = UNSET_KEY, "Biome", Unit::None, Domain::BiomeKey, Stage::Climate;
+        /// Share of the way to its climate.
+        strength: f64 = 1.0, "Strength", Unit::None, linear(0.0, 1.0), Stage::Climate;
     }
 }

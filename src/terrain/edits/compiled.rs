@@ -1,9 +1,14 @@
 //! One edit, compiled: its tool, its line, and the pieces of that line.
 
 use super::index::{Hash, Piece, chord_of};
+use super::near::Arcs;
 use super::outline::{self, Noise, Sampled};
+use super::paint::Paint;
 use super::path::{self, Arc, angle_of};
+use super::smooth::Lattice;
 use super::tool::{At, Change, CompiledTool, falloff, rise};
+use super::widening::Widening;
+use crate::planet::edits::MOST_LIMIT_M;
 use crate::planet::{GroundEdit, Limit, Tool};
 use glam::DVec3;
 
@@ -13,16 +18,21 @@ const PIECE: usize = 8;
 const WIDEST_RAD: f64 = 1.2;
 /// Points from the middle of a fade to its end from which a gradient shows the fade.
 const LEAST_POINTS: f64 = 2.0;
-/// Least height over which an edit of land or sea floor alone begins at the sea level.
+/// Bounds are wider than the formulas say, for rounding.
+const ROUNDING_M: f64 = 1e-4;
+/// Least height over which an edit that is limited to heights begins at its limit.
 const LEAST_RAMP_M: f64 = 1.0;
 
 /// An edit, compiled.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct CompiledEdit {
     tool: CompiledTool,
     arcs: Vec<Arc>,
     pub(super) pieces: Vec<Piece>,
+    is_stamp: bool,
     radius_rad: f64,
+    /// Chord of the distance to which it reaches.
+    reach_chord: f64,
     /// Share of the radius without fade.
     core: f64,
     raggedness: f64,
@@ -30,21 +40,26 @@ pub(super) struct CompiledEdit {
     outline: Option<Noise>,
     /// Noise of rough ground.
     rough: Option<Noise>,
-    /// The sea level, if the edit ends there, and whether it acts above it.
-    limit: Option<(f64, bool)>,
-    heights_m: (f64, f64),
+    /// The lattice of smooth ground.
+    pub(super) smooth: Option<Lattice>,
+    /// Heights at which the edit ends, and whether it acts above each.
+    limits: [Option<(f64, bool)>; 3],
+    /// What it does to the bounds of heights. Conservative.
+    pub(super) range: Widening,
+    /// Hash of what the edit depends on besides its own numbers; part of the hashes of its pieces.
+    context: u128,
 }
 
-/// What is near a point of the line of an edit.
+/// What of an edit is near a point.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
-    nearest: Option<Nearest>,
+struct Place {
+    nearest: Nearest,
     /// Of a road: sums over near arcs of weight and of weight times height, each with its gradient.
     weight: (f64, DVec3),
     weighted_m: (f64, DVec3),
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Nearest {
     chord2: f64,
     /// Its arc among those of the edit.
@@ -60,6 +75,8 @@ pub(super) struct Effect {
     /// Gradient by the distance from the line, without noise; the size of what makes it.
     smooth: DVec3,
     feature_rad: f64,
+    /// Gradient of ground that takes the place of the old one: it has the slopes of far larger features.
+    ground: DVec3,
     /// Derivatives by the two noises.
     outline: Option<(f64, Sampled)>,
     rough: Option<(f64, Sampled)>,
@@ -72,7 +89,7 @@ impl Effect {
             part.as_ref().map_or(DVec3::ZERO, |(by_noise, noise)| noise.gradient(spacing_rad) * *by_noise)
         };
         let seen = outline::seen(self.feature_rad, spacing_rad, LEAST_POINTS);
-        self.smooth * seen + noisy(&self.outline) * seen + noisy(&self.rough)
+        self.smooth * seen + self.ground + noisy(&self.outline) * seen + noisy(&self.rough)
     }
 }
 
@@ -81,27 +98,49 @@ impl CompiledEdit {
         let radius_rad = edit.radius_km * 1000.0 / radius_m;
         let tool = CompiledTool::new(edit, sea_m.unwrap_or(0.0));
         let points = &edit.points.0;
-        let arcs = if edit.tool.is_stamp() { path::places(points) } else { path::arcs(points, radius_rad) };
-        let limit = match edit.limit {
+        let mut arcs = if edit.tool.is_stamp() { path::places(edit, radius_m) } else { path::arcs(points, radius_rad) };
+        match tool {
+            // Most in the middle; a closed line slips evenly.
+            CompiledTool::Fault { .. } => path::set_values(&mut arcs, |from, to| match from + to {
+                length if length == f64::INFINITY => 1.0,
+                length => 4.0 * from * to / (length * length).max(1e-30),
+            }),
+            CompiledTool::Coast { .. } => path::set_values(&mut arcs, |from, to| rise(from.min(to) / radius_rad).0),
+            _ => {}
+        }
+        let smooth = match &edit.tool {
+            Tool::Smooth(smooth) => Some(Lattice::new(smooth.size * radius_rad)),
+            _ => None,
+        };
+        let sea_limit = match edit.limit {
             Limit::Everywhere => None,
             Limit::AboveSea => Some((sea_m.unwrap_or(0.0), true)),
             Limit::BelowSea => Some((sea_m.unwrap_or(0.0), false)),
         };
+        let limits = [
+            sea_limit,
+            (edit.above_m > -MOST_LIMIT_M).then_some((edit.above_m, true)),
+            (edit.below_m < MOST_LIMIT_M).then_some((edit.below_m, false)),
+        ];
         let rough = match &edit.tool {
             Tool::Roughen(rough) => Some(Noise::new(edit.seed ^ 0x5C07, rough.wavelength_km * 1000.0 / radius_m)),
             _ => None,
         };
-        let heights = arcs.iter().flat_map(|arc| arc.heights_m);
+        let heights = arcs.iter().flat_map(|arc| arc.values);
         let heights_m = heights.fold((f64::MAX, f64::MIN), |(lo, hi), h| (lo.min(h), hi.max(h)));
         let mut compiled = Self {
             pieces: Vec::new(),
+            is_stamp: edit.tool.is_stamp(),
             radius_rad,
+            reach_chord: chord_of(radius_rad * tool.reach()),
             core: (1.0 - edit.softness).min(0.99),
             raggedness: edit.raggedness,
             outline: (edit.raggedness > 0.0).then(|| Noise::new(edit.seed, radius_rad)),
             rough,
-            limit,
-            heights_m,
+            smooth,
+            limits,
+            range: tool.range(heights_m).then(Widening::by(ROUNDING_M, ROUNDING_M)),
+            context: 0,
             tool,
             arcs,
         };
@@ -118,48 +157,89 @@ impl CompiledEdit {
         common.add_f64(self.core);
         common.add_f64(self.raggedness);
         common.add(u64::from(edit.seed));
-        let (sea_m, above) = self.limit.unwrap_or((f64::MAX, true));
-        common.add_f64(sea_m);
-        common.add(u64::from(above));
+        for limit in self.limits {
+            let (level_m, above) = limit.unwrap_or((f64::MAX, true));
+            common.add_f64(level_m);
+            common.add(u64::from(above));
+        }
         if let Tool::Roughen(rough) = &edit.tool {
             common.add_f64(rough.wavelength_km);
         }
+        if let Tool::Smooth(smooth) = &edit.tool {
+            common.add_f64(smooth.size);
+        }
+        // Each place of a stamp acts for itself.
+        let size = if self.is_stamp { 1 } else { PIECE };
         let piece = |(number, arcs): (usize, &[Arc])| {
             let middle = arcs.iter().map(|arc| arc.a + arc.b).sum::<DVec3>().normalize_or(arcs[0].a);
             let ends = arcs.iter().flat_map(|arc| [arc.a, arc.b]);
-            let angle_rad = ends.map(|end| angle_of(end.distance_squared(middle))).fold(0.0, f64::max) + reach_rad;
+            let largest = arcs.iter().map(|arc| arc.scale).fold(0.0, f64::max);
+            let angle_rad =
+                ends.map(|end| angle_of(end.distance_squared(middle))).fold(0.0, f64::max) + reach_rad * largest;
             let angle_rad = if angle_rad > WIDEST_RAD { std::f64::consts::PI } else { angle_rad };
             let mut hash = common;
             for number in arcs.iter().flat_map(|arc| [arc.a, arc.b]).flat_map(|end| end.to_array()) {
                 hash.add_f64(number);
             }
-            arcs.iter().flat_map(|arc| arc.heights_m).for_each(|height_m| hash.add_f64(height_m));
-            let (first, count) = ((number * PIECE) as u32, arcs.len() as u32);
-            Piece { edit: 0, first, count, middle, chord: chord_of(angle_rad), hash: hash.0 }
+            arcs.iter().flat_map(|arc| arc.values).for_each(|value| hash.add_f64(value));
+            arcs.iter().for_each(|arc| hash.add_f64(arc.scale));
+            let (first, count) = ((number * size) as u32, arcs.len() as u32);
+            Piece { first, count, middle, chord: chord_of(angle_rad), hash: hash.0 }
         };
-        self.arcs.chunks(PIECE).enumerate().map(piece).collect()
+        self.arcs.chunks(size).enumerate().map(piece).collect()
     }
 
-    /// Adds the arcs of a piece to what is known of a place.
-    pub(super) fn look(&self, dir: DVec3, piece: &Piece, place: &mut Place) {
-        let is_road = matches!(self.tool, CompiledTool::Road { .. });
-        let arcs = &self.arcs[piece.first as usize..(piece.first + piece.count) as usize];
-        for (number, arc) in (piece.first..).zip(arcs) {
-            let (chord2, _) = arc.chord2(dir);
-            if place.nearest.is_none_or(|nearest| chord2 < nearest.chord2) {
-                place.nearest = Some(Nearest { chord2, arc: number });
+    /// The edit with another context, which is part of the content of its pieces. None if that is its context already.
+    pub(super) fn in_context(&self, context: u128) -> Option<Self> {
+        if context == self.context {
+            return None;
+        }
+        let mut next = Self { context, ..self.clone() };
+        next.pieces.iter_mut().for_each(|piece| piece.hash ^= self.context ^ context);
+        Some(next)
+    }
+
+    /// Whether the edit acts around each of its places alone.
+    pub(super) fn is_stamp(&self) -> bool {
+        self.is_stamp
+    }
+
+    /// Whether an arc may act on a point within a chord of a direction.
+    pub(super) fn may_reach(&self, arc: u32, dir: DVec3, chord: f64) -> bool {
+        let most = self.reach_chord + chord;
+        self.arcs.get(arc as usize).is_some_and(|arc| arc.chord2(dir).0 <= most * most)
+    }
+
+    /// What is near a direction, of these arcs. None if the edit does not reach there.
+    fn place(&self, dir: DVec3, arcs: &Arcs<'_>) -> Option<Place> {
+        let most = self.reach_chord * self.reach_chord;
+        let mut nearest = Nearest { chord2: f64::MAX, arc: 0 };
+        for number in arcs.at(dir) {
+            let (chord2, _) = self.arcs[number as usize].chord2(dir);
+            if chord2 < nearest.chord2 {
+                nearest = Nearest { chord2, arc: number };
             }
-            let t = if is_road { angle_of(chord2) / self.radius_rad } else { 1.0 };
+        }
+        (nearest.chord2 <= most).then(|| {
+            let mut place = Place { nearest, ..Place::default() };
+            if let CompiledTool::Road { .. } = self.tool {
+                self.average(dir, arcs, &mut place);
+            }
+            place
+        })
+    }
+
+    /// Averages the heights of a road over its near arcs.
+    fn average(&self, dir: DVec3, arcs: &Arcs<'_>, place: &mut Place) {
+        for arc in arcs.at(dir).map(|number| &self.arcs[number as usize]) {
+            let t = angle_of(arc.chord2(dir).0) / self.radius_rad;
             if t >= 1.0 {
                 continue;
             }
             let foot = arc.foot(dir);
             let (weight, by_t) = falloff(t, self.core);
             let weight_by_dir = away(dir, foot.dir) * (by_t / self.radius_rad);
-            let [from_m, to_m] = arc.heights_m;
-            let height_m = from_m + (to_m - from_m) * foot.along;
-            let slope = if foot.inside { (to_m - from_m) / arc.length_rad().max(1e-15) } else { 0.0 };
-            let height_by_dir = arc.tangent(foot.dir) * slope;
+            let (height_m, height_by_dir) = arc.value(&foot);
             place.weight.0 += weight;
             place.weight.1 += weight_by_dir;
             place.weighted_m.0 += weight * height_m;
@@ -167,10 +247,38 @@ impl CompiledEdit {
         }
     }
 
-    /// What the edit does to ground of a height. None if nothing.
-    pub(super) fn effect(&self, dir: DVec3, place: &Place, ground_m: f64) -> Option<Effect> {
-        let nearest = place.nearest?;
-        let plain = angle_of(nearest.chord2) / self.radius_rad;
+    /// What the edit paints.
+    pub(super) fn paint(&self) -> Option<&Paint> {
+        if let CompiledTool::Paint(paint) = &self.tool { Some(paint) } else { None }
+    }
+
+    /// The weight of paint, by these of its arcs: 1 in the core, 0 from the radius on.
+    pub(super) fn weight(&self, dir: DVec3, arcs: &Arcs<'_>) -> f64 {
+        let Some(place) = self.place(dir, arcs) else { return 0.0 };
+        let stretch = self.outline.as_ref().map_or(1.0, |noise| self.stretch(noise.at(dir).value).0);
+        falloff(angle_of(place.nearest.chord2) / self.radius_rad * stretch, self.core).0
+    }
+
+    /// Whether a direction is within reach of these of its arcs.
+    pub(super) fn reaches(&self, dir: DVec3, arcs: &Arcs<'_>) -> bool {
+        self.place(dir, arcs).is_some()
+    }
+
+    /// What the edit does to ground of a height, by these of its arcs. None if nothing. `smooth`: the smooth ground
+    /// and its gradient, for an edit that smooths.
+    #[inline]
+    pub(super) fn effect(
+        &self,
+        dir: DVec3,
+        arcs: &Arcs<'_>,
+        ground_m: f64,
+        smooth: Option<(f64, DVec3)>,
+    ) -> Option<Effect> {
+        let place = self.place(dir, arcs)?;
+        let nearest = place.nearest;
+        let arc = &self.arcs[nearest.arc as usize];
+        let radius_rad = self.radius_rad * arc.scale;
+        let plain = angle_of(nearest.chord2) / radius_rad;
         if plain >= self.tool.reach() {
             return None;
         }
@@ -182,31 +290,48 @@ impl CompiledEdit {
             return None;
         }
         let rough = self.rough.as_ref().map(|noise| noise.at(dir));
-        let line = (place.weight.0 > 0.0).then(|| {
+        let has_sides = matches!(self.tool, CompiledTool::Fault { .. } | CompiledTool::Coast { .. });
+        let line = if has_sides {
+            Some(arc.value(&arc.foot(dir)))
+        } else if place.weight.0 > 0.0 {
             let height_m = place.weighted_m.0 / place.weight.0;
-            (height_m, (place.weighted_m.1 - place.weight.1 * height_m) / place.weight.0)
-        });
+            Some((height_m, (place.weighted_m.1 - place.weight.1 * height_m) / place.weight.0))
+        } else {
+            smooth
+        };
+        let side = if has_sides { arc.side(dir) } else { 1.0 };
         let at = At {
             ground_m,
             t,
             core: self.core,
             noise: rough.map_or(0.0, |rough| rough.value),
-            line_m: line.map_or(ground_m, |line| line.0),
+            line: line.map_or(ground_m, |line| line.0),
+            side,
+            scale: arc.scale,
         };
         let mut change = self.tool.change(&at);
-        if let Some((sea_m, above)) = self.limit {
-            change = limited(change, ground_m, sea_m, above);
+        for (level_m, above) in self.limits.into_iter().flatten() {
+            change = limited(change, ground_m, level_m, above);
         }
-        if change.change_m == 0.0 && change.by_t == 0.0 {
+        if change.change_m == 0.0 && change.by_t == 0.0 && change.by_ground == 0.0 {
             return None;
         }
-        let foot = self.arcs[nearest.arc as usize].foot(dir).dir;
+        // Where the edit is level, no direction leads away from its line.
+        let outward = match change.by_t == 0.0 {
+            true => DVec3::ZERO,
+            // The foot of a point on the line tells no direction.
+            false if has_sides && arc.foot(dir).inside => arc.leftward(dir) * side,
+            false => away(dir, arc.foot(dir).dir),
+        };
         let line_by_dir = line.map_or(DVec3::ZERO, |line| line.1) * change.by_line;
+        let (line_by_dir, ground) =
+            if self.smooth.is_some() { (DVec3::ZERO, line_by_dir) } else { (line_by_dir, DVec3::ZERO) };
         Some(Effect {
             change_m: change.change_m,
             by_ground: 1.0 + change.by_ground,
-            smooth: away(dir, foot) * (change.by_t * stretch / self.radius_rad) + line_by_dir,
-            feature_rad: self.radius_rad * (1.0 - self.core).max(0.1),
+            smooth: outward * (change.by_t * stretch / radius_rad) + line_by_dir,
+            feature_rad: radius_rad * (1.0 - self.core).max(0.1),
+            ground,
             outline: ragged.map(|noise| (change.by_t * plain * by_noise, noise)),
             rough: rough.map(|rough| (change.by_noise, rough)),
         })
@@ -219,13 +344,6 @@ impl CompiledEdit {
         let (cube, by_noise) = (share * share * share, 1.5 * share * share / outline::MOST);
         (1.0 + 4.0 * self.raggedness * cube, 4.0 * self.raggedness * by_noise)
     }
-
-    /// Lowest and greatest height that ground between these may get. Conservative.
-    pub(super) fn range_m(&self, range_m: (f64, f64)) -> (f64, f64) {
-        let (lo, hi) = self.tool.range_m(range_m, self.heights_m);
-        let rounding_m = 1e-9 * lo.abs().max(hi.abs()) + 1e-9;
-        (lo.min(range_m.0) - rounding_m, hi.max(range_m.1) + rounding_m)
-    }
 }
 
 /// The unit tangent at a direction that points away from another one; zero where they are the same.
@@ -234,10 +352,10 @@ fn away(dir: DVec3, from: DVec3) -> DVec3 {
     (apart - dir * dir.dot(apart)).normalize_or_zero()
 }
 
-/// A change of land or of sea floor alone. It begins at the sea level, over as much height as it changes, so that no
-/// coast becomes a cliff.
-fn limited(change: Change, ground_m: f64, sea_m: f64, above: bool) -> Change {
-    let over_m = if above { ground_m - sea_m } else { sea_m - ground_m };
+/// A change of the ground above or below a level alone. It begins at the level, over as much height as it changes, so
+/// that no coast becomes a cliff.
+fn limited(change: Change, ground_m: f64, level_m: f64, above: bool) -> Change {
+    let over_m = if above { ground_m - level_m } else { level_m - ground_m };
     if over_m <= 0.0 {
         return Change::default();
     }

@@ -1,11 +1,16 @@
-//! Which pieces of edits are near: a quadtree over the squares of the sphere. Each cell lists the pieces that touch it,
-//! in the order in which they act; a leaf has few, or cannot be split with profit.
+//! Which pieces of edits are near: a quadtree over the squares of the sphere. Each cell lists the pieces that touch
+//! it, in the order in which they act; a leaf has few, or cannot be split with profit. A change of a few edits makes
+//! new cells only where they are; all others are shared with the revision before.
 
+use super::compiled::CompiledEdit;
+use super::roster::{Changes, Roster, number, slot_of};
+use super::widening::Widening;
 use crate::planet::Key;
 use crate::sphere::NodeId;
 use crate::sphere::cube::face_point;
 use glam::DVec3;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Pieces that a leaf may have before it is split.
 const LEAF: usize = 12;
@@ -19,8 +24,6 @@ const MARGIN: f64 = 1.1;
 /// Some arcs of an edit, within a disc that also holds all ground that they change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
-    /// The edit, by its place in the order.
-    pub(super) edit: u32,
     /// Its arcs among those of the edit.
     pub(super) first: u32,
     pub(super) count: u32,
@@ -33,12 +36,6 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Whether a point lies in the disc.
-    #[inline]
-    pub(super) fn holds(&self, dir: DVec3) -> bool {
-        self.middle.distance_squared(dir) <= self.chord * self.chord
-    }
-
     /// Whether the disc may touch another one.
     pub(super) fn touches(&self, dir: DVec3, chord: f64) -> bool {
         may_touch((self.middle, self.chord), (dir, chord))
@@ -54,7 +51,7 @@ pub(super) fn chord_of(angle_rad: f64) -> f64 {
 }
 
 /// Whether two discs may touch: the chord of a sum of angles is at most the sum of their chords.
-fn may_touch(a: (DVec3, f64), b: (DVec3, f64)) -> bool {
+pub(super) fn may_touch(a: (DVec3, f64), b: (DVec3, f64)) -> bool {
     let sum = a.1 + b.1;
     a.0.distance_squared(b.0) <= sum * sum
 }
@@ -67,136 +64,239 @@ fn disc_of(id: NodeId) -> (DVec3, f64) {
     (middle, chord2.sqrt() * MARGIN)
 }
 
-/// A cell and its list.
-#[derive(Clone, Debug)]
+/// A cell and the pieces that touch it. Revisions share the cells that did not change.
+#[derive(Debug, Default)]
 struct Cell {
-    /// Its four quarters; 0 for a leaf.
-    quarters: u32,
-    list: Range<u32>,
+    /// Numbers of its pieces, in the order in which they act.
+    list: Vec<u32>,
+    /// Hash of its pieces.
+    hash: u128,
+    /// What its pieces do to the bounds of heights: of a leaf in order, else the widest of the quarters.
+    range: Widening,
+    /// None for a leaf.
+    quarters: Option<[Arc<Cell>; 4]>,
 }
 
-/// The quadtree.
-#[derive(Debug)]
+/// The quadtree: the cells of the six faces.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Index {
-    pieces: Vec<Piece>,
-    /// The six faces first.
-    cells: Vec<Cell>,
-    lists: Vec<u32>,
+    faces: [Arc<Cell>; 6],
+}
+
+/// Pieces to be taken out and put in, each in the order in which they act.
+struct Change<'a> {
+    roster: &'a Roster,
+    removed: Vec<(u32, &'a Piece)>,
+    added: Vec<(u32, &'a Piece)>,
+}
+
+impl<'a> Change<'a> {
+    /// The part of the change that touches a disc. None if nothing does.
+    fn near(&self, (middle, chord): (DVec3, f64)) -> Option<Change<'a>> {
+        let near = |pieces: &[(u32, &'a Piece)]| -> Vec<_> {
+            pieces.iter().copied().filter(|(_, piece)| piece.touches(middle, chord)).collect()
+        };
+        let (removed, added) = (near(&self.removed), near(&self.added));
+        let some = !removed.is_empty() || !added.is_empty();
+        some.then_some(Change { roster: self.roster, removed, added })
+    }
+
+    /// The list after the change.
+    fn applied(&self, list: &[u32]) -> Vec<u32> {
+        let mut gone: Vec<u32> = self.removed.iter().map(|(number, _)| *number).collect();
+        gone.sort_unstable();
+        let mut next = Vec::with_capacity(list.len() + self.added.len());
+        let mut added = self.added.iter().map(|(number, _)| *number).peekable();
+        let stays = |number: &&u32| gone.is_empty() || gone.binary_search(number).is_err();
+        for &number in list.iter().filter(stays) {
+            while let Some(first) = added.next_if(|first| self.roster.rank(*first) < self.roster.rank(number)) {
+                next.push(first);
+            }
+            next.push(number);
+        }
+        next.extend(added);
+        next
+    }
 }
 
 impl Index {
-    pub(super) fn new(pieces: Vec<Piece>) -> Self {
-        let mut index = Self { pieces, cells: Vec::new(), lists: Vec::new() };
-        let all: Vec<u32> = (0..index.pieces.len() as u32).collect();
-        let mut open: Vec<(NodeId, usize)> = Vec::new();
-        for id in NodeId::roots() {
-            let list = index.touching(id, &all);
-            open.push((id, index.add(&list)));
+    /// The index of the same roster after changes. `wanted`: which edits the index lists.
+    pub(super) fn next(&self, roster: &Roster, changes: &Changes, wanted: impl Fn(&CompiledEdit) -> bool) -> Self {
+        let mut change = Change { roster, removed: Vec::new(), added: Vec::new() };
+        for (slot, edit) in changes.removed.iter().filter(|(_, edit)| wanted(edit)) {
+            change.removed.extend(edit.pieces.iter().enumerate().map(|(i, piece)| (number(*slot, i), piece)));
         }
-        while let Some((id, cell)) = open.pop() {
-            let list = index.list(cell).to_vec();
-            if list.len() <= LEAF || id.level >= FINEST {
-                continue;
+        for slot in &changes.added {
+            if let Some(edit) = roster.edit(*slot).filter(|edit| wanted(edit)) {
+                change.added.extend(edit.pieces.iter().enumerate().map(|(i, piece)| (number(*slot, i), piece)));
             }
-            let quarters = id.children().map(|child| index.touching(child, &list));
-            if quarters.iter().map(Vec::len).sum::<usize>() > WORTH * list.len() {
-                continue;
-            }
-            let numbers = quarters.map(|list| index.add(&list));
-            index.cells[cell].quarters = numbers[0] as u32;
-            open.extend(id.children().into_iter().zip(numbers));
         }
-        index
+        let mut faces = self.faces.clone();
+        for (id, face) in NodeId::roots().into_iter().zip(&mut faces) {
+            if let Some(near) = change.near(disc_of(id)) {
+                *face = face.next(id, &near);
+            }
+        }
+        Self { faces }
     }
 
-    fn touching(&self, id: NodeId, list: &[u32]) -> Vec<u32> {
-        let (middle, chord) = disc_of(id);
-        list.iter().copied().filter(|piece| self.piece(*piece).touches(middle, chord)).collect()
+    /// Whether it lists no piece.
+    pub(super) fn is_empty(&self) -> bool {
+        self.faces.iter().all(|face| face.list.is_empty())
     }
 
-    fn add(&mut self, list: &[u32]) -> usize {
-        let start = self.lists.len() as u32;
-        self.lists.extend_from_slice(list);
-        self.cells.push(Cell { quarters: 0, list: start..self.lists.len() as u32 });
-        self.cells.len() - 1
-    }
-
-    fn list(&self, cell: usize) -> &[u32] {
-        let Range { start, end } = self.cells[cell].list;
-        &self.lists[start as usize..end as usize]
-    }
-
-    #[inline]
-    pub(super) fn piece(&self, number: u32) -> &Piece {
-        &self.pieces[number as usize]
-    }
-
-    /// Looks leaves up, point after point.
-    pub(super) fn walk(&self) -> Walk<'_> {
-        Walk { index: self, face: usize::MAX, s: 1.0..0.0, t: 1.0..0.0, cell: 0 }
+    /// What its pieces do to the bounds of heights anywhere.
+    pub(super) fn range(&self) -> Widening {
+        self.faces.iter().map(|face| face.range).fold(Widening::default(), Widening::or)
     }
 
     /// The key of all pieces.
     pub(super) fn key_of_all(&self) -> Key {
-        Key::of(&self.hash(0..self.pieces.len() as u32))
+        Key::of(&self.faces.each_ref().map(|face| face.hash))
     }
 
     /// The key of the pieces that touch a node; None if none does.
-    pub(super) fn key_near(&self, id: NodeId) -> Option<Key> {
-        let mut cell = id.face as usize;
+    pub(super) fn key_near(&self, id: NodeId, roster: &Roster) -> Option<Key> {
+        let mut cell = self.faces.get(id.face as usize)?;
         for level in 0..id.level {
-            let quarters = self.cells[cell].quarters;
-            if quarters == 0 {
-                break;
-            }
+            let Some(quarters) = &cell.quarters else {
+                // The list is that of a larger cell.
+                let (middle, chord) = disc_of(id);
+                let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(middle, chord));
+                let near: Vec<u32> = cell.list.iter().copied().filter(touches).collect();
+                return (!near.is_empty()).then(|| Key::of(&hash(&near, roster)));
+            };
             let shift = id.level - 1 - level;
-            cell = quarters as usize + (id.x >> shift & 1) as usize + 2 * (id.y >> shift & 1) as usize;
+            cell = &quarters[(id.x >> shift & 1) as usize + 2 * (id.y >> shift & 1) as usize];
         }
-        // The list may be that of a larger cell.
-        let near = self.touching(id, self.list(cell));
-        (!near.is_empty()).then(|| Key::of(&self.hash(near)))
-    }
-
-    /// A hash of pieces in order, by what they do. Where one edit ends and the next begins counts, too.
-    fn hash(&self, pieces: impl IntoIterator<Item = u32>) -> u128 {
-        let (mut hash, mut last) = (Hash::default(), u32::MAX);
-        for piece in pieces.into_iter().map(|piece| self.piece(piece)) {
-            hash.add(u64::from(piece.edit != last));
-            hash.add(piece.hash as u64);
-            hash.add((piece.hash >> 64) as u64);
-            last = piece.edit;
-        }
-        hash.0
+        (!cell.list.is_empty()).then(|| Key::of(&cell.hash))
     }
 
     /// Calls `found` with the list of each leaf that may touch a disc, given by its middle and chord (None: of every
     /// leaf).
     pub(super) fn each_leaf(&self, near: Option<(DVec3, f64)>, found: &mut dyn FnMut(&[u32])) {
-        let mut open: Vec<(NodeId, usize)> = NodeId::roots().into_iter().zip(0..).collect();
+        let mut open: Vec<(NodeId, &Cell)> = NodeId::roots().into_iter().zip(self.faces.iter().map(|c| &**c)).collect();
         while let Some((id, cell)) = open.pop() {
             let is_near = near.is_none_or(|disc| may_touch(disc_of(id), disc));
-            if self.cells[cell].list.is_empty() || !is_near {
+            if cell.list.is_empty() || !is_near {
                 continue;
             }
-            match self.cells[cell].quarters as usize {
-                0 => found(self.list(cell)),
-                first => open.extend(id.children().into_iter().zip(first..)),
+            match &cell.quarters {
+                None => found(&cell.list),
+                Some(quarters) => open.extend(id.children().into_iter().zip(quarters.iter().map(|c| &**c))),
             }
         }
     }
 }
 
+impl Cell {
+    /// The cell of a node with these pieces, split as far as that pays.
+    fn new(id: NodeId, list: Vec<u32>, roster: &Roster) -> Arc<Self> {
+        let hash = hash(&list, roster);
+        let mut cell = Self { list, hash, ..Self::default() };
+        cell.split(id, roster);
+        Arc::new(cell.with_range(roster))
+    }
+
+    fn split(&mut self, id: NodeId, roster: &Roster) {
+        if self.list.len() <= LEAF || id.level >= FINEST {
+            return;
+        }
+        let children = id.children();
+        let lists = children.map(|child| {
+            let (middle, chord) = disc_of(child);
+            let touches = |number: &u32| roster.piece(*number).is_some_and(|piece| piece.touches(middle, chord));
+            self.list.iter().copied().filter(touches).collect::<Vec<u32>>()
+        });
+        if lists.iter().map(Vec::len).sum::<usize>() > WORTH * self.list.len() {
+            return;
+        }
+        let mut quarters = [const { None }; 4];
+        for ((child, list), quarter) in children.into_iter().zip(lists).zip(&mut quarters) {
+            *quarter = Some(Self::new(child, list, roster));
+        }
+        if let [Some(a), Some(b), Some(c), Some(d)] = quarters {
+            self.quarters = Some([a, b, c, d]);
+        }
+    }
+
+    /// The cell after a change that touches it.
+    fn next(&self, id: NodeId, change: &Change<'_>) -> Arc<Self> {
+        let list = change.applied(&self.list);
+        let mut next = Self { hash: hash(&list, change.roster), list, ..Self::default() };
+        match &self.quarters {
+            Some(quarters) if next.list.len() > LEAF => {
+                let mut quarters = quarters.clone();
+                for (child, quarter) in id.children().into_iter().zip(&mut quarters) {
+                    if let Some(near) = change.near(disc_of(child)) {
+                        *quarter = quarter.next(child, &near);
+                    }
+                }
+                next.quarters = Some(quarters);
+            }
+            _ => next.split(id, change.roster),
+        }
+        Arc::new(next.with_range(change.roster))
+    }
+
+    fn with_range(self, roster: &Roster) -> Self {
+        let range = match &self.quarters {
+            Some(quarters) => quarters.iter().map(|quarter| quarter.range).fold(Widening::default(), Widening::or),
+            None => range_of(&self.list, roster, |_| true),
+        };
+        Self { range, ..self }
+    }
+}
+
+/// What pieces in order do to the bounds of heights, of those that are near.
+pub(super) fn range_of(list: &[u32], roster: &Roster, is_near: impl Fn(&Piece) -> bool) -> Widening {
+    let (mut range, mut last) = (Widening::default(), None);
+    for &number in list {
+        let slot = slot_of(number);
+        let Some(edit) = roster.edit(slot).filter(|_| roster.piece(number).is_some_and(&is_near)) else { continue };
+        // The pieces of a line act once.
+        if last != Some(slot) || edit.is_stamp() {
+            range = range.then(edit.range);
+        }
+        last = Some(slot);
+    }
+    range
+}
+
+/// A hash of pieces in order, by what they do. Where one edit ends and the next begins counts, too.
+fn hash(list: &[u32], roster: &Roster) -> u128 {
+    // As a cell that never had a piece.
+    if list.is_empty() {
+        return 0;
+    }
+    let (mut hash, mut last) = (Hash::default(), None);
+    for &number in list {
+        let slot = slot_of(number);
+        hash.add(u64::from(last != Some(slot)));
+        if let Some(piece) = roster.piece(number) {
+            hash.add(piece.hash as u64);
+            hash.add((piece.hash >> 64) as u64);
+        }
+        last = Some(slot);
+    }
+    hash.0
+}
+
 /// Looks leaves up. Neighbouring points mostly lie in one leaf.
 pub(super) struct Walk<'a> {
     index: &'a Index,
-    /// The leaf that was found last: its face, its sides, its cell.
+    /// The leaf that was found last: its face, its sides, its pieces.
     face: usize,
     s: Range<f64>,
     t: Range<f64>,
-    cell: usize,
+    list: &'a [u32],
 }
 
 impl<'a> Walk<'a> {
+    pub(super) fn new(index: &'a Index) -> Self {
+        Walk { index, face: usize::MAX, s: 1.0..0.0, t: 1.0..0.0, list: &[] }
+    }
+
     /// The pieces that may change the ground at a direction.
     #[inline]
     pub(super) fn leaf(&mut self, dir: DVec3) -> &'a [u32] {
@@ -205,18 +305,18 @@ impl<'a> Walk<'a> {
         if self.face != face || !self.s.contains(&s) || !self.t.contains(&t) {
             self.descend(face, s, t);
         }
-        self.index.list(self.cell)
+        self.list
     }
 
     fn descend(&mut self, face: usize, s: f64, t: f64) {
-        let (mut cell, mut low, mut width) = (face, [-1.0, -1.0], 2.0);
-        while self.index.cells[cell].quarters > 0 {
+        let (mut cell, mut low, mut width) = (&*self.index.faces[face], [-1.0, -1.0], 2.0);
+        while let Some(quarters) = &cell.quarters {
             width *= 0.5;
             let (right, upper) = (s >= low[0] + width, t >= low[1] + width);
-            cell = self.index.cells[cell].quarters as usize + usize::from(right) + 2 * usize::from(upper);
+            cell = &quarters[usize::from(right) + 2 * usize::from(upper)];
             low = [low[0] + if right { width } else { 0.0 }, low[1] + if upper { width } else { 0.0 }];
         }
-        (self.face, self.cell) = (face, cell);
+        (self.face, self.list) = (face, &cell.list);
         (self.s, self.t) = (low[0]..low[0] + width, low[1]..low[1] + width);
     }
 }

@@ -2,44 +2,76 @@
 //!
 //! - `path`: the line through the points of an edit, and the nearest place of it
 //! - `tool`: what each tool does to a height, with derivatives and bounds
+//! - `widening`: what edits do to the bounds of heights
+//! - `smooth`: ground without fine detail, around a point
+//! - `paint`: painted climate
 //! - `outline`: noise for ragged outlines and rough ground
 //! - `compiled`: one edit: its tool, its line, the pieces of that line
+//! - `roster`: the edits that are on, in order, from one revision to the next
 //! - `index`: which pieces are near a point, a tile or a disc
+//! - `context`: what edits that smooth depend on
+//! - `near`: the parts of them that may act on a run of points
 //!
 //! Edits act in order at each point. One loop over points in f64 serves queries and tiles alike, with basic operations
 //! and `libm` alone, so heights are the same bits on every machine and instruction set. A point looks only at the
 //! pieces in its leaf of the index: thousands of edits cost what the few near the point cost.
 
 mod compiled;
+mod context;
 mod index;
+mod near;
 mod outline;
+mod paint;
 mod path;
+mod roster;
+mod smooth;
 mod tool;
+mod widening;
 
 use super::field::Components;
 use super::height::Heights;
 use crate::planet::edits::Shared;
-use crate::planet::{GroundEdits, Key, Planet};
+use crate::planet::{GroundEdits, Key, Planet, Tool};
 use crate::sphere::NodeId;
-use compiled::{CompiledEdit, Place};
+use compiled::CompiledEdit;
 use glam::DVec3;
-use index::{Index, Piece};
-use std::collections::HashMap;
+use index::{Index, Piece, Walk};
+use near::Arcs;
+pub(crate) use near::Near;
+pub(crate) use paint::Painted;
+use paint::Places;
+use roster::{Roster, slot_of};
+pub(crate) use smooth::Nodes;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
+use widening::Widening;
+
+/// Smooth edits around a place beyond which its bounds are those of the planet.
+const MOST_SMOOTH: usize = 16;
 
 /// The edits of a planet that are on, compiled.
 pub(crate) struct Edits {
-    edits: Vec<Arc<CompiledEdit>>,
-    index: Index,
+    roster: Roster,
+    /// Those that change the ground.
+    ground: Index,
+    /// Those that paint the climate, and the climates of the biomes that they paint.
+    climate: Index,
+    places: Places,
     key: Key,
-    /// Those of the planet with their compiled forms, by address, for the next revision.
-    known: HashMap<usize, (Arc<Shared>, Arc<CompiledEdit>)>,
+    /// Whether an edit smooths.
+    smooths: bool,
+}
+
+/// The ground before an edit, for those that read it around a point.
+pub(crate) struct Ground<'a> {
+    /// Heights as the edits before the one in a slot left them.
+    pub(crate) before: &'a dyn Fn(u32, &[DVec3]) -> Vec<f64>,
+    pub(crate) nodes: &'a Nodes,
 }
 
 impl fmt::Debug for Edits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Edits").field(&self.key).finish()
+        f.debug_tuple("Edits").field(&self.key).field(&self.paint_key()).finish()
     }
 }
 
@@ -54,7 +86,7 @@ struct World {
 struct Last {
     world: World,
     list: GroundEdits,
-    edits: Option<Arc<Edits>>,
+    edits: Arc<Edits>,
 }
 
 impl Edits {
@@ -67,88 +99,187 @@ impl Edits {
         let world = World { radius_m: planet.radius_m(), sea_m: planet.sea_level_m() };
         let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
         let before = last.as_ref().filter(|last| last.world == world);
-        if let Some(same) = before.filter(|last| last.list.is_same(&planet.edits)) {
-            return same.edits.clone();
-        }
-        let known = before.and_then(|last| last.edits.clone());
-        let edits = Self::compiled(&planet.edits, world, known.as_deref()).map(Arc::new);
+        let none = Self::none();
+        let edits = match before {
+            Some(same) if same.list.is_same(&planet.edits) => same.edits.over(planet),
+            Some(before) => Arc::new(before.edits.next(planet, world)),
+            None => Arc::new(none.next(planet, world)),
+        };
         *last = Some(Last { world, list: planet.edits.clone(), edits: edits.clone() });
-        edits
+        (edits.roster.len() > 0).then_some(edits)
     }
 
-    fn compiled(list: &GroundEdits, world: World, before: Option<&Self>) -> Option<Self> {
+    fn none() -> Self {
+        let ground = Index::default();
+        let key = ground.key_of_all();
+        Self {
+            roster: Roster::default(),
+            ground,
+            climate: Index::default(),
+            places: Places::default(),
+            key,
+            smooths: false,
+        }
+    }
+
+    /// Those of the next revision.
+    fn next(&self, planet: &Planet, world: World) -> Self {
         profiling::scope!("compile edits");
-        let mut known = HashMap::with_capacity(list.len());
-        let mut edits = Vec::with_capacity(list.len());
-        let acts = |shared: &&Arc<Shared>| shared.edit.enabled && !shared.edit.points.0.is_empty();
-        for shared in list.shared().iter().filter(acts) {
-            let same = before.and_then(|before| before.known.get(&address(shared)));
-            let compiled = match same {
-                Some((_, compiled)) => compiled.clone(),
-                None => Arc::new(CompiledEdit::new(&shared.edit, world.radius_m, world.sea_m)),
-            };
-            // The edit itself is kept, too, so that no other one can take its address.
-            known.insert(address(shared), (shared.clone(), compiled.clone()));
-            edits.push(compiled);
+        let compile = |shared: &Arc<Shared>| Arc::new(CompiledEdit::new(&shared.edit, world.radius_m, world.sea_m));
+        let (mut roster, changes) = self.roster.next(&planet.edits, compile);
+        let is_ground = |edit: &CompiledEdit| edit.paint().is_none();
+        let mut ground = self.ground.next(&roster, &changes, is_ground);
+        let climate = self.climate.next(&roster, &changes, |edit| edit.paint().is_some());
+        // What smooths the ground depends on the edits before it.
+        let later = context::refresh(&mut roster, &ground, &changes);
+        if !later.is_empty() {
+            ground = ground.next(&roster, &later, is_ground);
         }
-        if edits.is_empty() {
-            return None;
-        }
-        let mut pieces = Vec::new();
-        for (number, edit) in edits.iter().enumerate() {
-            pieces.extend(edit.pieces.iter().map(|piece| Piece { edit: number as u32, ..*piece }));
-        }
-        let index = Index::new(pieces);
-        let key = index.key_of_all();
-        Some(Self { edits, index, key, known })
+        let places = self.places.next(planet, painted_biomes(planet, &climate));
+        let smooths = roster.smoothing().next().is_some();
+        Self { roster, key: ground.key_of_all(), ground, climate, places, smooths }
     }
 
-    /// The key of all edits.
+    /// The same edits on a planet whose biome table may be another.
+    fn over(self: &Arc<Self>, planet: &Planet) -> Arc<Self> {
+        let places = self.places.next(planet, painted_biomes(planet, &self.climate));
+        if places == self.places {
+            return self.clone();
+        }
+        let Self { roster, ground, climate, key, smooths, .. } = &**self;
+        let (roster, ground, climate) = (roster.clone(), ground.clone(), climate.clone());
+        Arc::new(Self { roster, ground, climate, key: *key, places, smooths: *smooths })
+    }
+
+    /// The key of all edits of the ground.
     pub(crate) fn key(&self) -> Key {
         self.key
     }
 
+    /// The key of all paint. None if there is none.
+    pub(crate) fn paint_key(&self) -> Option<Key> {
+        (!self.climate.is_empty()).then(|| Key::of(&(self.climate.key_of_all(), &self.places.places)))
+    }
+
     /// The key of the edits that touch a node and the ground close around it. None if none does.
     pub(crate) fn key_near(&self, id: NodeId) -> Option<Key> {
-        self.index.key_near(id)
+        self.ground.key_near(id, &self.roster)
     }
 
-    /// Changes the heights of points, and their gradients for each of the spacings.
-    pub(crate) fn apply(&self, dirs: &[DVec3], spacings_rad: &[f64], heights: &mut Heights, limits_m: (f64, f64)) {
-        let mut walk = self.index.walk();
-        for (i, &dir) in dirs.iter().enumerate() {
-            let pieces = walk.leaf(dir);
-            if !pieces.is_empty() {
-                self.apply_at(dir, pieces, spacings_rad, heights, i, limits_m);
-            }
-        }
+    /// The same of paint.
+    pub(crate) fn paint_key_near(&self, id: NodeId) -> Option<Key> {
+        let key = self.climate.key_near(id, &self.roster)?;
+        Some(Key::of(&(key, &self.places.places)))
     }
 
-    fn apply_at(
+    /// Changes the heights of points, and their gradients for each of the spacings. `before`: only by the edits before
+    /// the one in this slot.
+    pub(crate) fn apply(
         &self,
-        dir: DVec3,
-        pieces: &[u32],
+        dirs: &[DVec3],
         spacings_rad: &[f64],
         heights: &mut Heights,
-        i: usize,
         limits_m: (f64, f64),
+        near: &mut Near,
+        (ground, before): (&Ground<'_>, Option<u32>),
     ) {
-        let mut rest = pieces;
-        while let Some(&first) = rest.first() {
-            let number = self.index.piece(first).edit;
-            let same = rest.iter().take_while(|piece| self.index.piece(**piece).edit == number).count();
-            let (own, others) = rest.split_at(same);
-            rest = others;
-            let Some(edit) = self.edits.get(number as usize) else { continue };
-            let mut place = Place::default();
-            for piece in own.iter().map(|piece| self.index.piece(*piece)).filter(|piece| piece.holds(dir)) {
-                edit.look(dir, piece, &mut place);
+        let end = before.map_or(u32::MAX, |slot| self.roster.rank_of(slot));
+        near.each_leaf(Walk::new(&self.ground), &self.roster, dirs, |points, near| {
+            let acts = |(slot, _): &(u32, Arcs<'_>)| self.roster.rank_of(*slot) < end;
+            let smooth = self.smooth_heights(dirs, points, near.groups().filter(acts), ground);
+            for i in points.iter().map(|point| *point as usize) {
+                for (slot, arcs) in near.groups().filter(acts) {
+                    let Some(edit) = self.roster.edit(slot) else { continue };
+                    let smooth = smooth.iter().find(|(of, _)| *of == slot).map(|(_, known)| known);
+                    let smooth = smooth.zip(edit.smooth).filter(|_| edit.reaches(dirs[i], &arcs));
+                    let smooth = smooth.map(|(known, lattice)| lattice.at(dirs[i], known));
+                    let Some(effect) = edit.effect(dirs[i], &arcs, heights.height_m[i], smooth) else { continue };
+                    heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
+                    for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
+                        let before = components(gradient, i);
+                        set_components(gradient, i, before * effect.by_ground + effect.gradient(spacing_rad));
+                    }
+                }
             }
-            let Some(effect) = edit.effect(dir, &place, heights.height_m[i]) else { continue };
-            heights.height_m[i] = (heights.height_m[i] + effect.change_m).clamp(limits_m.0, limits_m.1);
-            for (gradient, &spacing_rad) in heights.gradients.iter_mut().zip(spacings_rad) {
-                let before = components(gradient, i);
-                set_components(gradient, i, before * effect.by_ground + effect.gradient(spacing_rad));
+        });
+    }
+
+    /// The heights of the nodes that edits which smooth need at points, edit by edit.
+    fn smooth_heights<'a>(
+        &self,
+        dirs: &[DVec3],
+        points: &[u32],
+        groups: impl Iterator<Item = (u32, Arcs<'a>)>,
+        ground: &Ground<'_>,
+    ) -> Vec<(u32, smooth::Heights)> {
+        let smoothing = groups.filter_map(|(slot, arcs)| {
+            let edit = self.roster.edit(slot)?;
+            let lattice = edit.smooth?;
+            let mut wanted = smooth::Heights::default();
+            let own = points.iter().filter_map(|point| dirs.get(*point as usize));
+            for &dir in own.filter(|dir| edit.reaches(**dir, &arcs)) {
+                lattice.each_node(dir, |node| {
+                    wanted.insert(node, 0.0);
+                });
+            }
+            ground.nodes.fill(slot, &lattice, &mut wanted, &|dirs| (ground.before)(slot, dirs));
+            Some((slot, wanted))
+        });
+        smoothing.collect()
+    }
+
+    /// The paint at points; nothing if there is none at any.
+    pub(crate) fn painted(&self, dirs: &[DVec3], near: &mut Near, painted: &mut Vec<Painted>) {
+        painted.clear();
+        if self.climate.is_empty() {
+            return;
+        }
+        near.each_leaf(Walk::new(&self.climate), &self.roster, dirs, |points, near| {
+            for i in points.iter().map(|point| *point as usize) {
+                for (slot, arcs) in near.groups() {
+                    let Some(edit) = self.roster.edit(slot) else { continue };
+                    let (Some(paint), weight) = (edit.paint(), edit.weight(dirs[i], &arcs)) else { continue };
+                    if weight > 0.0 {
+                        painted.resize(dirs.len(), Painted::NONE);
+                        paint.apply(&mut painted[i], weight, |key| self.places.of(key));
+                    }
+                }
+            }
+        });
+    }
+
+    /// Whether paint may be at one of these points.
+    pub(crate) fn may_paint(&self, dirs: &[DVec3]) -> bool {
+        let mut walk = Walk::new(&self.climate);
+        !self.climate.is_empty() && dirs.iter().any(|dir| !walk.leaf(*dir).is_empty())
+    }
+
+    /// How far from a place the ground lies, as an angle, that decides about the ground within an angle of it: farther
+    /// where edits smooth.
+    pub(crate) fn reach_rad(&self, dir: DVec3, angle_rad: f64) -> f64 {
+        let (mut reach_rad, mut counted) = (angle_rad, Vec::new());
+        if !self.smooths {
+            return angle_rad;
+        }
+        loop {
+            let before = counted.len();
+            let disc = (dir, index::chord_of(reach_rad));
+            self.ground.each_leaf(Some(disc), &mut |pieces| {
+                for &number in pieces {
+                    let slot = slot_of(number);
+                    let smooth = self.roster.edit(slot).and_then(|edit| edit.smooth);
+                    let touches = self.roster.piece(number).is_some_and(|piece| piece.touches(disc.0, disc.1));
+                    if let Some(lattice) = smooth.filter(|_| touches && !counted.contains(&slot)) {
+                        counted.push(slot);
+                        reach_rad += lattice.reach_rad();
+                    }
+                }
+            });
+            if counted.len() > MOST_SMOOTH || reach_rad >= std::f64::consts::PI {
+                return std::f64::consts::PI;
+            }
+            if counted.len() == before {
+                return reach_rad;
             }
         }
     }
@@ -156,25 +287,35 @@ impl Edits {
     /// Widens the lowest and greatest height of the layers by what the edits do within an angle of a direction (None:
     /// anywhere). Conservative.
     pub(crate) fn bounds_m(&self, (lo, hi): (f64, f64), near: Option<(DVec3, f64)>) -> (f64, f64) {
+        if near.is_none() && !self.smooths {
+            return self.ground.range().of((lo, hi));
+        }
         let near = near.map(|(dir, angle_rad)| (dir, index::chord_of(angle_rad)));
-        let mut all = (lo, hi);
-        self.index.each_leaf(near, &mut |pieces| {
-            let (mut range, mut last) = ((lo, hi), None);
-            for piece in pieces.iter().map(|piece| self.index.piece(*piece)) {
-                let touches = near.is_none_or(|(dir, chord)| piece.touches(dir, chord));
-                // The pieces of one edit act once.
-                if !touches || last == Some(piece.edit) {
-                    continue;
-                }
-                last = Some(piece.edit);
-                if let Some(edit) = self.edits.get(piece.edit as usize) {
-                    range = edit.range_m(range);
-                }
-            }
-            all = (all.0.min(range.0), all.1.max(range.1));
-        });
-        all
+        let is_near = |piece: &Piece| near.is_none_or(|(dir, chord)| piece.touches(dir, chord));
+        if self.smooths {
+            // Smooth ground is a mean of the ground of several leaves: all edits count as if they were at one place.
+            let mut pieces = Vec::new();
+            self.ground.each_leaf(near, &mut |leaf| pieces.extend_from_slice(leaf));
+            pieces.sort_unstable_by_key(|number| self.roster.rank(*number));
+            pieces.dedup();
+            return index::range_of(&pieces, &self.roster, is_near).of((lo, hi));
+        }
+        let mut range = Widening::default();
+        self.ground.each_leaf(near, &mut |pieces| range = range.or(index::range_of(pieces, &self.roster, is_near)));
+        range.of((lo, hi))
     }
+}
+
+/// The keys of the biomes that strokes paint, in order.
+fn painted_biomes(planet: &Planet, climate: &Index) -> Vec<char> {
+    if climate.is_empty() {
+        return Vec::new();
+    }
+    let keys = planet.edits.iter().filter_map(|edit| match &edit.tool {
+        Tool::Biome(paint) if edit.enabled => Some(paint.biome),
+        _ => None,
+    });
+    keys.collect::<std::collections::BTreeSet<char>>().into_iter().collect()
 }
 
 fn components(gradient: &Components, i: usize) -> DVec3 {
@@ -185,8 +326,4 @@ fn set_components(gradient: &mut Components, i: usize, value: DVec3) {
     for (component, value) in gradient.iter_mut().zip(value.to_array()) {
         component[i] = value as f32;
     }
-}
-
-fn address(shared: &Arc<Shared>) -> usize {
-    Arc::as_ptr(shared) as usize
 }

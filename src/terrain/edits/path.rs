@@ -1,7 +1,9 @@
 //! The line through the points of an edit: a smooth curve (cubic Hermite with the tangents of Catmull and Rom 1974),
 //! cut into arcs of great circles. Distances are to the nearest arc.
 
-use crate::planet::EditPoint;
+use crate::planet::{EditPoint, GroundEdit};
+use crate::sphere::geo::east_north;
+use crate::world::noise::mix;
 use glam::DVec3;
 
 /// Most arcs from one point to the next.
@@ -18,8 +20,10 @@ pub(super) struct Arc {
     normal: DVec3,
     /// The directions of the arc at its ends.
     tangents: [DVec3; 2],
-    /// Heights of a road at its ends.
-    pub(super) heights_m: [f64; 2],
+    /// At its ends: heights of a road, the slip of a fault, the share of a coast.
+    pub(super) values: [f64; 2],
+    /// Size of a stamp's copy relative to the stamp.
+    pub(super) scale: f64,
 }
 
 /// The place of an arc that is nearest to a point.
@@ -33,12 +37,12 @@ pub(super) struct Foot {
 }
 
 impl Arc {
-    fn new(a: DVec3, b: DVec3, heights_m: [f64; 2]) -> Self {
+    fn new(a: DVec3, b: DVec3, values: [f64; 2]) -> Self {
         // The difference is exact to rounding, so that the normal of a short arc is, too.
         let normal = a.cross(b - a);
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { DVec3::ZERO };
-        Self { a, b, normal, tangents: [normal.cross(a), normal.cross(b)], heights_m }
+        Self { a, b, normal, tangents: [normal.cross(a), normal.cross(b)], values, scale: 1.0 }
     }
 
     /// Squared chord to the nearest place, and whether that lies between the ends.
@@ -68,12 +72,29 @@ impl Arc {
     }
 
     /// The direction along the arc at its foot.
-    pub(super) fn tangent(&self, foot: DVec3) -> DVec3 {
+    fn tangent(&self, foot: DVec3) -> DVec3 {
         self.normal.cross(foot)
     }
 
+    /// The value at its foot, and its gradient by the direction.
+    pub(super) fn value(&self, foot: &Foot) -> (f64, DVec3) {
+        let [from, to] = self.values;
+        let slope = if foot.inside { (to - from) / self.length_rad().max(1e-15) } else { 0.0 };
+        (from + (to - from) * foot.along, self.tangent(foot.dir) * slope)
+    }
+
+    /// 1 if a direction is on the left side of the way from its beginning to its end, else -1.
+    pub(super) fn side(&self, dir: DVec3) -> f64 {
+        if (dir - self.a).dot(self.normal) >= 0.0 { 1.0 } else { -1.0 }
+    }
+
+    /// The tangent at a direction that points to its left side.
+    pub(super) fn leftward(&self, dir: DVec3) -> DVec3 {
+        (self.normal - dir * dir.dot(self.normal)).normalize_or_zero()
+    }
+
     /// Its length as an angle.
-    pub(super) fn length_rad(&self) -> f64 {
+    fn length_rad(&self) -> f64 {
         angle_of((self.b - self.a).length_squared())
     }
 }
@@ -83,9 +104,31 @@ pub(super) fn angle_of(chord2: f64) -> f64 {
     2.0 * libm::asin((0.5 * chord2.sqrt()).min(1.0))
 }
 
-/// The places of a stamp.
-pub(super) fn places(points: &[EditPoint]) -> Vec<Arc> {
-    points.iter().map(|point| (point.direction(), point.height_m)).map(|(at, h)| Arc::new(at, at, [h, h])).collect()
+/// The places of a stamp and of its copies. A copy lies anywhere within the spread with equal chance; the number of
+/// copies above a size falls with its square.
+pub(super) fn places(edit: &GroundEdit, radius_m: f64) -> Vec<Arc> {
+    let spread_rad = (edit.spread_km * 1000.0 / radius_m).min(std::f64::consts::PI);
+    let mut places = Vec::new();
+    for (number, point) in edit.points.0.iter().enumerate() {
+        let middle = point.direction();
+        for copy in 0..edit.copies.max(1) {
+            if edit.copies <= 1 {
+                places.push(Arc::new(middle, middle, [0.0; 2]));
+                continue;
+            }
+            let seed = mix(u64::from(edit.seed) << 32 | u64::from(copy)).wrapping_add(mix(number as u64));
+            let random = |k: u64| (mix(seed.wrapping_add(k)) >> 11) as f64 / (1_u64 << 53) as f64;
+            // Equal areas of the cap have equal chance.
+            let cosine = 1.0 - random(1) * (1.0 - libm::cos(spread_rad));
+            let (sine, turn) = ((1.0 - cosine * cosine).max(0.0).sqrt(), random(2) * std::f64::consts::TAU);
+            let (east, north) = east_north(middle);
+            let at = (middle * cosine + (east * libm::cos(turn) + north * libm::sin(turn)) * sine).normalize();
+            let least = edit.smallest;
+            let scale = least / (1.0 - random(3) * (1.0 - least * least)).sqrt();
+            places.push(Arc { scale, ..Arc::new(at, at, [0.0; 2]) });
+        }
+    }
+    places
 }
 
 /// The arcs of the curve through points, for an edit of this radius.
@@ -126,4 +169,21 @@ pub(super) fn arcs(points: &[EditPoint], radius_rad: f64) -> Vec<Arc> {
         }
     }
     arcs
+}
+
+/// Gives each end of the arcs a value by its place on the line: its distances from the beginning and from the end, as
+/// angles. Nothing is at the end of a closed line.
+pub(super) fn set_values(arcs: &mut [Arc], value: impl Fn(f64, f64) -> f64) {
+    let is_closed = arcs.len() > 1 && arcs.first().map(|arc| arc.a) == arcs.last().map(|arc| arc.b);
+    let length_rad: f64 = arcs.iter().map(Arc::length_rad).sum();
+    let mut along_rad = 0.0;
+    for arc in arcs {
+        let next_rad = along_rad + arc.length_rad();
+        let at = |along_rad: f64| match is_closed {
+            true => value(f64::INFINITY, f64::INFINITY),
+            false => value(along_rad, (length_rad - along_rad).max(0.0)),
+        };
+        arc.values = [at(along_rad), at(next_rad)];
+        along_rad = next_rad;
+    }
 }

@@ -3,7 +3,12 @@
 
 use super::index::Hash;
 use super::outline;
-use crate::planet::edits::{Canyon, Crater, Flatten, Island, Mesa, Raise, Ridge, Road, Roughen, Terrace, Volcano};
+use super::paint::Paint;
+use super::widening::Widening;
+use crate::planet::edits::{
+    BiomePaint, Canyon, Coast, Crater, Fault, Flatten, Island, Mesa, MoisturePaint, PaintMode, Raise, Ridge, Road,
+    Roughen, Smooth, TemperaturePaint, Terrace, Volcano, Wall,
+};
 use crate::planet::{GroundEdit, Tool};
 
 /// Radii to which the ejecta of a crater reach.
@@ -26,8 +31,12 @@ pub(super) struct At {
     pub(super) core: f64,
     /// Noise of rough ground.
     pub(super) noise: f64,
-    /// Height of the line of a road.
-    pub(super) line_m: f64,
+    /// Height of the line of a road, or of smooth ground; the slip of a fault, the share of a coast.
+    pub(super) line: f64,
+    /// 1 on the left side of the line, -1 on the right.
+    pub(super) side: f64,
+    /// Size of a stamp's copy.
+    pub(super) scale: f64,
 }
 
 /// The change of a height, with its derivatives.
@@ -43,17 +52,74 @@ pub(super) struct Change {
 /// A tool, compiled.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CompiledTool {
-    Raise { amount_m: f64 },
-    Flatten { height_m: f64, strength: f64 },
-    Roughen { amplitude_m: f64 },
-    Terrace { step_m: f64, riser: f64, strength: f64 },
-    Crater { depth_m: f64, rim_m: f64, floor: f64, peak_m: f64 },
-    Volcano { height_m: f64, steepness: f64, caldera: f64, caldera_m: f64 },
-    Mesa { height_m: f64, talus: f64 },
-    Island { top_m: f64, foot_m: f64 },
-    Ridge { height_m: f64, softness: f64 },
-    Canyon { depth_m: f64, floor: f64, softness: f64 },
-    Road { strength: f64 },
+    Raise {
+        amount_m: f64,
+    },
+    Flatten {
+        height_m: f64,
+        strength: f64,
+    },
+    Roughen {
+        amplitude_m: f64,
+    },
+    Terrace {
+        step_m: f64,
+        riser: f64,
+        strength: f64,
+    },
+    Crater {
+        depth_m: f64,
+        rim_m: f64,
+        floor: f64,
+        peak_m: f64,
+    },
+    Volcano {
+        height_m: f64,
+        steepness: f64,
+        caldera: f64,
+        caldera_m: f64,
+    },
+    Mesa {
+        height_m: f64,
+        talus: f64,
+    },
+    Island {
+        sea_m: f64,
+        height_m: f64,
+        foot_m: f64,
+    },
+    Ridge {
+        height_m: f64,
+        softness: f64,
+    },
+    Canyon {
+        depth_m: f64,
+        floor: f64,
+        softness: f64,
+    },
+    Road {
+        strength: f64,
+    },
+    Smooth {
+        strength: f64,
+    },
+    Wall {
+        height_m: f64,
+        top: f64,
+    },
+    Fault {
+        throw_m: f64,
+        scarp: f64,
+        drop: f64,
+    },
+    Coast {
+        sea_m: f64,
+        land_m: f64,
+        depth_m: f64,
+        flip: bool,
+    },
+    /// Paint leaves the ground as it is.
+    Paint(Paint),
 }
 
 /// A rise from 0 to 1 with two smooth derivatives (Perlin 2002), and its derivative.
@@ -95,12 +161,21 @@ impl CompiledTool {
                 Self::Volcano { height_m, steepness, caldera, caldera_m }
             }
             Tool::Mesa(Mesa { height_m, talus }) => Self::Mesa { height_m, talus },
-            Tool::Island(Island { height_m, foot_m }) => {
-                Self::Island { top_m: sea_m + height_m, foot_m: sea_m - foot_m }
-            }
+            Tool::Island(Island { height_m, foot_m }) => Self::Island { sea_m, height_m, foot_m },
             Tool::Ridge(Ridge { height_m }) => Self::Ridge { height_m, softness: edit.softness },
             Tool::Canyon(Canyon { depth_m, floor }) => Self::Canyon { depth_m, floor, softness: edit.softness },
             Tool::Road(Road { strength }) => Self::Road { strength },
+            Tool::Smooth(Smooth { strength, .. }) => Self::Smooth { strength },
+            Tool::Wall(Wall { height_m, top }) => Self::Wall { height_m, top },
+            Tool::Fault(Fault { throw_m, scarp, drop }) => Self::Fault { throw_m, scarp, drop },
+            Tool::Coast(Coast { land_m, depth_m, flip }) => Self::Coast { sea_m, land_m, depth_m, flip },
+            Tool::Moisture(MoisturePaint { mode, moisture }) => {
+                Self::Paint(Paint::Moisture { value: moisture, sets: mode == PaintMode::Set })
+            }
+            Tool::Temperature(TemperaturePaint { mode, temperature_c }) => {
+                Self::Paint(Paint::Temperature { value_c: temperature_c, sets: mode == PaintMode::Set })
+            }
+            Tool::Biome(BiomePaint { biome, strength }) => Self::Paint(Paint::Biome { key: biome, strength }),
         }
     }
 
@@ -118,10 +193,17 @@ impl CompiledTool {
             Self::Crater { depth_m, rim_m, floor, peak_m } => (4, [depth_m, rim_m, floor, peak_m]),
             Self::Volcano { height_m, steepness, caldera, caldera_m } => (5, [height_m, steepness, caldera, caldera_m]),
             Self::Mesa { height_m, talus } => (6, [height_m, talus, 0.0, 0.0]),
-            Self::Island { top_m, foot_m } => (7, [top_m, foot_m, 0.0, 0.0]),
+            Self::Island { sea_m, height_m, foot_m } => (7, [sea_m, height_m, foot_m, 0.0]),
             Self::Ridge { height_m, softness } => (8, [height_m, softness, 0.0, 0.0]),
             Self::Canyon { depth_m, floor, softness } => (9, [depth_m, floor, softness, 0.0]),
             Self::Road { strength } => (10, [strength, 0.0, 0.0, 0.0]),
+            Self::Smooth { strength } => (11, [strength, 0.0, 0.0, 0.0]),
+            Self::Wall { height_m, top } => (12, [height_m, top, 0.0, 0.0]),
+            Self::Fault { throw_m, scarp, drop } => (13, [throw_m, scarp, drop, 0.0]),
+            Self::Coast { sea_m, land_m, depth_m, flip } => (14, [sea_m, land_m, depth_m, f64::from(u8::from(flip))]),
+            Self::Paint(Paint::Moisture { value, sets }) => (20, [value, f64::from(u8::from(sets)), 0.0, 0.0]),
+            Self::Paint(Paint::Temperature { value_c, sets }) => (21, [value_c, f64::from(u8::from(sets)), 0.0, 0.0]),
+            Self::Paint(Paint::Biome { key, strength }) => (22, [strength, f64::from(u32::from(key)), 0.0, 0.0]),
         };
         hash.add(kind);
         numbers.into_iter().for_each(|number| hash.add_f64(number));
@@ -131,7 +213,11 @@ impl CompiledTool {
     pub(super) fn change(&self, at: &At) -> Change {
         let t = at.t;
         let (weight, weight_by_t) = falloff(t, at.core);
-        let added = |(height_m, by_t): (f64, f64)| Change { change_m: height_m, by_t, ..Change::default() };
+        let added = |(height_m, by_t): (f64, f64)| Change {
+            change_m: height_m * at.scale,
+            by_t: by_t * at.scale,
+            ..Change::default()
+        };
         // A share of the way to a height.
         let towards = |height_m: f64, strength: f64| Change {
             change_m: (height_m - at.ground_m) * (strength * weight),
@@ -183,7 +269,8 @@ impl CompiledTool {
                 let slope = -(1.0 - talus) * by_u / CLIFF - if v > 0.0 { 2.0 * talus * left } else { 0.0 };
                 added((height_m * ((1.0 - talus) * (1.0 - fallen) + talus * left * left), height_m * slope / width))
             }
-            Self::Island { top_m, foot_m } => {
+            Self::Island { sea_m, height_m, foot_m } => {
+                let (top_m, foot_m) = (sea_m + height_m * at.scale, sea_m - foot_m * at.scale);
                 let (dome, dome_by_t) = dome(t);
                 let size_m = top_m - foot_m;
                 let over_m = foot_m + size_m * dome - at.ground_m;
@@ -216,23 +303,62 @@ impl CompiledTool {
                 let by_v = softness * by_u + (1.0 - softness) * 2.0 * v;
                 added((depth_m * (wall - 1.0), depth_m * by_v / (1.0 - floor)))
             }
-            Self::Road { strength } => Change { by_line: strength * weight, ..towards(at.line_m, strength) },
+            Self::Road { strength } | Self::Smooth { strength } => {
+                Change { by_line: strength * weight, ..towards(at.line, strength) }
+            }
+            Self::Wall { height_m, top } => {
+                let (fallen, by_t) = falloff(t, top);
+                added((height_m * fallen, height_m * by_t))
+            }
+            Self::Fault { throw_m, scarp, drop } => {
+                let left = (1.0 - t).max(0.0);
+                let (risen, by_u) = rise(at.side * t / scarp + 0.5);
+                let (height_m, fade) = (throw_m * at.line, left * left);
+                Change {
+                    change_m: height_m * (risen - drop) * fade,
+                    by_t: height_m * (by_u / scarp * at.side * fade - 2.0 * (risen - drop) * left),
+                    by_line: throw_m * (risen - drop) * fade,
+                    ..Change::default()
+                }
+            }
+            Self::Coast { sea_m, land_m, depth_m, flip } => {
+                let left = (1.0 - t).max(0.0);
+                let size_m = if (at.side > 0.0) != flip { land_m } else { -depth_m };
+                let shore_m = sea_m + size_m * (1.0 - left * left);
+                let over_m = shore_m - at.ground_m;
+                Change {
+                    change_m: over_m * weight * at.line,
+                    by_ground: -weight * at.line,
+                    by_t: (2.0 * size_m * left * weight + over_m * weight_by_t) * at.line,
+                    by_line: over_m * weight,
+                    ..Change::default()
+                }
+            }
+            Self::Paint(_) => Change::default(),
         }
     }
 
-    /// Lowest and greatest height of ground that was between these heights. `line_m`: heights of a road.
-    pub(super) fn range_m(&self, (lo, hi): (f64, f64), line_m: (f64, f64)) -> (f64, f64) {
+    /// What the tool does to the bounds of heights. `line_m`: lowest and greatest height of a road.
+    pub(super) fn range(&self, line_m: (f64, f64)) -> Widening {
         match *self {
-            Self::Raise { amount_m } => (lo + amount_m.min(0.0), hi + amount_m.max(0.0)),
-            Self::Flatten { height_m, .. } => (lo.min(height_m), hi.max(height_m)),
-            Self::Roughen { amplitude_m } => (lo - amplitude_m * outline::MOST, hi + amplitude_m * outline::MOST),
-            Self::Terrace { step_m, .. } => (lo - step_m, hi + step_m),
-            Self::Crater { depth_m, rim_m, peak_m, .. } => (lo - depth_m, hi + rim_m + peak_m),
-            Self::Volcano { height_m, caldera_m, .. } => (lo - caldera_m, hi + height_m),
-            Self::Mesa { height_m, .. } | Self::Ridge { height_m, .. } => (lo, hi + height_m),
-            Self::Island { top_m, foot_m } => (lo, hi.max(top_m) + FOOT * (top_m - foot_m)),
-            Self::Canyon { depth_m, .. } => (lo - depth_m, hi),
-            Self::Road { .. } => (lo.min(line_m.0), hi.max(line_m.1)),
+            Self::Raise { amount_m } => Widening::by(-amount_m.min(0.0), amount_m.max(0.0)),
+            Self::Flatten { height_m, .. } => Widening::to(height_m, height_m),
+            Self::Roughen { amplitude_m } => Widening::by(amplitude_m * outline::MOST, amplitude_m * outline::MOST),
+            Self::Terrace { step_m, .. } => Widening::by(step_m, step_m),
+            Self::Crater { depth_m, rim_m, peak_m, .. } => Widening::by(depth_m, rim_m + peak_m),
+            Self::Volcano { height_m, caldera_m, .. } => Widening::by(caldera_m, height_m),
+            Self::Mesa { height_m, .. } | Self::Ridge { height_m, .. } | Self::Wall { height_m, .. } => {
+                Widening::by(0.0, height_m)
+            }
+            Self::Island { sea_m, height_m, foot_m } => {
+                Widening::to(f64::INFINITY, sea_m + height_m).then(Widening::by(0.0, FOOT * (height_m + foot_m)))
+            }
+            Self::Canyon { depth_m, .. } => Widening::by(depth_m, 0.0),
+            Self::Road { .. } => Widening::to(line_m.0, line_m.1),
+            Self::Fault { throw_m, .. } => Widening::by(throw_m.abs(), throw_m.abs()),
+            Self::Coast { sea_m, land_m, depth_m, .. } => Widening::to(sea_m - depth_m, sea_m + land_m),
+            // Smooth ground is a mean of the ground around; its bounds are those of a larger place.
+            Self::Smooth { .. } | Self::Paint(_) => Widening::default(),
         }
     }
 }

@@ -1,0 +1,147 @@
+//! Time and memory of ten thousand strokes all over a planet: a full rebuild of a view that sees about a hundred of
+//! them and of one that sees more, and the time from one stroke more to its tiles.
+
+use super::edits::Bench;
+use super::{median, p95, repeat};
+use crate::lod::{Camera, Quality, View};
+use crate::planet::edits::{EditPoint, GroundEdit, Raise, Tool};
+use crate::planet::{Fbm, Layer, Planet, Shape};
+use crate::sphere::geo::{self, east_north};
+use crate::sphere::{LatLon, NodeId};
+use crate::terrain::Terrain;
+use crate::tiles::{DEFAULT_BUDGET_BYTES, Surface, build_now};
+use glam::DVec3;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// Strokes on the planet.
+const STROKES: usize = 10_000;
+/// Points of each stroke, and the distance between them.
+const POINTS: usize = 10;
+const STEP_KM: f64 = 4.0;
+const RADIUS_KM: f64 = 8.0;
+const PLANET_KM: f64 = 1000.0;
+/// Height of the eye over the ground in each view.
+const ALTITUDES_M: [f64; 2] = [3.5e4, 1.5e5];
+/// Strokes that are added one after the other.
+const RUNS: usize = 30;
+
+/// The `sculpt` object of the report.
+pub(super) fn measure() -> Result<Value, String> {
+    let invalid = |error: crate::planet::InvalidPlanet| error.to_string();
+    let bare = Arc::new(planet(Vec::new()));
+    let before_mb = resident_mb();
+    let many = Arc::new(planet(strokes()));
+    let terrain = Terrain::try_new(many.clone()).map_err(invalid)?;
+    let after_mb = resident_mb();
+    drop(terrain);
+
+    let mut views = Vec::new();
+    for altitude_m in ALTITUDES_M {
+        let view = view(altitude_m);
+        let surface = build_now(&many, &view).map_err(invalid)?;
+        let bare_surface = build_now(&bare, &view).map_err(invalid)?;
+        let full = |planet: &Arc<Planet>| repeat(|| drop(build_now(planet, &view)));
+        let (with, without) = (median(&full(&many)), median(&full(&bare)));
+        views.push(json!({
+            "altitude_m": altitude_m,
+            "strokes_in_view": in_view(&many, &surface),
+            "tiles": surface.stats.tiles,
+            "tiles_without": bare_surface.stats.tiles,
+            "full_ms": with,
+            "full_ms_without": without,
+            "ratio": with.zip(without).map(|(with, without)| with / without),
+        }));
+    }
+
+    let (bench, view) = (Bench::new(DEFAULT_BUDGET_BYTES), view(ALTITUDES_M[1]));
+    bench.settle(&many, &view);
+    let (mut times, mut compile_ms, mut edited) = (Vec::new(), Vec::new(), Planet::clone(&many));
+    for run in 0..RUNS {
+        // A stroke that grows as one does under the hand.
+        if run == 0 {
+            edited.edits.push(GroundEdit { radius_km: RADIUS_KM, ..stroke(DVec3::X, 0.0, 1) });
+        }
+        let last = edited.edits.len() - 1;
+        if let Some(edit) = edited.edits.get_mut(last) {
+            edit.points = stroke(middle().direction(), 0.02 * run as f64, 2).points;
+        }
+        let Some(([_, secs], stats)) = bench.settle(&Arc::new(edited.clone()), &view) else { continue };
+        times.push(secs * 1000.0);
+        compile_ms.push(stats.compile_secs * 1000.0);
+    }
+    times.sort_by(f64::total_cmp);
+    compile_ms.sort_by(f64::total_cmp);
+    Ok(json!({
+        "strokes": STROKES,
+        "views": views,
+        "stroke_ms": median(&times),
+        "stroke_ms_p95": p95(&times),
+        "stroke_compile_ms": median(&compile_ms),
+        "file_mb": many.to_text().len() as f64 / 1e6,
+        "memory_mb": after_mb.zip(before_mb).map(|(after, before)| after - before),
+    }))
+}
+
+fn planet(edits: Vec<GroundEdit>) -> Planet {
+    let layer = Layer {
+        amplitude_m: 400.0,
+        shape: Shape::Fbm(Fbm { wavelength_km: 300.0, octaves: 12, ..Fbm::default() }),
+        ..Layer::default()
+    };
+    Planet { radius_km: PLANET_KM, layers: vec![layer], edits: edits.into_iter().collect(), ..Planet::default() }
+}
+
+fn middle() -> LatLon {
+    LatLon::from_degrees(12.0, -70.0)
+}
+
+fn view(altitude_m: f64) -> View {
+    let height_m = PLANET_KM * 1000.0 + altitude_m;
+    let camera = Camera::over(middle(), height_m, 0.3, -1.4, Camera::DEFAULT_FOV_Y_RAD);
+    View { camera, size_px: [1280, 800], quality: Quality::Medium }
+}
+
+fn strokes() -> Vec<GroundEdit> {
+    let spread = geo::spread(STROKES).enumerate();
+    // Headings by the golden angle: no two neighbours run alike.
+    spread.map(|(number, dir)| stroke(dir, 2.399_963 * number as f64, POINTS)).collect()
+}
+
+/// A stroke that bends a little.
+fn stroke(from: DVec3, heading_rad: f64, points: usize) -> GroundEdit {
+    let (east, north) = east_north(from);
+    let point = |step: usize| {
+        let (heading_rad, away_rad) = (heading_rad + 0.05 * step as f64, step as f64 * STEP_KM / PLANET_KM);
+        let along = east * libm::sin(heading_rad) + north * libm::cos(heading_rad);
+        EditPoint::under((from * libm::cos(away_rad) + along * libm::sin(away_rad)).normalize())
+    };
+    let tool = Tool::Raise(Raise { amount_m: 100.0 });
+    GroundEdit { tool, radius_km: RADIUS_KM, points: (0..points).map(point).collect(), ..GroundEdit::default() }
+}
+
+/// Strokes with a point on a tile of the surface that the camera sees.
+fn in_view(planet: &Planet, surface: &Surface) -> usize {
+    let leaves: std::collections::HashSet<NodeId> = surface.leaves.iter().map(|leaf| leaf.tile.id).collect();
+    let levels: std::collections::BTreeSet<u8> = leaves.iter().map(|id| id.level).collect();
+    let camera = &surface.view.camera;
+    let aspect = f64::from(surface.view.size_px[0]) / f64::from(surface.view.size_px[1]);
+    let is_seen = |point: &EditPoint| {
+        let dir = point.direction();
+        let is_drawn = levels.iter().any(|level| leaves.contains(&NodeId::containing(dir, *level)));
+        let place_m = dir * PLANET_KM * 1000.0;
+        let is_drawn = is_drawn && place_m.dot(camera.position_planet_m - place_m) > 0.0;
+        let at = camera.planet_from_view.inverse() * (place_m - camera.position_planet_m);
+        let half = -at.z * (0.5 * camera.fov_y_rad).tan();
+        is_drawn && at.z < 0.0 && at.y.abs() <= half && at.x.abs() <= half * aspect
+    };
+    planet.edits.iter().filter(|edit| edit.points.0.iter().any(is_seen)).count()
+}
+
+/// Resident size of this process now, where the system tells.
+fn resident_mb() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
+}

@@ -1,0 +1,67 @@
+//! What edits that smooth depend on besides their own numbers: the edits before them that are near. It is part of
+//! their content, so that tiles are built again when one of those changes.
+
+use super::compiled::CompiledEdit;
+use super::index::{Hash, Index, Piece};
+use super::path::angle_of;
+use super::roster::{Changes, Roster, slot_of};
+use std::sync::Arc;
+
+/// Finds anew the content of the edits that smooth where something changed. Returns these as changes. `index`: that of
+/// the roster after `changes`.
+pub(super) fn refresh(roster: &mut Roster, index: &Index, changes: &Changes) -> Changes {
+    let smoothing: Vec<(u32, Arc<CompiledEdit>)> =
+        roster.smoothing().map(|(slot, edit)| (slot, edit.clone())).collect();
+    let mut refreshed = Changes::default();
+    if smoothing.is_empty() {
+        return refreshed;
+    }
+    let new = changes.added.iter().filter_map(|slot| roster.edit(*slot).cloned());
+    let old = changes.removed.iter().map(|(_, edit)| edit.clone());
+    let mut changed: Vec<Arc<CompiledEdit>> = new.chain(old).filter(|edit| edit.paint().is_none()).collect();
+    for (slot, edit) in smoothing {
+        let Some(lattice) = edit.smooth else { continue };
+        let reach_rad = lattice.reach_rad();
+        let chord = reach_rad * (1.0 + 1e-9);
+        let touches = |piece: &Piece, other: &Piece| other.touches(piece.middle, piece.chord + chord);
+        let is_changed = changes.added.contains(&slot)
+            || changed
+                .iter()
+                .any(|other| other.pieces.iter().any(|other| edit.pieces.iter().any(|piece| touches(piece, other))));
+        if !is_changed {
+            continue;
+        }
+        let mut before: Vec<u32> = Vec::new();
+        for piece in &edit.pieces {
+            index.each_leaf(Some((piece.middle, piece.chord + chord)), &mut |numbers| {
+                let is_near =
+                    |number: &u32| roster.piece(*number).is_some_and(|other| overlaps(piece, other, reach_rad));
+                let is_before = |number: &u32| roster.rank_of(slot_of(*number)) < roster.rank_of(slot);
+                before.extend(numbers.iter().copied().filter(|number| is_before(number) && is_near(number)));
+            });
+        }
+        before.sort_unstable_by_key(|number| roster.rank(*number));
+        before.dedup();
+        let mut context = Hash::default();
+        for piece in before.iter().filter_map(|number| roster.piece(*number)) {
+            context.add(piece.hash as u64);
+            context.add((piece.hash >> 64) as u64);
+        }
+        if let Some(next) = edit.in_context(context.0) {
+            let next = Arc::new(next);
+            roster.replace(slot, next.clone());
+            changed.push(next);
+            refreshed.removed.push((slot, edit));
+            refreshed.added.push(slot);
+        }
+    }
+    refreshed
+}
+
+/// Whether the disc of a piece, wider by an angle, overlaps another one. Exact, unlike the test that the index uses:
+/// the cells of the index depend on earlier revisions, and the context must not.
+fn overlaps(piece: &Piece, other: &Piece, reach_rad: f64) -> bool {
+    let radius_rad = |piece: &Piece| angle_of(piece.chord * piece.chord);
+    let apart_rad = angle_of(piece.middle.distance_squared(other.middle));
+    apart_rad <= radius_rad(piece) + radius_rad(other) + reach_rad
+}
