@@ -248,7 +248,7 @@ fn mirrored(n: vec3f, v: vec3f, l: vec3f, roughness: f32, reflectance: f32) -> v
     let visible = 0.5 / (mix(2.0 * n_l * n_v, n_l + n_v, alpha) + 0.15 * alpha);
     // The facets of rough ground are no mirrors: at grazing angles it shines no more than Karis' fit says of skylight.
     let smooth_part = (1.0 - roughness) * (1.0 - roughness);
-    let fresnel = reflectance + max(smooth_part - reflectance, 0.0) * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+    let fresnel = reflectance + max(smooth_part - reflectance, 0.0) * pow(1.0 - saturate1(dot(v, h)), 5.0);
     return vec2f(alpha * alpha / (PI * d * d) * visible * fresnel * n_l, around);
 }
 

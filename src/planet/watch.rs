@@ -83,8 +83,8 @@ impl FileWatch {
         Self { interval, looked: None, loaded: look(files), changing: None }
     }
 
-    /// Whether the files have changed since they were loaded, and then stayed as they are for the time between two looks.
-    /// `main`: a file without which there is no news.
+    /// Whether the files have changed since they were loaded, and then stayed as they are for the time between two
+    /// looks. `main`: a file without which there is no news.
     pub(crate) fn poll(&mut self, main: &Path) -> bool {
         if self.looked.is_some_and(|looked| looked.elapsed() < self.interval) {
             return false;
@@ -108,8 +108,8 @@ impl FileWatch {
         self.changing.is_some()
     }
 
-    /// Watches these files instead of others. One that was watched before and has changed meanwhile is found at the next
-    /// look.
+    /// Watches these files instead of others. One that was watched before and has changed meanwhile is found at the
+    /// next look.
     pub(crate) fn follow(&mut self, files: impl IntoIterator<Item = PathBuf>) {
         let before = std::mem::take(&mut self.loaded);
         self.loaded = look(files);

@@ -105,9 +105,9 @@ impl Ellipse {
         (in_plane_m.length() > 0.0 && in_plane_m.is_finite()).then_some(in_plane_m)
     }
 
-    /// The orbit of the same shape and plane that passes through a place: the ellipse is scaled, and the body stands there
-    /// at a time. `over_m`: the place, metres from the parent, seen along the z-axis of the frame of the elements. None if
-    /// the orbit is seen edge on, or the place is the parent's.
+    /// The orbit of the same shape and plane that passes through a place: the ellipse is scaled, and the body stands
+    /// there at a time. `over_m`: the place, metres from the parent, seen along the z-axis of the frame of the
+    /// elements. None if the orbit is seen edge on, or the place is the parent's.
     pub fn through(&self, over_m: DVec2, time_secs: f64) -> Option<Self> {
         let in_plane_m = self.in_plane_m(over_m)?;
         let distance_m = in_plane_m.length();

@@ -178,8 +178,8 @@ impl Member {
         self.mass_kg() * GRAVITATION
     }
 
-    /// Its ellipse about a parent, from its orbit or its start. `parent_gravity`: of the parent, m³/s². None at the root,
-    /// and for a start from which the body escapes or falls straight down.
+    /// Its ellipse about a parent, from its orbit or its start. `parent_gravity`: of the parent, m³/s². None at the
+    /// root, and for a start from which the body escapes or falls straight down.
     pub fn ellipse(&self, parent_gravity: f64) -> Option<Ellipse> {
         let gravity = parent_gravity + self.gravity_m3_s2();
         match (&self.orbit, &self.start) {

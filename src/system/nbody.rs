@@ -235,8 +235,8 @@ pub fn fitting_step_secs(system: &System) -> f64 {
     orbits.map(Ellipse::period_secs).fold(YEAR_SECS, f64::min) / 200.0
 }
 
-/// Runs a system and watches it. `radii_m`: radius of each body, 0 where it is unknown. `observe` is told the share that
-/// is done and the bodies after each step, and answers whether to go on.
+/// Runs a system and watches it. `radii_m`: radius of each body, 0 where it is unknown. `observe` is told the share
+/// that is done and the bodies after each step, and answers whether to go on.
 pub fn try_out(
     system: &System,
     radii_m: &[f64],

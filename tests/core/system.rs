@@ -9,9 +9,9 @@ const DAY_SECS: f64 = 86_400.0;
 /// Standard gravitational parameter of Jupiter, m³/s².
 const JUPITER: f64 = 1.266_865_34e17;
 
-/// Jupiter with Io, Europa and Ganymede. Mean motions, eccentricities and masses are those of the moons (Lieske, Galilean
-/// satellites of Jupiter, theory E5, 1998). Io and Europa begin in conjunction, at Io's periapsis and Europa's apoapsis,
-/// where conjunctions stay; Ganymede is a quarter turn ahead.
+/// Jupiter with Io, Europa and Ganymede. Mean motions, eccentricities and masses are those of the moons (Lieske,
+/// Galilean satellites of Jupiter, theory E5, 1998). Io and Europa begin in conjunction, at Io's periapsis and Europa's
+/// apoapsis, where conjunctions stay; Ganymede is a quarter turn ahead.
 fn jupiter() -> Bodies {
     // Degrees a day, eccentricity, longitude of periapsis, longitude, gravitational parameter.
     let moons = [

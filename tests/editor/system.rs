@@ -1,6 +1,6 @@
 //! Systems: opening one, going from body to body, the time.
 
-use crate::app::{self, Editor, click, drag, planet, scroll_to, send, type_text, unfold, until};
+use crate::app::{self, Editor, click, drag, planet, send, type_text, unfold, until};
 use eframe::egui;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
@@ -122,6 +122,20 @@ fn bodies_are_dragged_on_the_map_and_undo_takes_the_last_change_wherever_it_was(
     assert!(on_map(&harness, 0, body).distance(to) < 3.0);
     assert_eq!(harness.state().system().unwrap().history().undo_label(), Some("Move Cinnabar"));
     assert_eq!(harness.state().system().unwrap().history().undo_len(), 1, "a drag is one step");
+    // The widest orbit, held outside the map: the map keeps its scale meanwhile.
+    let garland = begun.find("Garland").unwrap();
+    let at = on_map(&harness, 0, garland);
+    harness.drag_at(at);
+    harness.run_steps(2);
+    harness.hover_at(rect.center() + (at - rect.center()) * 1.1);
+    harness.run_steps(30);
+    harness.drop_at(rect.center() + (at - rect.center()) * 1.1);
+    harness.run_steps(4);
+    let of_garland_km = |system: &tellus::system::System| system.bodies[garland].orbit.as_ref().unwrap().semi_major_km;
+    let ratio = of_garland_km(&system(&harness)) / of_garland_km(&begun);
+    assert!((ratio - 1.21).abs() < 0.05, "{ratio}");
+    act(&mut harness, SystemAction::Undo);
+    assert_eq!(system(&harness), moved);
     // Then the planet.
     send(&mut harness, Command::RandomPlanet);
     send(&mut harness, Command::Undo);
@@ -168,7 +182,8 @@ fn a_name_and_numbers_are_typed_and_children_follow_the_name() {
     let aurel = system(&harness).find("Aurel").unwrap();
     click(&mut harness, "Aurel");
     unfold(&mut harness, "Body: Aurel");
-    scroll_to(&mut harness, "Name");
+    harness.get_by_role_and_label(Role::TextInput, "Name").scroll_to_me();
+    harness.run_steps(40);
     harness.get_by_role_and_label(Role::TextInput, "Name").focus();
     harness.run_steps(3);
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
@@ -179,10 +194,6 @@ fn a_name_and_numbers_are_typed_and_children_follow_the_name() {
     assert_eq!(named.bodies[aurel].name, "Home");
     assert_eq!(named.bodies[named.find("Pallor").unwrap()].parent, "Home");
     assert_eq!(harness.state().system().unwrap().history().undo_label(), Some("Rename Aurel"));
-    assert!(
-        harness.query_by_label("Home eccentricity").is_some()
-            || harness.query_all_by_label_contains("Eccentricity").count() > 0
-    );
 }
 
 #[test]

@@ -221,3 +221,26 @@ fn report_what_patterns_cost() {
         }
     }
 }
+
+/// With the sun behind the eye, half vector and view direction are equal: rounding must not take a root of less than 0.
+#[test]
+fn a_full_moon_has_no_dots() {
+    let mut gpu = gpu();
+    let planet = Arc::new(ball(Biome { specular: 0.5, roughness: 0.9, variation: 0.0, ..Biome::default() }));
+    let altitude_m = 40.0 * planet.radius_m();
+    let mut camera = camera(&planet, 0.0, 0.0, altitude_m, 0.0, -90.0);
+    camera.fov_y_rad = 2.2 / 41.0;
+    let surface = surface(&planet, &camera);
+    let frame = frame(&surface, &planet, camera, (0.0, 0.0));
+    let picture = gpu.draw(&frame);
+    let [width, height] = SIZE_PX.map(|side| side as usize);
+    let level = |x: usize, y: usize| i32::from(picture[(y * width + x) * 4 + 1]);
+    let reach = height * 3 / 10;
+    let (left, top) = (width / 2 - reach, height / 2 - reach);
+    for y in top..top + 2 * reach {
+        for x in left..left + 2 * reach {
+            let (here, before) = (level(x, y), level(x - 1, y));
+            assert!(here > 40 && (here - before).abs() < 25, "{here} beside {before} at {x}, {y}");
+        }
+    }
+}

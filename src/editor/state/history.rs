@@ -1,8 +1,8 @@
 //! Undo and redo: one step for each gesture, each a whole document: a planet, or a system.
 //!
-//! A gesture (a drag, a stroke, a typed number) changes the document in many frames. [`History::record`] opens a step at
-//! its first change; [`History::settle`], called while nobody drags or types, closes it. Documents are shared by `Arc`: a
-//! step takes the memory of one.
+//! A gesture (a drag, a stroke, a typed number) changes the document in many frames. [`History::record`] opens a step
+//! at its first change; [`History::settle`], called while nobody drags or types, closes it. Documents are shared by
+//! `Arc`: a step takes the memory of one.
 
 use crate::editor::files::file_names::is_same_file;
 use crate::planet::Planet;

@@ -246,8 +246,8 @@ impl State {
     /// Makes an undo step of a changed planet, and starts the clock that stops at its picture.
     pub fn edit(&mut self, planet: Planet, label: Option<String>) {
         let shown_before = self.document.valid_planet().clone();
-        if let Some(system) = self.system.as_mut().filter(|_| planet != **self.document.planet()) {
-            system.was_changed_last = false;
+        if planet != **self.document.planet() {
+            self.note_planet_changed();
         }
         self.document.edit(planet, label);
         if !Arc::ptr_eq(self.document.valid_planet(), &shown_before) {
@@ -317,6 +317,7 @@ impl State {
 
     /// Undoes or redoes until this number of steps is done.
     pub fn jump(&mut self, ctx: &egui::Context, steps: usize) {
+        self.note_planet_changed();
         self.document.jump(steps);
         self.start_edit_clock();
         ctx.request_repaint();
@@ -336,12 +337,14 @@ impl State {
 
     /// Replaces the planet by the content of its file: one undo step.
     pub fn reload(&mut self, planet: Planet, bytes: Vec<u8>) {
+        self.note_planet_changed();
         self.document.reload(planet, bytes);
         self.start_edit_clock();
     }
 
     /// Replaces the planet by one that no file holds: one undo step.
     pub fn roll(&mut self, planet: Planet, label: &str) {
+        self.note_planet_changed();
         self.document.roll(planet, label);
         self.forget_document();
         self.start_edit_clock();
@@ -383,6 +386,13 @@ impl State {
     /// Shows a message.
     pub fn report(&mut self, title: &str, lines: Vec<String>) {
         self.messages.push(Message::new(title, lines));
+    }
+
+    /// Undo takes steps of the planet from now on, not of the system.
+    fn note_planet_changed(&mut self) {
+        if let Some(system) = &mut self.system {
+            system.was_changed_last = false;
+        }
     }
 
     fn start_edit_clock(&mut self) {

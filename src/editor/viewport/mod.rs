@@ -43,12 +43,11 @@ pub mod timeline;
 pub use clicks::{Click, TabLink};
 pub use settings::ViewSettings;
 
-use crate::film::InSystem;
 use crate::lod::opening::opening_place;
 use crate::lod::pose::Pose;
 use crate::lod::{Camera, View};
 use crate::planet::Planet;
-use crate::render::{FrameStats, LutRuns, Renderer, Worlds};
+use crate::render::{FrameStats, LutRuns, Renderer};
 use crate::sphere::LatLon;
 use crate::terrain::{MapStore, Revision};
 use crate::tiles::{Builder, BuilderOptions, Memory, Surface};
@@ -175,36 +174,9 @@ impl Viewport {
         self.compare.as_mut().map(|compare| compare.swap(planet))
     }
 
-    /// The number of the planet among the bodies of its system; None if it is alone.
-    pub fn body(&self) -> Option<usize> {
-        self.neighbours.as_ref().map(Neighbours::body)
-    }
-
-    /// The planet's place in its system; None if it is alone.
-    pub fn in_system(&self) -> Option<InSystem> {
-        self.neighbours.as_ref().map(Neighbours::place)
-    }
-
-    /// The direction of the star over the planet now: that of the system, or of the preset.
-    pub fn star_dir_planet(&self, planet: &Planet) -> DVec3 {
-        let time_secs = self.settings.time_secs;
-        let of_system = self.neighbours.as_ref().and_then(|neighbours| neighbours.star_dir_planet(time_secs));
-        of_system.unwrap_or_else(|| planet.star.place(time_secs).direction())
-    }
-
     /// The window's context.
     pub fn ctx(&self) -> &egui::Context {
         &self.ctx
-    }
-
-    /// Draws the planet as a body of a system, with the others around it; None draws it alone.
-    pub fn set_system(&mut self, system: Option<(Arc<Worlds>, usize)>) {
-        match (&mut self.neighbours, system) {
-            (Some(neighbours), Some((worlds, body))) => neighbours.set(worlds, body),
-            (_, system) => {
-                self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
-            }
-        }
     }
 
     /// A renderer on the same device, for pictures that are not on screen; none without a device.

@@ -1,5 +1,6 @@
 //! The other bodies of a system around the planet: their tiles, built in the background, and their places.
 
+use super::Viewport;
 use crate::film::InSystem;
 use crate::lod::View;
 use crate::planet::Planet;
@@ -29,6 +30,36 @@ pub(super) struct Sky {
     body: usize,
     drawn: Vec<usize>,
     pub(super) bodies: Vec<Neighbour>,
+}
+
+/// The planet's place among other bodies.
+impl Viewport {
+    /// The number of the planet among the bodies of its system; None if it is alone.
+    pub fn body(&self) -> Option<usize> {
+        self.neighbours.as_ref().map(Neighbours::body)
+    }
+
+    /// The planet's place in its system; None if it is alone.
+    pub fn in_system(&self) -> Option<InSystem> {
+        self.neighbours.as_ref().map(Neighbours::place)
+    }
+
+    /// The direction of the star over the planet now: that of the system, or of the preset.
+    pub fn star_dir_planet(&self, planet: &Planet) -> DVec3 {
+        let time_secs = self.settings.time_secs;
+        let of_system = self.neighbours.as_ref().and_then(|neighbours| neighbours.star_dir_planet(time_secs));
+        of_system.unwrap_or_else(|| planet.star.place(time_secs).direction())
+    }
+
+    /// Draws the planet as a body of a system, with the others around it; None draws it alone.
+    pub fn set_system(&mut self, system: Option<(Arc<Worlds>, usize)>) {
+        match (&mut self.neighbours, system) {
+            (Some(neighbours), Some((worlds, body))) => neighbours.set(worlds, body),
+            (_, system) => {
+                self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
+            }
+        }
+    }
 }
 
 impl Neighbours {

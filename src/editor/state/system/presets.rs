@@ -105,8 +105,8 @@ fn write_beside(folder: &Path, index: usize) -> Result<String, String> {
     Err("there is no free name for a preset".to_owned())
 }
 
-/// A path from a folder, with `/` between its parts as on every system; the whole path where there is no way from one to
-/// the other.
+/// A path from a folder, with `/` between its parts as on every system; the whole path where there is no way from one
+/// to the other.
 fn relative(path: &Path, folder: &Path) -> String {
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or(path.into());
     let (path, folder) = (whole(path), whole(folder));

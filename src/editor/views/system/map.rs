@@ -16,11 +16,11 @@ const HEIGHT: f32 = 230.0;
 const SIDES: u32 = 128;
 /// Margin around the widest orbit, as a factor.
 const ROOM: f64 = 1.12;
-/// Least size of an orbit that is drawn, of one whose body is told apart from its parent, and of one whose periapsis can
-/// be dragged, in points.
+/// Least size of an orbit that is drawn, of one whose body is told apart from its parent, and of one whose periapsis
+/// can be dragged, in points.
 const LEAST_ORBIT: f64 = 2.0;
 const LEAST_APART: f64 = 6.0;
-const LEAST_HANDLED: f64 = 30.0;
+const LEAST_HANDLED: f32 = 24.0;
 /// Distance from a body or a handle within which a click is on it, in points.
 const REACH: f32 = 12.0;
 /// Eccentricity that dragging reaches.
@@ -42,7 +42,16 @@ pub(super) struct OrbitMap {
     pub(super) center: usize,
     /// Magnification.
     zoom: f64,
-    held: Option<Held>,
+    /// What is dragged, and the scale at the start of the drag: it stays, or the body would run away from the pointer.
+    held: Option<(Held, Scale)>,
+}
+
+/// The scale of the map.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    widest_m: f64,
+    /// Points for each metre at the widest orbit.
+    per_m: f64,
 }
 
 impl Default for OrbitMap {
@@ -65,14 +74,15 @@ impl OrbitMap {
         }
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, 4.0, Color32::from_gray(12));
-        let map = Map::new(now, self.center, rect, self.zoom);
+        let scale = self.held.map_or_else(|| Scale::new(now, self.center, rect, self.zoom), |(_, scale)| scale);
+        let map = Map { now, center: self.center, center_m: now.poses[self.center].position_m, rect, scale };
         map.draw_limits(&painter);
         map.draw_orbits(&painter);
         map.draw_trails(&painter);
         let (bodies, handles) = (map.bodies(), map.handles());
         let font = egui::TextStyle::Small.resolve(ui.style());
         let near = |at: Option<Pos2>| at.and_then(|pointer| nearest(&bodies, &handles, pointer));
-        let hovered = self.held.or_else(|| near(response.hover_pos()));
+        let hovered = self.held.map(|(held, _)| held).or_else(|| near(response.hover_pos()));
         for (body, at) in &handles {
             let is_hovered = hovered == Some(Held::Periapsis(*body));
             let color = if is_hovered { Color32::WHITE } else { Color32::from_gray(110) };
@@ -82,9 +92,9 @@ impl OrbitMap {
             draw_body(&painter, &font, now, *body, *at);
         }
         if response.drag_started() {
-            self.held = near(ui.input(|input| input.pointer.press_origin()));
+            self.held = near(ui.input(|input| input.pointer.press_origin())).map(|held| (held, scale));
         }
-        if let (Some(held), Some(pointer)) = (self.held, response.interact_pointer_pos())
+        if let (Some((held, _)), Some(pointer)) = (self.held, response.interact_pointer_pos())
             && response.dragged()
             && let Some((system, label)) = map.dragged(held, pointer)
         {
@@ -102,6 +112,9 @@ impl OrbitMap {
         }
         if hovered.is_some_and(|held| now.orbit(held.body()).is_some()) {
             ui.ctx().set_cursor_icon(egui::CursorIcon::Grab);
+        }
+        if self.held.is_some() {
+            return;
         }
         response.on_hover_text(
             "From the north; distances as their roots. Drag a body to move it and its orbit, a diamond to stretch the \
@@ -138,25 +151,25 @@ struct Map<'a> {
     center: usize,
     center_m: DVec3,
     rect: Rect,
-    widest_m: f64,
-    /// Points for each metre at the widest orbit.
-    per_m: f64,
+    scale: Scale,
 }
 
-impl<'a> Map<'a> {
-    fn new(now: &'a Now<'a>, center: usize, rect: Rect, zoom: f64) -> Self {
+impl Scale {
+    fn new(now: &Now<'_>, center: usize, rect: Rect, zoom: f64) -> Self {
         let size_m = |body: usize| now.orbit(body).map_or(0.0, |orbit| orbit.semi_major_m * (1.0 + orbit.eccentricity));
         let widest_m = now.children(center).map(size_m).fold(0.0, f64::max);
         // A body without moons is shown on its own orbit.
         let widest_m = if widest_m > 0.0 { widest_m } else { size_m(center).max(1.0) };
         let per_m = 0.5 * f64::from(rect.height().min(rect.width())) / (widest_m * ROOM) * zoom;
-        Self { now, center, center_m: now.poses[center].position_m, rect, widest_m, per_m }
+        Self { widest_m, per_m }
     }
+}
 
+impl Map<'_> {
     /// Where a position is. Distances are roots, so that inner orbits are not crowded together.
     fn at(&self, position_m: DVec3) -> Pos2 {
         let away_m = position_m - self.center_m;
-        let away = away_m * (self.per_m * (self.widest_m / away_m.truncate().length().max(1.0)).sqrt());
+        let away = away_m * (self.scale.per_m * (self.scale.widest_m / away_m.truncate().length().max(1.0)).sqrt());
         self.rect.center() + Vec2::new(away.x as f32, -away.y as f32)
     }
 
@@ -164,7 +177,7 @@ impl<'a> Map<'a> {
     fn under(&self, point: Pos2) -> DVec2 {
         let away = point - self.rect.center();
         let away = DVec2::new(f64::from(away.x), -f64::from(away.y));
-        away * (away.length() / (self.per_m * self.per_m * self.widest_m))
+        away * (away.length() / (self.scale.per_m * self.scale.per_m * self.scale.widest_m))
     }
 
     /// The system with what is dragged under the pointer, and the name of the step.
@@ -186,7 +199,7 @@ impl<'a> Map<'a> {
     fn draw_orbits(&self, painter: &Painter) {
         for (body, parent) in self.now.parents.iter().enumerate() {
             let (Some(orbit), Some(parent)) = (self.now.orbit(body), *parent) else { continue };
-            if orbit.semi_major_m * self.per_m < LEAST_ORBIT {
+            if orbit.semi_major_m * self.scale.per_m < LEAST_ORBIT {
                 continue;
             }
             let around_m = self.now.poses[parent].position_m;
@@ -224,7 +237,7 @@ impl<'a> Map<'a> {
         let TrialRun::Done(tried) = &self.now.open.trial else { return };
         for (body, parent) in self.now.parents.iter().enumerate() {
             let (Some(orbit), Some(parent)) = (self.now.orbit(body), *parent) else { continue };
-            if orbit.semi_major_m * self.per_m < LEAST_APART {
+            if orbit.semi_major_m * self.scale.per_m < LEAST_APART {
                 continue;
             }
             let around_m = self.now.poses[parent].position_m;
@@ -235,8 +248,9 @@ impl<'a> Map<'a> {
 
     /// The bodies on the map, without points, and without moons that are not told apart from their planet.
     fn bodies(&self) -> Vec<(usize, Pos2)> {
-        let is_apart =
-            |body: &usize| self.now.orbit(*body).is_none_or(|orbit| orbit.semi_major_m * self.per_m > LEAST_APART);
+        let is_apart = |body: &usize| {
+            self.now.orbit(*body).is_none_or(|orbit| orbit.semi_major_m * self.scale.per_m > LEAST_APART)
+        };
         (0..self.now.poses.len())
             .filter(|body| !self.now.system().bodies[*body].is_point())
             .filter(is_apart)
@@ -250,8 +264,8 @@ impl<'a> Map<'a> {
         let handle = |body: usize| {
             let (orbit, parent) = (self.now.orbit(body)?, self.now.parents[body]?);
             let around_m = self.now.poses[parent].position_m;
-            let is_wide = orbit.semi_major_m * self.per_m > LEAST_HANDLED;
-            is_wide.then(|| (body, self.at(around_m + orbit.at_anomaly(0.0))))
+            let at = self.at(around_m + orbit.at_anomaly(0.0));
+            (at.distance(self.at(around_m)) > LEAST_HANDLED).then_some((body, at))
         };
         (0..self.now.poses.len()).filter_map(handle).filter(|(_, at)| self.rect.contains(*at)).collect()
     }

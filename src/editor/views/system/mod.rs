@@ -23,7 +23,7 @@ use map::OrbitMap;
 use std::path::Path;
 use trial::TrialEdit;
 
-const WIDTH: f32 = 340.0;
+const WIDTH: f32 = 350.0;
 const DAY_SECS: f64 = 86_400.0;
 
 /// The window's layer.
@@ -89,7 +89,9 @@ impl SystemWindow {
             };
             let height = (ctx.content_rect().height() - 150.0).max(120.0);
             let area = egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height);
-            area.show(ui, |ui| self.content(ui, state, system, commands));
+            // Room for the scroll bar.
+            let beside = egui::Frame::new().inner_margin(egui::Margin { right: 10, ..egui::Margin::ZERO });
+            area.show(ui, |ui| beside.show(ui, |ui| self.content(ui, state, system, commands)));
         });
         if !open {
             commands.push(Action::Close(Window::System));
