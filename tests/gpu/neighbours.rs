@@ -62,6 +62,7 @@ fn rings_shade_their_planet_by_their_optical_depth() {
     let without_scene = scene(&surface, &bare, camera, sun_dir);
     let without = radiance(&mut gpu, &without_scene);
     let profile = Profile::new(&planet).unwrap();
+    let pixel_rad = 2.0 * (0.5 * camera.fov_y_rad).tan() / f64::from(SIZE_PX[1]);
     let (mut count, mut shaded, mut sum) = (0, 0, 0.0);
     for ((dir, with), without) in rays(&without_scene).iter().zip(&with).zip(&without) {
         let Some(at) = hit(camera.position_planet_m, *dir, planet.radius_m()) else { continue };
@@ -71,9 +72,15 @@ fn rings_shade_their_planet_by_their_optical_depth() {
         }
         let path_m = -at.z / sun_dir.z;
         let expected = if path_m > 0.0 {
-            let radius_m = (at + sun_dir * path_m).length();
+            let crossing_m = (at + sun_dir * path_m).truncate();
+            let radius_m = crossing_m.length();
+            let blur_m = 2.0 * path_m * planet.star.radius_deg.to_radians();
             // A pixel is wider than a ringlet.
-            profile.transmittance(radius_m, 2.0 * path_m * planet.star.radius_deg.to_radians(), sun_dir.z)
+            let from_eye_m = at - camera.position_planet_m;
+            let slant = from_eye_m.normalize().dot(at.normalize()).abs().max(0.2);
+            let pixel_m = from_eye_m.length() * pixel_rad / slant;
+            let moved = (crossing_m.dot(sun_dir.truncate()) / (radius_m * sun_dir.z)).hypot(1.0);
+            profile.transmittance(radius_m, blur_m.max(pixel_m * moved), sun_dir.z)
         } else {
             1.0
         };
