@@ -64,7 +64,7 @@ pub fn replace(state: &mut State, ctx: &egui::Context, answer: ReplaceAnswer) {
     match (answer, replace) {
         (ReplaceAnswer::Replace, Replace::Planet(path)) => saving::write(state, ctx, path),
         (ReplaceAnswer::Replace, Replace::Table(path)) => biome_table::export(state, &path),
-        (ReplaceAnswer::Replace, Replace::System(path)) => system::write(state, ctx, path),
+        (ReplaceAnswer::Replace, Replace::System(path)) => system::write(state, ctx, &path),
         (ReplaceAnswer::Replace, Replace::Mesh(path)) => baking::start(state, ctx, Product::Mesh, &path),
         (ReplaceAnswer::Replace, Replace::Photograph { subject, path, .. }) => {
             shooting::start(state, ctx, subject, &path);

@@ -197,18 +197,18 @@ fn write_unless_theirs(state: &mut State, ctx: &egui::Context, path: PathBuf, ag
     if would_replace && agreed != Some(&path) {
         state.questions.replace = Some(Replace::System(path));
     } else {
-        write(state, ctx, path);
+        write(state, ctx, &path);
     }
 }
 
 /// Writes the file, and goes on with the action that waited for it.
-pub fn write(state: &mut State, ctx: &egui::Context, path: PathBuf) {
+pub fn write(state: &mut State, ctx: &egui::Context, path: &Path) {
     let mut saved = Ok(());
-    state.change_system(|open| saved = open.save(&path));
+    state.change_system(|open| saved = open.save(path));
     match saved {
         Ok(()) => {
             state.notices.say(format!("Saved to {}", path.display()));
-            state.recent.note(&path);
+            state.recent.note(path);
             if let Some(goal) = state.questions.after_save.take() {
                 opening::pursue_past_planet(state, ctx, goal);
             }

@@ -105,7 +105,7 @@ impl GroundEdits {
 
     /// Paint of biomes follows a palette that was changed: a biome that got another key keeps its paint, that of a
     /// biome that is gone becomes the first.
-    pub(crate) fn follow_palette(&mut self, before: &[Biome], after: &[Biome]) {
+    pub fn follow_palette(&mut self, before: &[Biome], after: &[Biome]) {
         let Some(first) = after.first() else { return };
         let has = |palette: &[Biome], key: char| palette.iter().any(|biome| biome.key == key);
         for index in 0..self.len() {

@@ -231,7 +231,7 @@ impl OpenSystem {
 
     /// Adds a small star about a body.
     pub fn add_star(&mut self, parent: usize) {
-        let light = Light { radius_km: 400_000.0, kelvin: 4200.0, luminosity_suns: 0.1, ..Light::default() };
+        let light = Light { radius_km: 400_000.0, kelvin: 4200.0, luminosity_suns: 0.1 };
         let radius_m = light.radius_m();
         let star = Member { name: "Star".to_owned(), mass_earths: 200_000.0, light: Some(light), ..Member::default() };
         let mut system = (*self.system).clone();
