@@ -1,8 +1,8 @@
 //! The window of the system: its bodies as a tree, and the time.
 //!
-//! - [`map`]: the orbits, to be dragged
-//! - [`body`]: the parameters of the selected body
-//! - [`trial`]: the run that shows whether the system lasts
+//! - `map`: the orbits, to be dragged
+//! - `body`: the parameters of the selected body
+//! - `trial`: the run that shows whether the system lasts
 
 mod body;
 mod map;
