@@ -4,7 +4,7 @@
 //! - [`kepler`]: orbits from elements, exact at any time
 //! - [`ephemeris`]: where all bodies are at a time, and how they are turned
 //! - [`nbody`]: the motion under the attraction of all bodies, to see whether a system lasts
-//! - [`edit`](self): bodies that are added, removed and renamed; [`random`](System::rolled): random orbits
+//! - `edit`: bodies that are added, removed and renamed; `random`: random orbits
 //! - [`trails`]: the paths of bodies during a trial
 //! - [`watch`]: hot reload of a system file
 //! - [`limits`]: Hill radii, Roche limits, and what a system violates
