@@ -87,7 +87,7 @@ fn sky_over(dir: vec3f, footprint: f32) -> Sky {
 const SPREAD: f32 = 2.0;
 // Optical depth of columns over that of the layer, at the edge of weather systems and in their middle.
 const THIN: f32 = 0.28;
-const THICK: f32 = 0.8;
+const THICK: f32 = 1.0;
 // Height of the base of anvils in the layer, and heights within which it blurs.
 const ANVIL_BASE: f32 = 0.78;
 const ANVIL_EDGE: f32 = 0.08;
