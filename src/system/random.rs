@@ -5,9 +5,9 @@ use super::limits;
 use super::{Ephemeris, Orbit, Spin, System};
 use crate::planet::random::dice::Dice;
 
-/// Orbits that are tried for a body before it keeps its own, and systems that are tried.
+/// Orbits that are tried for a body before it keeps its own.
 const TRIES: u32 = 60;
-/// Means of eccentricity and inclination; both are distributed as Rayleigh found for sums of small random parts.
+/// Means of eccentricity and inclination. Both have a Rayleigh distribution, as orbits of real planets roughly have.
 const ECCENTRICITY: f64 = 0.035;
 const INCLINATION_DEG: f64 = 1.6;
 

@@ -36,6 +36,12 @@ impl SystemWatch {
         Self { files: FileWatch::new(files, interval), path }
     }
 
+    /// Watches a system that was loaded already, and is not read once more. `planets`: of its bodies, in their order.
+    pub fn of_loaded(path: impl AsRef<Path>, system: &System, planets: &[Option<Arc<Planet>>]) -> Self {
+        let path = path.as_ref().to_owned();
+        Self { files: FileWatch::new(files(&path, system, planets), PresetWatch::INTERVAL), path }
+    }
+
     /// The system and its planets, if a file has changed and then stayed as it is for the time between two looks.
     ///
     /// # Errors

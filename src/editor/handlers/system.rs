@@ -227,11 +227,11 @@ pub fn poll(state: &mut State, ctx: &egui::Context) {
         state.notices.say("The run of the system has failed: its thread stopped".to_owned());
     }
     let Some(open) = &mut state.system else { return };
-    let before = (Arc::clone(open.system()), Arc::clone(&open.worlds));
+    let before = Arc::clone(&open.worlds);
     let news = open.poll(ctx);
     // The picture follows.
-    if !Arc::ptr_eq(&before.1, &open.worlds) {
-        state.follow_system(&before.0);
+    if !Arc::ptr_eq(&before, &open.worlds) {
+        state.follow_system(&before);
     }
     match news {
         None | Some(News::Presets) => {}

@@ -47,7 +47,10 @@ pub fn planet(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
 /// The star.
 pub fn star(ui: &mut egui::Ui, draft: &mut Draft<'_>) {
     if draft.in_system {
-        ui.label("The stars of the system light the planet. This one shines when the planet is alone: leave the system in its window.");
+        ui.label(
+            "The stars of the system light the planet. This one shines when the planet is alone: leave the system in \
+             its window.",
+        );
         ui.add_space(4.0);
     }
     labelled_row(ui, &draft.shown, "Temperature", |ui, label| {

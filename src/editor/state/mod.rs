@@ -44,7 +44,7 @@ use super::files::recent::Recent;
 use super::viewport::Viewport;
 use super::viewport::camera::{Cameras, Ground};
 use crate::planet::Planet;
-use crate::system::System;
+use crate::render::Worlds;
 use bake_settings::BakeSettings;
 use baking::{BakePreview, Baking};
 use device::DeviceWatch;
@@ -297,15 +297,15 @@ impl State {
     /// Changes the open system. The planet stays the body that it is.
     pub fn change_system(&mut self, change: impl FnOnce(&mut OpenSystem)) {
         let Some(system) = &mut self.system else { return };
-        let before = system.system().clone();
+        let before = Arc::clone(&system.worlds);
         change(system);
         self.follow_system(&before);
     }
 
-    /// Shows the open system after a change. `before`: the system before it.
-    pub fn follow_system(&mut self, before: &System) {
+    /// Shows the open system after a change. `before`: the bodies that were shown.
+    pub fn follow_system(&mut self, before: &Worlds) {
         if let Some((system, body)) = self.system.as_ref().zip(self.viewport.body()) {
-            let follows = follow(before, system.worlds.system(), body);
+            let follows = follow(before.system(), system.worlds.system(), body);
             self.viewport.set_system(follows.map(|body| (system.worlds.clone(), body)));
         }
     }

@@ -32,9 +32,10 @@ pub enum Goal {
 
 /// What has unsaved changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Work {
+    /// The open planet.
     Planet,
+    /// The open system.
     System,
 }
 

@@ -1,31 +1,27 @@
 //! The open system: its bodies, its file, its undo steps.
 //!
 //! - this file: the document; [`presets`]: where the presets of its bodies are
+//! - [`on_disk`]: saving it; files that other programs change
 //! - [`trial`]: the run that shows whether it lasts
 
+pub mod on_disk;
 pub mod presets;
 pub mod trial;
 
 use super::history::History;
-use crate::editor::files::disk;
 use crate::planet::Planet;
 use crate::planet::file::read_text;
 use crate::planet::param::ParamPath;
-use crate::planet::picture::folder_of;
 use crate::render::Worlds;
-use crate::system::watch::SystemWatch;
 use crate::system::{EARTH_MASS_KG, Light, Member, System, limits, shipped as systems};
-use eframe::egui;
-use notify::RecommendedWatcher;
+pub use on_disk::News;
+use on_disk::Watch;
 pub use presets::{Origin, Preset};
 use std::collections::{BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
 use trial::TrialRun;
 
-/// Time after which a file that changed is read: long enough for a second look, which finds it as it was.
-const QUIET: Duration = Duration::from_millis(250);
 /// Masses of planets whose radius alone is known: density of the Earth and of Saturn and Jupiter, kg/m³.
 const ROCK_KG_M3: f64 = 5514.0;
 const GAS_KG_M3: f64 = 1000.0;
@@ -55,25 +51,6 @@ pub struct OpenSystem {
     /// Names of the bodies that random orbits leave alone.
     locked: BTreeSet<String>,
     watch: Option<Watch>,
-}
-
-/// The watch over the file and the presets.
-struct Watch {
-    files: SystemWatch,
-    /// They wake the window.
-    _watchers: Vec<RecommendedWatcher>,
-}
-
-/// What happened to the files of a system.
-pub enum News {
-    /// The system was read again.
-    Reloaded,
-    /// Presets of bodies were read again.
-    Presets,
-    /// The file holds another system, and this one has unsaved changes.
-    Theirs,
-    /// It cannot be read.
-    Broken(String),
 }
 
 impl OpenSystem {
@@ -214,7 +191,7 @@ impl OpenSystem {
         if !self.problems.is_empty() {
             return;
         }
-        let planets = self.system.bodies.iter().map(|body| self.planets.get(&body.preset).cloned()).collect();
+        let planets = planets_of(&self.system, &self.planets);
         self.worlds = Arc::new(Worlds::new((*self.system).clone(), planets));
         let warnings = limits::warnings(&self.system, &self.worlds.radii_m());
         self.warnings = warnings.into_iter().map(|warning| warning.message).collect();
@@ -222,11 +199,26 @@ impl OpenSystem {
 
     /// Adds a planet about a body. `preset`: its file, as the bodies of this system name theirs.
     pub fn add_planet(&mut self, parent: usize, preset: String, planet: Arc<Planet>) {
-        let mut system = (*self.system).clone();
-        let number = system.add(parent, member_of(&planet, preset.clone()), &self.worlds.radii_m(), planet.radius_m());
-        let label = format!("Add {}", system.bodies[number].name);
+        let member = member_of(&planet, preset.clone());
+        let radius_m = planet.radius_m();
         self.planets.insert(preset, planet);
+        self.add(parent, member, radius_m);
+    }
+
+    /// Adds a body. The parent may be gone since a file was asked for.
+    fn add(&mut self, parent: usize, member: Member, radius_m: f64) {
+        if parent >= self.system.bodies.len() {
+            return;
+        }
+        let mut system = (*self.system).clone();
+        let number = system.add(parent, member, &self.radii_m(), radius_m);
+        let label = format!("Add {}", system.bodies[number].name);
         self.edit(system, &label);
+    }
+
+    /// Radius of each body as edited, metres; 0 for points.
+    fn radii_m(&self) -> Vec<f64> {
+        Worlds::new((*self.system).clone(), planets_of(&self.system, &self.planets)).radii_m()
     }
 
     /// Adds a small star about a body.
@@ -234,16 +226,13 @@ impl OpenSystem {
         let light = Light { radius_km: 400_000.0, kelvin: 4200.0, luminosity_suns: 0.1 };
         let radius_m = light.radius_m();
         let star = Member { name: "Star".to_owned(), mass_earths: 200_000.0, light: Some(light), ..Member::default() };
-        let mut system = (*self.system).clone();
-        let number = system.add(parent, star, &self.worlds.radii_m(), radius_m);
-        let label = format!("Add {}", system.bodies[number].name);
-        self.edit(system, &label);
+        self.add(parent, star, radius_m);
     }
 
     /// Removes a body and what orbits it.
     pub fn remove(&mut self, body: usize) {
         let mut system = (*self.system).clone();
-        let label = format!("Remove {}", system.bodies[body].name);
+        let Some(label) = system.bodies.get(body).map(|body| format!("Remove {}", body.name)) else { return };
         system.remove(body);
         self.edit(system, &label);
     }
@@ -251,7 +240,7 @@ impl OpenSystem {
     /// Puts the bodies that are not locked on random orbits.
     pub fn roll(&mut self, seed: u64) {
         let is_locked = |body: usize| self.locked.contains(&self.system.bodies[body].name);
-        let rolled = self.system.rolled(seed, &is_locked, &self.worlds.radii_m());
+        let rolled = self.system.rolled(seed, &is_locked, &self.radii_m());
         self.edit(rolled, "Random orbits");
         self.settle();
     }
@@ -269,89 +258,15 @@ impl OpenSystem {
         }
     }
 
-    /// Whether a file holds a text that this system has not read or written.
-    pub fn would_replace(&self, path: &Path) -> bool {
-        let is_own = matches!(&self.origin, Origin::File(own) if own == path);
-        match read_text(path) {
-            Ok(text) => !is_own || self.text.as_ref() != Some(&text),
-            Err(_) => path.exists(),
-        }
-    }
-
-    /// Saves the system, and the shipped presets that it names beside it.
-    ///
-    /// # Errors
-    /// Why it was not saved.
-    pub fn save(&mut self, path: &Path) -> Result<(), String> {
-        if let Some((place, problem)) = self.problems.first() {
-            return Err(format!("{place}: {problem}"));
-        }
-        let system = presets::moved(self, &folder_of(path))?;
-        system.save(path).map_err(|error| error.to_string())?;
-        for (old, new) in self.system.bodies.iter().zip(&system.bodies) {
-            if let Some(planet) = self.planets.get(&old.preset).cloned() {
-                self.planets.insert(new.preset.clone(), planet);
-            }
-        }
-        let text = system.to_text();
-        self.settle();
-        self.system = Arc::new(system);
-        self.saved = Some(Arc::clone(&self.system));
-        (self.text, self.origin) = (Some(text), Origin::File(path.to_owned()));
-        self.watch = None;
-        self.show();
-        Ok(())
-    }
-
-    /// Reads files again that other programs have changed.
-    pub fn poll(&mut self, ctx: &egui::Context) -> Option<News> {
-        let Origin::File(path) = &self.origin else { return None };
-        let watch = self.watch.get_or_insert_with(|| Watch::new(path, &self.system, ctx));
-        let news = watch.files.poll();
-        if watch.files.is_changing() {
-            ctx.request_repaint_after(QUIET);
-        }
-        let (theirs, planets) = match news? {
-            Ok(loaded) => loaded,
-            Err(error) => return Some(News::Broken(error.to_string())),
-        };
-        for (body, planet) in theirs.bodies.iter().zip(planets) {
-            self.planets.extend(planet.map(|planet| (body.preset.clone(), planet)));
-        }
-        let is_known = self.saved.as_ref().is_some_and(|saved| **saved == theirs);
-        let news = match (is_known, self.is_dirty()) {
-            (true, _) => News::Presets,
-            (false, true) => News::Theirs,
-            (false, false) => {
-                self.text = read_text(path).ok();
-                self.edit(theirs, "Reload from disk");
-                self.settle();
-                self.saved = Some(Arc::clone(&self.system));
-                self.watch = None;
-                News::Reloaded
-            }
-        };
-        self.show();
-        Some(news)
-    }
-
     /// The body to begin with: the first planet.
     pub fn first_planet(&self) -> Option<usize> {
         (0..self.system.bodies.len()).find(|body| self.worlds.planet(*body).is_some())
     }
 }
 
-impl Watch {
-    fn new(path: &Path, system: &System, ctx: &egui::Context) -> Self {
-        let presets = system.bodies.iter().filter(|body| !body.preset.is_empty());
-        let folders: BTreeSet<PathBuf> =
-            presets.map(|body| folder_of(&folder_of(path).join(&body.preset))).chain([folder_of(path)]).collect();
-        let watcher = |folder: &PathBuf| {
-            let ctx = ctx.clone();
-            disk::watch(folder, |_| true, move || ctx.request_repaint_after(QUIET))
-        };
-        Self { files: SystemWatch::new(path), _watchers: folders.iter().filter_map(watcher).collect() }
-    }
+/// The planet of each body; None for stars and points.
+fn planets_of(system: &System, known: &HashMap<String, Arc<Planet>>) -> Vec<Option<Arc<Planet>>> {
+    system.bodies.iter().map(|body| known.get(&body.preset).cloned()).collect()
 }
 
 /// A body with a planet's surface, of the mass that its size suggests.
@@ -432,62 +347,16 @@ mod tests {
         assert!(open.worlds.ephemeris().orbit(1).is_some());
         let folder = tempfile::tempdir().unwrap();
         assert!(open.save(&folder.path().join("x.ron")).unwrap_err().contains("orbit"));
-        open.undo();
+        // Bodies can be added to it, and others rolled; one that is gone is no parent.
+        let count = open.system().bodies.len();
+        open.add_star(0);
+        open.roll(3);
+        open.add_star(99);
+        open.remove(99);
+        assert_eq!(open.system().bodies.len(), count + 1);
+        while open.takes_undo() {
+            open.undo();
+        }
         assert!(open.problems.is_empty());
-    }
-
-    #[test]
-    fn a_saved_system_names_its_presets_from_its_folder_and_is_read_again_when_it_changes() {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::create_dir(folder.path().join("worlds")).unwrap();
-        let one = folder.path().join("worlds/one.ron");
-        let planet = Planet { name: "One".to_owned(), radius_km: 900.0, ..Planet::default() };
-        planet.save(&one).unwrap();
-        let mut open = OpenSystem::around(one.display().to_string(), Arc::new(planet));
-        assert!(!open.is_dirty(), "it was only begun");
-        let moon = crate::planet::shipped::ALL.iter().find(|shipped| shipped.file == "pallor.ron").unwrap();
-        open.add_planet(1, format!("../planets/{}", moon.file), Arc::new(moon.load().unwrap()));
-        assert!(open.is_dirty());
-        // Another file has the name of the shipped preset.
-        std::fs::write(folder.path().join("pallor.ron"), "mine").unwrap();
-        let path = folder.path().join("system.ron");
-        open.save(&path).unwrap();
-        let presets: Vec<&str> = open.system().bodies.iter().map(|body| body.preset.as_str()).collect();
-        assert_eq!(presets, ["", "worlds/one.ron", "pallor-2.ron"]);
-        assert_eq!(std::fs::read_to_string(folder.path().join("pallor.ron")).unwrap(), "mine");
-        assert!(!open.is_dirty() && !open.would_replace(&path));
-        let again = OpenSystem::file(path.clone()).unwrap();
-        assert_eq!(again.system(), open.system());
-        assert!(again.preset(1).is_some() && again.preset(2).is_some());
-
-        let ctx = egui::Context::default();
-        assert!(open.poll(&ctx).is_none());
-        let mut theirs = (**open.system()).clone();
-        theirs.name = "Theirs".to_owned();
-        theirs.save(&path).unwrap();
-        let news = || {
-            let mut open = OpenSystem::file(path.clone()).unwrap();
-            open.text = None;
-            open.would_replace(&path)
-        };
-        assert!(news(), "what others wrote is asked about");
-        let wait = |open: &mut OpenSystem| {
-            for _ in 0..200 {
-                if let Some(news) = open.poll(&ctx) {
-                    return Some(news);
-                }
-                std::thread::sleep(Duration::from_millis(20));
-            }
-            None
-        };
-        assert!(matches!(wait(&mut open), Some(News::Reloaded)));
-        assert_eq!((open.system().name.as_str(), open.is_dirty()), ("Theirs", false));
-        open.undo();
-        assert!(open.is_dirty());
-        open.poll(&ctx);
-        theirs.name = "Theirs again".to_owned();
-        theirs.save(&path).unwrap();
-        assert!(matches!(wait(&mut open), Some(News::Theirs)));
-        assert!(open.would_replace(&path) && open.system().name != theirs.name);
     }
 }

@@ -5,7 +5,7 @@ use crate::editor::command::{Action, Commands, SystemAction};
 use crate::editor::state::system::trial::TrialRun;
 use crate::system::kepler::Ellipse;
 use crate::system::limits::{STABLE_SHARE, hill_radii_m, roche_limit_m};
-use crate::system::{MAX_ECCENTRICITY, Orbit, System};
+use crate::system::{Orbit, System};
 use eframe::egui::{self, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Vec2};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -292,8 +292,7 @@ fn moved(elements: Option<&Orbit>, ellipse: &Ellipse, over_m: DVec2, time_secs: 
 fn stretched(elements: Option<&Orbit>, ellipse: &Ellipse, over_m: DVec2) -> Option<Orbit> {
     let old = elements.cloned().unwrap_or_else(|| ellipse.elements());
     let in_plane_m = ellipse.in_plane_m(over_m)?;
-    let eccentricity =
-        (1.0 - in_plane_m.length() / ellipse.semi_major_m).clamp(0.0, MOST_DRAGGED.min(MAX_ECCENTRICITY));
+    let eccentricity = (1.0 - in_plane_m.length() / ellipse.semi_major_m).clamp(0.0, MOST_DRAGGED);
     let turned_deg = libm::atan2(in_plane_m.y, in_plane_m.x).to_degrees();
     let periapsis_deg = (old.periapsis_deg + turned_deg).rem_euclid(360.0);
     let Orbit { eccentricity, periapsis_deg, .. } = Orbit { eccentricity, periapsis_deg, ..old.clone() }.rounded();

@@ -212,8 +212,8 @@ fn changes(ui: &mut egui::Ui, open: &OpenSystem, commands: &mut Commands) {
                 commands.push(Action::System(action));
             }
         };
-        step(ui, "Undo orbit", open.history().undo_label(), SystemAction::Undo);
-        step(ui, "Redo orbit", open.history().redo_label(), SystemAction::Redo);
+        step(ui, "Undo change", open.history().undo_label(), SystemAction::Undo);
+        step(ui, "Redo change", open.history().redo_label(), SystemAction::Redo);
         let told = "Put every body that is not locked on a random orbit where it lasts";
         if ui.small_button("Random orbits").on_hover_text(told).clicked() {
             commands.push(Action::System(SystemAction::Roll));
