@@ -317,8 +317,8 @@ mod tests {
         hills(10)
     }
 
-    /// Hills whose narrowest ones are wider than the cells of the grid under a capsule of this radius: narrower ones may
-    /// be overlooked.
+    /// Hills whose narrowest ones are wider than the cells of the grid under a capsule of this radius. The search may
+    /// overlook narrower ones.
     fn terrain_for(radius_m: f64) -> Terrain {
         hills(if radius_m < 8.0 { 10 } else { 7 })
     }
