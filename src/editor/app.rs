@@ -10,7 +10,7 @@ use super::files::dialogs::{FileDialogs, NativeDialogs};
 use super::files::library::Library;
 use super::files::recent::Recent;
 use super::handlers::{self, answers, baking, open_file, opening, shooting};
-use super::painter::survey::Surveyor;
+use super::painter::survey::{Survey, same_survey};
 use super::panels::PanelState;
 use super::panels::docks::Bench;
 use super::panels::layout::Layout;
@@ -22,6 +22,7 @@ use super::state::pictures::Pictures;
 use super::state::questions::Questions;
 use super::state::recovery::Recovery;
 use super::state::shooting::PhotoSettings;
+use super::state::surveyor::{Surveyor, same_heights};
 use super::state::system::OpenSystem;
 use super::state::variations::Variations;
 use super::viewport::Viewport;
@@ -35,11 +36,13 @@ use super::views::system::SystemWindow;
 use super::views::text::TextWindow;
 use super::views::tour::TourCard;
 use super::views::{
-    controls, look, menus, overlay, performance, photo, problems, prompts::Prompts, status, templates, variations,
+    controls, inspector, look, menus, overlay, performance, photo, problems, prompts::Prompts, status, templates,
+    variations,
 };
+use super::widgets::curve_view::{self, CurveView};
 use super::widgets::row_view::LockView;
 use crate::planet::{Planet, shipped};
-use crate::terrain::MapStore;
+use crate::terrain::{CurveInputs, MapStore};
 use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -66,7 +69,8 @@ pub struct EditorApp {
     bake: BakeWindow,
     library: LibraryWindow,
     tour: TourCard,
-    surveyor: Surveyor,
+    survey: Surveyor<Survey>,
+    curve_inputs: Surveyor<CurveInputs>,
     /// Where solved world maps are kept.
     maps: Option<Arc<MapStore>>,
     /// Whether a field had the focus at the end of the last frame.
@@ -102,7 +106,10 @@ impl EditorApp {
         if let Some(path) = path {
             opening::begin_with(&mut state, &cc.egui_ctx, &path);
         }
-        let ctx = cc.egui_ctx.clone();
+        let waker = || {
+            let ctx = cc.egui_ctx.clone();
+            move || ctx.request_repaint()
+        };
         Self {
             state,
             commands: Commands::default(),
@@ -116,7 +123,8 @@ impl EditorApp {
             bake: BakeWindow::default(),
             library: LibraryWindow::default(),
             tour: TourCard::default(),
-            surveyor: Surveyor::new(move || ctx.request_repaint()),
+            survey: Surveyor::new(Survey::of, same_survey, waker()),
+            curve_inputs: Surveyor::new(curve_view::inputs_of, same_heights, waker()),
             maps,
             was_typing: false,
             title: String::new(),
@@ -264,18 +272,20 @@ impl EditorApp {
         if panels.paints()
             && let Some(surface) = state.viewport.surface()
         {
-            self.surveyor.ask(&surface.terrain);
+            self.survey.ask(&surface.terrain);
         }
         let mut planet = (**state.document.planet()).clone();
         let problems = [state.document.problems(), state.pictures.problems()].concat();
         let locks = LockView::of(&planet);
+        let curves = CurveView::new(self.curve_inputs.found());
         let mut bench = Bench {
             before: state.document.planet(),
             label: None,
             problems: &problems,
             locks: &locks,
+            curves: &curves,
             under_pointer: state.viewport.under_pointer(),
-            survey: self.surveyor.survey(),
+            survey: self.survey.found(),
             commands: &mut self.commands,
             eye_lon_deg: state.viewport.eye(&planet).1.to_degrees().1,
             time_secs: state.viewport.settings.time_secs,
@@ -285,6 +295,13 @@ impl EditorApp {
         };
         panels.show_docks(ui, &mut bench);
         let label = bench.label;
+        // Not while a point of a curve is dragged: the picture comes first.
+        if curves.is_shown()
+            && !ui.input(|input| input.pointer.any_down())
+            && let Some(surface) = state.viewport.surface()
+        {
+            self.curve_inputs.ask(&surface.terrain);
+        }
         self.commands.extend(locks.take_toggled().map(Action::ToggleLock));
         self.state.edit(planet, label);
     }
@@ -292,6 +309,7 @@ impl EditorApp {
     fn show_picture(&mut self, ui: &mut egui::Ui) {
         let state = &mut self.state;
         let commands = &mut self.commands;
+        state.viewport.inspector.is_open = state.shows.inspector;
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let mut planet = (**state.document.planet()).clone();
             if let Some(label) = state.viewport.show(ui, state.document.valid_planet(), &mut planet) {
@@ -393,6 +411,7 @@ impl eframe::App for EditorApp {
         controls::show(&ctx, &self.state, &mut self.commands);
         performance::show(&ctx, &self.state, &mut self.commands);
         photo::show(&ctx, &self.state, &mut self.commands);
+        inspector::show(&ctx, &self.state, &mut self.commands);
         self.history.show(&ctx, &self.state, &mut self.commands);
         variations::show(&ctx, &self.state, &mut self.commands);
         templates::show(&ctx, &self.state, &mut self.commands);

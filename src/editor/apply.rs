@@ -80,6 +80,7 @@ fn apply(state: &mut State, ctx: &egui::Context, action: Action) {
         Action::Close(Window::Finder) => state.search(None),
         Action::Close(Window::History) => state.shows.history = false,
         Action::Close(Window::Place) => state.shows.place = false,
+        Action::Close(Window::Inspector) => state.shows.inspector = false,
         Action::Close(Window::Variations) => state.shows.variations = false,
         Action::Close(Window::Templates) => state.shows.templates = false,
         Action::Close(Window::Text) => state.shows.text = false,

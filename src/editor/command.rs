@@ -35,6 +35,10 @@ pub enum Command {
     Filter,
     ResetView,
     GoToPlace,
+    /// Show or hide all that is known of the place under the pointer.
+    Inspect,
+    /// Hold the inspected place, or follow the pointer again.
+    HoldPlace,
     PlayPause,
     TogglePanel,
     /// Put every tab back into the side panel.
@@ -142,6 +146,8 @@ pub enum Window {
     History,
     /// The location to go to.
     Place,
+    /// All that is known of a place.
+    Inspector,
     /// Variations of the planet.
     Variations,
     /// What a new planet can begin as.

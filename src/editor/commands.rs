@@ -253,6 +253,27 @@ fn view_and_help() -> Vec<Row> {
         .keys([plain(Key::F5)])
         .chosen_when(|s| s.shows.overlay),
         Row::new(
+            Command::Inspect,
+            "Inspector",
+            "Show all that is known of the place under the pointer: height, climate, water, clouds, each layer's part.",
+            |s, _| s.shows.inspector ^= true,
+        )
+        .within(Menu::View, 2)
+        .keys([plain(Key::I)])
+        .chosen_when(|s| s.shows.inspector)
+        .yielding_to_text(),
+        Row::new(
+            Command::HoldPlace,
+            "Hold the inspected place",
+            "Stay at the inspected place while the pointer moves, or follow the pointer again.",
+            |s, _| s.viewport.inspector.toggle_held(),
+        )
+        .within(Menu::View, 2)
+        .keys([KeyboardShortcut::new(Modifiers::SHIFT, Key::I)])
+        .enabled_when(|s| s.shows.inspector && s.viewport.inspector.place().is_some())
+        .chosen_when(|s| s.viewport.inspector.is_held())
+        .yielding_to_text(),
+        Row::new(
             Command::TogglePerformance,
             "Performance",
             "Show the times of the last edit, the memory in use, and the newest frames.",

@@ -20,18 +20,25 @@ pub struct LayerEffect {
     pub change_m: f64,
 }
 
-/// Inputs that note the mask of one layer on its way.
-struct Watched<'a, T> {
-    inputs: T,
-    layer: usize,
-    effects: &'a mut [LayerEffect],
+/// A step of a layer on the way to a height, at the points of a chunk.
+pub(super) enum Step<'a> {
+    /// The product of the masks of a layer that has any.
+    Masked(&'a [f64]),
+    /// The numbers that the curve of the layer is about to bend.
+    Bends(&'a [f64]),
 }
 
-impl<T: LayerFields> LayerFields for Watched<'_, T> {
+/// Inputs that tell an observer of the steps of each layer.
+pub(super) struct Watched<T, F> {
+    pub(super) inputs: T,
+    pub(super) told: F,
+}
+
+impl<T: LayerFields, F: FnMut(usize, Step<'_>)> LayerFields for Watched<T, F> {
     fn prepare(&mut self, layer: usize, mask: Option<&[f64]>) {
         // Without a mask, the call may come from another layer whose mask reads the noise of this one.
-        if let Some(mask) = mask.filter(|_| layer == self.layer) {
-            self.effects.iter_mut().zip(mask).for_each(|(effect, mask)| effect.mask = *mask);
+        if let Some(mask) = mask {
+            (self.told)(layer, Step::Masked(mask));
         }
         self.inputs.prepare(layer, mask);
     }
@@ -39,9 +46,13 @@ impl<T: LayerFields> LayerFields for Watched<'_, T> {
     fn field(&self, layer: usize) -> Option<&Field> {
         self.inputs.field(layer)
     }
+
+    fn bends(&mut self, layer: usize, noise: &[f64]) {
+        (self.told)(layer, Step::Bends(noise));
+    }
 }
 
-impl<T: relief::Inputs> relief::Inputs for Watched<'_, T> {
+impl<T: relief::Inputs, F: FnMut(usize, Step<'_>)> relief::Inputs for Watched<T, F> {
     fn climate(&mut self) -> ClimateInputs<'_> {
         self.inputs.climate()
     }
@@ -71,10 +82,16 @@ impl Terrain {
                 let mut changes_m = vec![0.0; dirs.len()];
                 let scratch = &mut scratch.0;
                 scratch.points.refill(dirs.iter().map(|&dir| unit(dir)), spacing_rad);
-                let watched = &mut *effects;
+                let told = |told: usize, step: Step<'_>| {
+                    if let Step::Masked(mask) = step
+                        && told == layer
+                    {
+                        effects.iter_mut().zip(mask).for_each(|(effect, mask)| effect.mask = *mask);
+                    }
+                };
                 self.evaluate_through(
                     scratch,
-                    |inputs| Watched { inputs, layer, effects: watched },
+                    |inputs| Watched { inputs, told },
                     |joined, heights_m| {
                         if joined == layer {
                             for ((change_m, before_m), height_m) in changes_m.iter_mut().zip(&before_m).zip(heights_m) {

@@ -14,7 +14,7 @@
 //! - `query`, `raycast`, `contact`, `nearest`: the queries of [`Terrain`]; `water`: water, wind and rain at points
 //! - `contours`: coasts and other lines of equal height; `chunk`: ground for physics engines
 //! - `network`: rivers from source to mouth, lakes, basins; `by_hand`: plates that are changed by hand
-//! - `effects`: what one layer does at points
+//! - `effects`: what one layer does at points; `curve_inputs`: the numbers that curves bend
 //! - `kept`: the fields that a tile keeps from one edit to the next
 //! - `coarse`: the heights that world maps read
 //! - [`revision`]: what changed between two revisions of a planet
@@ -33,6 +33,7 @@ pub(crate) mod climate;
 pub(crate) mod coarse;
 mod contact;
 mod contours;
+mod curve_inputs;
 pub(crate) mod edits;
 mod effects;
 pub(crate) mod evaluate;
@@ -64,6 +65,7 @@ use crate::world::{MapPicture, MapView};
 pub use chunk::{Chunk, ChunkGrid};
 pub use contact::{Capsule, Contact, Sweep};
 pub use contours::Contour;
+pub use curve_inputs::{CurveInput, CurveInputs};
 pub use effects::LayerEffect;
 pub use height::curve_at;
 

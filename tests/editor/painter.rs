@@ -206,7 +206,7 @@ fn the_planet_and_the_table_point_at_each_other() {
 
     let under = point_at_planet(&mut harness);
     let sample = Terrain::try_new(Arc::new(planet(&harness))).unwrap().sample(under.location.direction());
-    assert_eq!((under.cell, under.biome_index), (sample.cell, sample.biome));
+    assert_eq!((under.sample.cell, under.sample.biome), (sample.cell, sample.biome));
     harness.run_steps(2);
     assert!(harness.query_by_label_contains("Here: ").is_some(), "the table says which cell that is");
 }
@@ -216,8 +216,8 @@ fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
     let mut harness = drawn_editor();
     let rect = canvas(&harness);
     let under = point_at_planet(&mut harness);
-    let name = biomes(&harness).palette[under.biome_index].name.clone();
-    let other = (under.biome_index + 3) % biomes(&harness).palette.len();
+    let name = biomes(&harness).palette[under.sample.biome].name.clone();
+    let other = (under.sample.biome + 3) % biomes(&harness).palette.len();
     choose(&mut harness, other);
     click(&mut harness, "Eyedropper");
     let press = |harness: &mut Editor, modifiers: egui::Modifiers| {
@@ -242,7 +242,7 @@ fn the_eyedropper_picks_on_the_planet_and_ctrl_paints_its_climate() {
     until(&mut harness, "painted", |harness| undo_len(harness) == 1);
     assert_eq!(undo_label(&harness), "Paint climate of location");
     let mut expected = before.clone();
-    expected.table.set_key(under.cell[0], under.cell[1], key);
+    expected.table.set_key(under.sample.cell[0], under.sample.cell[1], key);
     assert_eq!(biomes(&harness), expected, "that very cell and no other");
     undo(&mut harness);
     assert_eq!(biomes(&harness), before);

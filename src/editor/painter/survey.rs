@@ -1,13 +1,12 @@
 //! The shares of the planet's land in each cell of the biome table and in each biome: samples of the evaluator at
-//! directions of equal areas, on another thread.
+//! directions of equal areas.
 
+use crate::editor::state::surveyor::same_heights;
 use crate::planet::Planet;
 use crate::sphere::spread;
 use crate::terrain::{Sample, Scratch, Terrain, Wanted};
 use glam::DVec3;
 use std::f64::consts::PI;
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// Number of directions: the error of a share is about a tenth of a percent.
 const DIRECTIONS: usize = 24_576;
@@ -64,66 +63,17 @@ impl Survey {
     }
 }
 
-/// Surveys planets on another thread, and keeps the newest result.
-pub struct Surveyor {
-    terrains: Sender<Arc<Terrain>>,
-    answers: Receiver<Survey>,
-    asked: Option<Arc<Terrain>>,
-    survey: Option<Survey>,
-}
-
-impl Surveyor {
-    /// Starts the thread, which calls `wake` after each survey and ends with the surveyor.
-    pub fn new(wake: impl Fn() + Send + 'static) -> Self {
-        let (terrains, asked) = channel::<Arc<Terrain>>();
-        let (answered, answers) = channel();
-        let spawned = std::thread::Builder::new().name("tellus-survey".to_owned()).spawn(move || {
-            while let Ok(terrain) = asked.recv() {
-                // Only the newest matters.
-                let terrain = asked.try_iter().last().unwrap_or(terrain);
-                if answered.send(Survey::of(&terrain)).is_err() {
-                    return;
-                }
-                wake();
-            }
-        });
-        // Without the thread there are no shares, and nothing else breaks.
-        debug_assert!(spawned.is_ok());
-        Self { terrains, answers, asked: None, survey: None }
-    }
-
-    /// Asks for a survey of a terrain, unless the newest request was for equal ground, or its world maps are not final
-    /// yet.
-    pub fn ask(&mut self, terrain: &Arc<Terrain>) {
-        if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(|asked| same_ground(asked, terrain)) {
-            // Fails only if the thread could not be started.
-            let _ = self.terrains.send(terrain.clone());
-            self.asked = Some(terrain.clone());
-        }
-        if let Some(survey) = self.answers.try_iter().last() {
-            self.survey = Some(survey);
-        }
-    }
-
-    /// The newest result; it may be of an earlier revision.
-    pub fn survey(&self) -> Option<&Survey> {
-        self.survey.as_ref()
-    }
-}
-
 /// Whether a survey would find the same: equal tiles, and equal rules from there to the biome.
-fn same_ground(a: &Arc<Terrain>, b: &Arc<Terrain>) -> bool {
+pub fn same_survey(a: &Terrain, b: &Terrain) -> bool {
     let same_rules = |a: &Planet, b: &Planet| a.biomes == b.biomes && a.climate == b.climate;
-    Arc::ptr_eq(a, b)
-        || (same_rules(a.planet(), b.planet())
-            && a.planet().sea_level_m() == b.planet().sea_level_m()
-            && !b.keys().changes_since(a.keys()).touches_tiles())
+    same_rules(a.planet(), b.planet()) && a.planet().sea_level_m() == b.planet().sea_level_m() && same_heights(a, b)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::planet::{Structure, Table, Water, shipped};
+    use std::sync::Arc;
 
     /// A survey of a planet with rivers builds no block of them: it would take a minute.
     #[test]

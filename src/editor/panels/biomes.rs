@@ -63,12 +63,12 @@ impl BiomesState {
     pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
         match click {
             Click::Pick => {
-                self.palette.selected = under.biome_index;
+                self.palette.selected = under.sample.biome;
                 None
             }
             Click::Paint => {
                 let key = planet.biomes.palette.get(self.palette.selected)?.key;
-                let [column, row] = under.cell;
+                let [column, row] = under.sample.cell;
                 planet.biomes.table.set_key(column, row, key);
                 Some("Paint climate of location".to_owned())
             }
@@ -198,7 +198,7 @@ fn tables(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) {
 
 fn table(ui: &mut egui::Ui, state: &mut BiomesState, draft: &mut Draft<'_>) -> TableOutput {
     let under = draft.under_pointer;
-    let shown = Shown { survey: draft.survey.filter(|_| state.shows_land), here: under.map(|under| under.cell) };
+    let shown = Shown { survey: draft.survey.filter(|_| state.shows_land), here: under.map(|under| under.sample.cell) };
     let output = state.painter.show(ui, &mut draft.planet.biomes, state.palette.selected, &shown);
     if let Some(label) = output.painted {
         draft.name_edit(label);
@@ -246,7 +246,9 @@ fn selected(ui: &mut egui::Ui, state: &mut PaletteState, draft: &mut Draft<'_>) 
         let problem = state.refused.as_ref().map(|(_, why)| why.as_str());
         let takes_focus = draft.shown.takes_focus(&path, param.name);
         let (owner, default, locks) = (name.as_str(), Some(&default), draft.shown.locks);
-        let row = Row { param, path: &path, owner, default, problem, idle: None, biomes: &[], takes_focus, locks };
+        let curves = draft.shown.curves;
+        let row =
+            Row { param, path: &path, owner, default, problem, idle: None, biomes: &[], takes_focus, locks, curves };
         if draft.shown.passes(&path, param) {
             draft.shown.marked(ui, &path, param.name, |ui| param_row(ui, &row, key.value_mut()));
         }

@@ -6,6 +6,7 @@ use super::{Draft, PANELS, PanelState};
 use crate::editor::command::Commands;
 use crate::editor::painter::survey::Survey;
 use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::widgets::curve_view::CurveView;
 use crate::editor::widgets::random_seed;
 use crate::editor::widgets::row_view::{LockView, RowView};
 use crate::planet::param::ParamPath;
@@ -42,6 +43,8 @@ pub struct Bench<'a> {
     pub problems: &'a [(ParamPath, String)],
     /// What variations leave as it is.
     pub locks: &'a LockView,
+    /// The numbers behind curves.
+    pub curves: &'a CurveView<'a>,
     /// The ground under the pointer.
     pub under_pointer: Option<&'a UnderPointer>,
     /// How the planet's land is spread over its biome table.
@@ -183,6 +186,7 @@ impl PanelState {
                 filter: &filter,
                 revealed: revealed.as_deref(),
                 locks: bench.locks,
+                curves: bench.curves,
             },
             under_pointer: bench.under_pointer,
             survey: bench.survey,

@@ -16,6 +16,7 @@
 //! - [`variations`], [`templates`]: planets to choose from: variations of this one, what a new one begins as
 //! - [`system`]: the system in whose sky the planet is drawn
 //! - [`sheet`], [`thumbnails`]: planets with small pictures; the thread that draws them
+//! - [`surveyor`]: figures of a whole planet, found on another thread
 
 pub mod bake_settings;
 pub mod baking;
@@ -32,6 +33,7 @@ pub mod recovery;
 pub mod sheet;
 pub mod shelf;
 pub mod shooting;
+pub mod surveyor;
 pub mod system;
 pub mod templates;
 pub mod thumbnails;
@@ -99,6 +101,8 @@ pub struct Shows {
     pub history: bool,
     /// The location to go to.
     pub place: bool,
+    /// All that is known of a place.
+    pub inspector: bool,
     /// Variations of the planet.
     pub variations: bool,
     /// What a new planet can begin as.
@@ -126,6 +130,7 @@ impl Shows {
         finder: false,
         history: false,
         place: false,
+        inspector: false,
         variations: false,
         templates: false,
         text: false,

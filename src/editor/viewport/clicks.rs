@@ -1,7 +1,7 @@
 //! Clicks on the planet that are for the open tab.
 
 use super::layer_view::LayerOverlay;
-use super::pointer::{Probe, UnderPointer, in_view};
+use super::pointer::{Aim, Probe, UnderPointer, in_view};
 use super::sculpt::SculptLink;
 use crate::editor::painter::is_chord;
 use crate::lod::View;
@@ -75,7 +75,7 @@ impl Clicks {
         {
             let (x, y) = in_view(response.rect, pos);
             self.probe.leave();
-            self.probe.ask(x, y, view, surface);
+            self.probe.ask(Aim::Picture { x, y, view: *view }, surface, None);
             self.clicked = Some(click);
         }
     }

@@ -10,8 +10,8 @@
 //! - [`layer_view`]: layers alone, and an overlay of what one does
 //! - `neighbours`: the other bodies of a system around the planet
 //! - `outline`: the frustum of a frozen view
-//! - [`mod@pointer`]: the ground under the pointer; [`clicks`]: clicks for the open tab; `plate_drag`: a plate that is
-//!   dragged
+//! - [`mod@pointer`]: the ground under the pointer; [`inspector`]: the inspected place; [`clicks`]: clicks for the open
+//!   tab; `plate_drag`: a plate that is dragged
 //! - [`sculpt`]: strokes, stamps and lines; `ring`, `handles`: what is drawn of them; `measure`: lengths, profiles
 //! - [`adaptation`]: exposure that adapts gradually; [`refinement`]: still pictures that get finer
 //! - [`clock`], [`timeline`], [`frames`]: the time from an edit to its picture, its parts, the time of each frame
@@ -25,6 +25,7 @@ pub mod frames;
 pub mod ground;
 mod handles;
 pub mod input;
+pub mod inspector;
 pub mod layer_view;
 mod measure;
 mod neighbours;
@@ -60,10 +61,11 @@ use eframe::egui_wgpu::RenderState;
 use frames::FrameLog;
 use glam::DVec3;
 use ground::PlanetGround;
+use inspector::Inspector;
 use layer_view::LayerView;
 use neighbours::Neighbours;
 use picture::{Meters, Picture, Subject, quality_for};
-use pointer::{Probe, UnderPointer, in_view};
+use pointer::{Aim, Probe, UnderPointer, in_view};
 use sculpt::{Hand, Scene};
 use std::sync::Arc;
 
@@ -82,6 +84,8 @@ pub struct Viewport {
     pub frames: FrameLog,
     /// What the open tab shows on the planet, and which clicks and drags it takes.
     pub tab: TabLink,
+    /// The inspected place.
+    pub inspector: Inspector,
     layer_view: LayerView,
     /// The planet that this one is compared with.
     compare: Option<Compare>,
@@ -128,6 +132,7 @@ impl Viewport {
             frame_meter: FrameMeter::default(),
             frames: FrameLog::default(),
             tab: TabLink::default(),
+            inspector: Inspector::new(waker()),
             layer_view: LayerView::default(),
             compare: None,
             builder: Builder::with_options(BuilderOptions::default().maps(maps.clone()), waker()),
@@ -403,6 +408,8 @@ impl Viewport {
         if let Some(surface) = &surface {
             let scene = Scene { surface, camera: view.camera, rect };
             self.hand.paint(&ui.painter_at(rect), &link, &scene, &view, valid);
+            let ground = ring::Ground { terrain: &surface.terrain, view: &view, rect };
+            self.inspector.paint(&ui.painter_at(rect), &ground);
         }
         if let Some(compare) = &mut self.compare {
             let (settings, radius_m) = (&self.settings, self.ground_radius_m);
@@ -465,13 +472,16 @@ impl Viewport {
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });
     }
 
-    /// Asks for the ground under the pointer.
+    /// Asks for the ground under the pointer, and for the inspected place.
     fn look_under_pointer(&mut self, response: &egui::Response, view: &View, surface: Option<&Arc<Surface>>) {
         if let (Some(pos), Some(surface)) = (response.hover_pos(), surface) {
             let (x, y) = in_view(response.rect, pos);
-            self.pointer.ask(x, y, view, surface);
+            let time_secs = self.settings.time_secs;
+            let clouds_at_secs = self.inspector.is_open.then_some(time_secs);
+            self.pointer.ask(Aim::Picture { x, y, view: *view }, surface, clouds_at_secs);
         } else {
             self.pointer.leave();
         }
+        self.inspector.update(self.pointer.answer(), surface, self.settings.time_secs);
     }
 }

@@ -1,52 +1,62 @@
-//! The ground under the pointer. It is found on another thread: a ray cast at a grazing angle can take longer than a
-//! frame.
+//! What is known of a place on the ground: the one under the pointer, or one of a direction. It is found on another
+//! thread: a ray cast at a grazing angle can take longer than a frame.
 
+use crate::clouds::{CloudCover, CloudField};
 use crate::lod::View;
 use crate::planet::PlateByHand;
 use crate::sphere::LatLon;
+use crate::terrain::{Sample, Terrain};
 use crate::tiles::Surface;
 use eframe::egui;
+use glam::DVec3;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// The ground under the pointer.
+/// A place on the ground.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub struct UnderPointer {
+    /// Latitude and longitude.
     pub location: LatLon,
-    pub height_m: f64,
-    pub temperature_c: f64,
-    pub moisture: f64,
+    /// The evaluator's answer there.
+    pub sample: Sample,
+    /// The name of its biome.
     pub biome: String,
-    /// Column and row of the biome table.
-    pub cell: [usize; 2],
-    /// Index of the biome in the palette.
-    pub biome_index: usize,
-    /// Angle of the ground against the horizontal.
-    pub slope_deg: f64,
     /// Change of the height by each layer, in metres.
     pub layers_m: Vec<f64>,
     /// The plate of the structure, as an entry that leaves it as it was laid out.
     pub plate: Option<PlateByHand>,
+    /// The clouds over it, if they were asked for.
+    pub cover: Option<CloudCover>,
 }
 
-/// A question: a point of the picture (`x`, `y` from -1 to 1, right and up), the view, and its surface.
+/// Where the ground is looked at.
+#[derive(Clone, PartialEq)]
+pub enum Aim {
+    /// A point of the picture: `x`, `y` from -1 to 1, right and up.
+    Picture { x: f64, y: f64, view: View },
+    /// A unit direction in the planet frame.
+    Place(DVec3),
+}
+
+/// A question about a surface.
 #[derive(Clone)]
 struct Question {
     number: u64,
-    x: f64,
-    y: f64,
-    view: View,
+    aim: Aim,
     surface: Arc<Surface>,
+    /// The time of the clouds that are asked for.
+    clouds_at_secs: Option<f64>,
 }
 
 impl Question {
     fn same_as(&self, other: &Question) -> bool {
-        (self.x, self.y) == (other.x, other.y) && self.view == other.view && Arc::ptr_eq(&self.surface, &other.surface)
+        self.aim == other.aim
+            && self.clouds_at_secs == other.clouds_at_secs
+            && Arc::ptr_eq(&self.surface, &other.surface)
     }
 }
 
-/// Asks for the ground at a point of the picture, and keeps the newest answer.
+/// Asks for the ground at a place, and keeps the newest answer.
 pub struct Probe {
     questions: Sender<Question>,
     answers: Receiver<(u64, Option<UnderPointer>)>,
@@ -64,10 +74,11 @@ impl Probe {
         let (questions, asked) = channel::<Question>();
         let (answered, answers) = channel();
         let spawned = std::thread::Builder::new().name("tellus-pointer".to_owned()).spawn(move || {
+            let mut clouds = Clouds::default();
             while let Ok(question) = asked.recv() {
                 // Only the newest question matters.
                 let question = asked.try_iter().last().unwrap_or(question);
-                if answered.send((question.number, look(&question))).is_err() {
+                if answered.send((question.number, look(&question, &mut clouds))).is_err() {
                     return;
                 }
                 wake();
@@ -78,9 +89,9 @@ impl Probe {
         Self { questions, answers, asked: None, next: 0, first: 0, answer: None }
     }
 
-    /// Asks for a point of the picture, unless the last question was equal.
-    pub fn ask(&mut self, x: f64, y: f64, view: &View, surface: &Arc<Surface>) {
-        let question = Question { number: self.next, x, y, view: *view, surface: surface.clone() };
+    /// Asks for a place, and for the clouds over it at a time, unless the last question was equal.
+    pub fn ask(&mut self, aim: Aim, surface: &Arc<Surface>, clouds_at_secs: Option<f64>) {
+        let question = Question { number: self.next, aim, surface: surface.clone(), clouds_at_secs };
         if !self.asked.as_ref().is_some_and(|asked| asked.same_as(&question)) {
             self.next += 1;
             self.asked = Some(question.clone());
@@ -118,24 +129,38 @@ pub(super) fn in_view(rect: egui::Rect, pos: egui::Pos2) -> (f64, f64) {
     (f64::from(x), f64::from(y))
 }
 
-fn look(question: &Question) -> Option<UnderPointer> {
-    let Question { view, surface, .. } = question;
-    let camera = &view.camera;
-    let ray = camera.ray_dir_planet(question.x, question.y, view.aspect());
-    let distance_m = surface.terrain.raycast(camera.position_planet_m, ray)?;
-    let dir = camera.position_planet_m + ray * distance_m;
-    let sample = surface.terrain.sample(dir);
-    let palette = &surface.terrain.planet().biomes.palette;
+/// The clouds of the newest terrain.
+#[derive(Default)]
+struct Clouds(Option<(Arc<Terrain>, CloudField)>);
+
+impl Clouds {
+    fn over(&mut self, terrain: &Arc<Terrain>, dir_planet: DVec3, time_secs: f64) -> Option<CloudCover> {
+        terrain.planet().clouds.as_ref()?;
+        let known = self.0.take().filter(|(of, _)| Arc::ptr_eq(of, terrain));
+        let (_, field) = self.0.insert(known.unwrap_or_else(|| (Arc::clone(terrain), CloudField::new(terrain))));
+        Some(field.cover(dir_planet, time_secs))
+    }
+}
+
+fn look(question: &Question, clouds: &mut Clouds) -> Option<UnderPointer> {
+    let terrain = &question.surface.terrain;
+    let dir = match &question.aim {
+        Aim::Place(dir) => *dir,
+        Aim::Picture { x, y, view } => {
+            let camera = &view.camera;
+            let ray = camera.ray_dir_planet(*x, *y, view.aspect());
+            let distance_m = terrain.raycast(camera.position_planet_m, ray)?;
+            (camera.position_planet_m + ray * distance_m).normalize_or(DVec3::Z)
+        }
+    };
+    let sample = terrain.sample(dir);
+    let palette = &terrain.planet().biomes.palette;
     Some(UnderPointer {
         location: LatLon::from_direction(dir),
-        height_m: sample.height_m,
-        temperature_c: sample.temperature_c,
-        moisture: sample.moisture,
         biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
-        cell: sample.cell,
-        biome_index: sample.biome,
-        slope_deg: sample.slope_rad.to_degrees(),
-        layers_m: surface.terrain.layers_m(dir),
-        plate: surface.terrain.plate_entry(dir),
+        layers_m: terrain.layers_m(dir),
+        plate: terrain.plate_entry(dir),
+        cover: question.clouds_at_secs.and_then(|secs| clouds.over(terrain, dir, secs)),
+        sample,
     })
 }

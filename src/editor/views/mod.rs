@@ -6,7 +6,7 @@
 //! - [`problems`]: notices and problems
 //! - [`prompts`], `differences`, `path_field`, `rename`: questions and messages
 //! - [`controls`], [`performance`], [`photo`], [`bake`], [`history`], [`library`], [`variations`], [`templates`],
-//!   [`text`], [`place`], [`finder`]: windows
+//!   [`text`], [`place`], [`finder`], [`inspector`]: windows
 //! - [`system`]: the bodies of a system, their orbits, the time
 //! - [`tour`]: steps for a first look around
 //! - [`shortcuts`]: keys and dropped files
@@ -17,6 +17,7 @@ pub mod controls;
 mod differences;
 pub mod finder;
 pub mod history;
+pub mod inspector;
 pub mod library;
 pub mod look;
 pub mod menus;

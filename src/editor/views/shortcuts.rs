@@ -1,6 +1,8 @@
 //! Keys and dropped files, as commands.
 
-use super::{bake, controls, history, library, performance, photo, place, system, templates, text, tour, variations};
+use super::{
+    bake, controls, history, inspector, library, performance, photo, place, system, templates, text, tour, variations,
+};
 use crate::editor::command::{Action, Command, Commands, PanelAction, Window};
 use crate::editor::commands;
 use crate::editor::panels::biomes;
@@ -55,6 +57,7 @@ fn take_escape(ctx: &egui::Context, state: &State, keys: Keys, commands: &mut Co
         (photo::layer(), state.shows.photo, Window::Photo),
         (history::layer(), state.shows.history, Window::History),
         (place::layer(), state.shows.place, Window::Place),
+        (inspector::layer(), state.shows.inspector, Window::Inspector),
         (templates::layer(), state.shows.templates, Window::Templates),
         (text::layer(), state.shows.text, Window::Text),
         (bake::layer(), state.shows.bake, Window::Bake),

@@ -15,11 +15,11 @@ pub fn show(ui: &mut egui::Ui, state: &State) {
             Some(under) => format!(
                 "{}   {}   {:.0}° steep   {}   {:.1} °C   moisture {:.2}",
                 location_text(under.location),
-                length_text(under.height_m),
-                under.slope_deg,
+                length_text(under.sample.height_m),
+                under.sample.slope_rad.to_degrees(),
                 under.biome,
-                under.temperature_c,
-                under.moisture
+                under.sample.temperature_c,
+                under.sample.moisture
             ),
             None => format!("Over {}", location_text(location)),
         };
@@ -90,7 +90,8 @@ fn mode_text(state: &State) -> String {
     text
 }
 
-fn location_text(location: LatLon) -> String {
+/// Latitude and longitude in degrees.
+pub fn location_text(location: LatLon) -> String {
     let (lat_deg, lon_deg) = location.to_degrees();
     let ns = if lat_deg < 0.0 { "S" } else { "N" };
     let ew = if lon_deg < 0.0 { "W" } else { "E" };

@@ -1,15 +1,18 @@
 //! A curve through points: drag a point, double-click to add one, right-click to remove one, or type its numbers.
 
+use super::curve_view::columns;
 use super::number::format_digits;
 use super::typed::{Allowed, plain_field};
 use crate::planet::param::{Curve, MAX_CURVE_POINTS, Unit};
-use crate::terrain::curve_at;
+use crate::terrain::{CurveInput, curve_at};
 use eframe::egui::{self, Pos2, Rect};
 
 const HEIGHT: f32 = 132.0;
 /// Greatest distance of the pointer to take a point, in egui points.
 const REACH: f32 = 10.0;
 const DIGITS: i32 = 3;
+/// Columns of the histogram behind the curve.
+const COLUMNS: usize = 64;
 
 /// The curve to edit.
 pub struct CurveEdit<'a> {
@@ -21,6 +24,8 @@ pub struct CurveEdit<'a> {
     pub most: f64,
     /// Least distance between two points along the first axis.
     pub least_step: f64,
+    /// The numbers that the planet puts into the curve.
+    pub inputs: Option<&'a [CurveInput]>,
 }
 
 impl CurveEdit<'_> {
@@ -73,6 +78,9 @@ impl CurveEdit<'_> {
                     ui.label(format!("{} becomes {} {unit}", format_digits(*x, 5), format_digits(*y, 5)));
                 }
                 ui.weak("Drag a point; double-click to add one; right-click one to remove it");
+                if self.inputs.is_some() {
+                    ui.weak("The columns: how often the planet has each number");
+                }
             })
             .accessible_name(self.name);
         egui::CollapsingHeader::new("Points").id_salt(self.name).show(ui, |ui| self.points(ui, curve));
@@ -143,6 +151,22 @@ impl CurveEdit<'_> {
         }
     }
 
+    /// How often each number comes in, as columns from the lower edge.
+    fn paint_inputs(&self, painter: &egui::Painter, plot: &Plot, visuals: &egui::Visuals) {
+        let Some(inputs) = self.inputs else { return };
+        let color = visuals.text_color().gamma_multiply(0.22);
+        let (left, width) = (plot.rect.left(), plot.rect.width() / COLUMNS as f32);
+        for (number, share) in
+            columns(inputs, plot.span, COLUMNS).into_iter().enumerate().filter(|(_, share)| *share > 0.0)
+        {
+            let x = left + number as f32 * width;
+            // What is rare stays visible.
+            let top = plot.rect.bottom() - (share * 0.9 * plot.rect.height()).max(1.0);
+            let column = Rect::from_min_max(egui::pos2(x, top), egui::pos2(x + width, plot.rect.bottom()));
+            painter.rect_filled(column, 0.0, color);
+        }
+    }
+
     fn paint(&self, ui: &egui::Ui, plot: &Plot, curve: &Curve, marked: Option<usize>) {
         let visuals = ui.visuals();
         let painter = ui.painter_at(plot.rect.expand(4.0));
@@ -150,6 +174,7 @@ impl CurveEdit<'_> {
         let faint = egui::Stroke::new(1.0, visuals.weak_text_color().gamma_multiply(0.35));
         let at = |x: f64, y: f64| plot.pos([x, y]);
         let span = plot.span;
+        self.paint_inputs(&painter, plot, visuals);
         painter.line_segment([at(-span, 0.0), at(span, 0.0)], faint);
         painter.line_segment([at(0.0, -span), at(0.0, span)], faint);
         painter.extend(egui::Shape::dashed_line(&[at(-span, -span), at(span, span)], faint, 4.0, 4.0));

@@ -2,7 +2,7 @@
 //!
 //! - [`param_row`]: a parameter as a row: label, slider, number, reset
 //! - [`params_grid`]: all parameters of a part; [`row_view`]: the filter of a panel, the row that was searched for
-//! - [`curve_edit`]: a curve through points
+//! - [`curve_edit`]: a curve through points; [`curve_view`]: the numbers behind it
 //! - [`drag_row`]: rows that are reordered by dragging
 //! - [`icon`]: drawn icons and their buttons
 //! - [`pick_list`]: a list with a cursor; [`planet_button`]: the small picture of a planet
@@ -11,6 +11,7 @@
 
 pub mod arithmetic;
 pub mod curve_edit;
+pub mod curve_view;
 pub mod drag_row;
 pub mod icon;
 pub mod number;

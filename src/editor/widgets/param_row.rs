@@ -4,6 +4,7 @@
 //! Continents"; that of the number beside a slider is "Amplitude of Continents as a number".
 
 use super::curve_edit::CurveEdit;
+use super::curve_view::CurveView;
 use super::icon::{Icon, icon, icon_button};
 use super::number::{format_digits, suffix};
 use super::row_view::{LockView, RowView};
@@ -33,6 +34,8 @@ pub struct Row<'a> {
     pub takes_focus: bool,
     /// What variations leave as it is.
     pub locks: &'a LockView,
+    /// The numbers behind curves.
+    pub curves: &'a CurveView<'a>,
 }
 
 /// A biome that a parameter may refer to.
@@ -90,7 +93,7 @@ pub fn param_row(ui: &mut egui::Ui, row: &Row<'_>, mut value: ValueMut<'_>) -> b
         if let ValueMut::Curve(curve) = &mut value
             && let Some(edit) = curve_edit(row.param, &name(row)).filter(|_| !curve.is_empty())
         {
-            edit.show(ui, curve);
+            CurveEdit { inputs: row.curves.of(row.path), ..edit }.show(ui, curve);
         }
         if let Some(problem) = row.problem {
             ui.colored_label(ui.visuals().error_fg_color, problem);
@@ -332,7 +335,7 @@ fn file_field(ui: &mut egui::Ui, name: &str, path: &mut String, max_chars: usize
 /// The editor of a parameter that is a curve.
 fn curve_edit<'a>(param: &Param, name: &'a str) -> Option<CurveEdit<'a>> {
     let Domain::Curve { most, least_step } = param.domain else { return None };
-    Some(CurveEdit { name, unit: param.unit, most, least_step })
+    Some(CurveEdit { name, unit: param.unit, most, least_step, inputs: None })
 }
 
 /// A slider that leaves room for the number beside it.

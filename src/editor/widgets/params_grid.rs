@@ -113,6 +113,7 @@ impl Rows<'_> {
                 biomes: grid.biomes,
                 takes_focus: grid.shown.takes_focus(path, param.name),
                 locks: grid.shown.locks,
+                curves: grid.shown.curves,
             };
             if grid.shown.marked(ui, path, param.name, |ui| param_row(ui, &row, value)) {
                 self.browse = Some(path.clone());

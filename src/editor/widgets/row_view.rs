@@ -1,5 +1,6 @@
 //! What the rows of a panel show besides their values: problems, the filter, and the row that was searched for.
 
+use super::curve_view::CurveView;
 use crate::planet::Planet;
 use crate::planet::locks::Locks;
 use crate::planet::param::{Param, ParamPath, Params};
@@ -113,6 +114,8 @@ pub struct RowView<'a> {
     pub revealed: Option<&'a Revealed>,
     /// What variations leave as it is.
     pub locks: &'a LockView,
+    /// The numbers behind curves.
+    pub curves: &'a CurveView<'a>,
 }
 
 /// The locks as rows show them, and the one that a row toggles.
@@ -237,7 +240,9 @@ mod tests {
         let (base, filter) = (ParamPath::from(vec![Segment::Field("star")]), Filter::new("tilt"));
         let locks = LockView::default();
         let planet = Planet::default();
-        let shown = RowView { planet: &planet, problems: &[], filter: &filter, revealed: None, locks: &locks };
+        let curves = CurveView::default();
+        let shown =
+            RowView { planet: &planet, problems: &[], filter: &filter, revealed: None, locks: &locks, curves: &curves };
         assert!(shown.passes_any(&base, &Star::default(), &[]));
         assert!(!shown.passes_any(&base, &Star::default(), &["tilt_deg"]));
         assert_eq!(filter.passed(), 0, "only rows count");

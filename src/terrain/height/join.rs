@@ -6,7 +6,7 @@
 
 use super::lanes::{self, Masking, Output, Shaped};
 use super::lanes::{CHUNK, Lane};
-use super::{Band, CompiledLayer, CompiledMask, LayerStack, Source, curve, steps};
+use super::{Band, CompiledCurve, CompiledLayer, CompiledMask, LayerStack, Source, curve, steps};
 use crate::planet;
 use crate::simd::Simd;
 use crate::terrain::field::{Components, Field};
@@ -74,6 +74,9 @@ pub(crate) trait LayerFields {
 
     /// The field of a layer that was prepared. Where the mask was 0 its numbers mean nothing.
     fn field(&self, layer: usize) -> Option<&Field>;
+
+    /// Hears of the numbers that the curve of a layer is about to bend, after `prepare` for that layer.
+    fn bends(&mut self, _layer: usize, _noise: &[f64]) {}
 }
 
 /// Fields that are there already.
@@ -251,10 +254,15 @@ impl Chunk<'_> {
             return;
         }
         fields.prepare(index, (!layer.masks.is_empty()).then_some(&scratch.masking.mask[..n]));
-        let Some(field) = fields.field(index) else { return };
         if reshaped {
-            self.reshape(layer, field, slopes, scratch);
+            let Some(field) = fields.field(index) else { return };
+            self.cut_steps(layer, field, slopes, scratch);
         }
+        if let Some(curve) = &layer.curve {
+            fields.bends(index, &scratch.noise[..n]);
+            self.bend(curve, scratch);
+        }
+        let Some(field) = fields.field(index) else { return };
         let Scratch { height, gradients, noise, shaped, output, masking, seen, dirs, .. } = scratch;
         let noise: &[f64] = if reshaped { &noise[..n] } else { &field.value[self.range.clone()] };
         lanes::blend(simd, slopes, n, &layer.blend, height, noise, output);
@@ -309,10 +317,10 @@ impl Chunk<'_> {
         }
     }
 
-    /// The layer's noise as terraces and the curve leave it.
-    fn reshape(&self, layer: &CompiledLayer, field: &Field, slopes: bool, scratch: &mut Scratch) {
+    /// The layer's noise as terraces leave it.
+    fn cut_steps(&self, layer: &CompiledLayer, field: &Field, slopes: bool, scratch: &mut Scratch) {
         let (simd, n) = (self.batch.simd, self.len());
-        let Scratch { height, noise, shaped, source, bent, .. } = scratch;
+        let Scratch { height, noise, shaped, .. } = scratch;
         noise[..n].copy_from_slice(&field.value[self.range.clone()]);
         match &layer.steps {
             Some(cut) => steps::cut(simd, slopes, n, cut, height, noise, shaped),
@@ -321,11 +329,15 @@ impl Chunk<'_> {
                 shaped.by_height[..n].fill(0.0);
             }
         }
-        if let Some(curve) = &layer.curve {
-            curve::bend(simd, n, curve, noise, bent, source);
-            noise[..n].copy_from_slice(&bent[..n]);
-            lanes::reshape(simd, n, source, shaped);
-        }
+    }
+
+    /// That noise as the layer's curve leaves it.
+    fn bend(&self, curve: &CompiledCurve, scratch: &mut Scratch) {
+        let (simd, n) = (self.batch.simd, self.len());
+        let Scratch { noise, shaped, source, bent, .. } = scratch;
+        curve::bend(simd, n, curve, noise, bent, source);
+        noise[..n].copy_from_slice(&bent[..n]);
+        lanes::reshape(simd, n, source, shaped);
     }
 
     /// The product of the layer's masks. False if the layer changes nothing here, because the product is 0 everywhere:

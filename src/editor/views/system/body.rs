@@ -3,6 +3,7 @@
 use super::Now;
 use crate::editor::command::{Action, Commands, NewBody, SystemAction};
 use crate::editor::files::file_names::readable_stem;
+use crate::editor::widgets::curve_view::CurveView;
 use crate::editor::widgets::menu_button;
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::editor::widgets::row_view::{Filter, LockView, RowView};
@@ -74,8 +75,8 @@ impl BodyEdit {
 
 fn parameters(ui: &mut egui::Ui, now: &Now<'_>, body: usize, member: &mut Member) {
     let (filter, locks, planet) = (Filter::default(), LockView::none(), Planet::default());
-    let shown =
-        RowView { planet: &planet, problems: &now.open.problems, filter: &filter, revealed: None, locks: &locks };
+    let (problems, curves) = (&now.open.problems, CurveView::default());
+    let shown = RowView { planet: &planet, problems, filter: &filter, revealed: None, locks: &locks, curves: &curves };
     let base = ParamPath::from(vec![Segment::Field("bodies"), Segment::Index(body)]);
     let mut default = Member {
         light: member.light.as_ref().map(|_| Light::default()),

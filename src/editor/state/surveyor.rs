@@ -1,0 +1,63 @@
+//! Figures of a whole planet that are found on another thread, and again when the ground changes.
+
+use crate::terrain::Terrain;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// Surveys terrains on another thread, and keeps the newest result.
+pub struct Surveyor<T> {
+    terrains: Sender<Arc<Terrain>>,
+    answers: Receiver<T>,
+    same: fn(&Terrain, &Terrain) -> bool,
+    asked: Option<Arc<Terrain>>,
+    found: Option<T>,
+}
+
+impl<T: Send + 'static> Surveyor<T> {
+    /// Starts the thread, which calls `wake` after each survey and ends with the surveyor. `same`: whether `survey`
+    /// would find the same of two terrains.
+    pub fn new(
+        survey: fn(&Terrain) -> T,
+        same: fn(&Terrain, &Terrain) -> bool,
+        wake: impl Fn() + Send + 'static,
+    ) -> Self {
+        let (terrains, asked) = channel::<Arc<Terrain>>();
+        let (answered, answers) = channel();
+        let spawned = std::thread::Builder::new().name("tellus-survey".to_owned()).spawn(move || {
+            while let Ok(terrain) = asked.recv() {
+                // Only the newest matters.
+                let terrain = asked.try_iter().last().unwrap_or(terrain);
+                if answered.send(survey(&terrain)).is_err() {
+                    return;
+                }
+                wake();
+            }
+        });
+        // Without the thread nothing is found, and nothing else breaks.
+        debug_assert!(spawned.is_ok());
+        Self { terrains, answers, same, asked: None, found: None }
+    }
+
+    /// Asks for a survey of a terrain, unless the newest request was for the same, or its world maps are not final yet.
+    pub fn ask(&mut self, terrain: &Arc<Terrain>) {
+        let is_same = |asked: &Arc<Terrain>| Arc::ptr_eq(asked, terrain) || (self.same)(asked, terrain);
+        if terrain.has_final_maps() && !self.asked.as_ref().is_some_and(is_same) {
+            // Fails only if the thread could not be started.
+            let _ = self.terrains.send(terrain.clone());
+            self.asked = Some(terrain.clone());
+        }
+        if let Some(found) = self.answers.try_iter().last() {
+            self.found = Some(found);
+        }
+    }
+
+    /// The newest result; it may be of an earlier revision.
+    pub fn found(&self) -> Option<&T> {
+        self.found.as_ref()
+    }
+}
+
+/// Whether two terrains have the same heights.
+pub fn same_heights(a: &Terrain, b: &Terrain) -> bool {
+    !b.keys().changes_since(a.keys()).touches_tiles()
+}
