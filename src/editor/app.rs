@@ -51,6 +51,8 @@ use std::time::Instant;
 /// The keys under which eframe keeps between runs whether the tabs are shown, and where they stand.
 const SHOWN_KEY: &str = "tellus_layout";
 const LAYOUT_KEY: &str = "tellus_docks";
+/// The key of what was used lately in the finder.
+const USED_KEY: &str = "tellus_finder";
 /// The key that is there once the editor has run: the tour begins by itself where it is not.
 const TOURED_KEY: &str = "tellus_toured";
 
@@ -115,7 +117,7 @@ impl EditorApp {
             commands: Commands::default(),
             panels: PanelState::new(layout),
             prompts: Prompts::default(),
-            finder: FinderWindow::default(),
+            finder: FinderWindow::with_used(&stored(USED_KEY).unwrap_or_default()),
             history: HistoryWindow::default(),
             system: SystemWindow::default(),
             place: PlaceWindow::default(),
@@ -222,6 +224,11 @@ impl EditorApp {
     /// What the user wants to bake.
     pub fn bake_settings(&self) -> &BakeSettings {
         &self.state.bake
+    }
+
+    /// What the curves of the planet bend, once the row of one was shown.
+    pub fn curve_inputs(&self) -> Option<&CurveInputs> {
+        self.curve_inputs.found()
     }
 
     /// Variations of the planet.
@@ -439,5 +446,6 @@ impl eframe::App for EditorApp {
         storage.set_string(SHOWN_KEY, if self.state.shows.panel { "shown" } else { "hidden" }.to_owned());
         storage.set_string(TOURED_KEY, "yes".to_owned());
         storage.set_string(LAYOUT_KEY, self.panels.layout.to_text());
+        storage.set_string(USED_KEY, self.finder.used());
     }
 }

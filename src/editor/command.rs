@@ -278,7 +278,7 @@ pub enum Shoot {
 }
 
 /// An action on the library. Numbers are indices of the items shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LibraryAction {
     /// Open a planet as a document of its own; take a part.
     Open(usize),
@@ -286,6 +286,8 @@ pub enum LibraryAction {
     Take(usize),
     /// Keep a part of the open planet; empty: all of it.
     Keep(&'static str),
+    /// Give an item of the library a name and tags.
+    Label(usize, String, Vec<String>),
     /// Move an item out of the library.
     Remove(usize),
 }

@@ -7,6 +7,7 @@
 //! - `painter`: the painter of the biome table; `plates`: plates of the structure; `sculpt`: ground edits
 //! - `finder`: commands, planets, bookmarks and parameters by name
 //! - `finding`: filters, and the row of a parameter that was searched for
+//! - `inspector`: all that is known of a place; `looks`: golden pictures of windows
 //! - `bake`: maps for other programs
 //! - `layers`: several layers at once, layers alone
 //! - `library`: planets and parts that the user keeps
@@ -36,10 +37,12 @@ mod finder;
 mod finding;
 mod history;
 mod input;
+mod inspector;
 #[path = "../support/layered.rs"]
 mod layered;
 mod layers;
 mod library;
+mod looks;
 mod monkey;
 mod painter;
 mod photo;

@@ -39,6 +39,15 @@ pub fn open_at_rate(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_se
     open_drawn(size, answers, frames_per_sec, COARSE)
 }
 
+/// An editor that is drawn, without a picture of a planet.
+pub fn open_without_planet(size: [f32; 2]) -> Editor {
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / 60.0);
+    start(builder.renderer(WgpuTestRenderer::from_render_state(render_state())), |cc| {
+        cc.wgpu_render_state = None;
+        EditorApp::with_planet(cc, layered(), None, None).with_dialogs(Box::new(NoDialogs))
+    })
+}
+
 /// An editor that is drawn with this many pixels for each point of the user interface.
 pub fn open_drawn(size: [f32; 2], answers: Vec<Option<PathBuf>>, frames_per_sec: f32, pixels_per_point: f32) -> Editor {
     let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec);

@@ -1,16 +1,21 @@
 //! The library: planets and parts that the user keeps, as preset files in a folder of the editor.
 //!
 //! A part is a preset that holds nothing but, say, clouds. What is removed moves to a folder beside, so that nothing is
-//! lost by a click.
+//! lost by a click. The user's tags are in a text file: a line for each preset, its name and the tags between tabs.
 
 use crate::planet::file::{read_text, write_atomically};
 use crate::planet::picture::folder_of;
 use crate::planet::{Planet, snippet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Most files that are listed.
 const MOST: usize = 300;
+/// The file of the tags.
+const TAGS: &str = "tags.txt";
+/// Most letters of a name and of a tag.
+const MOST_LETTERS: usize = 64;
 /// The folder of what was removed.
 const REMOVED: &str = "removed";
 /// Parts that can be kept, with their names. Empty: a whole planet.
@@ -37,6 +42,8 @@ pub struct Kept {
     pub name: String,
     /// The part that it holds; empty: a whole planet.
     pub part: &'static str,
+    /// The user's tags.
+    pub tags: Vec<String>,
     /// The planet of the file without its pictures, or what is wrong with it. Of a part, all else is at its defaults.
     pub planet: Result<Planet, String>,
 }
@@ -60,7 +67,41 @@ impl Library {
         let mut paths: Vec<PathBuf> = read.filter_map(|entry| Some(entry.ok()?.path())).filter(is_preset).collect();
         paths.sort_by_cached_key(|path| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()));
         paths.truncate(MOST);
-        paths.into_iter().map(kept).collect()
+        let tags = self.tags();
+        paths.into_iter().map(|path| kept(path, &tags)).collect()
+    }
+
+    /// Gives a file of the library another name and tags. Gives the file, which has a number after the name if that is
+    /// taken.
+    ///
+    /// # Errors
+    /// Something cannot be written; the file keeps its name then.
+    pub fn label(&self, path: &Path, name: &str, tags: &[String]) -> Result<PathBuf, String> {
+        let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let (before, name) = (stem(path), file_stem(name));
+        let to = if name.is_empty() || name == before { path.to_owned() } else { free(&self.folder, &name) };
+        if to != path {
+            fs::rename(path, &to).map_err(|error| told(&error))?;
+        }
+        let mut all = self.tags();
+        all.remove(&before);
+        if !tags.is_empty() {
+            all.insert(stem(&to), tags.to_vec());
+        }
+        let line = |(name, tags): (&String, &Vec<String>)| format!("{name}\t{}\n", tags.join("\t"));
+        let text: String = all.iter().map(line).collect();
+        write_atomically(&self.folder.join(TAGS), text.as_bytes()).map_err(|error| told(&error))?;
+        Ok(to)
+    }
+
+    /// The user's tags, by the name of the file without its ending.
+    fn tags(&self) -> BTreeMap<String, Vec<String>> {
+        let text = fs::read_to_string(self.folder.join(TAGS)).unwrap_or_default();
+        let line = |line: &str| {
+            let mut words = line.split('\t').map(str::to_owned);
+            Some((words.next()?, words.collect()))
+        };
+        text.lines().filter_map(line).collect()
     }
 
     /// Keeps a part of a planet under a name that is free. Gives the file.
@@ -74,8 +115,7 @@ impl Library {
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", self.folder.display());
         fs::create_dir_all(&self.folder).map_err(|error| told(&error))?;
         let label = PARTS.iter().find(|(other, _)| *other == part).map_or(part, |(_, label)| label);
-        let stem: String = planet.name.chars().map(|c| if c.is_alphanumeric() || c == ' ' { c } else { '-' }).collect();
-        let stem = match (stem.trim(), part) {
+        let stem = match (file_stem(&planet.name).as_str(), part) {
             ("", _) => label.to_owned(),
             (stem, "") => stem.to_owned(),
             (stem, _) => format!("{stem} {label}"),
@@ -91,7 +131,7 @@ impl Library {
     /// The file cannot be moved.
     pub fn remove(&self, path: &Path) -> Result<PathBuf, String> {
         let folder = self.folder.join(REMOVED);
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let stem = stem(path);
         let moved = fs::create_dir_all(&folder).and_then(|()| {
             let to = free(&folder, &stem);
             fs::rename(path, &to).map(|()| to)
@@ -109,8 +149,27 @@ fn free(folder: &Path, stem: &str) -> PathBuf {
     (1..).map(numbered).find(|path| !path.exists()).unwrap_or_else(|| folder.join(stem))
 }
 
-fn kept(path: PathBuf) -> Kept {
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+/// The name of a file without its ending.
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// A name as that of a file: it never leaves the folder.
+fn file_stem(name: &str) -> String {
+    let letters = name.trim().chars().take(MOST_LETTERS);
+    letters.map(|c| if c.is_alphanumeric() || c == ' ' { c } else { '-' }).collect::<String>().trim().to_owned()
+}
+
+/// The tags in a text, between commas.
+pub fn read_tags(text: &str) -> Vec<String> {
+    let tidy = |tag: &str| tag.split_whitespace().collect::<Vec<_>>().join("-").to_lowercase();
+    let tags = text.split(',').map(tidy).filter(|tag| !tag.is_empty());
+    tags.map(|tag| tag.chars().take(MOST_LETTERS).collect()).collect()
+}
+
+fn kept(path: PathBuf, tags: &BTreeMap<String, Vec<String>>) -> Kept {
+    let name = stem(&path);
+    let tags = tags.get(&name).cloned().unwrap_or_default();
     let read = read_text(&path).map_err(|error| error.to_string());
     let (part, planet) = match read.and_then(|text| snippet::read(&path.display().to_string(), &text)) {
         Ok(read) => {
@@ -121,7 +180,7 @@ fn kept(path: PathBuf) -> Kept {
         }
         Err(why) => ("", Err(why)),
     };
-    Kept { path, name, part, planet }
+    Kept { path, name, part, tags, planet }
 }
 
 #[cfg(test)]
@@ -145,6 +204,31 @@ mod tests {
         assert_eq!(listed[1].planet.as_ref().unwrap().clouds, planet.clouds);
         let moved = library.remove(&first).unwrap();
         assert!(moved.exists() && library.list().len() == 2);
+    }
+
+    #[test]
+    fn a_new_name_keeps_the_tags_and_replaces_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = Library::new(folder.path().join("library"));
+        let planet = shipped::default_planet();
+        let first = library.keep(&planet, "clouds").unwrap();
+        let second = library.keep(&planet, "clouds").unwrap();
+        let tags = read_tags("  Sky , two words,, sky2");
+        assert_eq!(tags, ["sky", "two-words", "sky2"]);
+        let first = library.label(&first, "Towers", &tags).unwrap();
+        assert_eq!(stem(&first), "Towers");
+        let third = library.label(&second, "Towers", &[]).unwrap();
+        assert_eq!(stem(&third), "Towers 2");
+        let outside = library.label(&third, "../../etc", &[]).unwrap();
+        assert_eq!(outside.parent(), first.parent(), "a name never leaves the folder");
+        let tagged =
+            |library: &Library| library.list().into_iter().map(|kept| (kept.name, kept.tags)).collect::<Vec<_>>();
+        assert!(tagged(&library).contains(&("Towers".to_owned(), tags.clone())));
+        let first = library.label(&first, "", &tags).unwrap();
+        assert_eq!(stem(&first), "Towers", "without a name the old one stays");
+        library.label(&first, "Heaps", &tags[..1]).unwrap();
+        assert!(tagged(&library).contains(&("Heaps".to_owned(), vec!["sky".to_owned()])));
+        assert!(tagged(&library).iter().all(|(name, _)| name != "Towers"));
     }
 
     #[test]

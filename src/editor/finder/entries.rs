@@ -74,6 +74,14 @@ impl Entry {
         Self::new(&format!("Go to {place}"), "Camera", "", Action::GoToPlace(place))
     }
 
+    /// A name that is the same at every start: that of undo does not tell the step.
+    pub fn key(&self) -> String {
+        match &self.action {
+            Action::Command(command) => commands::row(*command).map_or_else(String::new, |row| row.label.to_owned()),
+            _ => self.accessible_name(),
+        }
+    }
+
     /// The name for screen readers and tests.
     pub fn accessible_name(&self) -> String {
         format!("{} › {}", self.place, self.name)
@@ -195,10 +203,14 @@ fn value_text(param: &Param, value: &ValueRef<'_>) -> String {
     text.chars().take(VALUE_CHARS - 1).chain(['…']).collect()
 }
 
-/// The entries that fit a text, best first. Without a text: those that were used lately, then all.
-pub fn search(entries: &[Entry], text: &str, used: &[Action]) -> Vec<Found> {
+/// The entries that fit a text, best first. Without a text: those that were used lately, then all. `used`: their keys.
+pub fn search(entries: &[Entry], text: &str, used: &[String]) -> Vec<Found> {
     let words: Vec<Vec<char>> = text.split_whitespace().map(|word| word.chars().map(folded).collect()).collect();
-    let since = |entry: &Entry| used.iter().position(|action| *action == entry.action);
+    let since = |entry: &Entry| {
+        // Nobody asks for the key where nothing was used.
+        let key = (!used.is_empty()).then(|| entry.key())?;
+        used.iter().position(|used| *used == key)
+    };
     let all = entries.iter().enumerate();
     if words.is_empty() {
         let mut order: Vec<(usize, usize)> =
@@ -226,7 +238,7 @@ mod tests {
     use crate::planet::Structure;
     use std::time::{Duration, Instant};
 
-    fn names(entries: &[Entry], text: &str, used: &[Action]) -> Vec<String> {
+    fn names(entries: &[Entry], text: &str, used: &[String]) -> Vec<String> {
         search(entries, text, used).iter().map(|found| entries[found.entry].accessible_name()).collect()
     }
 
@@ -256,7 +268,7 @@ mod tests {
     #[test]
     fn the_last_used_comes_first() {
         let entries = parameters(&Planet::default());
-        let used = [entries[5].action.clone(), entries[3].action.clone()];
+        let used = [entries[5].key(), entries[3].key()];
         let order: Vec<usize> = search(&entries, "", &used).iter().map(|found| found.entry).take(4).collect();
         assert_eq!(order, [5, 3, 0, 1]);
     }

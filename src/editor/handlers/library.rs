@@ -20,6 +20,7 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: LibraryAction) {
         }
         LibraryAction::Take(index) => take(state, index),
         LibraryAction::Keep(part) => keep(state, part),
+        LibraryAction::Label(index, name, tags) => label(state, index, &name, &tags),
         LibraryAction::Remove(index) => remove(state, index),
     }
 }
@@ -54,6 +55,15 @@ fn keep(state: &mut State, part: &str) {
         }
         Err(why) => state.report("Nothing was kept", vec![why]),
     }
+}
+
+fn label(state: &mut State, index: usize, name: &str, tags: &[String]) {
+    let (Some(library), Some(item)) = (state.shelf.library.clone(), state.shelf.items.get(index)) else { return };
+    let Origin::Library(path) = item.origin.clone() else { return };
+    if let Err(why) = library.label(&path, name, tags) {
+        state.report("The name and the tags were not changed", vec![why]);
+    }
+    state.shelf.forget();
 }
 
 fn remove(state: &mut State, index: usize) {

@@ -5,6 +5,7 @@ use super::sheet::Sheet;
 use crate::editor::files::library::{Kept, Library};
 use crate::editor::state::templates;
 use crate::planet::{Planet, shipped};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -29,6 +30,8 @@ pub struct Item {
     pub part: &'static str,
     /// Words that find it: what it is and what it has.
     pub tags: Vec<&'static str>,
+    /// Words of the user that find it.
+    pub own_tags: Vec<String>,
     /// The planet without its pictures, or what is wrong with the file.
     pub planet: Result<Arc<Planet>, String>,
 }
@@ -72,12 +75,19 @@ impl Shelf {
         true
     }
 
+    /// The user's tags, each once, by name.
+    pub fn own_tags(&self) -> Vec<&str> {
+        let tags: BTreeSet<&str> = self.items.iter().flat_map(|item| &item.own_tags).map(String::as_str).collect();
+        tags.into_iter().collect()
+    }
+
     /// Indices of the items whose name or tags have all words of a text.
     pub fn found(&self, text: &str) -> Vec<usize> {
         let words: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
         let fits = |item: &Item| {
             let name = item.name.to_lowercase();
-            words.iter().all(|word| name.contains(word) || item.tags.iter().any(|tag| tag.starts_with(word.as_str())))
+            let tags = || item.tags.iter().copied().chain(item.own_tags.iter().map(String::as_str));
+            words.iter().all(|word| name.contains(word) || tags().any(|tag| tag.starts_with(word.as_str())))
         };
         (0..self.items.len()).filter(|index| fits(&self.items[*index])).collect()
     }
@@ -97,7 +107,7 @@ fn read(library: Option<&Library>, recent: &[PathBuf], here: &Planet) -> Vec<Ite
 }
 
 fn of_kept(kept: Kept, here: &Planet) -> Item {
-    let Kept { path, name, part, planet } = kept;
+    let Kept { path, name, part, tags, planet } = kept;
     // A part is shown on the open planet.
     let planet = planet.map(|planet| {
         if part.is_empty() {
@@ -107,7 +117,7 @@ fn of_kept(kept: Kept, here: &Planet) -> Item {
         with.take_part(&planet, part);
         with
     });
-    item(Origin::Library(path), name, part, planet)
+    Item { own_tags: tags, ..item(Origin::Library(path), name, part, planet) }
 }
 
 fn of_file(path: &Path) -> Item {
@@ -139,7 +149,7 @@ fn item(origin: Origin, name: String, part: &'static str, planet: Result<Planet,
     } else {
         tags.extend(["part", part]);
     }
-    Item { origin, name, part, tags, planet: planet.map(Arc::new) }
+    Item { origin, name, part, tags, own_tags: Vec::new(), planet: planet.map(Arc::new) }
 }
 
 #[cfg(test)]
@@ -151,7 +161,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let library = Library::new(folder.path().to_owned());
         let planet = shipped::default_planet();
-        library.keep(&planet, "clouds").unwrap();
+        let kept = library.keep(&planet, "clouds").unwrap();
+        library.label(&kept, "Towers", &["sky".to_owned()]).unwrap();
         let mut shelf = Shelf { library: Some(library), ..Shelf::default() };
         shelf.items = read(shelf.library.as_ref(), &[], &Planet::default());
         assert_eq!(shelf.items.len(), 1 + shipped::ALL.len());
@@ -159,6 +170,7 @@ mod tests {
         assert_eq!((found(""), found("part clouds"), found("shipped")), (shelf.items.len(), 1, shipped::ALL.len()));
         assert!(found("rivers sea") >= 2 && found("rivers sea") < shipped::ALL.len());
         assert_eq!(found("no such thing"), 0);
+        assert_eq!((found("sky"), found("sky towers part"), shelf.own_tags()), (1, 1, vec!["sky"]));
         let part = shelf.items[0].planet.as_ref().unwrap();
         assert_eq!((&part.clouds, part.layers.len()), (&planet.clouds, 0), "a part is shown on the open planet");
     }

@@ -27,11 +27,21 @@ pub struct FinderWindow {
     entries: Vec<Entry>,
     found: Vec<Found>,
     list: PickList,
-    /// What was chosen here, the latest first.
-    used: Vec<Action>,
+    /// The keys of what was chosen here, the latest first.
+    used: Vec<String>,
 }
 
 impl FinderWindow {
+    /// A window that knows what was used lately: a key on each line, the latest first.
+    pub fn with_used(text: &str) -> Self {
+        Self { used: text.lines().take(MOST_USED).map(str::to_owned).collect(), ..Self::default() }
+    }
+
+    /// What was used lately, as text to be kept between runs.
+    pub fn used(&self) -> String {
+        self.used.join("\n")
+    }
+
     /// Shows the window while it is open.
     pub fn show(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
         if !state.shows.finder {
@@ -73,9 +83,11 @@ impl FinderWindow {
                 input.pointer.any_pressed()
                     && input.pointer.interact_pos().is_some_and(|pos| !shown.response.rect.contains(pos))
             });
-        if let Some(action) = action.filter(|entry| entry.enabled).map(|entry| entry.action.clone()) {
-            self.used.retain(|used| *used != action);
-            self.used.insert(0, action.clone());
+        if let Some((action, key)) =
+            action.filter(|entry| entry.enabled).map(|entry| (entry.action.clone(), entry.key()))
+        {
+            self.used.retain(|used| *used != key);
+            self.used.insert(0, key);
             self.used.truncate(MOST_USED);
             commands.push(Action::Close(Window::Finder));
             commands.push(action);

@@ -2,7 +2,7 @@
 //! dragged onto the planet, which takes it as an undo step.
 
 use crate::editor::command::{Action, Commands, LibraryAction, Window};
-use crate::editor::files::library::PARTS;
+use crate::editor::files::library::{PARTS, read_tags};
 use crate::editor::state::State;
 use crate::editor::state::shelf::{Item, Origin};
 use crate::editor::widgets::menu_button;
@@ -23,6 +23,15 @@ struct Dragged(usize);
 #[derive(Default)]
 pub struct LibraryWindow {
     text: String,
+    naming: Option<Naming>,
+}
+
+/// The name and the tags that are being typed for an item.
+struct Naming {
+    index: usize,
+    name: String,
+    tags: String,
+    begun: bool,
 }
 
 /// The window's layer.
@@ -38,6 +47,7 @@ impl LibraryWindow {
     /// Shows the window while it is open.
     pub fn show(&mut self, ctx: &egui::Context, state: &State, commands: &mut Commands) {
         if !state.shows.library {
+            self.naming = None;
             return;
         }
         let mut open = true;
@@ -53,10 +63,23 @@ impl LibraryWindow {
                 ui.spacing_mut().item_spacing = egui::vec2(8.0, 6.0);
                 let columns = ((ui.available_width() + 8.0) / (SIDE + 8.0)).floor().max(1.0) as usize;
                 for row in found.chunks(columns) {
-                    ui.horizontal_top(|ui| row.iter().for_each(|index| cell(ui, state, *index, commands)));
+                    ui.horizontal_top(|ui| {
+                        for index in row {
+                            if cell(ui, state, *index, commands) {
+                                self.naming = state.shelf.items.get(*index).map(|item| Naming::of(*index, item));
+                            }
+                        }
+                    });
                 }
             });
         });
+        if let Some(naming) = &mut self.naming {
+            let ended = naming.show(ctx);
+            if let Some(named) = ended {
+                commands.extend(named.map(Action::Library));
+                self.naming = None;
+            }
+        }
         if let Some(shown) = shown {
             drop_on_planet(ctx, state, shown.response.rect, commands);
         }
@@ -83,7 +106,7 @@ impl LibraryWindow {
             });
         });
         ui.horizontal_wrapped(|ui| {
-            for tag in TAGS {
+            for tag in TAGS.into_iter().chain(state.shelf.own_tags()) {
                 let mut words: Vec<&str> = self.text.split_whitespace().collect();
                 let on = words.contains(&tag);
                 if ui.selectable_label(on, tag).clicked() {
@@ -99,8 +122,42 @@ impl LibraryWindow {
     }
 }
 
-fn cell(ui: &mut egui::Ui, state: &State, index: usize, commands: &mut Commands) {
-    let (Some(item), Some(cell)) = (state.shelf.items.get(index), state.shelf.sheet.cells.get(index)) else { return };
+impl Naming {
+    fn of(index: usize, item: &Item) -> Self {
+        Self { index, name: item.name.clone(), tags: item.own_tags.join(", "), begun: false }
+    }
+
+    /// Shows the fields. When they end, the action, or an inner None if they were cancelled.
+    fn show(&mut self, ctx: &egui::Context) -> Option<Option<LibraryAction>> {
+        let modal = egui::Modal::new(egui::Id::unique("name in the library")).show(ctx, |ui| {
+            ui.set_width(300.0);
+            let label = ui.label("Name");
+            let name = ui.add(egui::TextEdit::singleline(&mut self.name).char_limit(64)).labelled_by(label.id);
+            let label = ui.label("Tags, between commas");
+            let tags = egui::TextEdit::singleline(&mut self.tags).hint_text("moon, for the second act");
+            let tags = ui.add(tags.char_limit(200)).labelled_by(label.id);
+            if !std::mem::replace(&mut self.begun, true) {
+                tags.request_focus();
+            }
+            let entered = (name.lost_focus() || tags.lost_focus()) && ui.input(|i| i.key_pressed(egui::Key::Enter));
+            ui.add_space(8.0);
+            ui.horizontal(|ui| (ui.button("Keep").clicked() || entered, ui.button("Cancel").clicked())).inner
+        });
+        let (keeps, cancels) = modal.inner;
+        let named = || LibraryAction::Label(self.index, self.name.clone(), read_tags(&self.tags));
+        if keeps {
+            return Some(Some(named()));
+        }
+        (cancels || modal.should_close()).then_some(None)
+    }
+}
+
+/// Shows an item. Gives whether its name and tags are to be asked for.
+fn cell(ui: &mut egui::Ui, state: &State, index: usize, commands: &mut Commands) -> bool {
+    let (Some(item), Some(cell)) = (state.shelf.items.get(index), state.shelf.sheet.cells.get(index)) else {
+        return false;
+    };
+    let mut names = false;
     ui.vertical(|ui| {
         ui.set_width(SIDE);
         let button = planet_button(ui, cell, &item.name, &told(item), SIDE);
@@ -120,9 +177,14 @@ fn cell(ui: &mut egui::Ui, state: &State, index: usize, commands: &mut Commands)
                     ui.close();
                 }
             }
+            if is_kept(item) && ui.button("Name and tags…").on_hover_text("Words that find it").clicked() {
+                names = true;
+                ui.close();
+            }
         });
         ui.add(egui::Label::new(&item.name).truncate().selectable(false));
     });
+    names
 }
 
 fn is_kept(item: &Item) -> bool {
@@ -135,7 +197,8 @@ fn told(item: &Item) -> String {
         Origin::File(path) | Origin::Library(path) => path.display().to_string(),
     };
     let click = if item.part.is_empty() { "A click opens it" } else { "A click takes it into this planet" };
-    format!("{}\n{place}\n{click}; drag it onto the planet to take it", item.tags.join(", "))
+    let tags: Vec<&str> = item.tags.iter().copied().chain(item.own_tags.iter().map(String::as_str)).collect();
+    format!("{}\n{place}\n{click}; drag it onto the planet to take it", tags.join(", "))
 }
 
 /// Takes an item that is dropped on the picture beside the window.
