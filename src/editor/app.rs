@@ -328,6 +328,11 @@ impl EditorApp {
         if let Some(index) = state.viewport.take_touched_edit() {
             self.panels.sculpt.select(index);
         }
+        if let Some(body) = state.viewport.take_hand_over() {
+            let ctx = ui.ctx().clone();
+            handlers::system::hand_over(state, &ctx, body);
+            ctx.request_repaint();
+        }
         if let Some((click, under)) = state.viewport.take_click() {
             let mut planet = (**state.document.planet()).clone();
             let label = self.panels.clicked(&mut planet, click, &under);

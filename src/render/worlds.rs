@@ -115,6 +115,11 @@ impl Worlds {
         stars
     }
 
+    /// The id of a body in scenes. It stays when the camera goes from one body to another, so that tiles and LUTs do.
+    pub fn id(body: usize) -> BodyId {
+        BodyId(1 + body as u32)
+    }
+
     /// The bodies around a camera at a time. `eye_planet_m`: the camera in the frame of its own body.
     pub fn around(&self, body: usize, eye_planet_m: DVec3, time_secs: f64) -> Around<'_> {
         let poses = self.ephemeris.at(time_secs);
@@ -161,15 +166,10 @@ impl Neighbour {
 }
 
 impl Around<'_> {
-    /// The id of a body in the scene: the camera's own has that of a lone planet.
-    pub fn id(&self, body: usize) -> BodyId {
-        if body == self.body { BodyId::default() } else { BodyId(1 + body as u32) }
-    }
-
     /// A body with its tiles.
     pub fn neighbour(&self, body: usize, surface: Arc<Surface>) -> Neighbour {
         let (position_m, scene_from_body) = self.place(body);
-        Neighbour { number: body, id: self.id(body), surface, position_m, scene_from_body }
+        Neighbour { number: body, id: Worlds::id(body), surface, position_m, scene_from_body }
     }
 
     /// Centre of a body in scene space, metres from the camera, and the rotation from its frame to scene space.
@@ -196,12 +196,15 @@ impl Around<'_> {
         bodies
     }
 
-    /// Sets the lights and the points of a scene: stars, scaled so that the brightest one has brightness 1, the light
+    /// Sets the id of the camera's own body, the lights and the points of a scene: stars, scaled so that the brightest one has brightness 1, the light
     /// that neighbours reflect, and bodies without a surface. `drawn`: the bodies with one.
     pub fn light(&self, scene: &mut Scene<'_>, drawn: &[usize]) {
         let stars = self.worlds.stars(&self.poses, self.eye_m);
         // An eye adapts to its star: far from it, a day is a day.
         let adapted = 1.0 / stars.first().map_or(1.0, |star| star.0).max(f64::MIN_POSITIVE);
+        if let Some(own) = scene.bodies.first_mut() {
+            own.id = Worlds::id(self.body);
+        }
         scene.suns.clear();
         for (brightness, star, light) in stars.iter().take(MAX_SUNS - 1) {
             let (position_m, _) = self.place(*star);
@@ -245,7 +248,7 @@ impl Around<'_> {
                     radius_rad,
                     distance_m: f64::INFINITY,
                     has_disc: false,
-                    only: Some(self.id(body)),
+                    only: Some(Worlds::id(body)),
                 },
             ))
         });

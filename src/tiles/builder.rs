@@ -24,7 +24,7 @@ use crate::terrain::coarse::CellFields;
 use crate::world::{KeepGoing, MapStore, World};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -40,6 +40,7 @@ const NEXT_SLICE: Duration = Duration::from_millis(80);
 /// Builds surfaces in the background. The newest planet and views win; stale work is dropped.
 pub struct Builder {
     shared: Arc<Shared>,
+    budget_bytes: Arc<AtomicUsize>,
 }
 
 /// Options of a [`Builder`].
@@ -150,7 +151,7 @@ impl Builder {
     }
 
     fn start(mut worker: Worker, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let shared = Arc::new(Shared::default());
+        let (shared, budget_bytes) = (Arc::new(Shared::default()), worker.budget_bytes.clone());
         let theirs = shared.clone();
         let spawned = std::thread::Builder::new().name("tellus-build".to_owned()).spawn(move || {
             profiling::register_thread!("tellus-build");
@@ -159,7 +160,7 @@ impl Builder {
         if let Err(error) = spawned {
             shared.lock().error = Some(format!("Nothing can be built: no thread could be started: {error}"));
         }
-        Self { shared }
+        Self { shared, budget_bytes }
     }
 
     /// Requests a planet as seen from a view. Cheap if nothing changed since the last call; call it every frame.
@@ -208,6 +209,11 @@ impl Builder {
         state.request.as_ref().is_none_or(|request| state.views.iter().all(|view| done(view, request.number)))
     }
 
+    /// Changes the cache budget. It is kept from the next tile on.
+    pub fn set_budget_bytes(&self, budget_bytes: usize) {
+        self.budget_bytes.store(budget_bytes, Ordering::Relaxed);
+    }
+
     /// Memory use of the cache.
     pub fn memory(&self) -> Memory {
         self.shared.lock().memory
@@ -235,6 +241,7 @@ type Refine =
 /// State of the worker thread.
 struct Worker {
     cache: Cache,
+    budget_bytes: Arc<AtomicUsize>,
     /// Where world maps are kept from one process to the next.
     maps: Option<Arc<MapStore>>,
     terrain: Option<Arc<Terrain>>,
@@ -263,10 +270,11 @@ struct ViewWork {
 
 impl Worker {
     fn new(options: BuilderOptions) -> Self {
-        let (cache, maps) = (Cache::new(options.budget_bytes), options.maps);
+        let budget_bytes = Arc::new(AtomicUsize::new(options.budget_bytes));
         Self {
-            cache,
-            maps,
+            cache: Cache::with_budget(budget_bytes.clone()),
+            budget_bytes,
+            maps: options.maps,
             terrain: None,
             cell_fields: CellFields::default(),
             owes_draft: false,

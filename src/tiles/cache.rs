@@ -70,7 +70,7 @@ struct State {
 /// A cache of tiles by node, shared between threads.
 pub(crate) struct Cache {
     state: Mutex<State>,
-    budget_bytes: usize,
+    budget_bytes: Arc<AtomicUsize>,
     /// Part of the budget that is used outside of the cache.
     aside_bytes: AtomicUsize,
 }
@@ -78,6 +78,11 @@ pub(crate) struct Cache {
 impl Cache {
     /// An empty cache. With a budget of zero only the tiles of the current request are kept.
     pub(crate) fn new(budget_bytes: usize) -> Self {
+        Self::with_budget(Arc::new(AtomicUsize::new(budget_bytes)))
+    }
+
+    /// An empty cache whose budget may be changed.
+    pub(crate) fn with_budget(budget_bytes: Arc<AtomicUsize>) -> Self {
         Self { state: Mutex::default(), budget_bytes, aside_bytes: AtomicUsize::new(0) }
     }
 
@@ -200,7 +205,7 @@ impl Cache {
 
     /// The budget.
     pub(crate) fn budget_bytes(&self) -> usize {
-        self.budget_bytes
+        self.budget_bytes.load(Ordering::Relaxed)
     }
 
     /// Sets the part of the budget that is used outside of the cache.
@@ -210,7 +215,7 @@ impl Cache {
 
     /// The budget that is left for entries.
     fn room_bytes(&self) -> usize {
-        self.budget_bytes.saturating_sub(self.aside_bytes.load(Ordering::Relaxed))
+        self.budget_bytes().saturating_sub(self.aside_bytes.load(Ordering::Relaxed))
     }
 
     /// Memory use, including what is used outside of the cache.
@@ -218,7 +223,7 @@ impl Cache {
         let state = self.lock();
         Memory {
             used_bytes: state.bytes + self.aside_bytes.load(Ordering::Relaxed),
-            budget_bytes: self.budget_bytes,
+            budget_bytes: self.budget_bytes(),
             tiles: state.entries.values().filter(|entry| entry.tile.is_some()).count(),
             horizons: state.entries.values().filter(|entry| entry.horizon.is_some()).count(),
             fields: state.entries.values().map(|entry| entry.fields.len()).sum(),

@@ -107,20 +107,47 @@ pub fn leave(state: &mut State) {
     state.viewport.set_system(None);
 }
 
-/// Opens the planet of a body, and draws its neighbours.
+/// Flies to a body, or opens it at once where there is no flight to see.
 pub fn visit(state: &mut State, body: usize) {
+    if !state.viewport.fly_to_body(body) {
+        arrive(state, body);
+    }
+}
+
+/// The flight to a body has come near it: it becomes the planet, and the planet becomes one of its neighbours.
+pub fn hand_over(state: &mut State, ctx: &egui::Context, body: usize) {
+    if state.loses_work() {
+        // The planet was changed during the flight.
+        state.viewport.cancel_travel();
+        return opening::pursue(state, ctx, Goal::Visit(body));
+    }
+    arrive(state, body);
+    let radius_m = state.document.valid_planet().radius_m();
+    match state.viewport.body() == Some(body) {
+        true => state.viewport.land(radius_m),
+        false => state.viewport.cancel_travel(),
+    }
+}
+
+/// Opens the planet of a body, and draws its neighbours.
+fn arrive(state: &mut State, body: usize) {
     let Some(preset) = state.system.as_ref().and_then(|system| system.preset(body)) else { return };
     let number = state.document_number;
+    let handed = state.viewport.hand_out();
     match preset {
         Preset::Shipped(index) => opening::open_shipped(state, index),
         Preset::File(path) => opening::open_path(state, &path),
     }
     // A planet that could not be opened left the document as it was.
-    if state.document_number == number {
-        return;
+    let is_open = state.document_number != number;
+    let Some(system) = &state.system else { return };
+    let worlds = system.worlds.clone();
+    if let Some(handed) = handed {
+        let before = handed.body();
+        state.viewport.take_in(handed, if is_open { body } else { before });
     }
-    if let Some(system) = &state.system {
-        state.viewport.set_system(Some((system.worlds.clone(), body)));
+    if is_open {
+        state.viewport.set_system(Some((worlds, body)));
         state.reset_view();
     }
 }

@@ -3,12 +3,12 @@
 //! - [`camera`]: the cameras; pure mathematics
 //! - [`settings`]: debug view, quality, exposure, time
 //! - [`input`]: pointer and keys
-//! - [`ground`]: the ground as the camera knows it
+//! - [`ground`]: the ground as the camera knows it; `eye`: where the eye is, and what it looks at
 //! - `picture`: the drawing; [`target`]: its texture; [`swap`]: the surface on screen, and the next one during its
 //!   upload
 //! - [`compare`]: another planet beside the one that is edited
 //! - [`layer_view`]: layers alone, and an overlay of what one does
-//! - `neighbours`: the other bodies of a system around the planet
+//! - `neighbours`: the other bodies of a system around the planet; [`voyage`], [`travel`]: flights from body to body
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`inspector`]: the inspected place; [`clicks`]: clicks for the open
 //!   tab; `plate_drag`: a plate that is dragged
@@ -21,6 +21,7 @@ pub mod camera;
 pub mod clicks;
 pub mod clock;
 pub mod compare;
+mod eye;
 pub mod frames;
 pub mod ground;
 mod handles;
@@ -40,6 +41,8 @@ pub mod settings;
 pub mod swap;
 pub mod target;
 pub mod timeline;
+pub mod travel;
+pub mod voyage;
 
 pub use clicks::{Click, TabLink};
 pub use settings::ViewSettings;
@@ -68,6 +71,7 @@ use picture::{Meters, Picture, Subject, quality_for};
 use pointer::{Aim, Probe, UnderPointer, in_view};
 use sculpt::{Hand, Scene};
 use std::sync::Arc;
+use travel::Travel;
 
 /// Longest step of the planet's time in a frame, in seconds of the clock: a slow frame must not make it jump.
 const MAX_FRAME_SECS: f32 = 0.1;
@@ -92,6 +96,8 @@ pub struct Viewport {
     maps: Option<Arc<MapStore>>,
     /// The other bodies of the system that the planet is in.
     neighbours: Option<Neighbours>,
+    /// The flight to another of them.
+    travel: Option<Travel>,
     builder: Builder,
     /// The newest valid planet.
     newest: Option<Revision>,
@@ -138,6 +144,7 @@ impl Viewport {
             builder: Builder::with_options(BuilderOptions::default().maps(maps.clone()), waker()),
             maps,
             neighbours: None,
+            travel: None,
             newest: None,
             picture: Picture::new(render_state),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
@@ -265,49 +272,9 @@ impl Viewport {
         self.picture.count()
     }
 
-    /// Height of the eye above the ground or the sea, and the location under it.
-    pub fn eye(&self, planet: &Planet) -> (f64, LatLon) {
-        self.with_ground(planet, |cameras, ground| {
-            let pose = cameras.pose(ground);
-            let altitude_m = pose.position_planet_m.length() - ground.surface_radius_m(pose.up());
-            (altitude_m, LatLon::from_direction(pose.up()))
-        })
-    }
-
-    /// The place in the middle of the picture and its distance from the eye; where that is sky, the place under the
-    /// eye.
-    pub fn looked_at(&self, planet: &Planet) -> (LatLon, f64) {
-        self.with_ground(planet, |cameras, ground| {
-            let pose = cameras.pose(ground);
-            let (eye_m, ahead) = (pose.position_planet_m, pose.planet_from_view * DVec3::NEG_Z);
-            let altitude_m = || eye_m.length() - ground.surface_radius_m(pose.up());
-            match ground.raycast(eye_m, ahead) {
-                Some(away_m) => (LatLon::from_direction(eye_m + ahead * away_m), away_m),
-                None => (LatLon::from_direction(pose.up()), altitude_m()),
-            }
-        })
-    }
-
     /// Where the picture is in the window.
     pub fn rect(&self) -> egui::Rect {
         self.rect
-    }
-
-    /// Size on the ground of a point in the middle of the picture; None where the middle is sky.
-    pub fn metres_per_point(&self) -> Option<f64> {
-        let (surface, camera) = (self.surface()?, self.shown_camera?);
-        let away_m = surface.terrain.raycast(camera.position_planet_m, camera.forward_planet())?;
-        Some(2.0 * away_m * (0.5 * camera.fov_y_rad).tan() / f64::from(self.rect.height().max(1.0)))
-    }
-
-    /// Position and orientation of the eye.
-    pub fn pose(&self, planet: &Planet) -> Pose {
-        self.with_ground(planet, |cameras, ground| cameras.pose(ground))
-    }
-
-    /// Distance from the planet's centre to the ground or the sea, whichever is higher.
-    pub fn surface_radius_m(&self, planet: &Planet, dir_planet: DVec3) -> f64 {
-        self.with_ground(planet, |_, ground| ground.surface_radius_m(dir_planet))
     }
 
     /// The cameras.
@@ -358,7 +325,9 @@ impl Viewport {
 
         let seen = self.layer_view.seen(valid, &self.tab.solo, self.tab.overlay.is_some());
         let valid = &seen;
-        self.picture.advance(self.builder.surface().as_ref(), &mut self.frames, ui.ctx());
+        let own_id = self.own_id();
+        self.picture.advance(own_id, self.builder.surface().as_ref(), &mut self.frames, ui.ctx());
+        self.advance_travel(ui, &response);
         let surface = self.surface();
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);
@@ -373,7 +342,11 @@ impl Viewport {
             turns_sun: self.neighbours.is_none(),
             plates: terrain.filter(|_| self.tab.plates),
         };
-        let moved = input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, edited);
+        let moved = match self.travel {
+            // Any input ends the flight instead.
+            Some(_) => input::Moved { animating: true, edit: None },
+            None => input::handle(ui, &response, &mut self.drag, &mut self.cameras, &ground, edited),
+        };
         self.moving = moved.animating;
         self.advance_time(ui);
 
@@ -466,7 +439,10 @@ impl Viewport {
         let revision = self.revision_over(&surface);
         let (settings, marked) = (&self.settings, self.tab.marked.clone());
         let (frozen, is_busy) = (self.frozen, self.is_busy());
-        let sky = self.neighbours.as_mut().map(|neighbours| neighbours.sky(&view, settings.time_secs, &self.ctx));
+        let sky = self
+            .neighbours
+            .as_mut()
+            .map(|neighbours| neighbours.sky(&self.builder, &view, settings.time_secs, &self.ctx));
         let subject = Subject { surface, revision, view, frozen, settings, marked, sky, drafts, is_busy, now_secs };
         let (frames, frame_meter, edit_clock) = (&mut self.frames, &mut self.frame_meter, &mut self.edit_clock);
         self.picture.draw(&subject, &mut Meters { frames, frame_meter, edit_clock });

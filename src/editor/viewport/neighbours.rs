@@ -1,19 +1,25 @@
-//! The other bodies of a system around the planet: their tiles, built in the background, and their places.
+//! The other bodies of a system around the planet: their tiles, built in the background, and their places. When the
+//! camera goes to another body, the two change places, with their tiles.
 
 use super::Viewport;
+use super::voyage::{Obstacle, Relative};
 use crate::film::InSystem;
 use crate::lod::View;
 use crate::planet::Planet;
-use crate::render::{Neighbour, Projection, Scene, Worlds};
+use crate::render::{BodyId, Neighbour, Projection, Scene, Worlds};
 use crate::terrain::MapStore;
-use crate::tiles::{Builder, BuilderOptions};
+use crate::tiles::{Builder, BuilderOptions, DEFAULT_BUDGET_BYTES};
 use eframe::egui;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Memory for the tiles of one neighbour: it is far away.
-const BUDGET_BYTES: usize = 64 << 20;
+/// Memory for the tiles of all bodies, for those of the planet at least, and for those of a neighbour at least.
+const BUDGET_BYTES: usize = DEFAULT_BUDGET_BYTES;
+const LEAST_OWN_BYTES: usize = BUDGET_BYTES / 2;
+const LEAST_BYTES: usize = 8 << 20;
+/// Apparent radius from which a neighbour takes as much memory as may be.
+const WIDE_RAD: f64 = 0.5;
 
 /// The neighbours of the planet.
 pub(super) struct Neighbours {
@@ -23,11 +29,25 @@ pub(super) struct Neighbours {
     maps: Option<Arc<MapStore>>,
 }
 
+/// What a flight to another body hands over: the bodies with their tiles.
+pub struct Handed {
+    neighbours: Neighbours,
+    builder: Builder,
+}
+
+impl Handed {
+    /// The body that was the planet.
+    pub fn body(&self) -> usize {
+        self.neighbours.body
+    }
+}
+
 /// The neighbours in one picture.
 #[derive(Clone)]
 pub(super) struct Sky {
     worlds: Arc<Worlds>,
     body: usize,
+    /// The bodies that are drawn with a surface.
     drawn: Vec<usize>,
     pub(super) bodies: Vec<Neighbour>,
 }
@@ -37,6 +57,11 @@ impl Viewport {
     /// The number of the planet among the bodies of its system; None if it is alone.
     pub fn body(&self) -> Option<usize> {
         self.neighbours.as_ref().map(Neighbours::body)
+    }
+
+    /// The id of the planet in scenes.
+    pub(super) fn own_id(&self) -> BodyId {
+        self.body().map_or_else(BodyId::default, Worlds::id)
     }
 
     /// The planet's place in its system; None if it is alone.
@@ -56,9 +81,43 @@ impl Viewport {
         match (&mut self.neighbours, system) {
             (Some(neighbours), Some((worlds, body))) => neighbours.set(worlds, body),
             (_, system) => {
+                self.builder.set_budget_bytes(BUDGET_BYTES);
                 self.neighbours = system.map(|(worlds, body)| Neighbours::new(worlds, body, self.maps.clone()));
             }
         }
+    }
+}
+
+/// Flights to other bodies: the planet and a neighbour change places.
+impl Viewport {
+    /// Takes the bodies out, for a body that becomes the planet. None if the planet is alone.
+    pub fn hand_out(&mut self) -> Option<Handed> {
+        let neighbours = self.neighbours.take()?;
+        let (ctx, options) = (self.ctx.clone(), BuilderOptions::default().maps(self.maps.clone()));
+        let builder = Builder::with_options(options, move || ctx.request_repaint());
+        Some(Handed { neighbours, builder: std::mem::replace(&mut self.builder, builder) })
+    }
+
+    /// Takes the bodies in again: `body` is the planet now, and shown at once if it was on screen as a neighbour.
+    pub fn take_in(&mut self, handed: Handed, body: usize) {
+        let Handed { mut neighbours, builder } = handed;
+        let before = std::mem::replace(&mut neighbours.body, body);
+        match neighbours.builders.remove(&body) {
+            Some(own) => {
+                if let Some(surface) = own.surface() {
+                    self.picture.show_at_once(surface);
+                }
+                neighbours.builders.insert(before, builder);
+                self.builder = own;
+            }
+            // The planet stays what it was.
+            None if before == body => self.builder = builder,
+            None => {
+                self.picture.wait_for_surface();
+                neighbours.builders.insert(before, builder);
+            }
+        }
+        self.neighbours = Some(neighbours);
     }
 }
 
@@ -87,35 +146,65 @@ impl Neighbours {
         self.worlds.lit_planet(self.body, time_secs)
     }
 
+    /// Another body as the planet sees it at a time.
+    pub(super) fn relative(&self, from: usize, to: usize, time_secs: f64) -> Relative {
+        let (center_m, turn) = self.worlds.around(from, DVec3::ZERO, time_secs).place(to);
+        Relative { center_m, turn }
+    }
+
+    /// The bodies but for two, as the first of them sees them at a time.
+    pub(super) fn obstacles(&self, [from, to]: [usize; 2], time_secs: f64) -> Vec<Obstacle> {
+        let around = self.worlds.around(from, DVec3::ZERO, time_secs);
+        let radii_m = self.worlds.radii_m();
+        let others =
+            radii_m.into_iter().enumerate().filter(|(body, radius_m)| ![from, to].contains(body) && *radius_m > 0.0);
+        others.map(|(body, radius_m)| Obstacle { center_m: around.place(body).0, radius_m }).collect()
+    }
+
+    /// The planet of a body in the light of the system, at a time.
+    pub(super) fn planet_of(&self, body: usize, time_secs: f64) -> Option<Planet> {
+        self.worlds.lit_planet(body, time_secs)
+    }
+
     /// The planet's place in the system, for photographs.
     pub(super) fn place(&self) -> InSystem {
         InSystem::new(self.worlds.clone(), self.body, self.maps.clone())
     }
 
-    /// The bodies as a view sees them at a time. Those whose tiles are still built are left out.
-    pub(super) fn sky(&mut self, view: &View, time_secs: f64, ctx: &egui::Context) -> Sky {
+    /// The bodies as a view sees them at a time. Those whose first tiles are still built are points of light. The
+    /// memory of `own`, the builder of the planet, and of the others follows from how large they look.
+    pub(super) fn sky(&mut self, own: &Builder, view: &View, time_secs: f64, ctx: &egui::Context) -> Sky {
         let worlds = self.worlds.clone();
         let around = worlds.around(self.body, view.camera.position_planet_m, time_secs);
         let projection = Projection::symmetric(view.camera.fov_y_rad, view.aspect());
         let drawn = around.with_surface(&projection, view.size_px);
         let scene = Scene::new(view.camera.planet_from_view, projection, view.size_px, view.quality);
-        let mut bodies = Vec::new();
+        let (mut bodies, mut left_bytes) = (Vec::new(), BUDGET_BYTES - LEAST_OWN_BYTES);
+        let mut shown = vec![self.body];
         for number in drawn.iter().copied().filter(|number| *number != self.body) {
             let Some(planet) = worlds.planet(number).cloned() else { continue };
             let (position_m, scene_from_body) = around.place(number);
             let ctx = ctx.clone();
-            let options = BuilderOptions::default().budget_bytes(BUDGET_BYTES).maps(self.maps.clone());
+            let options = BuilderOptions::default().budget_bytes(LEAST_BYTES).maps(self.maps.clone());
             let builder = self
                 .builders
                 .entry(number)
                 .or_insert_with(|| Builder::with_options(options, move || ctx.request_repaint()));
+            let apparent_rad = (planet.radius_m() / position_m.length()).min(1.0).asin();
+            let share = (apparent_rad / WIDE_RAD).min(1.0);
+            // Nearest first: the others share what is left.
+            let bytes = ((share * left_bytes as f64) as usize).max(LEAST_BYTES);
+            left_bytes = left_bytes.saturating_sub(bytes);
+            builder.set_budget_bytes(bytes);
             builder.request(&planet, &scene.view_of(position_m, scene_from_body));
             if let Some(surface) = builder.surface() {
+                shown.push(number);
                 bodies.push(around.neighbour(number, surface));
             }
         }
+        own.set_budget_bytes(LEAST_OWN_BYTES + left_bytes);
         self.builders.retain(|number, _| drawn.contains(number));
-        Sky { worlds: self.worlds.clone(), body: self.body, drawn, bodies }
+        Sky { worlds: self.worlds.clone(), body: self.body, drawn: shown, bodies }
     }
 }
 

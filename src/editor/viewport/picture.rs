@@ -63,6 +63,8 @@ pub(super) struct Picture {
     upload: Option<(Span, u64)>,
     target: Option<Target>,
     drawn: Option<PictureKey>,
+    /// The bodies of the newest picture.
+    bodies: Vec<BodyId>,
     adaptation: Adaptation,
     pub(super) refinement: Refinement,
     stats: FrameStats,
@@ -102,6 +104,7 @@ impl Picture {
             upload: None,
             target: None,
             drawn: None,
+            bodies: Vec::new(),
             adaptation: Adaptation::new(!is_software),
             refinement: Refinement::new(is_software),
             stats: FrameStats::default(),
@@ -130,7 +133,7 @@ impl Picture {
     /// How often each look-up texture has been made since the start.
     pub(super) fn lut_runs(&self) -> Option<LutRuns> {
         match &self.drawing {
-            Drawing::Ready(renderer, _) => Some(renderer.lut_runs(BodyId::default())),
+            Drawing::Ready(renderer, _) => Some(renderer.lut_runs(self.bodies.first().copied().unwrap_or_default())),
             Drawing::Failed(_) => None,
         }
     }
@@ -169,13 +172,30 @@ impl Picture {
         is_drawn.then(|| self.refinement.due_after(now_secs)).flatten()
     }
 
-    /// Uploads one frame's share of the newest surface, and shows it once all of its tiles are uploaded.
-    pub(super) fn advance(&mut self, newest: Option<&Arc<Surface>>, frames: &mut FrameLog, ctx: &egui::Context) {
+    /// Shows a surface that was drawn as that of a neighbour.
+    pub(super) fn show_at_once(&mut self, surface: Arc<Surface>) {
+        self.swap = Swap::of(Some(surface));
+    }
+
+    /// Keeps the picture as it is until there is another surface.
+    pub(super) fn wait_for_surface(&mut self) {
+        self.swap = Swap::of(None);
+    }
+
+    /// Uploads one frame's share of the newest surface, that of the body `id`, and shows it once all of its tiles are
+    /// uploaded.
+    pub(super) fn advance(
+        &mut self,
+        id: BodyId,
+        newest: Option<&Arc<Surface>>,
+        frames: &mut FrameLog,
+        ctx: &egui::Context,
+    ) {
         let (drawing, upload) = (&mut self.drawing, &mut self.upload);
         self.swap.advance(newest.cloned(), |surface| {
             let Drawing::Ready(renderer, _) = drawing else { return true };
             let (begin, before) = (Instant::now(), renderer.uploaded_bytes());
-            let done = renderer.upload(BodyId::default(), surface, UPLOAD_BUDGET_BYTES);
+            let done = renderer.upload(id, surface, UPLOAD_BUDGET_BYTES);
             let now = Span::since(begin);
             frames.uploaded(now.end - now.begin);
             let (first, before) = upload.map_or((now, before), |(span, before)| (span, before));
@@ -238,6 +258,11 @@ impl Picture {
                 return;
             }
         }
+        let bodies: Vec<BodyId> = scene.bodies.iter().map(|body| body.id).collect();
+        for gone in self.bodies.iter().filter(|id| !bodies.contains(id)) {
+            renderer.forget_body(*gone);
+        }
+        self.bodies = bodies;
         self.count += 1;
         self.refinement.drew(!changed);
         if is_sample {

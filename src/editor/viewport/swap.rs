@@ -17,6 +17,11 @@ pub struct Swap {
 }
 
 impl Swap {
+    /// Shows a surface whose tiles are on the GPU already, or none.
+    pub fn of(shown: Option<Arc<Surface>>) -> Self {
+        Self { shown, incoming: None }
+    }
+
     /// The surface on screen.
     pub fn shown(&self) -> Option<&Arc<Surface>> {
         self.shown.as_ref()

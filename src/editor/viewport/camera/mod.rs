@@ -139,13 +139,15 @@ pub struct Cameras {
     /// A flight, and the camera that takes over when it arrives.
     flight: Option<(Flight, Rig)>,
     dive: bool,
+    /// Where something else carries the eye, such as a flight between bodies.
+    carried: Option<Pose>,
 }
 
 impl Cameras {
     /// Looks at the whole planet from over a location.
     pub fn new(planet_radius_m: f64, over: LatLon) -> Self {
         let rig = Rig::Orbit(Orbit::new(planet_radius_m, over));
-        Self { rig, handover: None, flight: None, dive: false }
+        Self { rig, handover: None, flight: None, dive: false, carried: None }
     }
 
     /// The mode of movement, or the one that follows the flight under way.
@@ -167,8 +169,28 @@ impl Cameras {
         self.dive = dive;
     }
 
+    /// Carries the eye to a pose, whatever the camera in use does.
+    pub fn carry(&mut self, pose: Pose) {
+        self.carried = Some(pose);
+    }
+
+    /// Gives the eye back to the camera in use. The difference between the two fades away.
+    pub fn put_down(&mut self, ground: &dyn Ground) {
+        if let Some(pose) = self.carried.take() {
+            self.hand_over_from(&pose, ground);
+        }
+    }
+
+    /// Gives the eye back at once.
+    pub fn drop_carried(&mut self) {
+        self.carried = None;
+    }
+
     /// The pose of the eye.
     pub fn pose(&self, ground: &dyn Ground) -> Pose {
+        if let Some(pose) = self.carried {
+            return pose;
+        }
         let mut pose = match &self.flight {
             Some((flight, _)) => flight.pose(ground, CLEARANCE_M),
             None => self.rig.pose(ground),
