@@ -6,6 +6,7 @@ use super::picture::{Meters, Picture, Subject};
 use super::settings::ViewSettings;
 use crate::lod::View;
 use crate::planet::Planet;
+use crate::render::BodyId;
 use crate::tiles::{Builder, BuilderOptions};
 use eframe::egui;
 use std::sync::Arc;
@@ -114,7 +115,7 @@ impl Compare {
 
     fn draw(&mut self, ui: &egui::Ui, shared: &Shared<'_>) {
         let ctx = ui.ctx();
-        self.picture.advance(self.builder.surface().as_ref(), &mut self.frames, ctx);
+        self.picture.advance(BodyId::default(), self.builder.surface().as_ref(), &mut self.frames, ctx);
         // The same place on a planet of another radius.
         let mut view = shared.view;
         view.camera.position_planet_m *= self.planet.radius_m() / shared.radius_m;

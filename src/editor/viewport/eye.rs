@@ -1,7 +1,6 @@
 //! Where the eye is, and what it looks at.
 
 use super::Viewport;
-use super::camera::Ground as _;
 use crate::lod::pose::Pose;
 use crate::planet::Planet;
 use crate::sphere::LatLon;

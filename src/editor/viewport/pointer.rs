@@ -32,8 +32,15 @@ pub struct UnderPointer {
 /// Where the ground is looked at.
 #[derive(Clone, PartialEq)]
 pub enum Aim {
-    /// A point of the picture: `x`, `y` from -1 to 1, right and up.
-    Picture { x: f64, y: f64, view: View },
+    /// A point of the picture.
+    Picture {
+        /// From -1 at the left to 1 at the right.
+        x: f64,
+        /// From -1 at the bottom to 1 at the top.
+        y: f64,
+        /// The picture.
+        view: View,
+    },
     /// A unit direction in the planet frame.
     Place(DVec3),
 }
