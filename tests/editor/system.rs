@@ -1,4 +1,4 @@
-//! Systems: opening one, going from body to body, the time.
+//! Systems: opening one, flying from body to body, the time.
 
 use crate::app::{self, Editor, click, drag, planet, send, type_text, unfold, until};
 use eframe::egui;
@@ -250,4 +250,86 @@ fn a_system_begins_around_a_planet_with_a_file() {
     assert_eq!(begun.bodies[1].orbit.as_ref().unwrap().semi_major_km.round(), 149_598_000.0);
     act(&mut harness, SystemAction::Add(1, NewBody::Open));
     assert_eq!(system(&harness).bodies[2].parent, "Maren");
+}
+
+/// A planet and its moon, both bare.
+fn pair(folder: &std::path::Path) -> std::path::PathBuf {
+    for (file, radius_km) in [("home.ron", 3000.0), ("moon.ron", 900.0)] {
+        let text = format!("(version: 3, name: \"{file}\", radius_km: {radius_km:?})");
+        std::fs::write(folder.join(file), text).unwrap();
+    }
+    let orbit = |semi_major_km: f64| format!("orbit: (semi_major_km: {semi_major_km:?})");
+    let body = |name: &str, parent: &str, mass: f64, orbit: String| {
+        format!("(name: \"{name}\", preset: \"{name}.ron\", parent: \"{parent}\", mass_earths: {mass:?}, {orbit})")
+    };
+    let bodies = [
+        "(name: \"Star\", mass_earths: 3e5, light: ())".to_owned(),
+        body("home", "Star", 0.5, orbit(1.5e8)),
+        body("moon", "home", 0.01, orbit(60_000.0)),
+    ];
+    let path = folder.join("pair.ron");
+    std::fs::write(&path, format!("(version: 1, name: \"Pair\", bodies: [{}])", bodies.join(", "))).unwrap();
+    path
+}
+
+/// Distances of the eye from the centres of the planet and of its moon, in their radii.
+fn away(harness: &Editor) -> [f64; 2] {
+    let worlds = &harness.state().system().unwrap().worlds;
+    let viewport = harness.state().viewport();
+    let pose = viewport.pose(&planet(harness));
+    let around = worlds.around(viewport.body().unwrap(), pose.position_planet_m, viewport.settings.time_secs);
+    [1, 2].map(|body| around.place(body).0.length() / worlds.radii_m()[body])
+}
+
+#[test]
+fn a_flight_to_a_moon_has_no_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = app::open_file_with_picture([640.0, 480.0], &pair(folder.path()), 5.0);
+    app::wait_for_picture(&mut harness);
+    assert_eq!(planet(&harness).name, "home.ron");
+    harness.state_mut().push(Action::System(SystemAction::Visit(2)));
+    until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
+    let (mut before, mut names, mut frames) = (away(&harness), vec!["home.ron".to_owned()], 0);
+    while harness.state().viewport().is_travelling() {
+        harness.step();
+        // The builders have time between the frames, as on a slow machine.
+        std::thread::sleep(std::time::Duration::from_millis(30));
+        let now = away(&harness);
+        // A fifth of a second: neither end comes nearer, or goes farther away, by more than a factor.
+        for (now, before) in now.into_iter().zip(before) {
+            assert!((0.3..3.3).contains(&(now / before)), "{before} {now} in frame {frames}");
+        }
+        let stats = harness.state().viewport().stats();
+        assert!(stats.tiles_drawn > 0, "frame {frames}");
+        let name = planet(&harness).name;
+        if names.last() != Some(&name) {
+            names.push(name);
+        }
+        (before, frames) = (now, frames + 1);
+        assert!(frames < 200);
+    }
+    assert_eq!(names, ["home.ron", "moon.ron"]);
+    assert!(frames > 10, "{frames}");
+    harness.run_steps(8);
+    assert!((before[1] - 2.9).abs() < 0.05, "{before:?}");
+    assert!((away(&harness)[1] - before[1]).abs() < 0.02, "the camera in use takes over where the flight ends");
+}
+
+#[test]
+fn a_key_ends_a_flight_at_its_goal() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = app::open_file_with_picture([640.0, 480.0], &pair(folder.path()), 30.0);
+    app::wait_for_picture(&mut harness);
+    harness.state_mut().push(Action::System(SystemAction::Visit(2)));
+    until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
+    harness.key_press(egui::Key::Space);
+    harness.run_steps(4);
+    assert!(!harness.state().viewport().is_travelling());
+    assert_eq!(planet(&harness).name, "moon.ron");
+    // And back, while the planet is changed: its changes are asked for before they are lost.
+    harness.state_mut().push(Action::System(SystemAction::Visit(1)));
+    until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
+    harness.state_mut().send(Command::RandomPlanet);
+    until(&mut harness, "the question", |harness| harness.query_by_label_contains("Discard").is_some());
+    assert!(!harness.state().viewport().is_travelling());
 }

@@ -64,6 +64,14 @@ pub fn open_file(file: Option<&Path>, dialogs: impl FileDialogs + 'static, recov
     })
 }
 
+/// An editor with a picture that starts with a file, with this number of frames a second.
+pub fn open_file_with_picture(size: [f32; 2], file: &Path, frames_per_sec: f32) -> Editor {
+    let file = file.to_owned();
+    let builder = Harness::builder().with_size(egui::Vec2::from(size)).with_step_dt(1.0 / frames_per_sec);
+    let builder = builder.with_pixels_per_point(COARSE).renderer(WgpuTestRenderer::from_render_state(render_state()));
+    start(builder, move |cc| EditorApp::with_planet(cc, layered(), Some(file), None).with_dialogs(Box::new(NoDialogs)))
+}
+
 /// The same without a file, with an answer to the loss of its graphics device.
 pub fn open_watched(recovery: &Path, restart: impl FnMut() -> Result<(), String> + 'static) -> Editor {
     let recovery = recovery.to_owned();
