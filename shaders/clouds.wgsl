@@ -62,8 +62,7 @@ fn shade(rel: vec3f, cover: f32, sun_mu: f32, footprint: f32) -> f32 {
 
 // Jitter of a pixel, 0 to 1. Any 3x3 pixels have one value in each ninth, so that their mean (air.wgsl) has no pattern.
 fn jitter_of(pixel: vec2f) -> f32 {
-    let place = vec2u(floor(pixel));
-    return fract((f32((3u * place.x + 7u * place.y) % 9u) + 0.5) / 9.0 + frame.noise_shift);
+    return fract((dot(place_from_axis(pixel), vec2f(3.0, 7.0)) + 0.5) / 9.0 + frame.noise_shift);
 }
 
 // Density below which there is no cloud.

@@ -8,6 +8,12 @@ fn screen_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f 
     return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 
+// Whole pixels from where the view axis meets the picture. Parts of a picture agree on it, wherever they are drawn.
+fn place_from_axis(pixel: vec2f) -> vec2f {
+    let axis = 0.5 * frame.size_px * (1.0 + frame.lens_shift * vec2f(-1.0, 1.0));
+    return floor(pixel) - frame.origin_px - round(axis);
+}
+
 // Noise from 0 to 1 of which any 3x3 pixels have all values: the jitter of marches (interleaved gradient noise,
 // Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, 2014).
 fn gradient_noise(pixel: vec2f) -> f32 {
