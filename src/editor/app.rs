@@ -355,7 +355,9 @@ impl EditorApp {
     /// Asks for another frame where something goes on without input.
     fn plan_next_frame(&mut self, ctx: &egui::Context) {
         let state = &mut self.state;
-        if let Some(wait) = state.recovery.as_mut().and_then(|recovery| recovery.tick(&state.document)) {
+        if let Some(wait) =
+            state.recovery.as_mut().and_then(|recovery| recovery.tick(&state.document, state.system.as_ref()))
+        {
             ctx.request_repaint_after(wait);
         }
         if !self.commands.is_empty() || state.viewport.edit_clock.wants_frame() {

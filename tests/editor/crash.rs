@@ -4,6 +4,7 @@ use super::app::{open_after_loss, open_file, open_watched, until};
 use super::*;
 use std::cell::Cell;
 use std::rc::Rc;
+use tellus::editor::command::SystemAction;
 use tellus::editor::files::dialogs::NoDialogs;
 
 /// An editor with unsaved work, which is given too.
@@ -103,4 +104,54 @@ fn a_crash_report_is_told_at_the_next_start() {
     drop(harness);
     let again = open_file(None, NoDialogs, folder.path());
     assert!(again.query_by_label("Tellus stopped at an error the last time").is_none());
+}
+
+/// A system that was changed and never saved comes back after a crash, and knows its file; so does a planet.
+#[test]
+fn an_unsaved_system_is_recovered_with_the_file_that_it_belongs_to() {
+    let (folder, work) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let planet_file = work.path().join("one.ron");
+    std::fs::write(&planet_file, "(version: 3, name: \"One\", radius_km: 900.0)").unwrap();
+    let path = work.path().join("small.ron");
+    let text = "(version: 1, name: \"Small\", bodies: [(name: \"S\", mass_earths: 3e5, light: ()), \
+                (name: \"One\", preset: \"one.ron\", parent: \"S\", mass_earths: 0.01, orbit: ())])";
+    std::fs::write(&path, text).unwrap();
+    let mut harness = open_file(Some(&path), NoDialogs, folder.path());
+    harness.run_steps(4);
+    let mut system = (**harness.state().system().unwrap().system()).clone();
+    system.rename(1, "Uno");
+    let edit = SystemAction::Edit(Box::new(system.clone()), "Rename One".to_owned());
+    harness.state_mut().push(Action::System(edit));
+    harness.run_steps(2);
+    click(&mut harness, "Planet");
+    slide(&mut harness, "Radius of planet", 950.0);
+    let copies =
+        ["recovery-0.ron", "recovery-0.system.ron", "recovery-0.files.txt"].map(|name| folder.path().join(name));
+    let holds =
+        |copy: &std::path::Path, text: &str| std::fs::read_to_string(copy).is_ok_and(|held| held.contains(text));
+    until(&mut harness, "a working copy", |_| holds(&copies[1], "Uno") && holds(&copies[0], "950"));
+    drop(harness);
+
+    let mut again = open_file(None, NoDialogs, folder.path());
+    assert!(again.query_by_label_contains("One and the system Small").is_some());
+    click(&mut again, "Recover");
+    again.run_steps(4);
+    assert_eq!(planet(&again).radius_km, 950.0);
+    assert_eq!(again.state().document().path(), Some(std::fs::canonicalize(&planet_file).unwrap().as_path()));
+    let open = again.state().system().unwrap();
+    assert_eq!(
+        (open.system().bodies[1].name.as_str(), open.path(), open.is_dirty()),
+        ("Uno", Some(path.as_path()), true)
+    );
+    assert_eq!(again.state().viewport().body(), Some(1), "the planet is the body that it was");
+    // What is saved is no longer in the working copy.
+    again.state_mut().push(Action::System(SystemAction::Save));
+    again.run_steps(3);
+    if again.query_by_label("Replace").is_some() {
+        click(&mut again, "Replace");
+    }
+    until(&mut again, "the system is saved", |again| !again.state().system().unwrap().is_dirty());
+    assert!(holds(&path, "Uno") && holds(&path, "\"one.ron\""));
+    until(&mut again, "one copy less", |_| !copies[1].exists());
+    assert!(copies[0].exists(), "the planet is not saved yet");
 }

@@ -17,8 +17,9 @@ pub fn poll(state: &mut State) {
         );
     }
     if let Some(reason) = state.device.take_lost() {
-        let unsaved = state.document.to_recover().is_some();
-        let is_kept = state.recovery.as_mut().is_some_and(|recovery| recovery.leave(&state.document));
+        let unsaved = state.document.to_recover().is_some() || state.system_is_dirty();
+        let is_kept =
+            state.recovery.as_mut().is_some_and(|recovery| recovery.leave(&state.document, state.system.as_ref()));
         if unsaved && !is_kept {
             log::error!("the unsaved work could not be kept");
         }

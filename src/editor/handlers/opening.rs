@@ -5,6 +5,7 @@ use crate::editor::files::file_names::{PRESET_EXTENSION, has_extension, readable
 use crate::editor::handlers::system;
 use crate::editor::state::document::Document;
 use crate::editor::state::questions::{Asking, Goal, Work};
+use crate::editor::state::system::{OpenSystem, Preset};
 use crate::editor::state::templates::Template;
 use crate::editor::state::{State, recovery};
 use crate::editor::widgets::random_seed;
@@ -169,11 +170,26 @@ pub fn recover(state: &mut State, keep: bool) {
     match &state.recovery {
         // Kept until this editor's own working copy takes its place: a second crash loses nothing.
         Some(recovery) if keep => recovery.adopt(&orphan.file),
-        _ => recovery::remove(&orphan.file),
+        _ => recovery::remove_all(&orphan.file),
     }
     recovery::remove(&orphan.file.with_extension("lock"));
-    if keep {
-        state.replace_document(Document::unsaved(orphan.planet));
+    if !keep {
+        return;
+    }
+    let planet_file = orphan.planet.as_ref().and_then(|(_, file)| file.clone());
+    if let Some((planet, file)) = orphan.planet {
+        state.replace_document(Document::unsaved(planet, file));
+    }
+    if let Some((system, file)) = orphan.system {
+        let (open, problems) = OpenSystem::recovered(system, file);
+        if !problems.is_empty() {
+            state.report("Not all planets of the recovered system can be read", problems);
+        }
+        let is_open = |body: &usize| matches!(open.preset(*body), Some(Preset::File(path)) if Some(&path) == planet_file.as_ref());
+        let body = (0..open.system().bodies.len()).find(is_open);
+        state.viewport.set_system(body.map(|body| (open.worlds.clone(), body)));
+        state.shows.system = true;
+        state.system = Some(open);
     }
 }
 

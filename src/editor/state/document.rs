@@ -43,9 +43,11 @@ impl Document {
         document
     }
 
-    /// A document with unsaved work: to close it asks.
-    pub fn unsaved(planet: Planet) -> Self {
-        let mut document = Self::new(planet, None);
+    /// A document with unsaved work, of a file if it has one: to close it asks.
+    pub fn unsaved(planet: Planet, path: Option<PathBuf>) -> Self {
+        // Its pictures were named from the folder of the working copy.
+        let planet = path.as_deref().map_or_else(|| planet.clone(), |path| planet.moved_to(&folder_of(path)));
+        let mut document = Self::new(planet, path);
         document.home.saved = None;
         document
     }
@@ -107,6 +109,11 @@ impl Document {
         }
         let rolled_over = self.work_rolled_over().last().map(|(planet, _)| planet);
         rolled_over.or_else(|| self.is_dirty().then_some(&self.valid))
+    }
+
+    /// The file that the working copy belongs to.
+    pub fn file_to_recover(&self) -> Option<&Path> {
+        self.path().filter(|_| self.home.lacks(&self.planet))
     }
 
     /// The bookmarks of the planet as edited.
@@ -330,7 +337,7 @@ mod tests {
         document.roll(seeded(5), "Random planet");
         assert_eq!(document.rolled_over(), [name]);
 
-        let mut document = Document::unsaved(seeded(3));
+        let mut document = Document::unsaved(seeded(3), None);
         document.roll(seeded(5), "Random planet");
         assert_eq!(document.rolled_over().len(), 1, "what a crash had left");
         assert_eq!(document.to_recover().map(|planet| planet.seed), Some(3), "and would leave again");

@@ -6,6 +6,7 @@ use super::rename::RenameField;
 use crate::editor::command::{Action, Answer, ChangeAnswer, Commands, ReplaceAnswer, UnsavedAnswer};
 use crate::editor::state::document::Document;
 use crate::editor::state::questions::{Change, Work};
+use crate::editor::state::recovery::Orphan;
 use crate::editor::state::{Message, State};
 use eframe::egui;
 use std::path::Path;
@@ -23,7 +24,7 @@ impl Prompts {
         commands.extend(self.question(ctx, state).map(Action::Answer));
         if let Some(orphan) = state.orphans.first()
             && !state.document.is_dirty()
-            && let Some(keep) = recover(ctx, &orphan.planet.name)
+            && let Some(keep) = recover(ctx, &named(orphan))
         {
             commands.push(Action::Answer(Answer::Recover(keep)));
         }
@@ -178,6 +179,14 @@ fn listed(ui: &mut egui::Ui, differences: &[String]) {
             differences.iter().for_each(|line| drop(ui.add(egui::Label::new(line).wrap())));
         });
     });
+}
+
+/// What a working copy holds, in words.
+fn named(orphan: &Orphan) -> String {
+    let planet = orphan.planet.as_ref().map(|(planet, _)| planet.name.as_str());
+    let system = orphan.system.as_ref().map(|(system, _)| format!("the system {}", system.name));
+    let names: Vec<String> = planet.map(str::to_owned).into_iter().chain(system).collect();
+    names.join(" and ")
 }
 
 fn recover(ctx: &egui::Context, name: &str) -> Option<bool> {

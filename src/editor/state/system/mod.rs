@@ -42,6 +42,8 @@ pub struct OpenSystem {
     pub trial: TrialRun,
     system: Arc<System>,
     history: History<System, ()>,
+    /// Whether it is unsaved work that a crash left.
+    is_recovered: bool,
     /// What its file holds; None if no file holds it.
     saved: Option<Arc<System>>,
     /// The text of the file when it was last read or written.
@@ -94,6 +96,28 @@ impl OpenSystem {
         open
     }
 
+    /// Unsaved work that a crash left, and why planets of it could not be read: their bodies are points.
+    pub fn recovered(system: System, file: Option<PathBuf>) -> (Self, Vec<String>) {
+        let planets = vec![None; system.bodies.len()];
+        let mut open = Self::new(file.map_or(Origin::New, Origin::File), system, planets);
+        let mut problems = Vec::new();
+        for number in 0..open.system.bodies.len() {
+            let read = match open.preset(number) {
+                None => continue,
+                Some(Preset::File(path)) => Planet::load(&path).map_err(|error| error.to_string()),
+                Some(Preset::Shipped(index)) => crate::planet::shipped::ALL[index].load().map_err(|e| e.to_string()),
+            };
+            let preset = open.system.bodies[number].preset.clone();
+            match read {
+                Ok(planet) => drop(open.planets.insert(preset, Arc::new(planet))),
+                Err(why) => problems.extend(why.lines().map(str::to_owned)),
+            }
+        }
+        (open.saved, open.is_recovered) = (None, true);
+        open.show();
+        (open, problems)
+    }
+
     fn new(origin: Origin, system: System, planets: Vec<Option<Arc<Planet>>>) -> Self {
         let presets = system.bodies.iter().map(|body| body.preset.clone());
         let known = presets.zip(&planets).filter_map(|(preset, planet)| Some((preset, planet.clone()?))).collect();
@@ -106,6 +130,7 @@ impl OpenSystem {
             was_changed_last: false,
             trial: TrialRun::default(),
             history: History::default(),
+            is_recovered: false,
             saved: Some(Arc::clone(&system)),
             text: None,
             planets: known,
@@ -131,7 +156,7 @@ impl OpenSystem {
     pub fn is_dirty(&self) -> bool {
         match &self.saved {
             Some(saved) => *saved != self.system,
-            None => !self.history.is_empty(),
+            None => self.is_recovered || !self.history.is_empty(),
         }
     }
 

@@ -52,6 +52,30 @@ impl OpenSystem {
     }
 }
 
+/// The system's file, and the system for a working copy.
+impl OpenSystem {
+    /// The file of the system; None for one that no file holds.
+    pub fn path(&self) -> Option<&Path> {
+        match &self.origin {
+            Origin::File(path) => Some(path),
+            Origin::Shipped(_) | Origin::New => None,
+        }
+    }
+
+    /// The system with whole paths of its presets: it can be read from any folder.
+    pub fn with_whole_paths(&self) -> System {
+        let mut system = (**self.system()).clone();
+        for (number, body) in system.bodies.iter_mut().enumerate() {
+            match self.preset(number) {
+                None => {}
+                Some(Preset::File(path)) => body.preset = path.display().to_string(),
+                Some(Preset::Shipped(index)) => body.preset = name_of_shipped(index).unwrap_or_default(),
+            }
+        }
+        system
+    }
+}
+
 /// The shipped preset that a path names.
 fn shipped_preset(path: &Path) -> Option<usize> {
     shipped::ALL.iter().position(|shipped| path.file_name().is_some_and(|name| name == shipped.file))
