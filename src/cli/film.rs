@@ -1,19 +1,22 @@
 //! `tellus film`: the frames of a flight over the bookmarks of a planet.
 
 use super::camera::{CameraArgs, told};
-use super::{Failure, args, headless, load, maps};
+use super::{Failure, args, headless, load, maps, system};
 use crate::film::{CameraPath, Film, Sequence};
 use crate::planet::{Bookmark, Planet};
 use crate::render::{Photo, Renderer};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Draw a flight over the bookmarks of a planet as numbered frames
+/// Draw a flight over the bookmarks of a planet, or of a body of a system, as numbered frames
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The preset
+    /// The preset, or a system file with --body
     #[arg(value_name = "FILE.ron")]
     file: PathBuf,
+    /// The body of a system over whose bookmarks the camera flies
+    #[arg(long, value_name = "NAME")]
+    body: Option<String>,
     /// The film: way.png gives way-0001.png, way-0002.png, ...; .exr for linear radiance
     #[arg(short, long, value_name = "OUT.png|OUT.exr")]
     output: PathBuf,
@@ -40,7 +43,11 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let planet = Arc::new(load(&args.file)?);
+    let system = args.body.as_ref().map(|body| system::place(&args.file, body)).transpose()?;
+    let planet = match &system {
+        Some(system) => Arc::new(system::lit_planet(system, args.time)?),
+        None => Arc::new(load(&args.file)?),
+    };
     let camera = &args.camera;
     camera.check_view(&planet, &args.file)?;
     let kind = camera.kind(&args.output)?;
@@ -51,7 +58,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let Some(path) = CameraPath::over(&terrain, &bookmarks, camera.fov_y_rad()) else {
         return Err(format!("{}: there is no bookmark to fly over", args.file.display()).into());
     };
-    let first = camera.shot(&terrain, path.camera(&terrain, 0.0), args.time);
+    let mut first = camera.shot(&terrain, path.camera(&terrain, 0.0), args.time);
+    first.system = system;
     let film = Film { secs: args.seconds, fps: args.fps, speed: args.speed };
     let mut sequence = Sequence::film(first, path, film, &args.output, kind);
     sequence.resumes = args.resume;

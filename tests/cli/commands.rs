@@ -343,6 +343,22 @@ fn a_film_is_numbered_frames() {
     assert!(status == 1 && err.contains("there is no bookmark \"C\"; there is: A, B"), "{err}");
     let (status, _, err) = run(&["film", LAYERED, "-o", text_of(&film)]);
     assert!(status == 1 && err.contains("the planet has no bookmarks to fly over"), "{err}");
+
+    // Over a body of a system: its star stands elsewhere.
+    let (system, other) = (folder.path().join("s.ron"), folder.path().join("other.png"));
+    let bodies = "(name: \"S\", mass_earths: 3e5, light: ()), \
+                  (name: \"P\", preset: \"p.ron\", parent: \"S\", mass_earths: 0.1, orbit: (anomaly_deg: 140.0))";
+    std::fs::write(&system, format!("(version: 1, name: \"Small\", bodies: [{bodies}])")).unwrap();
+    let film = |body| {
+        let args = ["film", text_of(&system), "--body", body, "-o", text_of(&other), "--size", "48x27", "--fps", "2"];
+        run(&[&args[..], &["--quality", "low", "--seconds", "1"]].concat())
+    };
+    let (status, _, err) = film("P");
+    assert_eq!((status, err.as_str()), (0, ""));
+    let first = std::fs::read(folder.path().join("other-0001.png")).unwrap();
+    assert!(first != before[0] && folder.path().join("other-0002.png").exists());
+    let (status, _, err) = film("Q");
+    assert!(status == 1 && err.contains("there is no body \"Q\"; there is: S, P"), "{err}");
 }
 
 #[cfg(unix)]
