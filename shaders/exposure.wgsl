@@ -113,7 +113,7 @@ fn compute() {
         let most = min(MOST_EV, SKY_EV - SKY_FOLLOWED * min(stops(brightest), 0.0));
         ev = clamp(ev, LEAST_EV, most);
     }
-    exposure.ev = mix(exposure.ev, ev, step.share);
+    exposure.ev += clamp((ev - exposure.ev) * step.share, -step.most_ev, step.most_ev);
     exposure.factor = exp2(exposure.ev);
     for (var i = 0u; i <= METER_BINS; i++) { bins[i] = 0u; }
 }

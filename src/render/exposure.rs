@@ -24,10 +24,20 @@ impl Metering {
             _ => 1.0,
         }
     }
+
+    /// Most stops by which this picture changes the exposure.
+    fn most_ev(self) -> f32 {
+        match self {
+            Metering::Adapting { secs } => (FASTEST_EV_S * secs.max(0.0)) as f32,
+            _ => f32::MAX,
+        }
+    }
 }
 
 /// Time constant of adaptation in seconds: after it, 63% of the difference is closed.
 const ADAPTATION_SECS: f64 = 0.35;
+/// Greatest rate of adaptation: from a sunlit desert into space, a frame of a 60th of a second changes a fifth of a stop.
+const FASTEST_EV_S: f64 = 12.0;
 /// Bytes of the histogram and of its counter of white pixels.
 const HISTOGRAM_BYTES: u64 = (METER_BINS as u64 + 1) * 4;
 /// Side in pixels of the square that one workgroup counts.
@@ -83,8 +93,12 @@ impl ExposurePass {
             return;
         }
         let [x, y, width, height] = viewport_px;
-        let step =
-            MeterStep { origin_px: UVec2::new(x, y), size_px: UVec2::new(width, height), share: metering.share() };
+        let step = MeterStep {
+            origin_px: UVec2::new(x, y),
+            size_px: UVec2::new(width, height),
+            share: metering.share(),
+            most_ev: metering.most_ev(),
+        };
         queue.write_buffer(&of.step, 0, &wgsl::bytes_of(&step));
         let [bins, result, step] = [&of.bins, &of.result, &of.step].map(wgpu::Buffer::as_entire_binding);
         let counted = [wgpu::BindingResource::TextureView(radiance), bins.clone(), step.clone()];

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use tellus::lod::{Quality, View};
 use tellus::planet::param::Stage;
 use tellus::planet::{Clouds, Fbm, Layer, Planet, Shape};
-use tellus::render::{BodyId, DebugView, Metering, RenderError};
+use tellus::render::{BodyId, DebugView, Metering, RenderError, ViewId};
 use tellus::sphere::LatLon;
 
 /// Poses from space to the ground, by day, at dusk and at night: altitude, pitch, the sun's longitude.
@@ -191,6 +191,31 @@ fn exposure_lights_dusk_and_lets_night_be_read() {
     mean(0.0, Metering::Instant);
     let steps = [0.4; 15].map(|secs| mean(91.0, Metering::Adapting { secs }));
     assert!(steps[0] < steps[2] && (steps[14] - sunset).abs() < 1.0, "{steps:?} {sunset}");
+}
+
+/// However great the difference, a frame of a 60th of a second changes the exposure by a fifth of a stop at most.
+#[test]
+fn exposure_never_jumps() {
+    let planet = Arc::new(Planet { clouds: None, ..earth() });
+    let mut gpu = gpu();
+    let camera = camera(&planet, 0.0, 0.0, 200.0, 90.0, -8.0);
+    let surface = surface(&planet, &camera);
+    let mut metered_ev = |sun_lon: f64, metering: Metering| {
+        gpu.post.metering = metering;
+        let mut frame = frame(&surface, &planet, camera, (0.0, sun_lon));
+        frame.size_px = [64, 36];
+        gpu.draw_only(&frame, 1);
+        gpu.renderer.metered_ev(ViewId::default()).unwrap()
+    };
+    let night_ev = metered_ev(150.0, Metering::Instant);
+    let noon_ev = metered_ev(0.0, Metering::Instant);
+    assert!(night_ev - noon_ev > 6.0, "{noon_ev} {night_ev}");
+    let mut before_ev = noon_ev;
+    for _ in 0..3 {
+        let now_ev = metered_ev(150.0, Metering::Adapting { secs: 1.0 / 60.0 });
+        assert!((now_ev - before_ev - 0.2).abs() < 0.01, "{before_ev} {now_ev}");
+        before_ev = now_ev;
+    }
 }
 
 /// With and without air: ridges stand out against the sky, and the ground is not black.

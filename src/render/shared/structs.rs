@@ -372,5 +372,7 @@ uniform_struct! {
         size_px: UVec2,
         /// Share of the difference to the metered exposure that is closed now.
         share: f32,
+        /// Most stops by which the exposure changes now.
+        most_ev: f32,
     }
 }
