@@ -78,6 +78,11 @@ impl Viewport {
 
     /// Draws the planet as a body of a system, with the others around it; None draws it alone.
     pub fn set_system(&mut self, system: Option<(Arc<Worlds>, usize)>) {
+        let now = self.neighbours.as_ref().map(|neighbours| &neighbours.worlds);
+        if now.zip(system.as_ref()).is_some_and(|(now, (worlds, _))| !Arc::ptr_eq(now, worlds)) {
+            // The bodies may have other numbers.
+            self.cancel_travel();
+        }
         match (&mut self.neighbours, system) {
             (Some(neighbours), Some((worlds, body))) => neighbours.set(worlds, body),
             (_, system) => {
