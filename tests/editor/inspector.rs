@@ -14,9 +14,9 @@ fn inspected(harness: &Editor) -> Option<UnderPointer> {
     harness.state().viewport().inspector.place().cloned()
 }
 
-/// An editor whose inspector is open and shows the middle of the picture.
+/// An editor whose inspector is open, beside the middle of the picture that it shows.
 fn inspecting() -> Editor {
-    let mut harness = app::open([1024.0, 640.0], vec![]);
+    let mut harness = app::open([1400.0, 800.0], vec![]);
     assert!(inspected(&harness).is_none());
     press(&mut harness, egui::Modifiers::NONE, egui::Key::I);
     assert!(harness.query_by_label_contains("Point at the planet").is_some());

@@ -52,11 +52,6 @@ fn the_text() {
 }
 
 #[test]
-fn baking() {
-    looks_as_it_did(Command::Bake, "bake");
-}
-
-#[test]
 fn the_tour() {
     looks_as_it_did(Command::Tour, "tour");
 }

@@ -68,9 +68,10 @@ impl Viewport {
 
     /// The goal of the flight is the planet now: the camera in use is over it from here on.
     pub fn land(&mut self, radius_m: f64) {
-        if let Some(travel) = &self.travel {
+        if let (Some(travel), Some(neighbours)) = (&mut self.travel, &self.neighbours) {
             self.ground_radius_m = radius_m;
             self.cameras = Cameras::new(radius_m, travel.place);
+            self.cameras.carry(travel.step(neighbours, self.settings.time_secs));
         }
     }
 

@@ -8,9 +8,11 @@
 use crate::lod::pose::Pose;
 use glam::{DQuat, DVec3};
 
-/// Length of the ends of the curve that are held, and how far they lean to the side, in shares of the way.
-const HELD: f64 = 1.0 / 6.0;
-const LEAN: f64 = 0.6;
+/// Length of the handles at the ends of the curve: a share of the way, and at least some radii of the body. How far they
+/// lean to the side, as a share of their length: a way that begins at the far side goes around the body.
+const HANDLE: f64 = 1.0 / 6.0;
+const HANDLE_RADII: f64 = 2.0;
+const LEAN: f64 = 1.2;
 /// The way keeps this distance from the centre of a body, in radii, but for its ends.
 const CLEAR_RADII: f64 = 1.25;
 /// Share of the curve at each end within which it comes down to the body.
@@ -57,13 +59,21 @@ pub struct End {
     pub ground_m: f64,
 }
 
+/// The curve after equal steps of the way.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// Share of the curve.
+    share: f64,
+    /// Turns the direction to the goal at the begin into that here, without a roll on the way.
+    carried: DQuat,
+}
+
 /// A flight under way.
 #[derive(Clone, Debug)]
 pub struct Voyage {
     from: End,
     to: End,
-    /// Shares of the curve after equal steps of the way.
-    table: Vec<f64>,
+    table: Vec<Step>,
     elapsed_secs: f64,
     duration_secs: f64,
 }
@@ -114,22 +124,39 @@ impl Voyage {
             return if x <= 0.0 { self.from.pose } else { end };
         }
         let eased = smootherstep(x);
-        let eye_m = self.curve(relative).at(self.share(eased), self, relative, others);
-        let goal = (relative.center_m - eye_m).normalize_or(DVec3::NEG_Z);
-        let facing = |attitude: DQuat| DQuat::from_rotation_arc(attitude * DVec3::NEG_Z, goal) * attitude;
-        let (begin, end) = (self.from.pose.planet_from_view, end.planet_from_view);
-        let towards = facing(begin).slerp(facing(end), eased);
-        let turned = begin.slerp(towards, smootherstep((eased / TURN).min(1.0)));
-        let turned = turned.slerp(end, smootherstep(((eased - 1.0 + TURN) / TURN).max(0.0)));
-        Pose { position_planet_m: eye_m, planet_from_view: turned.normalize() }
+        let curve = self.curve(relative);
+        let Step { share, carried } = self.step(eased);
+        let eye_m = curve.at(share, self, relative, others);
+        let facing = |attitude: DQuat, goal: DVec3| DQuat::from_rotation_arc(attitude * DVec3::NEG_Z, goal) * attitude;
+        let goal = |eye_m: DVec3| (relative.center_m - eye_m).normalize_or(DVec3::NEG_Z);
+        // Both turns go between fixed attitudes, which are carried along the way: targets that move could pass the far
+        // side of a turn, where it changes its direction.
+        let begin = self.from.pose.planet_from_view;
+        let first = facing(begin, goal(self.from.pose.position_planet_m));
+        let last = self.step(1.0).carried;
+        let turned_in = smootherstep((eased / TURN).min(1.0));
+        let turned_out = smootherstep(((eased - 1.0 + TURN) / TURN).max(0.0));
+        let turned = if turned_out > 0.0 {
+            carried * last.inverse() * (last * first).slerp(end.planet_from_view, turned_out)
+        } else {
+            carried * begin.slerp(first, turned_in)
+        };
+        // The bodies move meanwhile.
+        let moved = DQuat::from_rotation_arc(carried * first * DVec3::NEG_Z, goal(eye_m));
+        let moved = DQuat::IDENTITY.slerp(moved, turned_in * (1.0 - turned_out));
+        Pose { position_planet_m: eye_m, planet_from_view: (moved * turned).normalize() }
     }
 
-    /// Share of the curve at a share of the way.
-    fn share(&self, way: f64) -> f64 {
+    /// The curve at a share of the way.
+    fn step(&self, way: f64) -> Step {
         let at = way * (self.table.len() - 1) as f64;
         let index = (at as usize).min(self.table.len().saturating_sub(2));
-        let [before, after] = [index, index + 1].map(|i| self.table.get(i).copied().unwrap_or(1.0));
-        before + (after - before) * (at - index as f64).clamp(0.0, 1.0)
+        let [before, after] = [index, index + 1].map(|i| self.table[i.min(self.table.len() - 1)]);
+        let part = (at - index as f64).clamp(0.0, 1.0);
+        Step {
+            share: before.share + (after.share - before.share) * part,
+            carried: before.carried.slerp(after.carried, part),
+        }
     }
 
     fn curve(&self, relative: &Relative) -> Curve {
@@ -140,13 +167,15 @@ impl Voyage {
         // To the side on which the eye stands already, or else to its right.
         let (up, right) = (across(self.from.pose.up()), across(self.from.pose.planet_from_view * DVec3::X));
         let side = if up.length() > 0.2 { up } else { right }.normalize_or(line.any_orthonormal_vector());
-        let held_m = HELD * way_m.length();
-        let end_up = relative.turn * self.to.pose.up();
-        Curve { points: [a, a + (self.from.pose.up() + side * LEAN) * held_m, d + (end_up + side * LEAN) * held_m, d] }
+        let handle_m =
+            |end: &End, up: DVec3| (up + side * LEAN) * (HANDLE * way_m.length()).max(HANDLE_RADII * end.ground_m);
+        let b = a + handle_m(&self.from, self.from.pose.up());
+        let c = d + handle_m(&self.to, relative.turn * self.to.pose.up());
+        Curve { points: [a, b, c, d] }
     }
 
-    /// Shares of the curve after equal steps, each a share of the distance to the nearest surface then.
-    fn walk(&self, relative: &Relative, others: &[Obstacle]) -> Vec<f64> {
+    /// The curve after equal steps, each a share of the distance to the nearest surface then.
+    fn walk(&self, relative: &Relative, others: &[Obstacle]) -> Vec<Step> {
         let curve = self.curve(relative);
         let away_m = |eye_m: DVec3| {
             let ends = [(DVec3::ZERO, self.from.ground_m), (relative.center_m, self.to.ground_m)];
@@ -154,14 +183,25 @@ impl Voyage {
             let away = ends.into_iter().chain(others).map(|(center_m, radius_m)| eye_m.distance(center_m) - radius_m);
             away.fold(f64::INFINITY, f64::min).max(LEAST_M)
         };
-        let (mut table, mut share) = (vec![0.0], 0.0);
+        let at = |share: f64| curve.at(share, self, relative, others);
+        let goal = |eye_m: DVec3| (relative.center_m - eye_m).normalize_or(DVec3::NEG_Z);
+        let (mut share, mut eye_m, mut carried) = (0.0, at(0.0), DQuat::IDENTITY);
+        let mut table = vec![Step { share, carried }];
         while share < 1.0 && table.len() < MOST_STEPS {
-            let eye_m = curve.at(share, self, relative, others);
-            share = (share + STEP * away_m(eye_m) / curve.speed_m(share).max(1e-9)).min(1.0);
-            table.push(share);
+            let most_m = STEP * away_m(eye_m);
+            let mut step = most_m / curve.speed_m(share).max(1e-9);
+            // Around a body the eye moves faster than the curve.
+            while step > f64::EPSILON && at((share + step).min(1.0)).distance(eye_m) > 1.5 * most_m {
+                step *= 0.5;
+            }
+            share = (share + step).min(1.0);
+            let next_m = at(share);
+            carried = (DQuat::from_rotation_arc(goal(eye_m), goal(next_m)) * carried).normalize();
+            eye_m = next_m;
+            table.push(Step { share, carried });
         }
         if let Some(last) = table.last_mut() {
-            *last = 1.0;
+            last.share = 1.0;
         }
         table
     }
