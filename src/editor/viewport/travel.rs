@@ -43,6 +43,8 @@ impl Viewport {
         let relative = neighbours.relative(from, to, time_secs);
         let others = neighbours.obstacles([from, to], time_secs);
         let voyage = Voyage::new(start, end, &relative, &others);
+        // A key ends the flight.
+        self.wants_focus = true;
         self.travel = Some(Travel { voyage, place, is_due: false, has_asked: false });
         true
     }
