@@ -125,8 +125,8 @@ fn camera_of(args: &Args, terrain: &Terrain) -> Result<Camera, Failure> {
             (planet.radius_m() + floor_m + altitude_m, altitude_m)
         }
         None => {
-            let altitude_m = opening::OPENING_ALTITUDE_RADII * planet.radius_m();
-            (planet.radius_m() + altitude_m, altitude_m)
+            let radius_m = opening::opening_radius_m(planet, terrain.height_bounds_m().1);
+            (radius_m, radius_m - planet.radius_m())
         }
     };
     let pitch_deg = args.pitch.unwrap_or_else(|| opening::default_pitch_deg(planet, altitude_m));
