@@ -88,6 +88,9 @@ const SPREAD: f32 = 2.0;
 // Optical depth of columns over that of the layer, at the edge of weather systems and in their middle.
 const THIN: f32 = 0.28;
 const THICK: f32 = 1.0;
+// How the optical depth of columns varies with the cells of a weather system, as the exponent of the noise of bands
+// coarser than puffs: from afar, they are the only texture of a closed cover. By eye.
+const TONE: f32 = 2.0;
 // Height of the base of anvils in the layer, and heights within which it blurs.
 const ANVIL_BASE: f32 = 0.78;
 const ANVIL_EDGE: f32 = 0.08;
@@ -136,7 +139,9 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     var position = drifted(place);
     // Bands coarser than a puff bend the cover, so that puffs gather in groups; finer bands carve the puffs.
     var bend = 0.0;
+    // Cells are the heaps of the coarser bands.
     var carve = 0.5;
+    var cells = 0.0;
     var weight = 0.9;
     var strength = mix(1.0, 0.45, layered);
     var blurred = 1.0;
@@ -153,6 +158,7 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
             // The maps resolve coarser bands.
             share *= 1.0 - smoothstep(0.03, 0.08, band.period / body.radius_km);
             bend += (n.g - 0.5) * share * weight * mix(1.0, 0.6, layered);
+            cells += (n.r - 0.5) * share * weight;
             weight -= 0.1;
         } else {
             carve += (n.r - 0.5) * share * strength;
@@ -202,13 +208,14 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     let closed = select(cover * cover * cover, 0.0, number == RAIN_LAYER) + SHRUNK * saturate1(10.0 * cover);
     let sharp = thickened(saturate1((n - 1.0 + cover) / width + closed)) * bulk;
     let column = thickened(saturate1((carve - 1.0 + cover) / width + closed)) * bulk;
+    let tone = exp(TONE * (cells + bend));
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-depth);
     // Of a dense layer no light is left in 32 bits.
     let mean = -log(max(1.0 - cover * opaque, 1e-7)) / depth;
     let mapped = sky.covers[number];
     let thickness = mix(THIN, THICK, mapped * mapped);
-    return Cloud(mix(sharp, mean, blurred) * envelope, mix(column, 1.0, blurred) * thickness);
+    return Cloud(mix(sharp, mean, blurred) * envelope, mix(column, 1.0, blurred) * thickness * tone);
 }
 
 // Share of the veil's scattered light that goes on so nearly straight that it counts as direct.
@@ -220,6 +227,12 @@ fn depth_over(number: u32, sky: Sky) -> f32 {
     let middle = body.cloud_layers[MIDDLE_LAYER].optical_depth * sky.covers[MIDDLE_LAYER];
     let veil = body.veil_depth * (1.0 - VEIL_AHEAD) * sky.veil;
     return veil + select(0.0, middle, number < MIDDLE_LAYER) + select(0.0, low, number < LOW_LAYER);
+}
+
+// Mean optical depth of the low clouds under a layer: of a number.
+fn depth_beneath(number: u32, sky: Sky) -> f32 {
+    let low = body.cloud_layers[LOW_LAYER].optical_depth * sky.covers[LOW_LAYER];
+    return select(0.0, low, number == MIDDLE_LAYER);
 }
 
 // Share of direct sunlight that clouds transmit to a point. `rel`: point relative to the eye, km; `h`: altitude, km.

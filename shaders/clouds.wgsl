@@ -69,7 +69,9 @@ fn jitter_of(pixel: vec2f) -> f32 {
 const LEAST_DENSITY: f32 = 0.004;
 // Width of what a step resolves, in steps.
 const BLUR: f32 = 0.45;
-const RAIN_BLUR: f32 = 0.015;
+const RAIN_BLUR: f32 = 0.06;
+// How much the tone of thin cloud over thick cloud follows the thin one, 0 to 1: decks have a texture of their own.
+const DECK_TONE: f32 = 0.8;
 // Optical depth of the first part of a step within a cloud: most light comes from it.
 const FIRST_PART: f32 = 1.5;
 // Limits of the exponent that shortens the first parts of a step.
@@ -95,7 +97,8 @@ fn height_in_layer(way: Way, at_km: f32) -> f32 {
 
 // The cloud at a distance along a ray, as steps of a length resolve it.
 fn cloud_on(way: Way, at_km: f32, sky: Sky, step_km: f32) -> Cloud {
-    // Shafts of rain are narrower than steps: the mean over the jitter of pixels shows them.
+    // Shafts of rain are narrower than steps: the mean over the jitter of pixels shows them. With less blur, that mean
+    // is grain.
     let blur = select(BLUR, RAIN_BLUR, way.layer == RAIN_LAYER);
     let footprint = max(at_km * frame.pixel_rad, step_km * blur);
     let height = height_in_layer(way, at_km);
@@ -187,6 +190,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
         let sky_left = mix(1.0, passes, hides);
         let shaded = select(1.0, RAIN_SHADE, way.layer == RAIN_LAYER);
         let diffuse = sunlight * (max(sun_mu, 0.0) * hides * passes * shaded);
+        // Seen from above, thin cloud over thick cloud is as bright as both together.
+        let under = depth_beneath(way.layer, sky_here);
         var part_from = enter;
         for (var k = 0.0; k < layer.stride.z; k += 1.0) {
             let shares = vec2f(k + jitter, k + 1.0) / layer.stride.z;
@@ -222,7 +227,8 @@ fn march(into: March, way: Way, jitter: f32) -> March {
             // Tops that fall off towards the sun are brighter.
             let rise = (ahead.column - cloud.column) * thickness * RELIEF / (reach * max(sun_mu, RELIEF_LEAST_SUN));
             lit *= mix(1.0, clamp(1.0 - rise, RELIEF_LIMITS.x, RELIEF_LIMITS.y), from_above);
-            let thick = sent_back(layer.optical_depth * cloud.column);
+            let both = layer.optical_depth * cloud.column + under * mix(1.0, cloud.column, DECK_TONE);
+            let thick = sent_back(both);
             let returned = mix(mix(1.0, sqrt(thick), from_side), thick, from_above);
             let shine = body.cloud_color * (sunlight * direct * (BRIGHTNESS * lit) + ambient) * from_sun * returned;
             let passed = exp(-extinction * density * length_km);
@@ -267,7 +273,9 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
     let streak = textureSampleLevel(noise_tile, repeated, band.offset + carried / band.period, lod).g;
     let fine = textureSampleLevel(noise_tile, repeated, 4.0 * (band.offset + carried / band.period), lod + 2.0).g;
     let depth = body.veil_depth * cover * (0.4 + 0.8 * streak + 0.4 * fine) / max(abs(dot(dir, up)), 0.12);
-    out.transmittance = exp(-depth);
+    let scattered = 1.0 - exp(-depth);
+    // From above, half of the light from beneath that the sheet scatters still goes up.
+    out.transmittance = 1.0 - scattered * select(1.0, 0.5, h > sheet);
     out.at_km = t;
     for (var i = 0u; i < body.sun_count; i++) {
         use_sun_at(i, body.eye_km + rel);
@@ -276,7 +284,7 @@ fn veil(dir: vec3f, mu: f32, far: f32) -> Sheet {
         let cosine = dot(dir, active_sun.dir);
         // From above, a thin sheet sends back less than it lets through.
         let direct = sunlight * (0.5 * lobe(cosine, 0.7) + 1.5 * lobe(cosine, 0.0));
-        out.light += (1.0 - out.transmittance) * body.cloud_color * (direct + sky_irradiance(sheet, sun_mu) / PI);
+        out.light += scattered * body.cloud_color * (direct + sky_irradiance(sheet, sun_mu) / PI);
     }
     return out;
 }

@@ -130,6 +130,8 @@ fn texel_of(all: Diffuse, once: Diffuse) -> Texel {
     return Texel(mean_of(all), vec4f(all.zenith, all.up), mean_of(once), vec4f(once.zenith, once.up));
 }
 
-fn mean_of(light: Diffuse) -> vec4f { return vec4f(min(light.mean * MULTISCATTER_SCALE, vec3f(60000.0)), light.along); }
+fn mean_of(light: Diffuse) -> vec4f {
+    return vec4f(sqrt(max(light.mean, vec3f(0.0)) * MULTISCATTER_SCALE), light.along);
+}
 
 fn dark_texel() -> Texel { return Texel(vec4f(0.0), vec4f(0.0), vec4f(0.0), vec4f(0.0)); }

@@ -77,8 +77,10 @@ struct Diffuse {
     up: f32,
 }
 
+// The LUT has square roots of the means. In the planet's shadow, light falls by half from column to column: roots
+// between two columns are nearly linear, means are not.
 fn light_of_texels(light: vec4f, shape: vec4f) -> Diffuse {
-    return Diffuse(light.rgb / MULTISCATTER_SCALE, light.a, shape.rgb, shape.a);
+    return Diffuse(light.rgb * light.rgb / MULTISCATTER_SCALE, light.a, shape.rgb, shape.a);
 }
 
 // Light that air and ground have scattered at least once.

@@ -1,9 +1,9 @@
 // LUTs and maps that are reused from frame to frame.
 
 @group(1) @binding(0) var optical_depth_lut: texture_2d<f32>;
-// Light that air and ground have scattered, in four layers. 0: rgb mean over all directions, a mean cosine to the sun
-// of the light around the sun. 1: without that light, rgb mean squared cosine to the zenith, a mean cosine to the
-// zenith. 2 and 3: the same for light scattered once
+// Light that air and ground have scattered, in four layers. 0: rgb square root of the mean over all directions, a mean
+// cosine to the sun of the light around the sun. 1: without that light, rgb mean squared cosine to the zenith, a mean
+// cosine to the zenith. 2 and 3: the same for light scattered once
 @group(1) @binding(1) var multiscatter_lut: texture_2d_array<f32>;
 @group(1) @binding(2) var irradiance_lut: texture_2d<f32>;
 @group(1) @binding(3) var sky_lut: texture_2d<f32>;

@@ -104,6 +104,9 @@ fn exceeded_by(share: f32) -> f32 {
     return t - (2.30753 + 0.27061 * t) / (1.0 + 0.99229 * t + 0.04481 * t * t);
 }
 
+// Albedo of fresh foam (Koepke, Effective reflectance of oceanic whitecaps, 1984).
+const FOAM_ALBEDO: f32 = 0.55;
+
 // Foam is lace: a share of a surface whitens where a fine noise exceeds it.
 fn lace(share: f32, rel_m: vec3f, footprint_m: f32) -> f32 {
     if NEARNESS < FROM_GROUND || share <= 0.0 || footprint_m > 0.4 { return share; }
@@ -115,7 +118,7 @@ fn lace(share: f32, rel_m: vec3f, footprint_m: f32) -> f32 {
     let pattern = 0.5 + 1.6 * (mix(coarse, fine, 0.5) - 0.5);
     // A small share would be crumbs all over the water: from near, foam is where waves break.
     let near = share * smoothstep(0.05, 0.3, share);
-    let drawn = smoothstep(1.0 - near - 0.2, 1.0 - near + 0.25, pattern) * smoothstep(0.0, 0.02, near);
+    let drawn = smoothstep(1.0 - near - 0.4, 1.0 - near + 0.4, pattern) * smoothstep(0.0, 0.02, near);
     return mix(drawn, share, smoothstep(0.1, 0.4, footprint_m));
 }
 
@@ -263,7 +266,7 @@ fn water_radiance(water: Water) -> vec3f {
         }
         light = water_body(here, view_mu, first_mu, downwelling) * (1.0 - fresnel) + mirrored_light;
         let white = saturate1(max(surface.surf, surface.foam) * water.foam);
-        light = mix(light, vec3f(0.75) * downwelling / PI, lace(white, rel_m, footprint_m));
+        light = mix(light, FOAM_ALBEDO * downwelling / PI, lace(white, rel_m, footprint_m));
         light += body.water_glow;
     }
     let white = ice.albedo * downwelling / PI;

@@ -45,6 +45,18 @@ fn column_at(dir: vec3f, flat_km: f32, sine: f32, temperature_c: f32, depth_m: f
     return column_under(calm_m, up, footprint_m, ice);
 }
 
+// Shares of the way of a ray through the sphere of the sea within which the bed counts less, and no longer.
+const FAR_BEYOND: vec2f = vec2f(0.05, 0.3);
+
+// Whether the sea hides land whose drawn surface lies under the sea. Far tiles are flat between vertices that are
+// kilometres apart, so that they sag, and seen along the water the sag is many kilometres of it.
+fn sea_hides(dir: vec3f, terrain_km: f32, sine: f32, height_m: f32) -> bool {
+    let lift_km = 0.001 * (height_m - altitude_over_sea_m(dir, terrain_km, sine));
+    let there = dir * terrain_km + normalize(body.eye_km + dir * terrain_km) * lift_km;
+    let hits = sea_hits(normalize(there));
+    return hits.y > hits.x && hits.x > 0.0 && hits.x < 0.999 * length(there);
+}
+
 struct Output {
     // rgb: radiance; a: height above sea level, metres
     @location(0) light: vec4f,
@@ -72,7 +84,11 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         return Output(vec4f(min(light, vec3f(60000.0)), height_m), depth_at(nearest_km, ray_length));
     }
     let flat_km = select(-1.0, hits.x, hits.y >= hits.x && hits.x > 0.0);
-    let has_bed = terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01);
+    var has_bed = terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01);
+    // How far along its way through the sphere of the sea the ray meets the ground. Along the water it does so on slopes
+    // far beyond the place where it meets the sea, which say nothing about the water there.
+    let beyond = select(0.0, (terrain - flat_km) / max(hits.y - flat_km, 1e-6), has_bed && flat_km > 0.0);
+    if beyond > FAR_BEYOND.y && (height_m <= 0.0 || sea_hides(dir, terrain, sine, height_m)) { has_bed = false; }
     let found = textureLoad(surface, pixel, 0);
     // Where there is no terrain, the climate of the latitude is used.
     let sin_lat = normalize(body.eye_km + dir * max(flat_km, 0.0)).z;
@@ -93,6 +109,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         let spread_m = max(found.b, 0.025);
         wet = saturate1(0.5 - 0.5 * height_m / spread_m);
         depths_m = max(vec2f(-height_m - spread_m, spread_m - height_m), vec2f(0.0));
+        depths_m += 1e3 * smoothstep(FAR_BEYOND.x, FAR_BEYOND.y, beyond);
         // The visible sea bed is offset sideways from the point on the sea; with a large offset, its shadow does not
         // apply there.
         let mu = dot(dir, normalize(body.eye_km + dir * surface_km));

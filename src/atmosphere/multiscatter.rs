@@ -45,20 +45,18 @@ struct Quadrature {
 /// For sunlight, which ends abruptly at the planet's shadow.
 const FINE: Quadrature = Quadrature {
     upper: &[
-        (0.033_765_242_898_424, 0.085_662_246_189_585_2),
-        (0.169_395_306_766_867_7, 0.180_380_786_524_069_3),
-        (0.380_690_406_958_401_6, 0.233_956_967_286_345_5),
-        (0.619_309_593_041_598_4, 0.233_956_967_286_345_5),
-        (0.830_604_693_233_132_3, 0.180_380_786_524_069_3),
-        (0.966_234_757_101_576, 0.085_662_246_189_585_2),
+        (0.015_919_880_246_187, 0.040_637_194_180_787),
+        (0.081_984_446_336_682, 0.090_324_080_347_429),
+        (0.193_314_283_649_705, 0.130_305_348_201_468),
+        (0.337_873_288_298_096, 0.156_173_538_520_001),
+        (0.5, 0.165_119_677_500_63),
+        (0.662_126_711_701_905, 0.156_173_538_520_001),
+        (0.806_685_716_350_295, 0.130_305_348_201_468),
+        (0.918_015_553_663_318, 0.090_324_080_347_429),
+        (0.984_080_119_753_813, 0.040_637_194_180_787),
     ],
-    lower: &[
-        (0.069_431_844_202_973_7, 0.173_927_422_568_726_9),
-        (0.330_009_478_207_571_9, 0.326_072_577_431_273_1),
-        (0.669_990_521_792_428_1, 0.326_072_577_431_273_1),
-        (0.930_568_155_797_026_3, 0.173_927_422_568_726_9),
-    ],
-    steps: 10,
+    lower: &[(0.211_324_865_405_187_1, 0.5), (0.788_675_134_594_812_9, 0.5)],
+    steps: 9,
 };
 /// For light that has been scattered before, which is smooth.
 const COARSE: Quadrature = Quadrature {
@@ -286,6 +284,9 @@ struct Texel {
 pub(super) struct MultiscatterLut {
     top: f64,
     texels: Vec<Texel>,
+    /// Square roots of the means of all light. In the planet's shadow, light falls by half from column to column: roots
+    /// between two columns are nearly linear, means are not.
+    roots: Vec<DVec3>,
 }
 
 impl MultiscatterLut {
@@ -306,20 +307,19 @@ impl MultiscatterLut {
             let altitude = (((i / COLUMNS) as f64 / (ROWS - 1) as f64).powi(2) * top).clamp(top * 1e-5, top * 0.9999);
             texel(i, &Point { radius, altitude, sun_mu: sun_mu_at(x) })
         };
-        Self { top, texels: (0..COLUMNS * ROWS).into_par_iter().map(at).collect() }
+        let texels: Vec<Texel> = (0..COLUMNS * ROWS).into_par_iter().map(at).collect();
+        let roots = texels.iter().map(|texel| texel.all.mean.max(DVec3::ZERO).map(f64::sqrt)).collect();
+        Self { top, texels, roots }
     }
 
     /// Light at an altitude; `sun_mu`: cosine of the sun's zenith angle.
     pub(super) fn at(&self, altitude: f64, sun_mu: f64) -> Light {
-        self.part(altitude, sun_mu, |texel| &texel.all)
-    }
-
-    fn part(&self, altitude: f64, sun_mu: f64, part: impl Fn(&Texel) -> &Light) -> Light {
         let x = unit_of_sun(sun_mu).clamp(0.0, 1.0) * (COLUMNS - 1) as f64;
         let y = (altitude / self.top).clamp(0.0, 1.0).sqrt() * (ROWS - 1) as f64;
-        let mean = |of: &dyn Fn(&Light) -> DVec3| bilinear(x, y, COLUMNS, ROWS, |i| of(part(&self.texels[i])));
+        let mean = |of: &dyn Fn(&Light) -> DVec3| bilinear(x, y, COLUMNS, ROWS, |i| of(&self.texels[i].all));
         let shape = mean(&|light| DVec3::new(light.along, light.up, 0.0));
-        Light { mean: mean(&|light| light.mean), along: shape.x, up: shape.y, zenith: mean(&|light| light.zenith) }
+        let root = bilinear(x, y, COLUMNS, ROWS, |i| self.roots[i]);
+        Light { mean: root * root, along: shape.x, up: shape.y, zenith: mean(&|light| light.zenith) }
     }
 }
 
