@@ -144,7 +144,9 @@ fn an_unsaved_system_is_recovered_with_the_file_that_it_belongs_to() {
         ("Uno", Some(path.as_path()), true)
     );
     assert_eq!(again.state().viewport().body(), Some(1), "the planet is the body that it was");
-    // What is saved is no longer in the working copy.
+    // What is saved is no longer in the working copy, which has this editor's own number now.
+    let copies = ["recovery-1.ron", "recovery-1.system.ron"].map(|name| folder.path().join(name));
+    assert!(copies.iter().all(|copy| copy.exists()));
     again.state_mut().push(Action::System(SystemAction::Save));
     again.run_steps(3);
     if again.query_by_label("Replace").is_some() {

@@ -4,7 +4,7 @@ use crate::app::{self, Editor, click, drag, planet, send, type_text, unfold, unt
 use eframe::egui;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use tellus::editor::command::{Action, Command, NewBody, SystemAction};
+use tellus::editor::command::{Action, ClipAction, Command, NewBody, SystemAction};
 use tellus::editor::files::dialogs::ScriptedDialogs;
 use tellus::editor::state::system::trial::TrialRun;
 use tellus::planet::shipped;
@@ -329,7 +329,11 @@ fn a_key_ends_a_flight_at_its_goal() {
     // And back, while the planet is changed: its changes are asked for before they are lost.
     harness.state_mut().push(Action::System(SystemAction::Visit(1)));
     until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
-    harness.state_mut().send(Command::RandomPlanet);
+    let mut changed = planet(&harness);
+    changed.seed += 1;
+    harness.state_mut().push(Action::Clip(ClipAction::TakeText(changed.to_text())));
+    harness.run_steps(2);
+    harness.key_press(egui::Key::Space);
     until(&mut harness, "the question", |harness| harness.query_by_label_contains("Discard").is_some());
     assert!(!harness.state().viewport().is_travelling());
 }
