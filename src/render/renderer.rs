@@ -30,6 +30,8 @@ pub struct Renderer {
     pub(crate) indices: Arc<Indices>,
     pub(crate) pipelines: Arc<Pipelines>,
     pub(crate) bodies: HashMap<BodyId, BodyResources>,
+    /// Bytes of tiles that were uploaded for bodies that are forgotten.
+    forgotten_bytes: u64,
     pub(crate) views: HashMap<ViewId, ViewResources>,
     watch: shaders::Watch,
     shader_error: Option<String>,
@@ -107,6 +109,7 @@ impl Renderer {
             indices: Arc::new(Indices::new(device)),
             pipelines: Arc::new(pipelines),
             bodies: HashMap::new(),
+            forgotten_bytes: 0,
             views: HashMap::new(),
             watch: shaders::Watch::new(),
             shader_error: None,
@@ -125,6 +128,7 @@ impl Renderer {
             indices: Arc::clone(&self.indices),
             pipelines: Arc::clone(&self.pipelines),
             bodies: HashMap::new(),
+            forgotten_bytes: 0,
             views: HashMap::new(),
             watch: shaders::Watch::new(),
             shader_error: None,
@@ -140,7 +144,8 @@ impl Renderer {
 
     /// Frees the resources of a body that scenes no longer hold.
     pub fn forget_body(&mut self, id: BodyId) {
-        self.bodies.remove(&id);
+        let forgotten = self.bodies.remove(&id);
+        self.forgotten_bytes += forgotten.map_or(0, |body| body.tiles.uploaded_bytes());
         for view in self.views.values_mut() {
             view.bodies.remove(&id);
         }
@@ -165,7 +170,8 @@ impl Renderer {
 
     /// Bytes of tiles uploaded since the start.
     pub fn uploaded_bytes(&self) -> u64 {
-        self.bodies.values().map(|body| body.tiles.uploaded_bytes()).sum()
+        let kept: u64 = self.bodies.values().map(|body| body.tiles.uploaded_bytes()).sum();
+        self.forgotten_bytes + kept
     }
 
     /// How often the textures of a body have been made since the start.
