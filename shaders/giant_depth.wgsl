@@ -8,7 +8,7 @@
 override IN_GIANT: bool = false;
 
 // Extinction of the haze, and height over which it thins out above the tops.
-const FOG_PER_KM: f32 = 0.16;
+const FOG_PER_KM: f32 = 0.1;
 const FOG_SCALE_KM: f32 = 0.9;
 // Depth over which red, green and blue light fall to 1/e. By eye.
 const DUSK_KM: vec3f = vec3f(52.0, 33.0, 19.0);
@@ -24,8 +24,8 @@ struct Fog {
 
 // Banks of cloud in the haze: density over its mean.
 fn fog_banks(at_km: vec3f) -> f32 {
-    let wide = sky_noise(at_km / 11.0);
-    return 0.25 + 1.1 * wide * wide + 0.9 * sky_noise(at_km / 3.1 + 17.0) * wide;
+    let wide = smoothstep(0.3, 0.75, sky_noise(at_km / 13.0));
+    return 0.12 + wide * (0.5 + 2.2 * smoothstep(0.25, 0.75, sky_noise(at_km / 3.7 + 17.0)));
 }
 
 fn giant_fog(dir: vec3f) -> Fog {
@@ -55,12 +55,14 @@ fn giant_fog(dir: vec3f) -> Fog {
         let height_km = altitude_along(body.radius_km, h, mu, middle_km);
         let below_km = max(-height_km, 0.0);
         // Banks that are smaller than a part of the march have their mean.
-        let banks = mix(fog_banks(body.eye_km + dir * middle_km), 0.9, saturate1((to_km - from_km) / 14.0));
+        let at_km = body.eye_km + dir * middle_km;
+        let far = saturate1((to_km - from_km) / 22.0);
+        let banks = mix(fog_banks(at_km), 1.0, far);
         let density = exp(-max(height_km, 0.0) / FOG_SCALE_KM) * banks;
         let through = exp(-FOG_PER_KM * density * (to_km - from_km));
         let dusk = exp(-below_km / DUSK_KM);
-        // Thick banks shade their own lower side.
-        let shaded = mix(1.15, 0.7, saturate1(banks - 0.4));
+        // Banks above shade it.
+        let shaded = mix(1.25 * exp(-0.5 * fog_banks(at_km + body.eye_up * 2.5)), 0.85, far);
         let own = top * dusk * shaded + glow * exp(-below_km / 4.0);
         light += transmittance * (1.0 - through) * own;
         transmittance *= through;

@@ -3,7 +3,7 @@
 #include "giant.wgsl"
 
 // Slope that each octave of the heaps adds.
-const TOPS_STEEPNESS: f32 = 0.075;
+const TOPS_STEEPNESS: f32 = 0.11;
 
 // Gradient (xyz) and height (w) of the heaps in radii. `footprint`: width of a pixel in radii.
 fn tops_at(dir: vec3f, footprint: f32) -> vec4f {
