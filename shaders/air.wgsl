@@ -3,7 +3,8 @@
 #include "surface.wgsl"
 #include "scattering.wgsl"
 #include "stars.wgsl"
-#include "ring_light.wgsl"
+#include "ring_pieces.wgsl"
+#include "giant_depth.wgsl"
 
 @group(2) @binding(2) var cloud_light: texture_2d<f32>;
 @group(2) @binding(3) var cloud_distance: texture_2d<f32>;
@@ -15,9 +16,28 @@ fn corona(radii: f32) -> f32 {
     return 1e-6 * (2.565 * pow(x, 17.0) + 1.425 * pow(x, 7.0) + 0.0532 * pow(x, 2.5));
 }
 
+// Factor on the corona's radiance: streamers over the star's equator, and thin plumes over its poles, as when the Sun
+// is quiet. They narrow outwards (Koutchmy and Livshits, Coronal Streamers, 1992). `aside`: from the disc's centre, in
+// radii. The star's axis is taken for upright.
+fn streamers(aside: vec3f, radii: f32, number: u32) -> f32 {
+    let sun = active_sun.seen_dir;
+    let axis = normalize(vec3f(0.0, 0.0, 1.0) - sun * sun.z);
+    let angle = atan2(dot(aside, axis), dot(aside, cross(sun, axis)));
+    let seed = 2.4 * f32(number);
+    let out = saturate1((radii - 1.0) / 1.6);
+    // Broad streamers on both sides, of unequal breadth and place.
+    let bent_angle = angle + 0.25 * sin(3.0 * angle + 1.0 + seed) + 0.14 * sin(5.0 * angle + 2.0 * seed);
+    let equator = cos(bent_angle) * cos(bent_angle);
+    let rays = 0.5 + 0.5 * sin(7.0 * bent_angle + 0.9 * sin(4.0 * angle + seed) + 2.6);
+    let broad = pow(equator, 0.6 + 1.1 * out) * (0.55 + 0.9 * pow(rays, 1.0 + 1.5 * out));
+    let plumes = sin(41.0 * angle + 3.0 * sin(6.0 * angle + seed) + 2.0 * sin(13.0 * angle));
+    let fine = plumes * (0.1 + 0.15 * (1.0 - equator));
+    return mix(1.0, 0.16 + 1.75 * broad, 0.35 + 0.65 * out) * (1.0 + fine);
+}
+
 // Radiance of a sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun), and of its
 // corona. A narrower disc than a pixel has less light.
-fn sun_disc(dir: vec3f) -> vec3f {
+fn sun_disc(dir: vec3f, number: u32) -> vec3f {
     let sun = active_sun.seen_dir;
     let off = length(cross(dir, sun));
     let soft = frame.pixel_rad * 0.7;
@@ -25,7 +45,13 @@ fn sun_disc(dir: vec3f) -> vec3f {
     let radius = max(own, soft);
     if dot(dir, sun) < 0.0 || off > 12.0 * radius + soft { return vec3f(0.0); }
     let full = active_sun.irradiance * active_sun.disc_gain * (own * own / (radius * radius));
-    if off > radius + soft { return full * corona(off / radius) * (1.0 - smoothstep(6.0, 12.0, off / radius)); }
+    if off > radius + soft {
+        let radii = off / radius;
+        var glow = corona(radii) * (1.0 - smoothstep(6.0, 12.0, radii));
+        // Without a body before the disc the corona is lost in its glare.
+        if !ALONE { glow *= streamers((dir - sun * dot(dir, sun)) / radius, radii, number); }
+        return full * glow;
+    }
     let edge = 1.0 - smoothstep(radius - soft, radius + soft, off);
     let x = saturate1(off / radius);
     let depth = sqrt(1.0 - x * x);
@@ -204,7 +230,7 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
         scene = NIGHT_BACKGROUND * NIGHT_SKY;
         for (var i = 0u; i < body.sun_count; i++) {
             use_sun(i);
-            scene += sun_disc(dir);
+            scene += sun_disc(dir, i);
         }
     }
     var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
@@ -216,13 +242,21 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     // Rings beyond the air are a part of the scene that it veils.
     var rings = RingLight(vec3f(0.0), 1.0, NOTHING_KM);
-    if !ALONE && body.ring_count > 0u { rings = rings_along(dir, far); }
+    if !ALONE && body.ring_count > 0u { rings = rings_before(dir, far); }
     let shell_km = path_through_air(body.eye_altitude_km, dot(dir, body.eye_up), far);
     let is_behind = shell_km.y > shell_km.x && rings.at_km > shell_km.x;
     if is_behind { scene = scene * rings.transmittance + rings.light; }
     var seen = across_limb(pixel, dir, far, scene, clouds, cloud_at, ray_light(dir, far, scene, clouds, cloud_at));
     if !is_behind { seen.light = seen.light * rings.transmittance + rings.light; }
     seen.transmittance *= rings.transmittance;
+    if IN_GIANT {
+        let fog = giant_fog(dir);
+        // What is below the tops is hidden.
+        let behind = select(seen.light, vec3f(0.0), ground);
+        seen.light = mix(seen.light, fog.light + fog.transmittance * behind, fog.share);
+        seen.air_only += luminance(fog.light) * fog.share;
+        seen.transmittance *= mix(vec3f(1.0), fog.transmittance, fog.share);
+    }
     // Factor on the stars left by the bodies farther away.
     var star_light = select(vec3f(1.0), vec3f(0.0), ground);
     // Weight of the sky for metering: small from within the air, zero from outer space.

@@ -8,14 +8,19 @@ struct RingLight {
     at_km: f32,
 }
 
-fn ring_phase(cosine: f32) -> f32 {
+// Phase functions of large pieces and of dust.
+fn ring_lambert(cosine: f32) -> f32 {
     let phase = PI - acos(clamp(cosine, -1.0, 1.0));
-    let lambert = 8.0 / (3.0 * PI) * (sin(phase) + (PI - phase) * cos(phase)) / (4.0 * PI);
+    return 8.0 / (3.0 * PI) * (sin(phase) + (PI - phase) * cos(phase)) / (4.0 * PI);
+}
+
+fn ring_dust_phase(cosine: f32) -> f32 {
     let g = RING_DUST_FORWARD;
     let base = 1.0 + g * g - 2.0 * g * cosine;
-    let dust = (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
-    return mix(lambert, dust, body.ring_dust);
+    return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
 }
+
+fn ring_phase(cosine: f32) -> f32 { return mix(ring_lambert(cosine), ring_dust_phase(cosine), body.ring_dust); }
 
 // Share of the active sun's disc that the planet leaves visible at a point of the rings.
 fn over_planet(at_km: vec3f) -> f32 {

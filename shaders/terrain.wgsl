@@ -6,7 +6,7 @@
 #include "horizon.wgsl"
 #include "sea.wgsl"
 #include "settlements.wgsl"
-#include "giant.wgsl"
+#include "giant_tops.wgsl"
 
 struct Vertex {
     @location(0) high_m: vec3f,
@@ -444,8 +444,8 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
     var ground = seabed(material_at(site, n, up, rel_x, rel_y), site);
     ground.albedo *= splashed(over_sea_m, pixel_ground.spread_m, variation);
     if GIANT {
-        let deck = giant_deck(up, footprint_m * 0.001 / body.radius_km);
-        ground = Material(deck.albedo, 1.0, 0.0, -deck.slope * GIANT_RELIEF, vec3f(0.0));
+        let deck = giant_tops(up, footprint_m * 0.001 / body.radius_km);
+        ground = Material(deck.albedo, 1.0, 0.0, deck.slope, vec3f(0.0));
     }
     let wet = pixel_ground.water.x;
     if frame.debug_view == VIEW_ALBEDO {
@@ -462,6 +462,7 @@ fn shade(on_mesh: Ground, from_ground: Visibility) -> Shaded {
         use_sun_at(i, body.eye_km + rel_km);
         var from_here = from_ground;
         if i > 0u { from_here = visibility_at(on_mesh, up); }
+        if GIANT { from_here.star *= tops_in_sun(up, footprint_m * 0.001 / body.radius_km); }
         radiance += lit(ground, facet, from_here);
     }
     let slope = length(n - up * dot(n, up)) / max(dot(n, up), 0.05);

@@ -14,6 +14,16 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 pub const BAND_ENTRIES: usize = 96;
 /// Most storms, the great spot among them.
 pub const MAX_STORMS: usize = 8;
+/// Depth below the tops of the clouds to which an eye may sink: it is dark there.
+pub const DEEPEST_M: f64 = 300_000.0;
+/// Longest wave of the tops' detail, in sizes of an eddy.
+pub const DETAIL_EDDIES: f64 = 0.12;
+/// Each wave of the detail over the next.
+pub const DETAIL_RATIO: f64 = 2.2;
+/// Seconds after which the detail of the tops has changed: heaps of cloud last for hours.
+const DETAIL_SECS: f64 = 14_000.0;
+/// Shortest wave of the detail.
+const LEAST_DETAIL_M: f64 = 700.0;
 /// Angle in radians by which the fastest jet shears the eddies before they fade.
 const SHEAR_RAD: f64 = 0.9;
 
@@ -66,12 +76,20 @@ impl Bands {
 
     /// The two tracings at a time: seconds since the middle of each, its weight, and the number of its eddies.
     pub fn tracings(&self, time_secs: f64) -> [(f64, f64, u32); 2] {
-        [0.0, 0.5].map(|shift| {
-            let cycles = time_secs / self.cycle_secs + shift;
-            let share = cycles - cycles.floor();
-            let number = (cycles.floor() as i64).rem_euclid(1 << 20) as u32 * 2 + u32::from(shift > 0.0);
-            ((share - 0.5) * self.cycle_secs, 1.0 - (2.0 * share - 1.0).abs(), number)
-        })
+        tracings(time_secs, self.cycle_secs)
+    }
+
+    /// The same of the detail of the tops.
+    pub fn detail_tracings(&self, time_secs: f64) -> [(f64, f64, u32); 2] {
+        tracings(time_secs, self.cycle_secs.min(DETAIL_SECS))
+    }
+
+    /// Colour at a latitude.
+    pub fn color(&self, lat_rad: f64) -> [f64; 3] {
+        let place = (lat_rad / PI + 0.5).clamp(0.0, 1.0) * (BAND_ENTRIES - 1) as f64;
+        let first = (place as usize).min(BAND_ENTRIES - 2);
+        let share = place - first as f64;
+        std::array::from_fn(|i| self.entries[first][i] * (1.0 - share) + self.entries[first + 1][i] * share)
     }
 
     /// The storms at a time. They drift with the jets at their latitude, at half the speed.
@@ -102,6 +120,24 @@ impl Bands {
         }
         storms
     }
+}
+
+/// Octaves of the tops' detail that a pixel of this width on the tops resolves.
+pub fn detail_octaves(planet: &Planet, pixel_m: f64) -> u32 {
+    let Some(giant) = &planet.giant else { return 0 };
+    let longest_m = DETAIL_EDDIES * giant.eddy_radii * planet.radius_m();
+    let octaves = libm::log(longest_m / (1.5 * pixel_m).max(LEAST_DETAIL_M)) / DETAIL_RATIO.ln();
+    octaves.ceil().clamp(0.0, 12.0) as u32
+}
+
+/// Two tracings at a time: seconds since the middle of each, its weight, and its number.
+fn tracings(time_secs: f64, cycle_secs: f64) -> [(f64, f64, u32); 2] {
+    [0.0, 0.5].map(|shift| {
+        let cycles = time_secs / cycle_secs + shift;
+        let share = cycles - cycles.floor();
+        let number = (cycles.floor() as i64).rem_euclid(1 << 20) as u32 * 2 + u32::from(shift > 0.0);
+        ((share - 0.5) * cycle_secs, 1.0 - (2.0 * share - 1.0).abs(), number)
+    })
 }
 
 fn seed(planet: &Planet, giant: &Giant) -> u32 {

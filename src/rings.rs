@@ -4,7 +4,11 @@
 //!
 //! The rings are a plane layer so thin that only its optical depth matters. A ray that crosses it at an angle whose
 //! sine is mu is dimmed by exp(-depth / mu). Single scattering by a plane layer is exact (Chandrasekhar, Radiative
-//! Transfer, 1950, III.12); higher orders are a factor.
+//! Transfer, 1950, III.12); higher orders are a factor. Near the eye the layer resolves into pieces ([`Pieces`]).
+
+mod pieces;
+
+pub use pieces::{BLOCK_SHARE, FACETS_AT, MOST_CHANCE, Pieces, SIZE_CLASSES, SIZE_RATIO, SizeClass};
 
 use crate::planet::{Planet, Rings};
 use crate::terrain::curve_at;

@@ -3,6 +3,7 @@
 use super::camera::{CameraArgs, told};
 use super::{Failure, args, headless, load, maps, system};
 use crate::film::Sequence;
+use crate::giant::DEEPEST_M;
 use crate::lod::{Camera, opening};
 use crate::render::{Photo, Renderer};
 use crate::sphere::LatLon;
@@ -44,7 +45,8 @@ pub(super) struct Args {
         value_parser = args::longitude
     )]
     lon: Option<f64>,
-    /// Altitude of the camera above the ground or the water on it, whichever is higher; negative: depth under water
+    /// Altitude of the camera above the ground or the water on it, whichever is higher; negative: depth under water,
+    /// or below the tops of a giant's clouds
     /// [default: far enough to see the whole planet]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = args::altitude)]
     altitude: Option<f64>,
@@ -111,13 +113,14 @@ fn camera_of(args: &Args, terrain: &Terrain) -> Result<Camera, Failure> {
             let ground_m = below.height_m;
             let floor_m = below.water_level_m.map_or(ground_m, |water_m| water_m.max(ground_m));
             let depth_m = floor_m - ground_m;
-            // Lowest altitude: 0.1 m above the ground or the sea bed.
-            let deepest_m = 0.1 - depth_m;
+            // Lowest altitude: 0.1 m above the ground or the sea bed. A giant has neither.
+            let deepest_m = if planet.giant.is_some() { -DEEPEST_M } else { 0.1 - depth_m };
             if altitude_m < deepest_m {
                 // Rounded up, so that the offered altitude is allowed.
                 let least_m = (deepest_m * 10.0).ceil() / 10.0;
                 let range = match depth_m > 0.2 {
                     true => format!("the water is {depth_m:.1} m deep there; use {least_m:.1} or more"),
+                    false if planet.giant.is_some() => format!("it is dark there; use {least_m:.0} or more"),
                     false => "there is no water there; use 0.1 or more".to_owned(),
                 };
                 return Err(format!("--altitude: {altitude_m} m is under the ground: {range}").into());

@@ -319,7 +319,7 @@ fn camera() -> Vec<Row> {
         Row::new(
             Command::Dive,
             "Go under water",
-            "Walk on the sea floor and fly under water, or stay above the sea.",
+            "Walk on the sea floor, fly under water and into a giant, or stay above.",
             |s, _| s.move_cameras(|cameras, _| cameras.set_dive(!cameras.dives())),
         )
         .within(Menu::Camera, 1)

@@ -26,11 +26,15 @@ params! {
         gaps: u32 = 4, "Gaps", Unit::None, count(0, 16), Stage::Uniform;
         /// Share of fine dust: it glows when the star is behind it, large pieces when the star is in front.
         dust: f64 = 0.08, "Dust", Unit::None, linear(0.0, 1.0), Stage::Uniform;
+        /// Thickness of the rings, which shows from near. Saturn's are about 10 m thick.
+        thickness_m: f64 = 50.0, "Thickness", Unit::Metres, log(1.0, 10_000.0), Stage::Uniform;
+        /// Size of the largest pieces, which show from near. The number of pieces falls with the cube of their size.
+        largest_m: f64 = 8.0, "Largest pieces", Unit::Metres, log(0.1, 200.0), Stage::Uniform;
         /// Colour of the inner edge (linear sRGB): the share of the light that the pieces scatter.
         inner_color: [f64; 3] = [0.42, 0.36, 0.29], "Inner colour", Unit::None, Domain::Color, Stage::Uniform;
         /// Colour of the outer edge.
         outer_color: [f64; 3] = [0.78, 0.70, 0.58], "Outer colour", Unit::None, Domain::Color, Stage::Uniform;
-        /// Seed of ringlets and gaps.
+        /// Seed of ringlets, gaps and pieces.
         seed: u32 = 0, "Seed", Unit::None, Domain::Seed, Stage::Uniform;
     }
 }
@@ -80,6 +84,8 @@ fn dusty() -> Rings {
         ringlets: 0.1,
         gaps: 0,
         dust: 0.9,
+        thickness_m: 3000.0,
+        largest_m: 1.0,
         inner_color: [0.5, 0.42, 0.34],
         outer_color: [0.55, 0.46, 0.4],
         ..Rings::default()
@@ -96,6 +102,8 @@ fn rubble() -> Rings {
         ringlet_share: 0.06,
         gaps: 1,
         dust: 0.3,
+        thickness_m: 120.0,
+        largest_m: 25.0,
         inner_color: [0.34, 0.22, 0.15],
         outer_color: [0.42, 0.3, 0.21],
         ..Rings::default()

@@ -60,6 +60,7 @@ impl TerrainPass {
         lines: bool,
         variant: Variant,
     ) -> Result<wgpu::RenderPipeline, RenderError> {
+        let variant = variant.of_ground();
         let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(pipeline) = pipelines.get(&(lines, variant)) {
             return Ok(pipeline.clone());

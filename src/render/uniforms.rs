@@ -118,10 +118,12 @@ pub(crate) fn body(scene: &Scene<'_>, body: &scene::Body<'_>, drawn: &Drawn, is_
     out.marked = u32::from(marked);
     ground::from_eye(&mut out, planet, eye_m);
     let moment = (scene.time_secs, scene.quality);
-    giant::at(&mut out, planet, scene.time_secs);
+    let pixel_rad = pixel_rad(scene, drawn);
+    rings::from_eye(&mut out, planet, eye_m, scene.quality, pixel_rad);
+    giant::at(&mut out, planet, scene.time_secs, eye_m, pixel_rad);
     water::from_eye(&mut out, &body.surface.terrain, planet, eye_m, moment);
     if !marked {
-        clouds::from_eye(&mut out, planet, eye_m, scene, pixel_rad(scene, drawn));
+        clouds::from_eye(&mut out, planet, eye_m, scene, pixel_rad);
     }
     out
 }

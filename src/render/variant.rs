@@ -13,6 +13,10 @@ pub(crate) struct Variant {
     pub(crate) is_alone: bool,
     /// Whether it is a gas giant.
     pub(crate) is_giant: bool,
+    /// Whether the eye is near the pieces of its rings.
+    pub(crate) is_in_rings: bool,
+    /// Whether the eye is in the clouds of the giant or just above.
+    pub(crate) is_in_giant: bool,
 }
 
 /// Which variants a pass has: its shader has the constants of these.
@@ -20,7 +24,7 @@ pub(crate) struct Variant {
 pub(crate) enum Varies {
     /// One for all bodies.
     Never,
-    /// For bodies that are alone, and for others.
+    /// For bodies that are alone, and for others; for an eye near the pieces of rings, or in the clouds of a giant.
     WithNeighbours,
     /// The same for each nearness.
     WithNearness,
@@ -28,7 +32,7 @@ pub(crate) enum Varies {
 
 impl Variant {
     /// Of most bodies seen from afar: the one that is made first.
-    pub(crate) const FIRST: Self = Self { nearness: Nearness::Orbit, is_alone: true, is_giant: false };
+    pub(crate) const FIRST: Self = Self { nearness: Nearness::Orbit, is_alone: true, is_giant: false, is_in_rings: false, is_in_giant: false };
 
     /// Of a body with these uniforms.
     pub(crate) fn of(body: &Body, pixel_rad: f32) -> Self {
@@ -36,6 +40,8 @@ impl Variant {
             nearness: Nearness::of(body, pixel_rad),
             is_alone: body.occluder_count == 0 && body.ring_count == 0 && body.point_count == 0,
             is_giant: body.is_giant == 1,
+            is_in_rings: body.ring_class_count > 0,
+            is_in_giant: body.is_in_giant == 1,
         }
     }
 
@@ -43,9 +49,14 @@ impl Variant {
     pub(crate) fn among(self, varies: Varies) -> Self {
         match varies {
             Varies::Never => Self::FIRST,
-            Varies::WithNeighbours => Self { is_alone: self.is_alone, ..Self::FIRST },
-            Varies::WithNearness => Self { is_giant: false, ..self },
+            Varies::WithNeighbours => Self { nearness: Nearness::Orbit, is_giant: false, ..self },
+            Varies::WithNearness => Self { is_giant: false, ..self.of_ground() },
         }
+    }
+
+    /// The variant that the ground of a body is drawn with: the pieces of rings and the haze of a giant are no part of it.
+    pub(crate) fn of_ground(self) -> Self {
+        Self { is_in_rings: false, is_in_giant: false, ..self }
     }
 
     /// The constants of the shaders of such a pass.
@@ -53,7 +64,10 @@ impl Variant {
         let alone = ("ALONE", f64::from(u8::from(self.is_alone)));
         match varies {
             Varies::Never => Vec::new(),
-            Varies::WithNeighbours => vec![alone],
+            Varies::WithNeighbours => {
+                let flag = |is_set: bool| f64::from(u8::from(is_set));
+                vec![alone, ("RING_PIECES", flag(self.is_in_rings)), ("IN_GIANT", flag(self.is_in_giant))]
+            }
             Varies::WithNearness => vec![self.nearness.constant(), alone],
         }
     }

@@ -13,6 +13,7 @@
 //! - `planets`: the shipped presets, against goldens
 //! - `photo`: photographs: tiles, samples, the lens
 //! - `render`: passes, stages and errors of the renderer
+//! - `ring_pieces`: rings near the eye, against the plane layer
 //! - `scene`: several bodies, the caller's targets, projections and viewports
 //! - `sea`: waves, the view from below, floes
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, missing_docs)]
@@ -32,6 +33,7 @@ mod night;
 mod photo;
 mod planets;
 mod render;
+mod ring_pieces;
 mod scene;
 mod sea;
 mod shaders;

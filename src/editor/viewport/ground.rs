@@ -1,6 +1,7 @@
 //! The ground under the camera: the evaluator of the surface on screen, or a sphere until there is one.
 
 use super::camera::Ground;
+use crate::giant::DEEPEST_M;
 use crate::planet::Planet;
 use crate::terrain::Terrain;
 use glam::DVec3;
@@ -28,11 +29,17 @@ impl Ground for PlanetGround<'_> {
     }
 
     fn floor_radius_m(&self, dir_planet: DVec3) -> f64 {
+        if self.planet.giant.is_some() {
+            return self.planet.radius_m() - DEEPEST_M;
+        }
         let height_m = self.terrain.map_or_else(|| self.sea_or_zero_m(), |terrain| terrain.height_m(dir_planet));
         self.planet.radius_m() + height_m
     }
 
     fn surface_radius_m(&self, dir_planet: DVec3) -> f64 {
+        if self.planet.giant.is_some() {
+            return self.planet.radius_m();
+        }
         let sea_m = self.planet.sea_level_m().map_or(f64::MIN, |sea_m| self.planet.radius_m() + sea_m);
         self.floor_radius_m(dir_planet).max(sea_m)
     }

@@ -14,10 +14,14 @@ pub(crate) const MAX_OCCLUDERS: usize = 4;
 pub const MAX_POINTS: usize = 16;
 /// Latitudes at which the bands of a giant are known.
 pub(crate) const BAND_ENTRIES: usize = giant::BAND_ENTRIES;
+/// Height over the tops of a giant's clouds below which the eye is in their haze.
+pub(crate) const FOG_TOP_KM: f64 = 4.0;
 /// The most storms of a giant.
 pub(crate) const MAX_STORMS: usize = giant::MAX_STORMS;
 /// Entries of the profile of rings.
 pub(crate) const RING_ENTRIES: usize = rings::PROFILE_ENTRIES;
+/// Classes of sizes of the pieces of rings.
+pub(crate) const RING_CLASSES: usize = rings::SIZE_CLASSES;
 /// The most plane waves of the sea near the eye.
 pub(crate) const WAVES: usize = sea::MOST_WAVES;
 /// How much higher crests of the sea are than troughs are deep; the least factor on slopes that it leaves.

@@ -17,6 +17,7 @@ use super::scene::DebugView;
 use super::tone::{self, Tone};
 use super::wgsl::{Constant, constant};
 use super::{horizon_pool, material_noise};
+use crate::giant;
 use crate::lod::horizon::AZIMUTHS;
 use crate::lod::morph::COARSEST_MORPHING;
 use crate::lod::tile::{DETAIL_APRON, DETAIL_SIDE, TILE_QUADS, TILE_SIDE, TILE_VERTICES, Vertex};
@@ -33,10 +34,16 @@ pub(crate) fn text() -> String {
         ("MAX_SUNS", &(MAX_SUNS as u32)),
         // Giants and rings
         ("BAND_ENTRIES", &(BAND_ENTRIES as u32)),
+        ("GIANT_FOG_TOP_KM", &FOG_TOP_KM),
+        ("GIANT_DETAIL_RATIO", &giant::DETAIL_RATIO),
         ("RING_ENTRIES", &(RING_ENTRIES as u32)),
         ("RINGLET_GAIN", &rings::RINGLET_GAIN),
         ("RING_ORDERS", &rings::HIGHER_ORDERS),
         ("RING_DUST_FORWARD", &rings::DUST_FORWARD),
+        ("RING_CLASSES", &(RING_CLASSES as u32)),
+        ("RING_SIZE_SPREAD", &(rings::SIZE_RATIO * rings::SIZE_RATIO)),
+        ("RING_MOST_CHANCE", &rings::MOST_CHANCE),
+        ("RING_FACETS_AT", &rings::FACETS_AT),
         // Tiles
         ("TILE_QUADS", &(TILE_QUADS as u32)),
         ("TILE_SIDE", &(TILE_SIDE as u32)),
@@ -123,6 +130,7 @@ pub(crate) fn text() -> String {
         Occluder::declaration(),
         Point::declaration(),
         Storm::declaration(),
+        RingClass::declaration(),
         Octave::declaration(),
         Wave::declaration(),
         CloudLayer::declaration(),

@@ -2,7 +2,7 @@
 
 use super::constants::{
     BAND_ENTRIES, BORDER_OCTAVES, CLOUD_BANDS, CLOUD_LAYERS, MAX_OCCLUDERS, MAX_POINTS, MAX_STORMS, MAX_SUNS,
-    RING_ENTRIES, VARIATION_OCTAVES, WAVES,
+    RING_CLASSES, RING_ENTRIES, VARIATION_OCTAVES, WAVES,
 };
 use crate::render::wgsl::uniform_struct;
 use glam::{Mat4, UVec2, Vec2, Vec3, Vec4};
@@ -104,6 +104,33 @@ uniform_struct! {
 }
 
 uniform_struct! {
+    /// Pieces of rings of about one size, in a grid with at most one in each cell (src/rings/pieces.rs).
+    RingClass {
+        /// The eye in the grid: cells from a whole cell along both sides, and layers above the lower side of the rings.
+        eye: Vec3,
+        /// Width of a cell.
+        cell_m: f32,
+        /// Cosine and sine of the angle from the body's axes to those of the grid.
+        turn: Vec2,
+        /// That whole cell, modulo 2^32.
+        first: UVec2,
+        /// Height and number of the layers of cells.
+        layer_m: f32,
+        layers: u32,
+        /// Radius of the ball around the largest piece.
+        radius_m: f32,
+        /// Share of cells with a piece for each unit of optical depth; how it grows with its square.
+        chance: f32,
+        crowding: f32,
+        /// Distance from the eye at which the class has faded; way through the rings that is searched for it.
+        reach_m: f32,
+        search_m: f32,
+        /// Seed of the class.
+        seed: u32,
+    }
+}
+
+uniform_struct! {
     /// A body too small for a surface.
     Point {
         /// Unit vector from the eye to it.
@@ -192,6 +219,13 @@ uniform_struct! {
         giant_storms: [Storm; MAX_STORMS],
         /// For each of two tracings: seconds since its middle, weight, seed of its eddies.
         giant_tracings: [Vec4; 2],
+        /// The same for the detail of the tops; its octaves that show, and its longest wave in radii.
+        giant_detail: [Vec4; 2],
+        giant_octaves: u32,
+        giant_detail_radii: f32,
+        /// 1 where the eye is in the clouds or just above; their colour there.
+        is_in_giant: u32,
+        giant_fog: Vec3,
         /// Colour, and angular speed of the jets in radians per second, from the south pole to the north pole.
         giant_bands: [Vec4; BAND_ENTRIES],
         /// 1 with rings.
@@ -207,6 +241,20 @@ uniform_struct! {
         ring_dust: f32,
         /// Colour and optical depth along the width of the rings.
         ring_profile: [Vec4; RING_ENTRIES],
+        /// Classes of pieces that show; 0 where the eye is far.
+        ring_class_count: u32,
+        ring_classes: [RingClass; RING_CLASSES],
+        /// Most cells that a ray crosses in a class; most pieces in its way that it tries; pairs of facets of a piece.
+        ring_steps: u32,
+        ring_tries: u32,
+        ring_facets: u32,
+        ring_thickness_m: f32,
+        /// Height of the eye over the middle of the rings.
+        ring_eye_m: f32,
+        /// Optical depth at the eye's distance from the axis, and its change with each metre outwards.
+        ring_depth: Vec2,
+        /// From the eye's distance from the axis to the inner and the outer edge.
+        ring_edges_m: Vec2,
         /// Angular radius that the LUTs of the air were made with.
         lut_sun_radius_rad: f32,
         /// Rayleigh scattering at the reference sphere.
