@@ -8,10 +8,10 @@
 override IN_GIANT: bool = false;
 
 // Extinction of the haze, and height over which it thins out above the tops.
-const FOG_PER_KM: f32 = 0.1;
+const FOG_PER_KM: f32 = 0.085;
 const FOG_SCALE_KM: f32 = 0.9;
 // Depth over which red, green and blue light fall to 1/e. By eye.
-const DUSK_KM: vec3f = vec3f(52.0, 33.0, 19.0);
+const DUSK_KM: vec3f = vec3f(34.0, 20.0, 11.0);
 // Reach of the march.
 const FOG_REACH_KM: f32 = 140.0;
 

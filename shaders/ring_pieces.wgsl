@@ -97,7 +97,7 @@ fn roughened(normal: vec3f, at: vec3f, footprint_m: f32) -> vec3f {
         let seen = 1.0 - smoothstep(0.1, 0.4, footprint_m / size_m);
         let p = at * (2.0 * PI / size_m);
         let bent_p = p + 1.3 * sin(p.zxy * 0.7 + f32(octave));
-        tilt += sin(bent_p.yzx + 1.7 * sin(bent_p.zxy)) * (0.16 * seen);
+        tilt += sin(bent_p.yzx + 1.7 * sin(bent_p.zxy)) * (0.11 * seen);
         size_m *= 0.43;
     }
     return normalize(normal + tilt);
@@ -112,7 +112,9 @@ fn piece_light(at_z_m: f32, normal: vec3f, dir: vec3f, depth: f32, random: f32, 
         // Pieces stand in the sun or in the shadow of others; a part is in between.
         let shown = mix(through, select(0.0, 1.0, random < through), 0.65);
         let direct = max(dot(normal, slab_sun[i]), 0.0) / PI;
-        let around = (RING_ORDERS - 1.0) * ring_lambert(dot(dir, slab_sun[i]));
+        // The mean of the factor is 1 over the disc of a ball: a hint of its shape.
+        let rounded = 0.4 - 0.9 * min(dot(normal, dir), 0.0);
+        let around = (RING_ORDERS - 1.0) * ring_lambert(dot(dir, slab_sun[i])) * rounded;
         sum += slab_light[i] * (direct * shown + around * through);
     }
     return sum * color;

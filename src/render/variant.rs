@@ -32,7 +32,8 @@ pub(crate) enum Varies {
 
 impl Variant {
     /// Of most bodies seen from afar: the one that is made first.
-    pub(crate) const FIRST: Self = Self { nearness: Nearness::Orbit, is_alone: true, is_giant: false, is_in_rings: false, is_in_giant: false };
+    pub(crate) const FIRST: Self =
+        Self { nearness: Nearness::Orbit, is_alone: true, is_giant: false, is_in_rings: false, is_in_giant: false };
 
     /// Of a body with these uniforms.
     pub(crate) fn of(body: &Body, pixel_rad: f32) -> Self {

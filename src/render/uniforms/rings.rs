@@ -1,8 +1,8 @@
 //! Uniforms of rings.
 
 use super::Body;
-use crate::planet::Planet;
 use crate::lod::Quality;
+use crate::planet::Planet;
 use crate::render::shared::RingClass;
 use crate::rings::{Pieces, Profile, RINGLET_OCTAVES, SIZE_CLASSES};
 use glam::{DVec2, DVec3, DVec4, UVec2, Vec2};
