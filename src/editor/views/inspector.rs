@@ -46,7 +46,8 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
         };
         head(ui, place, inspector.is_held(), &hold_keys, commands);
         let room = (ctx.content_rect().height() - 150.0).max(100.0);
-        egui::ScrollArea::vertical().max_height(room).show(ui, |ui| {
+        // Without a least height, egui scrolls from 400 points on.
+        egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
             let planet = state.document.valid_planet();
             egui::Grid::new("place").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| facts(ui, place, planet));
             ui.separator();
