@@ -46,7 +46,10 @@ impl Document {
     /// A document with unsaved work, of a file if it has one: to close it asks.
     pub fn unsaved(planet: Planet, path: Option<PathBuf>) -> Self {
         // Its pictures were named from the folder of the working copy.
-        let planet = path.as_deref().map_or_else(|| planet.clone(), |path| planet.moved_to(&folder_of(path)));
+        let planet = match &path {
+            Some(path) => planet.moved_to(&folder_of(path)),
+            None => planet,
+        };
         let mut document = Self::new(planet, path);
         document.home.saved = None;
         document

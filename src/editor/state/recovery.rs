@@ -205,7 +205,7 @@ fn writer(
             None => remove(&file),
         }
         match system {
-            Some(system) => system.save(&system_of(&file)).map_err(|error| error.to_string())?,
+            Some(system) => system.save(system_of(&file)).map_err(|error| error.to_string())?,
             None => remove(&system_of(&file)),
         }
         write_atomically(&files_of(&file), belong.as_bytes()).map_err(|error| error.to_string())
