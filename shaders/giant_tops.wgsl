@@ -20,10 +20,10 @@ fn tops_at(dir: vec3f, footprint: f32) -> vec4f {
             // The longest are drawn out along the jets; the others are round.
             let stretch = vec3f(1.0, 1.0, select(1.0, 1.7, octave < 2u)) * per_radius;
             let noise = flow_noise(place * stretch, u32(tracing.z) + 211u * octave);
-            // Round tops, and creases between them.
-            let side = select(-1.0, 1.0, noise.w > 0.0);
+            // Round tops, and hollows between them: folded, with a soft fold that shows no edge from near.
+            let fold = sqrt(noise.w * noise.w + 0.012);
             let height = TOPS_STEEPNESS / per_radius * seen;
-            heaps += vec4f(noise.xyz * stretch * side, abs(noise.w) - 0.27) * height;
+            heaps += vec4f(noise.xyz * stretch * (noise.w / fold), fold - 0.3) * height;
             per_radius *= GIANT_DETAIL_RATIO;
         }
         sum += vec4f(turned_about_axis(heaps.xyz, -turn), heaps.w) * tracing.y;

@@ -166,7 +166,7 @@ fn giant_idle(giant: &Giant, name: &str) -> Idle {
 fn rings_idle(rings: &Rings, name: &str) -> Idle {
     match name {
         "ringlet_share" => when(rings.ringlets == 0.0, "Ringlets is 0"),
-        "largest_m" => when(rings.dust == 1.0, "Dust is 1"),
+        "thickness_m" | "largest_m" => when(rings.dust == 1.0, "Dust is 1"),
         _ => None,
     }
 }

@@ -55,7 +55,7 @@ impl Variant {
         }
     }
 
-    /// The variant that the ground of a body is drawn with: the pieces of rings and the haze of a giant are no part of it.
+    /// The variant that the ground of a body is drawn with: pieces of rings and the haze of a giant are no part of it.
     pub(crate) fn of_ground(self) -> Self {
         Self { is_in_rings: false, is_in_giant: false, ..self }
     }

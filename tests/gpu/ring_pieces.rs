@@ -96,7 +96,7 @@ fn pieces_let_as_much_light_through_as_the_layer() {
                 // From within, a part of the layer is behind the eye.
                 let ahead_share = ((height_m + 15.0) / 30.0).min(1.0);
                 let of_ahead = |through: f64| libm::pow(through, ahead_share);
-                expected += mean(reference.map(of_ahead).collect::<Vec<_>>().into_iter()) / f64::from(places);
+                expected += mean(reference.map(of_ahead)) / f64::from(places);
             }
             println!("depth {depth}, {down_rad} rad, {height_m} m: {found:.4} of {expected:.4}");
             assert!((found - expected).abs() < 0.05 * expected + 0.012, "{found} of {expected} from {height_m} m");
