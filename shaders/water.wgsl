@@ -85,8 +85,8 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     }
     let flat_km = select(-1.0, hits.x, hits.y >= hits.x && hits.x > 0.0);
     var has_bed = terrain < NOTHING_KM && terrain < max(hits.y, hits.x * 1.01);
-    // How far along its way through the sphere of the sea the ray meets the ground. Along the water it does so on slopes
-    // far beyond the place where it meets the sea, which say nothing about the water there.
+    // How far along its way through the sphere of the sea the ray meets the ground. A flat ray does so on slopes far
+    // beyond the place where it meets the sea, which say nothing about the water there.
     let beyond = select(0.0, (terrain - flat_km) / max(hits.y - flat_km, 1e-6), has_bed && flat_km > 0.0);
     if beyond > FAR_BEYOND.y && (height_m <= 0.0 || sea_hides(dir, terrain, sine, height_m)) { has_bed = false; }
     let found = textureLoad(surface, pixel, 0);

@@ -1,8 +1,8 @@
 //! A flight from over one body of a system to over another, without a cut: up from the first, across, down to the
 //! second. Pure mathematics.
 //!
-//! The way is a cubic Bézier curve that leaves and reaches the bodies along the vertical and bends to a side, so that it
-//! goes around them. The eye moves along it by equal shares of its distance to the nearest surface: near the ground by
+//! The way is a cubic Bézier curve that leaves and reaches the bodies along the vertical and bends to a side, so that
+//! it goes around them. The eye moves along it by equal shares of its distance to the nearest surface: near the ground by
 //! metres, between planets by millions of kilometres.
 
 use crate::lod::pose::Pose;
