@@ -36,7 +36,7 @@ impl Metering {
 
 /// Time constant of adaptation in seconds: after it, 63% of the difference is closed.
 const ADAPTATION_SECS: f64 = 0.35;
-/// Greatest rate of adaptation: from a sunlit desert into space, a frame of a 60th of a second changes a fifth of a stop.
+/// Greatest rate of adaptation: from a sunlit desert into space, a 60th of a second changes a fifth of a stop.
 const FASTEST_EV_S: f64 = 12.0;
 /// Bytes of the histogram and of its counter of white pixels.
 const HISTOGRAM_BYTES: u64 = (METER_BINS as u64 + 1) * 4;

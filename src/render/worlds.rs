@@ -196,8 +196,9 @@ impl Around<'_> {
         bodies
     }
 
-    /// Sets the id of the camera's own body, the lights and the points of a scene: stars, scaled so that the brightest one has brightness 1, the light
-    /// that neighbours reflect, and bodies without a surface. `drawn`: the bodies with one.
+    /// Sets the id of the camera's own body, the lights and the points of a scene: stars, scaled so that the brightest
+    /// one has brightness 1, the light that neighbours reflect, and bodies without a surface. `drawn`: the bodies with
+    /// one.
     pub fn light(&self, scene: &mut Scene<'_>, drawn: &[usize]) {
         let stars = self.worlds.stars(&self.poses, self.eye_m);
         // An eye adapts to its star: far from it, a day is a day.

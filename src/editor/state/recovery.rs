@@ -1,8 +1,8 @@
 //! The working copy: unsaved work, written beside the layout every few seconds, and offered after a crash.
 //!
-//! Each running editor owns `recovery-N.ron`, the planet, `recovery-N.system.ron`, the system, and `recovery-N.files.txt`,
-//! the files that they belong to. It holds a lock on `recovery-N.lock`. Files whose lock nobody holds were left behind by
-//! a crash. The documents' own files are never touched.
+//! Each running editor owns `recovery-N.ron`, the planet, `recovery-N.system.ron`, the system, and
+//! `recovery-N.files.txt`, the files that they belong to. It holds a lock on `recovery-N.lock`. Files whose lock nobody
+//! holds were left behind by a crash. The documents' own files are never touched.
 
 use super::document::Document;
 use super::system::OpenSystem;

@@ -2,14 +2,14 @@
 //! second. Pure mathematics.
 //!
 //! The way is a cubic Bézier curve that leaves and reaches the bodies along the vertical and bends to a side, so that
-//! it goes around them. The eye moves along it by equal shares of its distance to the nearest surface: near the ground by
-//! metres, between planets by millions of kilometres.
+//! it goes around them. The eye moves along it by equal shares of its distance to the nearest surface: near the ground
+//! by metres, between planets by millions of kilometres.
 
 use crate::lod::pose::Pose;
 use glam::{DQuat, DVec3};
 
-/// Length of the handles at the ends of the curve: a share of the way, and at least some radii of the body. How far they
-/// lean to the side, as a share of their length: a way that begins at the far side goes around the body.
+/// Length of the handles at the ends of the curve: a share of the way, and at least some radii of the body. How far
+/// they lean to the side, as a share of their length: a way that begins at the far side goes around the body.
 const HANDLE: f64 = 1.0 / 6.0;
 const HANDLE_RADII: f64 = 2.0;
 const LEAN: f64 = 1.2;
