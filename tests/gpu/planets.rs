@@ -161,7 +161,7 @@ fn white_is_white_and_the_open_sea_is_dark() {
         let white = pixels[pixels.len() * 985 / 1000];
         assert!(white.iter().all(|c| *c >= whitest), "{file}: the brightest pixels are {white:?}");
         let spread = white.iter().max().unwrap() - white.iter().min().unwrap();
-        assert!(spread <= 10, "{file}: white has a tint: {white:?}");
+        assert!(spread <= 12, "{file}: white has a tint: {white:?}");
         // Blue pixels of the sea, without the twilight at the terminator.
         let sea: Vec<_> = pixels.iter().filter(|p| u32::from(p[2]) > 2 * u32::from(p[0]) && p[2] > 40).collect();
         // The median of each channel: neighbours in brightness differ in colour.
