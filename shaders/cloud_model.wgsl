@@ -91,6 +91,8 @@ const THICK: f32 = 1.0;
 // How the optical depth of columns varies with the cells of a weather system, as the exponent of the noise of bands
 // coarser than puffs: from afar, they are the only texture of a closed cover. By eye.
 const TONE: f32 = 2.0;
+// Levels of detail of a puff between which that sets in: from near, puffs are texture enough.
+const TONE_LODS: vec2f = vec2f(-1.5, 0.0);
 // Height of the base of anvils in the layer, and heights within which it blurs.
 const ANVIL_BASE: f32 = 0.78;
 const ANVIL_EDGE: f32 = 0.08;
@@ -145,6 +147,7 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     var weight = 0.9;
     var strength = mix(1.0, 0.45, layered);
     var blurred = 1.0;
+    var afar = 1.0;
     let end = body.cloud_layers[number].end_band;
     let puff = body.cloud_layers[number].puff_band;
     for (var i = body.cloud_layers[number].first_band; i < end; i++) {
@@ -163,7 +166,10 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
         } else {
             carve += (n.r - 0.5) * share * strength;
             strength *= 0.42;
-            if i == puff { blurred = 1.0 - share; }
+            if i == puff {
+                blurred = 1.0 - share;
+                afar = smoothstep(TONE_LODS.x, TONE_LODS.y, lod);
+            }
         }
         position = OCTAVE_TURN * position;
     }
@@ -208,7 +214,7 @@ fn cloud_at(number: u32, rel: vec3f, sky: Sky, height: f32, extent: f32, footpri
     let closed = select(cover * cover * cover, 0.0, number == RAIN_LAYER) + SHRUNK * saturate1(10.0 * cover);
     let sharp = thickened(saturate1((n - 1.0 + cover) / width + closed)) * bulk;
     let column = thickened(saturate1((carve - 1.0 + cover) / width + closed)) * bulk;
-    let tone = exp(TONE * (cells + bend));
+    let tone = exp(TONE * afar * (cells + bend));
     // Puffs too small to resolve cover a share of the pixel. `mean` is the density with the same mean transmittance.
     let opaque = 1.0 - exp(-depth);
     // Of a dense layer no light is left in 32 bits.
