@@ -1,5 +1,6 @@
 //! Parsers of sizes, angles and locations on the command line. Each error says what would be right.
 
+use crate::giant::DEEPEST_M;
 use crate::render::Post;
 
 /// Largest side of a picture, in pixels.
@@ -39,9 +40,9 @@ pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
     number(text, 1.0, 150.0)
 }
 
-/// Altitude in metres above the ground or the sea; negative: depth under the sea.
+/// Altitude in metres above the ground or the sea; negative: depth under the sea, or below the tops of a giant's clouds.
 pub(super) fn altitude(text: &str) -> Result<f64, String> {
-    match number(text, -1e5, 1e12) {
+    match number(text, -DEEPEST_M, 1e12) {
         Ok(altitude_m) if altitude_m.abs() < 0.1 => {
             Err(format!("{altitude_m} is on the surface; use 0.1 or more, or -0.1 or less for a depth under the sea"))
         }

@@ -3,7 +3,6 @@
 use super::camera::{CameraArgs, told};
 use super::{Failure, args, headless, load, maps, system};
 use crate::film::Sequence;
-use crate::giant::DEEPEST_M;
 use crate::lod::{Camera, opening};
 use crate::render::{Photo, Renderer};
 use crate::sphere::LatLon;
@@ -114,13 +113,12 @@ fn camera_of(args: &Args, terrain: &Terrain) -> Result<Camera, Failure> {
             let floor_m = below.water_level_m.map_or(ground_m, |water_m| water_m.max(ground_m));
             let depth_m = floor_m - ground_m;
             // Lowest altitude: 0.1 m above the ground or the sea bed. A giant has neither.
-            let deepest_m = if planet.giant.is_some() { -DEEPEST_M } else { 0.1 - depth_m };
-            if altitude_m < deepest_m {
+            let deepest_m = 0.1 - depth_m;
+            if altitude_m < deepest_m && planet.giant.is_none() {
                 // Rounded up, so that the offered altitude is allowed.
                 let least_m = (deepest_m * 10.0).ceil() / 10.0;
                 let range = match depth_m > 0.2 {
                     true => format!("the water is {depth_m:.1} m deep there; use {least_m:.1} or more"),
-                    false if planet.giant.is_some() => format!("it is dark there; use {least_m:.0} or more"),
                     false => "there is no water there; use 0.1 or more".to_owned(),
                 };
                 return Err(format!("--altitude: {altitude_m} m is under the ground: {range}").into());

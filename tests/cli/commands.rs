@@ -317,6 +317,21 @@ fn altitude_goes_below_the_sea() {
     assert!(status == 1 && err.contains("there is no water there; use 0.1 or more"), "{err}");
 }
 
+#[test]
+fn altitude_goes_into_a_giant_as_far_as_there_is_light() {
+    let folder = folder();
+    let (preset, picture) = (folder.path().join("giant.ron"), folder.path().join("deep.png"));
+    std::fs::write(&preset, "(version: 3, radius_km: 58000.0, giant: ())").unwrap();
+    let shot = |altitude: &str| {
+        let args = ["render", text_of(&preset), "-o", text_of(&picture), "--size", "32x20", "--quality", "low"];
+        run(&[&args[..], &["--altitude", altitude]].concat())
+    };
+    let (status, _, err) = shot("-300000");
+    assert!(status == 0 && picture.exists(), "{err}");
+    let (status, _, err) = shot("-300001");
+    assert!(status == 2 && err.contains("use -300000 to"), "{err}");
+}
+
 /// A film has a frame for each moment; frames that are there stay when it is resumed.
 #[test]
 fn a_film_is_numbered_frames() {

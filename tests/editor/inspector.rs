@@ -7,10 +7,10 @@ use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 use tellus::clouds::CloudField;
 use tellus::editor::command::Command;
-use tellus::editor::viewport::pointer::UnderPointer;
+use tellus::editor::viewport::pointer::KnownPlace;
 use tellus::terrain::Terrain;
 
-fn inspected(harness: &Editor) -> Option<UnderPointer> {
+fn inspected(harness: &Editor) -> Option<KnownPlace> {
     harness.state().viewport().inspector.place().cloned()
 }
 
@@ -59,7 +59,7 @@ fn a_held_place_stays_and_follows_edits() {
     assert!(harness.state().viewport().inspector.is_held());
     harness.hover_at(canvas(&harness).center() + egui::vec2(60.0, 40.0));
     harness.run_steps(20);
-    let close = |place: &UnderPointer| place.location.direction().distance(before.location.direction()) < 1e-12;
+    let close = |place: &KnownPlace| place.location.direction().distance(before.location.direction()) < 1e-12;
     assert!(inspected(&harness).is_some_and(|place| close(&place)));
     let index = before.layers_m.iter().position(|change_m| change_m.abs() > 1.0).unwrap();
     let mut changed = planet(&harness);

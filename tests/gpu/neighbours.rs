@@ -1,6 +1,6 @@
 //! Light between bodies, against geometry: shadows of rings and of moons, rings themselves, reflected light.
 
-use crate::support::{Gpu, frame_of, gpu, surface_of, view_of};
+use crate::support::{frame_of, gpu, rays, surface_of};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -27,22 +27,6 @@ fn scene<'a>(surface: &'a Surface, planet: &Arc<Planet>, camera: Camera, sun_dir
     frame_of(surface, planet, View { camera, size_px: SIZE_PX, quality: Quality::Medium }, sun_dir)
 }
 
-fn radiance(gpu: &mut Gpu, scene: &Scene<'_>) -> Vec<[f32; 3]> {
-    gpu.draw_only(scene, 1);
-    gpu.renderer.radiance().unwrap().1
-}
-
-/// Direction through the middle of each pixel, in the frame of the first body.
-fn rays(scene: &Scene<'_>) -> Vec<DVec3> {
-    let view = view_of(scene);
-    let [width, height] = SIZE_PX;
-    let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
-    (0..height)
-        .flat_map(|y| (0..width).map(move |x| (x, y)))
-        .map(|(x, y)| view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect()))
-        .collect()
-}
-
 /// Where a ray meets a ball around the origin.
 fn hit(eye: DVec3, dir: DVec3, radius_m: f64) -> Option<DVec3> {
     let b = eye.dot(dir);
@@ -58,9 +42,9 @@ fn rings_shade_their_planet_by_their_optical_depth() {
     let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() * 3.0, 0.0, -FRAC_PI_2, 0.6);
     let sun_dir = DVec3::new(0.8, 0.2, 0.45).normalize();
     let surface = surface_of(&bare, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
-    let with = radiance(&mut gpu, &scene(&surface, &planet, camera, sun_dir));
+    let with = gpu.radiance(&scene(&surface, &planet, camera, sun_dir));
     let without_scene = scene(&surface, &bare, camera, sun_dir);
-    let without = radiance(&mut gpu, &without_scene);
+    let without = gpu.radiance(&without_scene);
     let profile = Profile::new(&planet).unwrap();
     let pixel_rad = 2.0 * (0.5 * camera.fov_y_rad).tan() / f64::from(SIZE_PX[1]);
     let (mut count, mut shaded, mut sum) = (0, 0, 0.0);
@@ -115,7 +99,7 @@ fn rings_scatter_and_dim_as_the_reference_and_have_the_shadow_of_the_planet() {
         let camera = Camera::over(LatLon::from_degrees(lat, 0.0), planet.radius_m() * 6.0, 0.0, -FRAC_PI_2, 0.9);
         let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
         let scene = scene(&surface, &planet, camera, sun_dir);
-        let drawn = radiance(&mut gpu, &scene);
+        let drawn = gpu.radiance(&scene);
         let (mut count, mut dark) = (0, 0);
         for (dir, drawn) in rays(&scene).iter().zip(&drawn) {
             let eye = camera.position_planet_m;
@@ -159,11 +143,11 @@ fn a_moons_umbra_and_penumbra_have_the_size_of_geometry() {
     let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() + 4e6, 0.0, -FRAC_PI_2, 0.22);
     let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
     let plain = scene(&surface, &planet, camera, DVec3::X);
-    let without = radiance(&mut gpu, &plain);
+    let without = gpu.radiance(&plain);
     let mut eclipsed = plain.clone();
     let moon_surface = build_now(&moon, &plain.view_of(moon_m - camera.position_planet_m, DQuat::IDENTITY)).unwrap();
     eclipsed.bodies.push(Body::new(BodyId(7), &moon_surface, moon_m - camera.position_planet_m));
-    let with = radiance(&mut gpu, &eclipsed);
+    let with = gpu.radiance(&eclipsed);
     let sun_rad = planet.star.radius_deg.to_radians();
     let share_at = |at: DVec3| {
         let away = moon_m - at;
@@ -197,11 +181,11 @@ fn a_near_star_lights_each_body_from_where_it_is() {
     let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), 4e6, 0.0, -FRAC_PI_2, 0.7);
     let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
     let mut far = scene(&surface, &planet, camera, DVec3::X);
-    let at_infinity = radiance(&mut gpu, &far);
+    let at_infinity = gpu.radiance(&far);
     // As far behind the camera as the body is before it: a quarter of the light reaches the body.
     far.suns = vec![sun];
     far.suns[0].distance_m = 4e6;
-    let near = radiance(&mut gpu, &far);
+    let near = gpu.radiance(&far);
     let middle = (SIZE_PX[1] / 2 * SIZE_PX[0] + SIZE_PX[0] / 2) as usize;
     let ratio = near[middle][1] / at_infinity[middle][1];
     assert!((ratio - 0.25).abs() < 0.01, "{ratio}");

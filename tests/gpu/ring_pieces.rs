@@ -1,7 +1,7 @@
 //! Rings near the eye: their pieces dim and scatter light in the mean as the plane layer of the reference does, and go
 //! over into it with distance without a step.
 
-use crate::support::{Gpu, frame_of, gpu, surface_of, view_of};
+use crate::support::{frame_of, gpu, rays, surface_of};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -49,21 +49,6 @@ fn scene<'a>(surface: &'a Surface, planet: &Arc<Planet>, camera: Camera, sun_dir
     frame_of(surface, planet, View { camera, size_px: SIZE_PX, quality: Quality::Medium }, sun_dir)
 }
 
-fn radiance(gpu: &mut Gpu, scene: &Scene<'_>) -> Vec<[f32; 3]> {
-    gpu.draw_only(scene, 1);
-    gpu.renderer.radiance().unwrap().1
-}
-
-fn rays(scene: &Scene<'_>) -> Vec<DVec3> {
-    let view = view_of(scene);
-    let [width, height] = SIZE_PX;
-    let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
-    (0..height)
-        .flat_map(|y| (0..width).map(move |x| (x, y)))
-        .map(|(x, y)| view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect()))
-        .collect()
-}
-
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
     values.sum::<f64>() / count
@@ -91,7 +76,7 @@ fn pieces_let_as_much_light_through_as_the_layer() {
                 let bare_surface = surface_of(&bare, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
                 let mut without = scene(&bare_surface, &bare, camera, -ahead);
                 without.bodies.push(Body::new(BodyId(7), &behind, ahead * 3e7));
-                let (with_light, without_light) = (radiance(&mut gpu, &with), radiance(&mut gpu, &without));
+                let (with_light, without_light) = (gpu.radiance(&with), gpu.radiance(&without));
                 let share = |(a, b): (&[f32; 3], &[f32; 3])| f64::from(a[1] / b[1].max(1e-6));
                 found += mean(with_light.iter().zip(&without_light).map(share)) / f64::from(places);
                 // From within, a part of the layer is behind the eye; a ray that rises meets only what is above it.
@@ -126,7 +111,7 @@ fn pieces_are_as_bright_as_the_layer_at_any_distance() {
                 let camera = camera(&planet, *height_m, 0.3 * f64::from(place) / 10.0, 0.9);
                 let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
                 let scene = scene(&surface, &planet, camera, sun_dir);
-                let drawn = radiance(&mut gpu, &scene);
+                let drawn = gpu.radiance(&scene);
                 found += mean(drawn.iter().map(|light| f64::from(light[1]))) / f64::from(places);
                 let light = |dir: DVec3| {
                     let at = profile.at(planet.radius_m() * 1.8, 1.0);

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use tellus::editor::EditorApp;
 use tellus::editor::command::Command;
 use tellus::editor::files::dialogs::{FileDialogs, NoDialogs, ScriptedDialogs};
-use tellus::editor::viewport::pointer::UnderPointer;
+use tellus::editor::viewport::pointer::KnownPlace;
 use tellus::planet::Planet;
 use tellus::render::Renderer;
 
@@ -203,7 +203,7 @@ pub fn scroll_to(harness: &mut Editor, label: &str) {
 }
 
 /// Moves the pointer to the middle of the picture. Gives the ground there.
-pub fn point_at_planet(harness: &mut Editor) -> UnderPointer {
+pub fn point_at_planet(harness: &mut Editor) -> KnownPlace {
     harness.hover_at(canvas(harness).center());
     until(harness, "the ground is known", |harness| harness.state().viewport().under_pointer().is_some());
     harness.state().viewport().under_pointer().cloned().unwrap_or_else(|| panic!("the ground is known"))

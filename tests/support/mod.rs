@@ -170,6 +170,12 @@ impl Gpu {
         self.render(scene, &texture)
     }
 
+    /// Draws a scene and reads its radiance back, before the tone curve.
+    pub fn radiance(&mut self, scene: &Scene<'_>) -> Vec<[f32; 3]> {
+        self.draw_only(scene, 1);
+        self.renderer.radiance().unwrap().1
+    }
+
     /// Draws a scene and reads it back, RGBA.
     pub fn draw(&mut self, scene: &Scene<'_>) -> Vec<u8> {
         let texture = self.texture(scene.size_px, FORMAT);
@@ -221,19 +227,24 @@ pub fn lights(picture: &[u8]) -> Vec<u32> {
     picture.chunks(4).map(|p| u32::from(p[0]) + u32::from(p[1]) + u32::from(p[2])).collect()
 }
 
-/// For each pixel, whether its centre lies well inside the planet's disc.
-pub fn inside_disc(frame: &Scene<'_>, lowest_m: f64) -> Vec<bool> {
-    let [width, height] = frame.size_px;
-    let view = view_of(frame);
-    let eye = view.camera.position_planet_m;
-    let radius_m = frame.bodies[0].planet().radius_m() + lowest_m;
+/// Direction through the middle of each pixel, in the frame of the first body.
+pub fn rays(scene: &Scene<'_>) -> Vec<DVec3> {
+    let view = view_of(scene);
+    let [width, height] = scene.size_px;
+    let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
     (0..height)
         .flat_map(|y| (0..width).map(move |x| (x, y)))
-        .map(|(x, y)| {
-            let ndc = |i: u32, n: u32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
-            let dir = view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect());
-            let closest = eye - dir * eye.dot(dir);
-            eye.dot(dir) < 0.0 && closest.length() < radius_m * 0.999
-        })
+        .map(|(x, y)| view.camera.ray_dir_planet(ndc(x, width), -ndc(y, height), view.aspect()))
         .collect()
+}
+
+/// For each pixel, whether its centre lies well inside the planet's disc.
+pub fn inside_disc(frame: &Scene<'_>, lowest_m: f64) -> Vec<bool> {
+    let eye = view_of(frame).camera.position_planet_m;
+    let radius_m = frame.bodies[0].planet().radius_m() + lowest_m;
+    let is_inside = |dir: DVec3| {
+        let closest = eye - dir * eye.dot(dir);
+        eye.dot(dir) < 0.0 && closest.length() < radius_m * 0.999
+    };
+    rays(frame).into_iter().map(is_inside).collect()
 }

@@ -75,7 +75,7 @@ impl Library {
     /// taken.
     ///
     /// # Errors
-    /// Something cannot be written; the file keeps its name then.
+    /// The file or the tags cannot be written. Without the tags, the file has its new name.
     pub fn label(&self, path: &Path, name: &str, tags: &[String]) -> Result<PathBuf, String> {
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let (before, name) = (stem(path), file_stem(name));

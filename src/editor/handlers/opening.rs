@@ -185,7 +185,10 @@ pub fn recover(state: &mut State, keep: bool) {
         if !problems.is_empty() {
             state.report("Not all planets of the recovered system can be read", problems);
         }
-        let is_open = |body: &usize| matches!(open.preset(*body), Some(Preset::File(path)) if Some(&path) == planet_file.as_ref());
+        let is_open = |body: &usize| match open.preset(*body) {
+            Some(Preset::File(path)) => Some(path) == planet_file,
+            _ => false,
+        };
         let body = (0..open.system().bodies.len()).find(is_open);
         state.viewport.set_system(body.map(|body| (open.worlds.clone(), body)));
         state.shows.system = true;

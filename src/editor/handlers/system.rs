@@ -133,7 +133,7 @@ pub fn hand_over(state: &mut State, ctx: &egui::Context, body: usize) {
 fn arrive(state: &mut State, body: usize) {
     let Some(preset) = state.system.as_ref().and_then(|system| system.preset(body)) else { return };
     let number = state.document_number;
-    let handed = state.viewport.hand_out();
+    let neighbours = state.viewport.take_neighbours();
     match preset {
         Preset::Shipped(index) => opening::open_shipped(state, index),
         Preset::File(path) => opening::open_path(state, &path),
@@ -142,9 +142,9 @@ fn arrive(state: &mut State, body: usize) {
     let is_open = state.document_number != number;
     let Some(system) = &state.system else { return };
     let worlds = system.worlds.clone();
-    if let Some(handed) = handed {
-        let before = handed.body();
-        state.viewport.take_in(handed, if is_open { body } else { before });
+    if let Some(neighbours) = neighbours {
+        let planet = if is_open { body } else { neighbours.body() };
+        state.viewport.return_neighbours(neighbours, planet);
     }
     if is_open {
         state.viewport.set_system(Some((worlds, body)));

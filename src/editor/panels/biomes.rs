@@ -6,7 +6,7 @@ use super::{Draft, biome_edit, biome_palette, biome_table, owner_box, rest};
 use crate::editor::command::Command;
 use crate::editor::commands;
 use crate::editor::painter::tools::{Brush, Cell, Tool};
-use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::viewport::{Click, TabLink};
 use crate::editor::widgets::menu_button;
 use crate::editor::widgets::param_row::{BiomeName, Row, param_row};
@@ -60,7 +60,7 @@ impl BiomesState {
 
     /// A click on the planet: chooses the biome there, or paints the cell of the climate there. Gives the name of the
     /// edit.
-    pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
+    pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &KnownPlace) -> Option<String> {
         match click {
             Click::Pick => {
                 self.palette.selected = under.sample.biome;

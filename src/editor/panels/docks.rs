@@ -5,7 +5,7 @@ use super::layout::Dock;
 use super::{Draft, PANELS, PanelState};
 use crate::editor::command::Commands;
 use crate::editor::painter::survey::Survey;
-use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::widgets::curve_view::CurveView;
 use crate::editor::widgets::random_seed;
 use crate::editor::widgets::row_view::{LockView, RowView};
@@ -46,7 +46,7 @@ pub struct Bench<'a> {
     /// The numbers behind curves.
     pub curves: &'a CurveView<'a>,
     /// The ground under the pointer.
-    pub under_pointer: Option<&'a UnderPointer>,
+    pub under_pointer: Option<&'a KnownPlace>,
     /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
     /// The commands of the tabs, beside edits.

@@ -30,7 +30,7 @@ pub mod structure;
 
 use crate::editor::command::{Action, ClipAction, Commands, PanelAction, Wanted};
 use crate::editor::painter::survey::Survey;
-use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::viewport::{Click, TabLink};
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::row_view::{LockView, RowView};
@@ -135,7 +135,7 @@ pub struct Draft<'a> {
     /// Problems of the document's planet, the filter, and the parameter that was searched for.
     pub shown: RowView<'a>,
     /// The ground under the pointer.
-    pub under_pointer: Option<&'a UnderPointer>,
+    pub under_pointer: Option<&'a KnownPlace>,
     /// How the planet's land is spread over its biome table.
     pub survey: Option<&'a Survey>,
     /// Whether the top of the tab stays and only the rest of it scrolls.
@@ -220,7 +220,7 @@ impl PanelState {
     }
 
     /// A click on the planet. Gives the name of the edit.
-    pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &UnderPointer) -> Option<String> {
+    pub fn clicked(&mut self, planet: &mut Planet, click: Click, under: &KnownPlace) -> Option<String> {
         if click == Click::Plate {
             self.structure.clicked(planet, under);
             return None;

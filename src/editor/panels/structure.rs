@@ -4,7 +4,7 @@ use super::Draft;
 use super::parts::{TurnedOff, switch};
 use crate::editor::command::Command;
 use crate::editor::viewport::TabLink;
-use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::params_grid::{Grid, params_grid};
 use crate::planet::param::{ParamPath, Params, Segment};
@@ -47,7 +47,7 @@ impl StructureState {
     }
 
     /// A click on the planet: chooses the plate there.
-    pub fn clicked(&mut self, planet: &Planet, under: &UnderPointer) {
+    pub fn clicked(&mut self, planet: &Planet, under: &KnownPlace) {
         let layout = layout_of(planet);
         let picked = |entry: &PlateByHand| Picked { plate: entry.plate, laid_out: Some(entry.clone()), layout };
         self.picked = under.plate.as_ref().map(picked);

@@ -1,7 +1,7 @@
 //! Clicks on the planet that are for the open tab.
 
 use super::layer_view::LayerOverlay;
-use super::pointer::{Aim, Probe, UnderPointer, in_view};
+use super::pointer::{Aim, KnownPlace, Probe, in_view};
 use super::sculpt::SculptLink;
 use crate::editor::painter::is_chord;
 use crate::lod::View;
@@ -81,7 +81,7 @@ impl Clicks {
     }
 
     /// The click and the ground there, once, when the ground is known.
-    pub(super) fn take(&mut self) -> Option<(Click, UnderPointer)> {
+    pub(super) fn take(&mut self) -> Option<(Click, KnownPlace)> {
         let click = self.clicked?;
         let answer = self.probe.take()?;
         self.clicked = None;

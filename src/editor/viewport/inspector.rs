@@ -1,6 +1,6 @@
 //! The inspected place: the last one under the pointer, or one that is held while the planet and the time change.
 
-use super::pointer::{Aim, Probe, UnderPointer};
+use super::pointer::{Aim, KnownPlace, Probe};
 use super::ring::Ground;
 use crate::tiles::Surface;
 use eframe::egui::{Color32, Painter, Stroke, vec2};
@@ -17,7 +17,7 @@ pub struct Inspector {
     pub is_open: bool,
     held: Option<DVec3>,
     probe: Probe,
-    last: Option<UnderPointer>,
+    last: Option<KnownPlace>,
 }
 
 impl Inspector {
@@ -27,7 +27,7 @@ impl Inspector {
     }
 
     /// The place: the held one as it is now, else the last one that was under the pointer.
-    pub fn place(&self) -> Option<&UnderPointer> {
+    pub fn place(&self) -> Option<&KnownPlace> {
         self.last.as_ref()
     }
 
@@ -45,7 +45,7 @@ impl Inspector {
     }
 
     /// Takes the newest answers. `under`: the place under the pointer.
-    pub(super) fn update(&mut self, under: Option<&UnderPointer>, surface: Option<&Arc<Surface>>, time_secs: f64) {
+    pub(super) fn update(&mut self, under: Option<&KnownPlace>, surface: Option<&Arc<Surface>>, time_secs: f64) {
         if !self.is_open {
             (self.held, self.last) = (None, None);
             return;

@@ -65,7 +65,7 @@ use inspector::Inspector;
 use layer_view::LayerView;
 use neighbours::Neighbours;
 use picture::{Meters, Picture, Subject, quality_for};
-use pointer::{Aim, Probe, UnderPointer, in_view};
+use pointer::{Aim, KnownPlace, Probe, in_view};
 use sculpt::{Hand, Scene};
 use std::sync::Arc;
 use travel::Travel;
@@ -235,12 +235,12 @@ impl Viewport {
     }
 
     /// The ground under the pointer, if the pointer is over the globe.
-    pub fn under_pointer(&self) -> Option<&UnderPointer> {
+    pub fn under_pointer(&self) -> Option<&KnownPlace> {
         self.pointer.answer()
     }
 
     /// The newest click for the open tab and the ground there, once, when the ground is known.
-    pub fn take_click(&mut self) -> Option<(Click, UnderPointer)> {
+    pub fn take_click(&mut self) -> Option<(Click, KnownPlace)> {
         self.clicks.take()
     }
 

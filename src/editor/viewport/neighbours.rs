@@ -22,24 +22,11 @@ const LEAST_BYTES: usize = 8 << 20;
 const WIDE_RAD: f64 = 0.5;
 
 /// The neighbours of the planet.
-pub(super) struct Neighbours {
+pub struct Neighbours {
     worlds: Arc<Worlds>,
     body: usize,
     builders: HashMap<usize, Builder>,
     maps: Option<Arc<MapStore>>,
-}
-
-/// What a flight to another body hands over: the bodies with their tiles.
-pub struct Handed {
-    neighbours: Neighbours,
-    builder: Builder,
-}
-
-impl Handed {
-    /// The body that was the planet.
-    pub fn body(&self) -> usize {
-        self.neighbours.body
-    }
 }
 
 /// The neighbours in one picture.
@@ -95,32 +82,22 @@ impl Viewport {
 
 /// Flights to other bodies: the planet and a neighbour change places.
 impl Viewport {
-    /// Takes the bodies out, for a body that becomes the planet. None if the planet is alone.
-    pub fn hand_out(&mut self) -> Option<Handed> {
-        let neighbours = self.neighbours.take()?;
-        let (ctx, options) = (self.ctx.clone(), BuilderOptions::default().maps(self.maps.clone()));
-        let builder = Builder::with_options(options, move || ctx.request_repaint());
-        Some(Handed { neighbours, builder: std::mem::replace(&mut self.builder, builder) })
+    /// Takes the bodies around the planet out, so that they outlive a change of the document. None if it is alone.
+    pub fn take_neighbours(&mut self) -> Option<Neighbours> {
+        self.neighbours.take()
     }
 
-    /// Takes the bodies in again: `body` is the planet now, and shown at once if it was on screen as a neighbour.
-    pub fn take_in(&mut self, handed: Handed, body: usize) {
-        let Handed { mut neighbours, builder } = handed;
+    /// Takes the bodies in again. If another `body` is the planet now, it is shown at once if it was on screen.
+    pub fn return_neighbours(&mut self, mut neighbours: Neighbours, body: usize) {
         let before = std::mem::replace(&mut neighbours.body, body);
-        match neighbours.builders.remove(&body) {
-            Some(own) => {
-                if let Some(surface) = own.surface() {
-                    self.picture.show_at_once(surface);
-                }
-                neighbours.builders.insert(before, builder);
-                self.builder = own;
+        if before != body {
+            let own = neighbours.builders.remove(&body);
+            match own.as_ref().and_then(Builder::surface) {
+                Some(surface) => self.picture.show_at_once(surface),
+                None => self.picture.wait_for_surface(),
             }
-            // The planet stays what it was.
-            None if before == body => self.builder = builder,
-            None => {
-                self.picture.wait_for_surface();
-                neighbours.builders.insert(before, builder);
-            }
+            let own = own.unwrap_or_else(|| neighbours.builder(&self.ctx));
+            neighbours.builders.insert(before, std::mem::replace(&mut self.builder, own));
         }
         self.neighbours = Some(neighbours);
     }
@@ -136,8 +113,15 @@ impl Neighbours {
         (self.worlds, self.body) = (worlds, body);
     }
 
+    /// A builder for a body that had none.
+    fn builder(&self, ctx: &egui::Context) -> Builder {
+        let options = BuilderOptions::default().budget_bytes(LEAST_BYTES).maps(self.maps.clone());
+        let ctx = ctx.clone();
+        Builder::with_options(options, move || ctx.request_repaint())
+    }
+
     /// The number of the planet among the bodies.
-    pub(super) fn body(&self) -> usize {
+    pub fn body(&self) -> usize {
         self.body
     }
 
@@ -189,12 +173,10 @@ impl Neighbours {
         for number in drawn.iter().copied().filter(|number| *number != self.body) {
             let Some(planet) = worlds.planet(number).cloned() else { continue };
             let (position_m, scene_from_body) = around.place(number);
-            let ctx = ctx.clone();
-            let options = BuilderOptions::default().budget_bytes(LEAST_BYTES).maps(self.maps.clone());
-            let builder = self
-                .builders
-                .entry(number)
-                .or_insert_with(|| Builder::with_options(options, move || ctx.request_repaint()));
+            if !self.builders.contains_key(&number) {
+                self.builders.insert(number, self.builder(ctx));
+            }
+            let Some(builder) = self.builders.get(&number) else { continue };
             let apparent_rad = (planet.radius_m() / position_m.length()).min(1.0).asin();
             let share = (apparent_rad / WIDE_RAD).min(1.0);
             // Nearest first: the others share what is left.

@@ -12,9 +12,9 @@ use glam::DVec3;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// A place on the ground.
+/// What is known of a place on the ground.
 #[derive(Clone, Debug, PartialEq)]
-pub struct UnderPointer {
+pub struct KnownPlace {
     /// Latitude and longitude.
     pub location: LatLon,
     /// The evaluator's answer there.
@@ -66,13 +66,13 @@ impl Question {
 /// Asks for the ground at a place, and keeps the newest answer.
 pub struct Probe {
     questions: Sender<Question>,
-    answers: Receiver<(u64, Option<UnderPointer>)>,
+    answers: Receiver<(u64, Option<KnownPlace>)>,
     asked: Option<Question>,
     /// Number of the next question.
     next: u64,
     /// Answers to questions before this number are stale: the pointer has left since.
     first: u64,
-    answer: Option<UnderPointer>,
+    answer: Option<KnownPlace>,
 }
 
 impl Probe {
@@ -112,7 +112,7 @@ impl Probe {
     }
 
     /// The answer to the last question, once: the ground there, or an inner None where there is only sky.
-    pub fn take(&mut self) -> Option<Option<UnderPointer>> {
+    pub fn take(&mut self) -> Option<Option<KnownPlace>> {
         let first = self.first;
         let newest = self.answers.try_iter().filter(|(number, _)| *number >= first).last().map(|(_, answer)| answer);
         // The answer may have come already in `ask`.
@@ -125,7 +125,7 @@ impl Probe {
     }
 
     /// The newest answer: the ground, if the pointer is over the globe.
-    pub fn answer(&self) -> Option<&UnderPointer> {
+    pub fn answer(&self) -> Option<&KnownPlace> {
         self.answer.as_ref()
     }
 }
@@ -149,7 +149,7 @@ impl Clouds {
     }
 }
 
-fn look(question: &Question, clouds: &mut Clouds) -> Option<UnderPointer> {
+fn look(question: &Question, clouds: &mut Clouds) -> Option<KnownPlace> {
     let terrain = &question.surface.terrain;
     let dir = match &question.aim {
         Aim::Place(dir) => *dir,
@@ -162,7 +162,7 @@ fn look(question: &Question, clouds: &mut Clouds) -> Option<UnderPointer> {
     };
     let sample = terrain.sample(dir);
     let palette = &terrain.planet().biomes.palette;
-    Some(UnderPointer {
+    Some(KnownPlace {
         location: LatLon::from_direction(dir),
         biome: palette.get(sample.biome).map_or_else(String::new, |biome| biome.name.clone()),
         layers_m: terrain.layers_m(dir),

@@ -119,8 +119,8 @@ impl Travel {
         let bodies = self.voyage.bodies();
         let relative = neighbours.relative(bodies[0], bodies[1], time_secs);
         let others = neighbours.obstacles(bodies, time_secs);
-        self.is_due |= self.voyage.is_nearer_to_goal(&relative, &others);
         let pose = self.voyage.pose(&relative, &others);
+        self.is_due |= self.voyage.is_nearer_to_goal(&pose, &relative);
         if neighbours.body() == bodies[0] { pose } else { relative.from_second(&pose) }
     }
 }

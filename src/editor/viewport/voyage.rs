@@ -110,10 +110,12 @@ impl Voyage {
 
     /// Whether the eye is nearer to the second body than to the first, in radii: then the second one is the world that
     /// is drawn, and the first one is in its sky.
-    pub fn is_nearer_to_goal(&self, relative: &Relative, others: &[Obstacle]) -> bool {
-        let eye_m = self.pose(relative, others).position_planet_m;
-        let [from, to] = [(eye_m, &self.from), (eye_m - relative.center_m, &self.to)];
-        self.is_over() || to.0.length() / to.1.ground_m < from.0.length() / from.1.ground_m
+    ///
+    /// `pose`: that of now, in the frame of the first body.
+    pub fn is_nearer_to_goal(&self, pose: &Pose, relative: &Relative) -> bool {
+        let eye_m = pose.position_planet_m;
+        let radii_away = |center_m: DVec3, end: &End| eye_m.distance(center_m) / end.ground_m;
+        self.is_over() || radii_away(relative.center_m, &self.to) < radii_away(DVec3::ZERO, &self.from)
     }
 
     /// The pose now, in the frame of the first body.
@@ -316,11 +318,12 @@ mod tests {
             assert!((SHORTEST_SECS..=LONGEST_SECS).contains(&voyage.duration_secs), "{}", voyage.duration_secs);
             assert!(voyage.table.len() < MOST_STEPS);
             voyage.skip();
-            let arrived = relative.from_second(&voyage.pose(&relative, &[]));
+            let seen = voyage.pose(&relative, &[]);
+            let arrived = relative.from_second(&seen);
             let off_m = arrived.position_planet_m.distance(end.position_planet_m);
             assert!(off_m < 1e-15 * relative.center_m.length() * 10.0 + 1e-6, "{off_m}");
             assert!(arrived.planet_from_view.angle_between(end.planet_from_view) < 1e-7);
-            assert!(voyage.is_over() && voyage.is_nearer_to_goal(&relative, &[]));
+            assert!(voyage.is_over() && voyage.is_nearer_to_goal(&seen, &relative));
         }
     }
 
@@ -332,7 +335,7 @@ mod tests {
         for (mut voyage, relative) in voyages() {
             let mut before = voyage.pose(&relative, &[]);
             let mut handed_over = 0;
-            let mut was_nearer = voyage.is_nearer_to_goal(&relative, &[]);
+            let mut was_nearer = voyage.is_nearer_to_goal(&before, &relative);
             while !voyage.is_over() {
                 voyage.advance(1.0 / 60.0);
                 let now = voyage.pose(&relative, &[]);
@@ -344,7 +347,7 @@ mod tests {
                 assert!(moved < 0.34, "{moved} at {} of {}", voyage.elapsed_secs, voyage.duration_secs);
                 let turned_rad = now.planet_from_view.angle_between(before.planet_from_view);
                 assert!(turned_rad < 0.1 * picture_rad, "{turned_rad} at {}", voyage.elapsed_secs);
-                let is_nearer = voyage.is_nearer_to_goal(&relative, &[]);
+                let is_nearer = voyage.is_nearer_to_goal(&now, &relative);
                 handed_over += usize::from(is_nearer != was_nearer);
                 (before, was_nearer) = (now, is_nearer);
             }

@@ -4,7 +4,7 @@ use super::status::location_text;
 use crate::editor::command::{Action, Command, Commands, Window};
 use crate::editor::commands;
 use crate::editor::state::State;
-use crate::editor::viewport::pointer::UnderPointer;
+use crate::editor::viewport::pointer::KnownPlace;
 use crate::editor::widgets::color32;
 use crate::editor::widgets::number::{format_digits, length_text};
 use crate::planet::Planet;
@@ -50,8 +50,10 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
         egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
             let planet = state.document.valid_planet();
             egui::Grid::new("place").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| facts(ui, place, planet));
-            ui.separator();
-            height_parts(ui, place, planet);
+            if planet.giant.is_none() {
+                ui.separator();
+                height_parts(ui, place, planet);
+            }
         });
     });
     if open != state.shows.inspector {
@@ -59,7 +61,7 @@ pub fn show(ctx: &egui::Context, state: &State, commands: &mut Commands) {
     }
 }
 
-fn head(ui: &mut egui::Ui, place: &UnderPointer, is_held: bool, keys: &str, commands: &mut Commands) {
+fn head(ui: &mut egui::Ui, place: &KnownPlace, is_held: bool, keys: &str, commands: &mut Commands) {
     ui.horizontal(|ui| {
         ui.strong(location_text(place.location));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -76,7 +78,7 @@ fn head(ui: &mut egui::Ui, place: &UnderPointer, is_held: bool, keys: &str, comm
     });
 }
 
-fn facts(ui: &mut egui::Ui, place: &UnderPointer, planet: &Planet) {
+fn facts(ui: &mut egui::Ui, place: &KnownPlace, planet: &Planet) {
     let sample = &place.sample;
     let mut row = |name: &str, value: String| {
         ui.weak(name);
@@ -131,7 +133,7 @@ fn facts(ui: &mut egui::Ui, place: &UnderPointer, planet: &Planet) {
     ui.end_row();
 }
 
-fn clouds(place: &UnderPointer, row: &mut impl FnMut(&str, String)) {
+fn clouds(place: &KnownPlace, row: &mut impl FnMut(&str, String)) {
     let Some(cover) = place.cover else { return };
     let kinds = [("low", cover.low), ("middle", cover.middle), ("veil", cover.veil), ("fog", cover.fog)];
     let shares =
@@ -141,7 +143,7 @@ fn clouds(place: &UnderPointer, row: &mut impl FnMut(&str, String)) {
 }
 
 /// What each layer adds, and the rest, as numbers and bars from a common zero.
-fn height_parts(ui: &mut egui::Ui, place: &UnderPointer, planet: &Planet) {
+fn height_parts(ui: &mut egui::Ui, place: &KnownPlace, planet: &Planet) {
     let named = planet.layers.iter().zip(&place.layers_m).filter(|(layer, _)| layer.enabled);
     let mut parts: Vec<(&str, f64)> = named.map(|(layer, change_m)| (layer.name.as_str(), *change_m)).collect();
     let rest_m = place.sample.height_m - parts.iter().map(|(_, change_m)| change_m).sum::<f64>();

@@ -29,12 +29,16 @@ pub(super) fn of(out: &mut Body, planet: &Planet) {
 
 /// Sets the pieces of the rings around an eye. `pixel_rad`: angle of a pixel.
 pub(super) fn from_eye(out: &mut Body, planet: &Planet, eye_m: DVec3, quality: Quality, pixel_rad: f32) {
-    let (Some(pieces), Some(profile)) = (Pieces::new(planet), Profile::new(planet)) else { return };
+    let Some(pieces) = Pieces::new(planet) else { return };
     let pixel_rad = f64::from(pixel_rad);
-    let (reach_m, away_m) = (pieces.reach_m(0, pixel_rad), eye_m.truncate().length());
-    let is_near = eye_m.z.abs() < 0.5 * pieces.thickness_m + pieces.classes[0].radius_m + reach_m
-        && (profile.inner_m - reach_m..profile.outer_m + reach_m).contains(&away_m);
-    if !is_near || pieces.share <= 0.0 {
+    let reach_m = pieces.reach_m(0, pixel_rad);
+    let half_m = 0.5 * pieces.thickness_m + pieces.classes[0].radius_m;
+    if eye_m.z.abs() >= half_m + reach_m || pieces.share <= 0.0 {
+        return;
+    }
+    let Some(profile) = Profile::new(planet) else { return };
+    let away_m = eye_m.truncate().length();
+    if !(profile.inner_m - reach_m..profile.outer_m + reach_m).contains(&away_m) {
         return;
     }
     (out.ring_class_count, out.ring_facets) = (SIZE_CLASSES as u32, 4);
