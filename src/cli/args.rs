@@ -40,7 +40,7 @@ pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
     number(text, 1.0, 150.0)
 }
 
-/// Altitude in metres above the ground or the sea; negative: depth under the sea, or below the tops of a giant's clouds.
+/// Altitude in metres above the ground or the sea; negative: depth under the sea, or below a giant's cloud tops.
 pub(super) fn altitude(text: &str) -> Result<f64, String> {
     match number(text, -DEEPEST_M, 1e12) {
         Ok(altitude_m) if altitude_m.abs() < 0.1 => {

@@ -157,3 +157,16 @@ fn an_unsaved_system_is_recovered_with_the_file_that_it_belongs_to() {
     until(&mut again, "one copy less", |_| !copies[1].exists());
     assert!(copies[0].exists(), "the planet is not saved yet");
 }
+
+/// Files of which one cannot be read are neither offered nor touched.
+#[test]
+fn work_that_cannot_be_read_stays_where_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("recovery-0.ron"), "(version: 3, radius_km: \"torn").unwrap();
+    let system = "(version: 1, name: \"Small\", bodies: [(name: \"S\", mass_earths: 3e5, light: ())])";
+    std::fs::write(at("recovery-0.system.ron"), system).unwrap();
+    let harness = open_file(None, NoDialogs, folder.path());
+    assert!(harness.query_by_label("Recover unsaved work?").is_none());
+    assert!(at("recovery-0.ron").exists() && at("recovery-0.system.ron").exists());
+}

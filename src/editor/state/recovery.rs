@@ -79,11 +79,12 @@ impl Recovery {
                 continue;
             }
             if is_left {
-                // A file that cannot be read stays: the user may still repair it.
+                // Files of which one cannot be read stay: the user may still repair it.
                 let [planet_file, system_file] = read_files(&file);
                 let planet = Planet::open(&file).ok().map(|planet| (planet, planet_file));
                 let system = read_system(&system_of(&file)).map(|system| (system, system_file));
-                if planet.is_some() || system.is_some() {
+                let is_whole = (file.exists(), system_of(&file).exists()) == (planet.is_some(), system.is_some());
+                if is_whole {
                     orphans.push(Orphan { file, planet, system, _lock: Arc::new(lock) });
                 }
             } else {
