@@ -201,6 +201,11 @@ fn writer(
     let (belong, system): (String, _) = (lines.collect(), system.map(OpenSystem::with_whole_paths));
     let file = file.to_owned();
     move || {
+        // Work beside the wrong file name would be saved over another planet: better beside none.
+        let is_same = fs::read_to_string(files_of(&file)).is_ok_and(|held| held == belong);
+        if !is_same {
+            remove(&files_of(&file));
+        }
         match planet {
             Some(planet) => planet.save(&file).map_err(|error| error.to_string())?,
             None => remove(&file),
@@ -208,6 +213,9 @@ fn writer(
         match system {
             Some(system) => system.save(system_of(&file)).map_err(|error| error.to_string())?,
             None => remove(&system_of(&file)),
+        }
+        if is_same {
+            return Ok(());
         }
         write_atomically(&files_of(&file), belong.as_bytes()).map_err(|error| error.to_string())
     }
