@@ -9,11 +9,18 @@
 @group(2) @binding(2) var cloud_light: texture_2d<f32>;
 @group(2) @binding(3) var cloud_distance: texture_2d<f32>;
 
-// Radiance of the corona over that of the disc, at a distance from its centre in radii (Baumbach, Strahlung,
-// Ergiebigkeit und Elektronendichte der Sonnenkorona, 1937). It shows when another body covers the disc.
+// The corona is drawn to this distance, in radii of the star, while the eye sees a smaller share of the disc than this.
+const CORONA_RADII: f32 = 12.0;
+const GLARE_SHARE: f32 = 0.01;
+// Its radiance as a display shows it: photographs of many exposures press four decades of it into two. By eye.
+const CORONA_GAIN: f32 = 2.6;
+const CORONA_GAMMA: f32 = 0.45;
+
+// Radiance of the corona over that at the star's limb, a millionth of the disc's, at a distance from the disc's centre
+// in radii (Baumbach, Strahlung, Ergiebigkeit und Elektronendichte der Sonnenkorona, 1937).
 fn corona(radii: f32) -> f32 {
     let x = 1.0 / radii;
-    return 1e-6 * (2.565 * pow(x, 17.0) + 1.425 * pow(x, 7.0) + 0.0532 * pow(x, 2.5));
+    return (2.565 * pow(x, 17.0) + 1.425 * pow(x, 7.0) + 0.0532 * pow(x, 2.5)) / 4.0432;
 }
 
 // Factor on the corona's radiance: streamers over the star's equator, and thin plumes over its poles, as when the Sun
@@ -35,28 +42,54 @@ fn streamers(aside: vec3f, radii: f32, number: u32) -> f32 {
     return mix(1.0, 0.16 + 1.75 * broad, 0.35 + 0.65 * out) * (1.0 + fine);
 }
 
-// Radiance of a sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun), and of its
-// corona. A narrower disc than a pixel has less light.
-fn sun_disc(dir: vec3f, number: u32) -> vec3f {
+// Share of the active sun's disc that the eye sees beside the bodies.
+fn seen_share() -> f32 {
+    let sun = active_sun.seen_dir;
+    let away_km = body.radius_km + body.eye_altitude_km;
+    var share = luminance(sun_share(body.eye_up * away_km));
+    if dot(sun, body.eye_up) < 0.0 {
+        let apart = angle_of_sine(length(cross(sun, body.eye_up)));
+        share *= visible_share(active_sun.seen_radius_rad, angle_of_sine(body.radius_km / away_km), apart);
+    }
+    return share;
+}
+
+struct SeenSun {
+    // Radiance
+    disc: vec3f,
+    // In the unit of stars
+    corona: vec3f,
+}
+
+// The active sun's disc, darker and redder towards its limb (linear limb darkening fitted to the Sun). A narrower disc
+// than a pixel has less light. Once a body covers the disc its corona shows, compressed to the range that
+// a display has; before, the corona is lost in the glare. `number`: the sun's.
+fn seen_sun(dir: vec3f, number: u32) -> SeenSun {
+    var seen = SeenSun(vec3f(0.0), vec3f(0.0));
     let sun = active_sun.seen_dir;
     let off = length(cross(dir, sun));
     let soft = frame.pixel_rad * 0.7;
     let own = sin(active_sun.seen_radius_rad);
     let radius = max(own, soft);
-    if dot(dir, sun) < 0.0 || off > 12.0 * radius + soft { return vec3f(0.0); }
-    let full = active_sun.irradiance * active_sun.disc_gain * (own * own / (radius * radius));
-    if off > radius + soft {
-        let radii = off / radius;
-        var glow = corona(radii) * (1.0 - smoothstep(6.0, 12.0, radii));
-        // Without a body before the disc the corona is lost in its glare.
-        if !ALONE { glow *= streamers((dir - sun * dot(dir, sun)) / radius, radii, number); }
-        return full * glow;
+    let radii = max(off / radius, 1.0);
+    if dot(dir, sun) < 0.0 || radii > CORONA_RADII || active_sun.disc_gain <= 0.0 { return seen; }
+    let share = seen_share();
+    if share < GLARE_SHARE {
+        let end = 1.0 - smoothstep(0.2, 1.0, radii / CORONA_RADII);
+        let rays = streamers((dir - sun * dot(dir, sun)) / radius, radii, number);
+        let color = active_sun.irradiance / max(luminance(active_sun.irradiance), 1e-9);
+        let shown = CORONA_GAIN * pow(corona(radii) * rays, CORONA_GAMMA) * end;
+        seen.corona = color * (shown * (1.0 - share / GLARE_SHARE));
     }
+    // The soft edge of a covered disc does not reach beyond the body before it.
+    if off > radius + soft || share <= 0.0 { return seen; }
+    let full = active_sun.irradiance * active_sun.disc_gain * (own * own / (radius * radius));
     let edge = 1.0 - smoothstep(radius - soft, radius + soft, off);
     let x = saturate1(off / radius);
     let depth = sqrt(1.0 - x * x);
     let limb = 1.0 - vec3f(0.50, 0.58, 0.68) * (1.0 - depth);
-    return full * max(limb * edge, vec3f(4e-6));
+    seen.disc = full * limb * edge;
+    return seen;
 }
 
 // Bodies too small for a surface: points of light, drawn as the stars are.
@@ -226,11 +259,14 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     let ground = far < NOTHING_KM;
     var scene = textureLoad(scene_color, pixel, 0).rgb;
     let starry = !ground && body.is_backmost != 0u;
+    var coronas = vec3f(0.0);
     if starry {
         scene = NIGHT_BACKGROUND * NIGHT_SKY;
         for (var i = 0u; i < body.sun_count; i++) {
             use_sun(i);
-            scene += sun_disc(dir, i);
+            let sun = seen_sun(dir, i);
+            scene += sun.disc;
+            coronas += sun.corona;
         }
     }
     var clouds = vec4f(0.0, 0.0, 0.0, 1.0);
@@ -263,14 +299,15 @@ fn fragment(@builtin(position) position: vec4f) -> Output {
     var weight = 1.0;
     if !ground {
         // Bright sky hides the stars, at dusk as well, when the exposure is long.
-        let dimming = 1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb);
-        let star_visibility = 1.0 / dimming;
+        let star_visibility = 1.0 / (1.0 + 1e6 * seen.air_only + 40.0 * luminance(clouds.rgb));
         // Stars are as wide as a pixel of the display, not of this target, so that their brightness does not depend on
         // the render scale.
         let star_width_rad = frame.pixel_rad * max(frame.render_scale, 1.0);
         let spread = select(1.0, 0.5, frame.render_scale < 1.0);
         star_light = star_visibility * seen.transmittance;
-        if starry { star_light *= (stars(dir, star_width_rad) + points(dir, star_width_rad)) * spread; }
+        if starry {
+            star_light *= coronas + (stars(dir, star_width_rad) + points(dir, star_width_rad)) * spread;
+        }
         let inside = 1.0 - smoothstep(0.1, 0.5, body.eye_altitude_km / max(body.air_height_km, 1e-3));
         let sky = seen.air_only + luminance(clouds.rgb) + luminance(NIGHT_SKY);
         weight = 0.3 * inside * saturate1(sky / (sky + luminance(scene)));

@@ -328,9 +328,9 @@ impl EditorApp {
         if let Some(index) = state.viewport.take_touched_edit() {
             self.panels.sculpt.select(index);
         }
-        if let Some(body) = state.viewport.take_hand_over() {
+        if let Some(goal) = state.viewport.take_hand_over() {
             let ctx = ui.ctx().clone();
-            handlers::system::hand_over(state, &ctx, body);
+            handlers::system::hand_over(state, &ctx, goal);
             ctx.request_repaint();
         }
         if let Some((click, under)) = state.viewport.take_click() {

@@ -9,6 +9,7 @@ use super::state::shooting::{PhotoSettings, Subject};
 use super::state::templates::Template;
 use super::state::variations::Wish;
 use super::viewport::camera::Mode;
+use super::viewport::travel::Arrival;
 use crate::lod::Quality;
 use crate::planet::param::ParamPath;
 use crate::render::{DebugView, Tone};
@@ -321,8 +322,8 @@ pub enum SystemAction {
     StopTrial,
     /// Open the shipped system of this index.
     Open(usize),
-    /// Go to the body of this number: its planet becomes the document.
-    Visit(usize),
+    /// Go to the body of this number, or down to its ground: its planet becomes the document.
+    Visit(usize, Arrival),
     /// Draw the planet alone.
     Leave,
 }

@@ -7,7 +7,10 @@ use egui_kittest::kittest::Queryable;
 use tellus::editor::command::{Action, ClipAction, Command, NewBody, SystemAction};
 use tellus::editor::files::dialogs::ScriptedDialogs;
 use tellus::editor::state::system::trial::TrialRun;
+use tellus::editor::viewport::camera::Mode;
+use tellus::editor::viewport::travel::Arrival;
 use tellus::planet::shipped;
+use tellus::terrain::Terrain;
 
 fn hearth() -> Editor {
     let mut harness = app::open([1024.0, 700.0], Vec::new());
@@ -25,7 +28,7 @@ fn a_system_opens_its_first_planet_and_goes_from_body_to_body() {
     // Stars have no surface to go to.
     let go = |harness: &Editor| harness.query_all_by_label("Go").count();
     assert_eq!(go(&harness), 7);
-    harness.state_mut().push(Action::System(SystemAction::Visit(3)));
+    harness.state_mut().push(Action::System(SystemAction::Visit(3, Arrival::Orbit)));
     harness.run_steps(6);
     assert_eq!(planet(&harness).name, "Pallor");
     click(&mut harness, "+1");
@@ -34,7 +37,7 @@ fn a_system_opens_its_first_planet_and_goes_from_body_to_body() {
     // Unsaved work is asked for before another body.
     harness.state_mut().send(Command::RandomPlanet);
     harness.run_steps(6);
-    harness.state_mut().push(Action::System(SystemAction::Visit(2)));
+    harness.state_mut().push(Action::System(SystemAction::Visit(2, Arrival::Orbit)));
     harness.run_steps(6);
     assert!(harness.query_by_label_contains("Discard").is_some());
 }
@@ -287,7 +290,7 @@ fn a_flight_to_a_moon_has_no_cut() {
     let mut harness = app::open_file_with_picture([640.0, 480.0], &pair(folder.path()), 5.0);
     app::wait_for_picture(&mut harness);
     assert_eq!(planet(&harness).name, "home.ron");
-    harness.state_mut().push(Action::System(SystemAction::Visit(2)));
+    harness.state_mut().push(Action::System(SystemAction::Visit(2, Arrival::Orbit)));
     until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
     let (mut before, mut names, mut frames) = (away(&harness), vec!["home.ron".to_owned()], 0);
     while harness.state().viewport().is_travelling() {
@@ -315,19 +318,57 @@ fn a_flight_to_a_moon_has_no_cut() {
     assert!((away(&harness)[1] - before[1]).abs() < 0.02, "the camera in use takes over where the flight ends");
 }
 
+/// From standing on the planet to standing on its moon: every frame has ground, and none jumps.
+#[test]
+fn a_flight_from_ground_to_ground_has_no_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = app::open_file_with_picture([640.0, 480.0], &pair(folder.path()), 5.0);
+    app::wait_for_picture(&mut harness);
+    // The body is the open planet: it stays open.
+    harness.state_mut().push(Action::System(SystemAction::Visit(1, Arrival::Ground)));
+    let stands = |harness: &Editor| {
+        let viewport = harness.state().viewport();
+        !viewport.is_travelling() && viewport.cameras().mode() == Mode::Walk && !viewport.cameras().is_flying_to()
+    };
+    until(&mut harness, "standing on the planet", stands);
+    assert_eq!(planet(&harness).name, "home.ron");
+    harness.state_mut().push(Action::System(SystemAction::Visit(2, Arrival::Ground)));
+    until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
+    // Heights over the reference spheres, of a stone's throw at least.
+    let heights = |harness: &Editor| away(harness).map(|radii| (radii - 1.0).max(1e-3));
+    let (mut before, mut frames) = (heights(&harness), 0);
+    while !stands(&harness) {
+        harness.step();
+        std::thread::sleep(std::time::Duration::from_millis(30));
+        let now = heights(&harness);
+        for (now, before) in now.into_iter().zip(before) {
+            assert!((0.1..10.0).contains(&(now / before)), "{before} {now} in frame {frames}");
+        }
+        assert!(harness.state().viewport().stats().tiles_drawn > 0, "frame {frames}");
+        (before, frames) = (now, frames + 1);
+        assert!(frames < 300);
+    }
+    assert_eq!(planet(&harness).name, "moon.ron");
+    let eye_m = harness.state().viewport().pose(&planet(&harness)).position_planet_m;
+    let terrain = Terrain::try_new(planet(&harness).into()).unwrap();
+    let sea_m = terrain.planet().sea_level_m().unwrap_or(f64::MIN);
+    let over_m = eye_m.length() - terrain.planet().radius_m() - terrain.height_m(eye_m).max(sea_m);
+    assert!((over_m - 1.7).abs() < 0.3, "{over_m}");
+}
+
 #[test]
 fn a_key_ends_a_flight_at_its_goal() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = app::open_file_with_picture([640.0, 480.0], &pair(folder.path()), 30.0);
     app::wait_for_picture(&mut harness);
-    harness.state_mut().push(Action::System(SystemAction::Visit(2)));
+    harness.state_mut().push(Action::System(SystemAction::Visit(2, Arrival::Orbit)));
     until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
     harness.key_press(egui::Key::Space);
     harness.run_steps(4);
     assert!(!harness.state().viewport().is_travelling());
     assert_eq!(planet(&harness).name, "moon.ron");
     // And back, while the planet is changed: its changes are asked for before they are lost.
-    harness.state_mut().push(Action::System(SystemAction::Visit(1)));
+    harness.state_mut().push(Action::System(SystemAction::Visit(1, Arrival::Orbit)));
     until(&mut harness, "the flight", |harness| harness.state().viewport().is_travelling());
     let mut changed = planet(&harness);
     changed.seed += 1;

@@ -73,7 +73,7 @@ pub fn pursue_past_planet(state: &mut State, ctx: &egui::Context, goal: Goal) {
     let ends_system = match &goal {
         Goal::OpenSystem(_) | Goal::BeginSystem | Goal::LeaveSystem | Goal::Quit => true,
         Goal::OpenPath(path) => system::is_system(path),
-        Goal::Begin(_) | Goal::Open | Goal::OpenShipped(_) | Goal::Visit(_) => false,
+        Goal::Begin(_) | Goal::Open | Goal::OpenShipped(_) | Goal::Visit(..) => false,
     };
     if ends_system && state.system_is_dirty() {
         state.questions.unsaved = Some((Work::System, goal));
@@ -96,7 +96,7 @@ pub fn reach(state: &mut State, ctx: &egui::Context, goal: Goal) {
         Goal::OpenPath(path) if system::is_system(&path) => system::open_file(state, ctx, &path),
         Goal::OpenPath(path) => open_path(state, &path),
         Goal::OpenShipped(index) => open_shipped(state, index),
-        Goal::Visit(body) => system::visit(state, body),
+        Goal::Visit(body, arrival) => system::visit(state, body, arrival),
         Goal::OpenSystem(index) => system::open_shipped(state, ctx, index),
         Goal::BeginSystem => system::begin(state),
         Goal::LeaveSystem => system::leave(state),

@@ -9,6 +9,7 @@ use crate::editor::state::questions::{Asking, Goal, Replace};
 use crate::editor::state::system::presets::name_of_shipped;
 use crate::editor::state::system::trial::TrialRun;
 use crate::editor::state::system::{News, OpenSystem, Origin, Preset};
+use crate::editor::viewport::travel::Arrival;
 use crate::editor::widgets::random_seed;
 use crate::planet::file::read_text;
 use crate::planet::picture::folder_of;
@@ -23,7 +24,9 @@ pub fn act(state: &mut State, ctx: &egui::Context, action: SystemAction) {
     match action {
         SystemAction::Open(index) => opening::pursue(state, ctx, Goal::OpenSystem(index)),
         SystemAction::Begin => opening::pursue(state, ctx, Goal::BeginSystem),
-        SystemAction::Visit(body) => opening::pursue(state, ctx, Goal::Visit(body)),
+        // Its planet is open.
+        SystemAction::Visit(body, arrival) if state.viewport.body() == Some(body) => visit(state, body, arrival),
+        SystemAction::Visit(body, arrival) => opening::pursue(state, ctx, Goal::Visit(body, arrival)),
         SystemAction::Leave => opening::pursue(state, ctx, Goal::LeaveSystem),
         SystemAction::Edit(system, label) => state.change_system(|open| open.edit(*system, &label)),
         SystemAction::Add(parent, NewBody::Star) => state.change_system(|open| open.add_star(parent)),
@@ -81,7 +84,7 @@ fn open(state: &mut State, ctx: &egui::Context, opened: Result<OpenSystem, Strin
             state.viewport.set_system(None);
             state.system = Some(system);
             if let Some(first) = first {
-                opening::pursue(state, ctx, Goal::Visit(first));
+                opening::pursue(state, ctx, Goal::Visit(first, Arrival::Orbit));
             }
         }
         Err(why) => state.report("The system could not be opened", why.lines().map(str::to_owned).collect()),
@@ -108,23 +111,29 @@ pub fn leave(state: &mut State) {
 }
 
 /// Flies to a body, or opens it at once where there is no flight to see.
-pub fn visit(state: &mut State, body: usize) {
-    if !state.viewport.fly_to_body(body) {
+pub fn visit(state: &mut State, body: usize, arrival: Arrival) {
+    if state.viewport.fly_to_body(body, arrival) {
+        return;
+    }
+    if state.viewport.body() != Some(body) {
         arrive(state, body);
+    }
+    if arrival == Arrival::Ground && state.viewport.body() == Some(body) {
+        state.viewport.go_down();
     }
 }
 
 /// The flight to a body has come near it: it becomes the planet, and the planet becomes one of its neighbours.
-pub fn hand_over(state: &mut State, ctx: &egui::Context, body: usize) {
+pub fn hand_over(state: &mut State, ctx: &egui::Context, (body, arrival): (usize, Arrival)) {
     if state.loses_work() {
         // The planet was changed during the flight.
         state.viewport.cancel_travel();
-        return opening::pursue(state, ctx, Goal::Visit(body));
+        return opening::pursue(state, ctx, Goal::Visit(body, arrival));
     }
     arrive(state, body);
     let radius_m = state.document.valid_planet().radius_m();
     match state.viewport.body() == Some(body) {
-        true => state.viewport.land(radius_m),
+        true => state.viewport.take_over_goal(radius_m),
         false => state.viewport.cancel_travel(),
     }
 }

@@ -5,6 +5,7 @@ use super::shooting::Subject;
 use super::templates::Template;
 use crate::editor::files::dialogs::{DialogRequest, FileDialogs, Wake};
 use crate::editor::files::disk::TheirFile;
+use crate::editor::viewport::travel::Arrival;
 use crate::planet::param::ParamPath;
 use eframe::egui;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ pub enum Goal {
     /// The shipped preset of this index.
     OpenShipped(usize),
     /// The planet of this body of the open system.
-    Visit(usize),
+    Visit(usize, Arrival),
     /// The shipped system of this index.
     OpenSystem(usize),
     /// A new system around the planet.

@@ -8,7 +8,8 @@
 //!   upload
 //! - [`compare`]: another planet beside the one that is edited
 //! - [`layer_view`]: layers alone, and an overlay of what one does
-//! - `neighbours`: the other bodies of a system around the planet; [`voyage`], [`travel`]: flights from body to body
+//! - `neighbours`: the other bodies of a system around the planet; [`voyage`], [`travel`]: flights from body to body;
+//!   `landing`: from orbit down to the ground
 //! - `outline`: the frustum of a frozen view
 //! - [`mod@pointer`]: the ground under the pointer; [`inspector`]: the inspected place; [`clicks`]: clicks for the open
 //!   tab; `plate_drag`: a plate that is dragged
@@ -27,6 +28,7 @@ pub mod ground;
 mod handles;
 pub mod input;
 pub mod inspector;
+mod landing;
 pub mod layer_view;
 mod measure;
 mod neighbours;
@@ -95,6 +97,8 @@ pub struct Viewport {
     neighbours: Option<Neighbours>,
     /// The flight to another of them.
     travel: Option<Travel>,
+    /// Whether a flight down to the ground is asked for.
+    is_landing: bool,
     builder: Builder,
     /// The newest valid planet.
     newest: Option<Revision>,
@@ -142,6 +146,7 @@ impl Viewport {
             maps,
             neighbours: None,
             travel: None,
+            is_landing: false,
             newest: None,
             picture: Picture::new(render_state),
             cameras: Cameras::new(planet.radius_m(), opening_place(planet)),
@@ -325,6 +330,7 @@ impl Viewport {
         let own_id = self.own_id();
         self.picture.advance(own_id, self.builder.surface().as_ref(), &mut self.frames, ui.ctx());
         self.advance_travel(ui, &response);
+        self.advance_landing(valid);
         let surface = self.surface();
         let terrain = surface.as_deref().map(|surface| &*surface.terrain);
         let ground = PlanetGround::new(valid, terrain);

@@ -13,11 +13,21 @@ use eframe::egui;
 /// Longest step of a flight in a frame, in seconds of the clock.
 const MAX_STEP_SECS: f32 = 0.4;
 
+/// Where a flight to another body ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrival {
+    /// Where the whole body is in the picture.
+    Orbit,
+    /// Standing on its ground.
+    Ground,
+}
+
 /// A flight to another body.
 pub(super) struct Travel {
     voyage: Voyage,
     /// The place over which it ends.
     place: LatLon,
+    arrival: Arrival,
     /// Whether the goal is to become the planet, and whether that was asked for.
     is_due: bool,
     has_asked: bool,
@@ -25,7 +35,7 @@ pub(super) struct Travel {
 
 impl Viewport {
     /// Flies to another body of the system. False if there is nothing to see of a flight: no picture, no such planet.
-    pub fn fly_to_body(&mut self, to: usize) -> bool {
+    pub fn fly_to_body(&mut self, to: usize, arrival: Arrival) -> bool {
         let (Some(neighbours), Some(surface)) = (&self.neighbours, self.surface()) else { return false };
         let (from, time_secs) = (neighbours.body(), self.settings.time_secs);
         let Some(planet) = neighbours.planet_of(to, time_secs).filter(|_| to != from) else { return false };
@@ -45,7 +55,8 @@ impl Viewport {
         let voyage = Voyage::new(start, end, &relative, &others);
         // A key ends the flight.
         self.wants_focus = true;
-        self.travel = Some(Travel { voyage, place, is_due: false, has_asked: false });
+        self.is_landing = false;
+        self.travel = Some(Travel { voyage, place, arrival, is_due: false, has_asked: false });
         true
     }
 
@@ -55,10 +66,10 @@ impl Viewport {
     }
 
     /// The body that is to become the planet now, once.
-    pub fn take_hand_over(&mut self) -> Option<usize> {
+    pub fn take_hand_over(&mut self) -> Option<(usize, Arrival)> {
         let travel = self.travel.as_mut().filter(|travel| travel.is_due && !travel.has_asked)?;
         travel.has_asked = true;
-        Some(travel.voyage.bodies()[1])
+        Some((travel.voyage.bodies()[1], travel.arrival))
     }
 
     /// Ends a flight where it began.
@@ -69,7 +80,7 @@ impl Viewport {
     }
 
     /// The goal of the flight is the planet now: the camera in use is over it from here on.
-    pub fn land(&mut self, radius_m: f64) {
+    pub fn take_over_goal(&mut self, radius_m: f64) {
         if let (Some(travel), Some(neighbours)) = (&mut self.travel, &self.neighbours) {
             self.ground_radius_m = radius_m;
             self.cameras = Cameras::new(radius_m, travel.place);
@@ -91,8 +102,9 @@ impl Viewport {
         }
         travel.voyage.advance(f64::from(secs));
         let pose = travel.step(neighbours, self.settings.time_secs);
-        let has_landed = travel.voyage.bodies()[1] == neighbours.body();
-        if travel.voyage.is_over() && has_landed {
+        let has_arrived = travel.voyage.bodies()[1] == neighbours.body();
+        if travel.voyage.is_over() && has_arrived {
+            self.is_landing = travel.arrival == Arrival::Ground;
             self.travel = None;
             self.cameras.carry(pose);
             self.put_down();

@@ -181,6 +181,11 @@ impl Cameras {
         }
     }
 
+    /// Whether something carries the eye.
+    pub fn is_carried(&self) -> bool {
+        self.carried.is_some()
+    }
+
     /// Gives the eye back at once.
     pub fn drop_carried(&mut self) {
         self.carried = None;

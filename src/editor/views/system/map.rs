@@ -3,6 +3,7 @@
 use super::Now;
 use crate::editor::command::{Action, Commands, SystemAction};
 use crate::editor::state::system::trial::TrialRun;
+use crate::editor::viewport::travel::Arrival;
 use crate::system::kepler::Ellipse;
 use crate::system::limits::{STABLE_SHARE, hill_radii_m, roche_limit_m};
 use crate::system::{Orbit, System};
@@ -105,7 +106,7 @@ impl OrbitMap {
         }
         if let Some(Held::Body(body)) = near(response.interact_pointer_pos()) {
             if response.double_clicked() && now.can_visit(body) {
-                commands.push(Action::System(SystemAction::Visit(body)));
+                commands.push(Action::System(SystemAction::Visit(body, Arrival::Orbit)));
             } else if response.clicked() {
                 self.look_at(body);
             }

@@ -12,6 +12,7 @@ use crate::editor::command::{Action, Commands, Setting, SystemAction, Window};
 use crate::editor::files::file_names::readable_stem;
 use crate::editor::state::State;
 use crate::editor::state::system::OpenSystem;
+use crate::editor::viewport::travel::Arrival;
 use crate::editor::widgets::icon::{Icon, icon_button};
 use crate::editor::widgets::menu_button;
 use crate::system::kepler::Ellipse;
@@ -65,6 +66,10 @@ impl Now<'_> {
     /// Whether a body has a planet to open that is not open already.
     fn can_visit(&self, body: usize) -> bool {
         self.here != Some(body) && self.open.preset(body).is_some()
+    }
+
+    fn has_ground(&self, body: usize) -> bool {
+        self.open.worlds.planet(body).is_some_and(|planet| planet.giant.is_none())
     }
 
     fn children(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
@@ -145,15 +150,19 @@ impl SystemWindow {
             };
             let label = label.on_hover_text(told);
             if label.double_clicked() && now.can_visit(body) {
-                commands.push(Action::System(SystemAction::Visit(body)));
+                commands.push(Action::System(SystemAction::Visit(body, Arrival::Orbit)));
             } else if label.clicked() {
                 self.map.look_at(body);
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if now.open.preset(body).is_some() {
+                    let land = ui.add_enabled(now.has_ground(body), egui::Button::new("Land").small());
+                    if land.on_hover_text(format!("Fly down to the ground of {name}")).clicked() {
+                        commands.push(Action::System(SystemAction::Visit(body, Arrival::Ground)));
+                    }
                     let go = ui.add_enabled(now.can_visit(body), egui::Button::new("Go").small());
-                    if go.on_hover_text(format!("Open {name} and stand near it")).clicked() {
-                        commands.push(Action::System(SystemAction::Visit(body)));
+                    if go.on_hover_text(format!("Fly to {name}")).clicked() {
+                        commands.push(Action::System(SystemAction::Visit(body, Arrival::Orbit)));
                     }
                 }
                 if now.parents[body].is_some() {
