@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 use tellus::lod::{Camera, Quality, View};
 use tellus::planet::{Planet, Rings};
-use tellus::render::{Body, BodyId, Scene, Sun};
+use tellus::render::{Body, BodyId, Metering, Scene, Sun};
 use tellus::rings::Profile;
 use tellus::sphere::LatLon;
 use tellus::system::light::visible_share;
@@ -170,6 +170,35 @@ fn a_moons_umbra_and_penumbra_have_the_size_of_geometry() {
     let ratio: f64 = found_umbra / umbra;
     println!("umbra of {umbra} pixels, ratio {ratio}, mean error {mean}");
     assert!(umbra > 500.0 && (ratio.sqrt() - 1.0).abs() < 0.01 && mean < 0.003, "{umbra} {ratio} {mean}");
+}
+
+/// In totality the moon is a dark disc in a corona, and no light of the star's soft edge passes by it.
+#[test]
+fn totality_is_a_dark_disc_in_a_corona() {
+    let mut gpu = gpu();
+    gpu.post.metering = Metering::Instant;
+    let (planet, moon) = (Arc::new(ball(6371.0)), Arc::new(ball(1737.0)));
+    let camera = Camera::over(LatLon::from_degrees(0.0, 0.0), planet.radius_m() + 10.0, 0.0, FRAC_PI_2, 0.06);
+    let surface = surface_of(&planet, &View { camera, size_px: SIZE_PX, quality: Quality::Medium });
+    let mut eclipsed = scene(&surface, &planet, camera, DVec3::X);
+    let moon_m = DVec3::X * 3.4e8;
+    let moon_surface = build_now(&moon, &eclipsed.view_of(moon_m - camera.position_planet_m, DQuat::IDENTITY)).unwrap();
+    eclipsed.bodies.push(Body::new(BodyId(7), &moon_surface, moon_m - camera.position_planet_m));
+    let brightest = gpu.radiance(&eclipsed).iter().map(|light| light[1]).fold(0.0, f32::max);
+    assert!(brightest < 1e-3, "{brightest}");
+    let drawn = gpu.draw(&eclipsed);
+    // The mean of four pixels at a distance from the middle.
+    let at = |away_px: i32| {
+        let [x, y] = SIZE_PX.map(|side| side as i32 / 2);
+        let around = [(away_px, 0), (-away_px, 0), (0, away_px), (0, -away_px)];
+        let green = |(dx, dy): (i32, i32)| u32::from(drawn[((y + dy) * 2 * x + x + dx) as usize * 4 + 1]);
+        around.into_iter().map(green).sum::<u32>() / 4
+    };
+    // The moon's radius is 9.4 pixels, the star's 8.4.
+    let shown = [0, 6, 11, 18, 30, 50].map(at);
+    println!("{shown:?}");
+    assert!(shown[0].max(shown[1]) < 50 && shown[2] > 150, "{shown:?}");
+    assert!(shown[2..].windows(2).all(|pair| pair[0] > pair[1]), "{shown:?}");
 }
 
 /// A star at a distance lights each body from its own side, and more brightly what is nearer.
