@@ -36,6 +36,11 @@ impl<S: Scalar> Jets<S> {
             lane[..n].fill(S::default());
         }
     }
+
+    /// The greatest of the first `n` values.
+    pub(crate) fn greatest(&self, n: usize) -> S {
+        self.value[..n].iter().fold(-S::MOST, |greatest, value| greatest.max(*value))
+    }
 }
 
 impl Jets {

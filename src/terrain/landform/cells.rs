@@ -7,11 +7,14 @@
 //! eight cells nearest to a point hold at least two centres within sqrt(3) (0.5 + JITTER) = 1.5503. Cells outside
 //! [`neighbourhood`] are at least 2 - JITTER = 1.605 away along one axis, or 1.5 - JITTER along two, which is
 //! sqrt([`HORIZON`]) = 1.5627. So the two nearest centres are always found, and nothing jumps as the search moves on.
+//!
+//! Of these cells, most cannot matter for any point of a chunk once the eight nearest are known: [`least_distance`] tells,
+//! and they are left out. This changes no bit.
 
 mod near;
 
 use super::octaves::{Weighted, series};
-use super::places::{Places, neighbour, unit};
+use super::places::{CORNERS, Places, neighbour, unit};
 use super::{Arithmetic, Chunk, Evaluate, JETS, Scratch, Scratch64};
 use crate::planet::{self, CellStyle};
 use crate::simd::for_each_simd;
@@ -120,15 +123,32 @@ impl Cells {
         places.find(simd, chunk.skewed, octave);
         first.fill(n, R::S::MOST);
         second.fill(n, R::S::MOST);
-        for step in neighbourhood() {
-            meet::<R>(simd, n, places, step, seed, self.jitter, first, second);
+        let least = |step: &[i32; 3]| R::S::from_f32(least_distance(*step, self.jitter));
+        if self.style == CellStyle::Cracks {
+            for step in CORNERS {
+                meet_two::<R>(simd, n, places, step, seed, self.jitter, first, second);
+            }
+            let farthest = second.greatest(n);
+            for step in farther_cells().filter(|step| least(step) < farthest) {
+                meet_two::<R>(simd, n, places, step, seed, self.jitter, first, second);
+            }
+        } else {
+            for step in CORNERS {
+                meet::<R>(simd, n, places, step, seed, self.jitter, first);
+            }
+            let farthest = first.greatest(n);
+            for step in farther_cells().filter(|step| least(step) < farthest) {
+                meet::<R>(simd, n, places, step, seed, self.jitter, first);
+            }
         }
         match self.style {
             CellStyle::Plates => {
                 begin::<R>(simd, n, self.width, first, steepness);
                 shares.fill(n, R::S::default());
                 levels.fill(n, R::S::default());
-                for step in neighbourhood() {
+                // Beyond this distance a plate has no share.
+                let farthest = first.greatest(n) + R::S::from_f32(self.width);
+                for step in neighbourhood().filter(|step| least(step) < farthest) {
                     share::<R>(simd, n, places, step, seed, self.jitter, first, steepness, shares, levels);
                 }
                 level::<R>(simd, n, frequency, shares, levels, height);
@@ -147,6 +167,23 @@ fn neighbourhood() -> impl Iterator<Item = [i32; 3]> {
     all.filter(|step| step.iter().filter(|s| **s == 2).count() <= 1)
 }
 
+/// The same without the eight nearest ones.
+fn farther_cells() -> impl Iterator<Item = [i32; 3]> {
+    neighbourhood().filter(|step| !CORNERS.contains(step))
+}
+
+/// A squared distance that no point of a cell has less of to the centre of the cell at a number of steps, with room for
+/// rounding.
+fn least_distance(step: [i32; 3], jitter: f32) -> f32 {
+    // A point is at most half a cell away from the nearer side of its own cell, and at least half from the other side.
+    let along = |steps: i32| match steps {
+        0 => 0.0,
+        steps if steps < 0 => -steps as f32 - jitter,
+        steps => steps as f32 - 0.5 - jitter,
+    };
+    0.999 * step.map(along).map(|away| away * away).iter().sum::<f32>()
+}
+
 /// The squared distance to the centre of a cell, and the hash of that cell.
 #[inline(always)]
 fn centre<R: Real>(places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, i: usize) -> (R, u32) {
@@ -159,9 +196,20 @@ fn centre<R: Real>(places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32
     (R::of(x * x + y * y + z * z, [twice * x, twice * y, twice * z]), random)
 }
 
+/// Keeps the nearest centre.
+#[inline(always)]
+fn meet_body<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<R::S>) {
+    for i in 0..n.min(CHUNK) {
+        let (here, _) = centre::<R>(places, step, seed, jitter, i);
+        let one = R::load(first, i);
+        R::select(here.value() < one.value(), here, one).store(first, i);
+    }
+}
+for_each_simd!(fn meet<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<R::S>) = meet_body);
+
 /// Keeps the two nearest centres.
 #[inline(always)]
-fn meet_body<R: Real>(
+fn meet_two_body<R: Real>(
     n: usize,
     places: &Places<R::S>,
     step: [i32; 3],
@@ -179,7 +227,7 @@ fn meet_body<R: Real>(
         R::select(farther.value() < two.value(), farther, two).store(second, i);
     }
 }
-for_each_simd!(fn meet<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<R::S>, second: &mut Jets<R::S>) = meet_body);
+for_each_simd!(fn meet_two<R: Real>(n: usize, places: &Places<R::S>, step: [i32; 3], seed: u32, jitter: f32, first: &mut Jets<R::S>, second: &mut Jets<R::S>) = meet_two_body);
 
 /// The steepness with which a plate's share falls off beyond its border: never so low that centres beyond the horizon
 /// would count.
@@ -256,6 +304,7 @@ for_each_simd!(fn swell<R: Real>(n: usize, frequency: f32, first: &Jets<R::S>, h
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// Every cell that is left out is farther away than the two nearest centres can be.
     #[test]
@@ -280,6 +329,23 @@ mod tests {
                 assert!(distance(cell, false) > f64::from(HORIZON) - 1e-6, "{cell:?} from {p:?}");
             }
             assert!(farthest[1] < f64::from(HORIZON), "{p:?}");
+        }
+    }
+
+    proptest! {
+        /// No centre is nearer than the least distance to its cell, so that leaving cells out changes nothing.
+        #[test]
+        fn no_centre_is_nearer_than_the_least_distance(
+            fraction in prop::array::uniform3(0.0f32..1.0), jitter in 0.0f32..=JITTER, cell: [u32; 3], seed: u32,
+        ) {
+            let mut places = Box::<Places>::default();
+            for axis in 0..3 {
+                (places.cell[axis][0], places.fraction[axis][0]) = (cell[axis], fraction[axis]);
+            }
+            for step in neighbourhood() {
+                let (distance, _) = centre::<f32>(&places, step, seed, jitter, 0);
+                prop_assert!(distance >= least_distance(step, jitter), "{distance} at {step:?}");
+            }
         }
     }
 }
